@@ -12,7 +12,7 @@ from robotside.core.pose2 import Pose2
 from robotside.core.robot import Robot
 from robotside.mapping.obstacle_memory import FADES
 from robotside.mapping.occupancy_grid import Grid
-from robotside.navigation.navigator import Goal, Guide, Leg
+from robotside.navigation.navigator import Goal, LegState, Navigator
 from sim.world.occupancy import occupancy
 from sim.world.world_files import load
 
@@ -51,7 +51,7 @@ def trap() -> Grid:
 def longest(robot: Robot, grid: Grid, way: tuple[tuple[float, float], tuple[float, float]]) -> float:
     """CPU time of the longest update until there is a way, with something on it that the map does not know [s]."""
     (x, y), (to_x, to_y) = way
-    guide = Guide(robot, grid, lambda _: None)
+    guide = Navigator(robot, grid, lambda _: None)
     pose = Pose2(x, y, math.atan2(to_y - y, to_x - x))
     ahead = np.column_stack([np.full(20, 2.0), np.linspace(-1.0, 1.0, 20)])
     guide.obstacles.see(pose.apply(ahead), FADES)
@@ -64,13 +64,13 @@ def longest(robot: Robot, grid: Grid, way: tuple[tuple[float, float], tuple[floa
         gc.unfreeze()
 
 
-def _longest(guide: Guide, pose: Pose2) -> float:
+def _longest(guide: Navigator, pose: Pose2) -> float:
     spent, now, nothing = 0.0, 0.0, np.empty((0, 2))
     while not guide.going.under_way:
         now += PERIOD
         began = time.process_time()
         leg = guide.update(pose, nothing, now)
         spent = max(spent, time.process_time() - began)
-        if leg is Leg.BLOCKED or now > LONGEST:
+        if leg is LegState.BLOCKED or now > LONGEST:
             raise RuntimeError(guide.reason or f"No way was found in {LONGEST:.0f} s.")
     return spent

@@ -15,7 +15,7 @@ from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.core.config import SafeStateSettings
 from robotside.kinds.registry import kind_of
-from robotside.motion.measured import Measured
+from robotside.motion.measured import MeasuredState
 from robotside.motion.speed_limit import within
 
 __all__ = ["BRAKE", "Act", "SafeState"]
@@ -80,15 +80,15 @@ class SafeState:
         self._lost: float | None = None
         self._after: float | None = None
         self._arrived = False
-        self._held = Measured()
-        self._acts: dict[str, Callable[[float, Measured], Act]] = {
+        self._held = MeasuredState()
+        self._acts: dict[str, Callable[[float, MeasuredState], Act]] = {
             "brake": lambda _, __: BRAKE,
             "brake_straight": self._brake_straight,
             "hold_heading": self._hold_heading,
             "hold_depth": self._hold_depth,
             "hover": self._hover,
         }
-        self._afterwards: dict[str, Callable[[float, Measured], Act]] = {
+        self._afterwards: dict[str, Callable[[float, MeasuredState], Act]] = {
             "surface": self._surface,
             "land": self._land,
             "return": lambda _, __: Act(None, "goes home", home=True),
@@ -104,7 +104,7 @@ class SafeState:
         """All that it does is to brake, and to stay where it is."""
         return self._action in ("brake", "brake_straight") and self._usual_then == "stay"
 
-    def enter(self, now: float, measured: Measured) -> None:
+    def enter(self, now: float, measured: MeasuredState) -> None:
         """Nobody drives it from `now` on [s]; what it holds is what is `measured` now. Again changes nothing."""
         if self._begun is None:
             self._begun, self._held = now, measured
@@ -119,7 +119,7 @@ class SafeState:
         """It cannot go home, or has been there: until it is left it comes down, or up, or stays where it is."""
         self._then = {"hover": "land", "hold_depth": "surface"}.get(self._action, "stay")
 
-    def step(self, now: float, measured: Measured, *, lost: bool) -> Act:
+    def step(self, now: float, measured: MeasuredState, *, lost: bool) -> Act:
         """What to do at `now` [s]; `lost` while nobody is there who could drive it."""
         if self._begun is None:
             return BRAKE
@@ -135,25 +135,25 @@ class SafeState:
         self._after = now if self._after is None else self._after
         return self._afterwards[self._then](now - self._after, measured)
 
-    def _brake_straight(self, since: float, measured: Measured) -> Act:
+    def _brake_straight(self, since: float, measured: MeasuredState) -> Act:
         """No speed and the wheels straight, so that it does not swing into what is beside it."""
         if since >= STRAIGHT or (since >= SWINGS and measured.moving.speed < STANDS):
             return _AT_REST
         return Act(Twist(), "brakes straight")
 
-    def _hold_heading(self, _: float, measured: Measured) -> Act:
+    def _hold_heading(self, _: float, measured: MeasuredState) -> Act:
         twist = Twist(angular=Vector3(0.0, 0.0, self._turning(measured)))
         return self._by("hover", Act(twist, "idles and holds its heading"))
 
-    def _hold_depth(self, _: float, measured: Measured) -> Act:
+    def _hold_depth(self, _: float, measured: MeasuredState) -> Act:
         twist = Twist(Vector3(0.0, 0.0, self._rising(measured)), self._levelling(measured))
         return self._by("hover", Act(twist, "holds its depth"))
 
-    def _hover(self, _: float, measured: Measured) -> Act:
+    def _hover(self, _: float, measured: MeasuredState) -> Act:
         twist = Twist(Vector3(0.0, 0.0, self._rising(measured)), Vector3(0.0, 0.0, self._turning(measured)))
         return self._by("hover", Act(twist, "hovers"))
 
-    def _surface(self, since: float, measured: Measured) -> Act:
+    def _surface(self, since: float, measured: MeasuredState) -> Act:
         act = self._by(
             "surface", Act(Twist(Vector3(0.0, 0.0, RISING), self._levelling(measured)), "surfaces")
         )
@@ -163,7 +163,7 @@ class SafeState:
         sinks = measured.height < SURFACE - (WAVES if act.order else 0.0) and since < LONGEST
         return replace(act, phase="has surfaced") if sinks else Act(None, "has surfaced")
 
-    def _land(self, since: float, measured: Measured) -> Act:
+    def _land(self, since: float, measured: MeasuredState) -> Act:
         turn = Vector3(0.0, 0.0, self._turning(measured))
         act = self._by("land", Act(Twist(Vector3(0.0, 0.0, -SINKING), turn), "lands"))
         low = act.order is None and (
@@ -178,17 +178,17 @@ class SafeState:
         """`act`, by a manoeuvre where the robot knows it: it holds what it has when it is told."""
         return replace(act, order=Manoeuvre(kind=kind)) if kind in self._knows else act
 
-    def _turning(self, measured: Measured) -> float:
+    def _turning(self, measured: MeasuredState) -> float:
         """Towards the heading at the beginning; 0 when it is not known."""
         if measured.pose is None or self._held.pose is None:
             return 0.0
         return within(TURN_GAIN * wrap(self._held.pose.yaw - measured.pose.yaw), TURN_MOST)
 
-    def _rising(self, measured: Measured) -> float:
+    def _rising(self, measured: MeasuredState) -> float:
         """Towards the height at the beginning; 0 when it is not known."""
         off = self._held.height - measured.height
         return 0.0 if math.isnan(off) else within(DEPTH_GAIN * off, DEPTH_MOST)
 
-    def _levelling(self, measured: Measured) -> Vector3:
+    def _levelling(self, measured: MeasuredState) -> Vector3:
         roll, pitch = (within(-LEVEL_GAIN * tilt, LEVEL_MOST) for tilt in (measured.roll, measured.pitch))
         return Vector3(roll, pitch, self._turning(measured))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from robotside.kinds.registry import kind_of
-from robotside.motion.measured import Measured
+from robotside.motion.measured import MeasuredState
 
 __all__ = ["still_moves"]
 
@@ -11,7 +11,7 @@ BELOW = 0.3
 """Deeper than this what swims has a way up [m]."""
 
 
-def still_moves(name: str, kind: str, measured: Measured) -> str:
+def still_moves(name: str, kind: str, measured: MeasuredState) -> str:
     """What the robot called `name` goes on doing under STOP, and what to do then, in sentences; empty when it stays where it is."""
     is_a = kind_of(kind)
     if is_a.flies and not measured.landed:

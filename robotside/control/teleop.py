@@ -20,7 +20,7 @@ from robotside.kinds.registry import kind_of
 from robotside.limits.bumper_guard import AGAIN, kept_off
 from robotside.limits.limits import turned_over
 from robotside.motion.manoeuvres import BY_STICK, Order, settled
-from robotside.motion.measured import Measured
+from robotside.motion.measured import MeasuredState
 from robotside.records.events import Say
 
 __all__ = ["FOLLOW_LINK", "LOST_LINK_STOPS_TASK", "Helm", "Options"]
@@ -86,7 +86,7 @@ class Helm:
         *,
         say: Say,
         clock: Callable[[], float],
-        measured: Callable[[], Measured],
+        measured: Callable[[], MeasuredState],
         go_home: Callable[[], bool],
     ) -> None:
         """`clock` is the operators' [s]; `go_home` begins the way home, False when that cannot be."""

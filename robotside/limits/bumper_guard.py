@@ -11,7 +11,7 @@ from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.kinds.registry import kind_of
 from robotside.motion.manoeuvres import Order, kept, leads_to
-from robotside.motion.measured import Measured
+from robotside.motion.measured import MeasuredState
 
 __all__ = ["AGAIN", "kept_off"]
 
@@ -21,7 +21,7 @@ BESIDE = 0.25
 """What is touched with less than this cosine of its bearing is beside a robot that goes ahead and astern only."""
 
 
-def kept_off(order: Order, info: RobotInfo, measured: Measured) -> Order:
+def kept_off(order: Order, info: RobotInfo, measured: MeasuredState) -> Order:
     """`order` without the way into what is in touch; turning, going away and up and down stay as they are."""
     bearing = measured.touched
     if bearing is None:

@@ -10,9 +10,9 @@ import numpy as np
 from robotside.core.pose2 import Points, Pose2
 from robotside.kinds.vehicle_kind import Handling
 from robotside.limits.fence import Fence
-from robotside.motion.stopping_path import REST, Moving, reach, track
+from robotside.motion.stopping_path import REST, PlanarVelocity, reach, track
 
-__all__ = ["GAP", "LEVEL_FROM", "MOST_DOUBT", "SLACK", "SURE_ENOUGH", "Fencing", "doubt_of"]
+__all__ = ["GAP", "LEVEL_FROM", "MOST_DOUBT", "SLACK", "SURE_ENOUGH", "FenceGuard", "uncertainty_margin"]
 
 GAP = 0.10
 """Kept between the body and the fence on the way of a command that is obeyed at once [m]."""
@@ -29,12 +29,12 @@ _LEFT = 0.05
 _HALVINGS = 6
 
 
-def doubt_of(spread: float) -> float:
+def uncertainty_margin(spread: float) -> float:
     """Farther than GAP from the fence [m], for a place that is off by `spread` [m], one standard deviation; 0 for NaN."""
     return max(0.0, min(SURE_ENOUGH * spread, MOST_DOUBT) - GAP) if spread > 0 else 0.0
 
 
-class Fencing:
+class FenceGuard:
     """Keeps one robot, a disc of `radius` [m], within `fence`."""
 
     def __init__(self, fence: Fence, radius: float, handling: Handling) -> None:
@@ -50,7 +50,9 @@ class Fencing:
         c, s = math.cos(pose.yaw), math.sin(pose.yaw)
         return c * x + s * y, c * y - s * x
 
-    def slowed(self, pose: Pose2, moving: Moving, wanted: Moving, doubt: float = 0.0) -> Moving:
+    def slowed(
+        self, pose: Pose2, moving: PlanarVelocity, wanted: PlanarVelocity, doubt: float = 0.0
+    ) -> PlanarVelocity:
         """`wanted` as it may be obeyed at `pose`, give or take `doubt` [m], by a robot that is `moving`.
 
         Where a part of the body is outside already, every way that leads no farther out is allowed.
@@ -69,7 +71,7 @@ class Fencing:
             return REST
         return _greatest(lambda part: wanted.scaled(part, part if steers else 1.0), test)
 
-    def outward(self, pose: Pose2, moving: Moving) -> float:
+    def outward(self, pose: Pose2, moving: PlanarVelocity) -> float:
         """How fast it goes towards the nearest fence [m/s]; negative when away from it."""
         x, y = self.inward(pose)
         return -(moving.x * x + moving.y * y)
@@ -79,21 +81,21 @@ class Fencing:
         glide = self._handling.glide
         return _LEFT * math.expm1(min(max(room - GAP, 0.0) / glide, 50.0)) if glide else math.inf
 
-    def _unhurried(self, pose: Pose2, wanted: Moving, room: float) -> Moving:
+    def _unhurried(self, pose: Pose2, wanted: PlanarVelocity, room: float) -> PlanarVelocity:
         """Slower towards the fence, since a turn leaves the way that it has; the turn is left as it is."""
         out, most = self.outward(pose, wanted), self.unhurried(room)
         return wanted if out <= most else wanted.scaled(most / out)
 
     def _test(
-        self, pose: Pose2, moving: Moving, wanted: Moving, room: float, radius: float
-    ) -> Callable[[Moving], bool]:
+        self, pose: Pose2, moving: PlanarVelocity, wanted: PlanarVelocity, room: float, radius: float
+    ) -> Callable[[PlanarVelocity], bool]:
         """Whether a command keeps to the fence, which has `room` beside a disc of `radius` [m]."""
         far = reach(moving, wanted, self._handling) + radius + GAP
         near = self._fence.around(pose.x, pose.y, far)
         # from inside, nothing gets to the other side of the border without coming near to it
         distance: Callable[[Points], Points] = near.distance if room > SLACK else self._fence.clearance
 
-        def kept(start: Moving, command: Moving, gap: float, *, swings: bool = False) -> bool:
+        def kept(start: PlanarVelocity, command: PlanarVelocity, gap: float, *, swings: bool = False) -> bool:
             way = track(pose, start, command, self._handling, swings=swings)
             return bool(distance(way).min() - radius >= min(gap, room) - 1e-6)
 
@@ -104,23 +106,25 @@ class Fencing:
         )
 
     def _slid(
-        self, pose: Pose2, wanted: Moving, room: float, test: Callable[[Moving], bool]
-    ) -> Moving | None:
+        self, pose: Pose2, wanted: PlanarVelocity, room: float, test: Callable[[PlanarVelocity], bool]
+    ) -> PlanarVelocity | None:
         """As much of the part towards the fence as can be, and all of the part along it; None when that is too much."""
         in_x, in_y = self.inward(pose)
         out = min(0.0, wanted.x * in_x + wanted.y * in_y)
         back = RETURN * max(0.0, GAP - room)
 
-        def less(part: float) -> Moving:
+        def less(part: float) -> PlanarVelocity:
             spare = (1.0 - part) * out - back
-            return Moving(wanted.x - spare * in_x, wanted.y - spare * in_y, wanted.turn)
+            return PlanarVelocity(wanted.x - spare * in_x, wanted.y - spare * in_y, wanted.turn)
 
         if not test(less(0.0)):
             return None
         return less(0.0) if back else _greatest(less, test)
 
 
-def _greatest(command: Callable[[float], Moving], test: Callable[[Moving], bool]) -> Moving:
+def _greatest(
+    command: Callable[[float], PlanarVelocity], test: Callable[[PlanarVelocity], bool]
+) -> PlanarVelocity:
     """The command of the greatest part, 0 to 1, that passes; that of 0 is known to."""
     low, high = 0.0, 1.0
     for _ in range(_HALVINGS):

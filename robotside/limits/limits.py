@@ -21,15 +21,15 @@ from robotside.core.text import place_sentence
 from robotside.kinds.registry import kind_of
 from robotside.kinds.vehicle_kind import Handling
 from robotside.limits.fence import Fence
-from robotside.limits.fence_guard import LEVEL_FROM, MOST_DOUBT, SURE_ENOUGH, Fencing, doubt_of
+from robotside.limits.fence_guard import LEVEL_FROM, MOST_DOUBT, SURE_ENOUGH, FenceGuard, uncertainty_margin
 from robotside.mapping.occupancy_grid import Grid
 from robotside.motion.manoeuvres import BY_ITSELF, Order, kept, leads_to, levelled
-from robotside.motion.measured import Measured
+from robotside.motion.measured import MeasuredState
 from robotside.motion.speed_limit import slower, within
-from robotside.motion.station_keeping import BACK_AT, BACK_TO, CREEP, DRIFTS, Drift, back, way_back
-from robotside.motion.stopping_path import REACTION, Moving
+from robotside.motion.station_keeping import BACK_AT, BACK_TO, CREEP, DRIFTS, DriftMonitor, back, way_back
+from robotside.motion.stopping_path import REACTION, PlanarVelocity
 
-__all__ = ["GOAL_ROOM", "PATH_ROOM", "Clamped", "Keeper", "Kept", "turned_over"]
+__all__ = ["GOAL_ROOM", "PATH_ROOM", "ClampedTwist", "LimitKeeper", "KeptOrder", "turned_over"]
 
 GOAL_ROOM = 0.4
 """Kept between the body and the fence at a goal [m]: following a path is not exact."""
@@ -46,7 +46,7 @@ UNSURE = 0.25
 NOT_PLACED = "The robot does not know where it is, so it cannot keep to its fence; place it on the map."
 
 
-class Clamped(NamedTuple):
+class ClampedTwist(NamedTuple):
     """A drive command as it may be done."""
 
     twist: Twist
@@ -54,21 +54,21 @@ class Clamped(NamedTuple):
     """What holds it back by more than half, as one sentence; empty when nothing does."""
 
 
-class Kept(NamedTuple):
+class KeptOrder(NamedTuple):
     """An order of any kind as it may be done."""
 
     order: Order
     why: str = ""
-    """As that of `Clamped`."""
+    """As that of `ClampedTwist`."""
 
 
-def turned_over(measured: Measured, kind: str) -> bool:
+def turned_over(measured: MeasuredState, kind: str) -> bool:
     """A robot of this `kind` lies on its side or its back, as only a swimmer may."""
     over = math.cos(measured.roll) * math.cos(measured.pitch) < UPSIDE_DOWN
     return not kind_of(kind).dives and (over or measured.overturned)
 
 
-class Keeper:
+class LimitKeeper:
     """Keeps one robot to its limits."""
 
     def __init__(self, settings: LimitSettings, info: RobotInfo) -> None:
@@ -82,16 +82,20 @@ class Keeper:
         self._slope = math.radians(settings.max_slope_degrees or 0.0) or math.inf
         self._came: tuple[float, float] | None = None
         self._fence = Fence(settings.keep_in, settings.keep_out)
-        self._drift, self._doubt = Drift(), 0.0
+        self._drift, self._doubt = DriftMonitor(), 0.0
         self._returns, self._way, self._back = False, 0.0, False
-        self._fencing = Fencing(self._fence, info.radius, self._handling)
+        self._fencing = FenceGuard(self._fence, info.radius, self._handling)
         self.info: RobotInfo = msgspec.structs.replace(
             info,
             max_speed=min(info.max_speed, settings.max_speed or math.inf),
             max_yaw_rate=min(info.max_yaw_rate, settings.max_yaw_rate or math.inf),
         )
         """Who it is, with the speeds that it is allowed."""
-        self._last: tuple[Twist, Measured, Clamped] = (Twist(), Measured(), Clamped(Twist()))
+        self._last: tuple[Twist, MeasuredState, ClampedTwist] = (
+            Twist(),
+            MeasuredState(),
+            ClampedTwist(Twist()),
+        )
         """What was asked for last, and what came of it."""
 
     @property
@@ -140,16 +144,16 @@ class Keeper:
         """The map to plan on: where one may not be counts as occupied."""
         return self._fence.marked(grid, PATH_ROOM)
 
-    def clamp(self, twist: Twist, measured: Measured) -> Clamped:
+    def clamp(self, twist: Twist, measured: MeasuredState) -> ClampedTwist:
         """`twist` as it may be done now; call it again whenever something new is measured."""
         if self._last[:2] != (twist, measured):
             self._last = twist, measured, self._clamped(twist, measured)
         return self._last[2]
 
-    def keep(self, order: Order, measured: Measured) -> Kept:
+    def keep(self, order: Order, measured: MeasuredState) -> KeptOrder:
         """`order` as it may be done now, of any kind; as a twist where the robot does not know the kind."""
         if isinstance(order, Twist):
-            return Kept(*self.clamp(order, measured))
+            return KeptOrder(*self.clamp(order, measured))
         own, asked = self._own, order.height
         order = levelled(order, self._deepest, self._height, measured.height)
         cut = _level_cut(asked, order.height)
@@ -159,25 +163,27 @@ class Keeper:
         may, why = self.clamp(leads, measured)
         why = why or cut
         if self._back and order.kind not in BY_ITSELF:
-            return Kept(may, why)
+            return KeptOrder(may, why)
         if order.kind not in own.manoeuvres or turned_over(measured, own.kind):
-            return Kept(may, why)
-        return Kept(kept(order, leads, may, own), why)
+            return KeptOrder(may, why)
+        return KeptOrder(kept(order, leads, may, own), why)
 
-    def _clamped(self, twist: Twist, measured: Measured) -> Clamped:
+    def _clamped(self, twist: Twist, measured: MeasuredState) -> ClampedTwist:
         self._back = False
         if turned_over(measured, self.info.kind):
-            return Clamped(Twist(), f"{self.info.name or 'The robot'} has turned over; put it upright first.")
+            return ClampedTwist(
+                Twist(), f"{self.info.name or 'The robot'} has turned over; put it upright first."
+            )
         fitted = self._upright(slower(twist, self.info.max_speed, self.info.max_yaw_rate), measured)
         level = self._level(fitted.twist, measured)
         fenced = self._fenced(level.twist, measured)
-        return Clamped(fenced.twist, fitted.why or level.why or fenced.why)
+        return ClampedTwist(fenced.twist, fitted.why or level.why or fenced.why)
 
-    def _upright(self, twist: Twist, measured: Measured) -> Clamped:
+    def _upright(self, twist: Twist, measured: MeasuredState) -> ClampedTwist:
         """Slower up and down, so that height and depth are kept when it brakes."""
         z = measured.height
         if math.isnan(z) or not (self._height < math.inf or self._deepest > -math.inf):
-            return Clamped(twist)
+            return ClampedTwist(twist)
         v, nose = twist.linear, 0.0 if self._handling.sideways else measured.pitch
         rise = v.z * math.cos(nose) - v.x * math.sin(nose)
         allowed = max(-self._speed_within(z - self._deepest), min(rise, self._speed_within(self._height - z)))
@@ -190,7 +196,7 @@ class Keeper:
         if abs(allowed) < abs(rise) / 2:
             limit = self._height if rise > 0 else self._deepest
             why = f"The robot goes no {'higher' if rise > 0 else 'deeper'} than {_level_words(limit)}."
-        return Clamped(Twist(fitted, twist.angular), why)
+        return ClampedTwist(Twist(fitted, twist.angular), why)
 
     def _speed_within(self, room: float) -> float:
         """The speed from which it comes to rest within `room` [m], reaction included [m/s]; 0 beyond it."""
@@ -200,29 +206,29 @@ class Keeper:
         lag = braking * REACTION
         return math.sqrt(lag * lag + 2 * braking * room) - lag
 
-    def _level(self, twist: Twist, measured: Measured) -> Clamped:
+    def _level(self, twist: Twist, measured: MeasuredState) -> ClampedTwist:
         """Slower where it is steep; too steep, only back to where it came from."""
         tilt = math.acos(max(-1.0, min(1.0, math.cos(measured.roll) * math.cos(measured.pitch))))
         if tilt < STEEP_FROM * self._slope:
             self._came = None
-            return Clamped(twist)
+            return ClampedTwist(twist)
         v = twist.linear
         if tilt < self._slope:
             part = (self._slope - tilt) / (self._slope * (1 - STEEP_FROM))
-            return Clamped(_scaled(twist, max(STEEP_SLOWEST, part), self._handling))
+            return ClampedTwist(_scaled(twist, max(STEEP_SLOWEST, part), self._handling))
         if self._came is None:
             self._came = _direction(measured)
         if v.x * self._came[0] + v.y * self._came[1] <= 0:
-            return Clamped(_scaled(twist, STEEP_SLOWEST, self._handling))
+            return ClampedTwist(_scaled(twist, STEEP_SLOWEST, self._handling))
         said = f"It is steeper here, {math.degrees(tilt):.0f} degrees, than the {math.degrees(self._slope):.0f} allowed"
-        return Clamped(_scaled(twist, 0.0, self._handling), f"{said}; drive back.")
+        return ClampedTwist(_scaled(twist, 0.0, self._handling), f"{said}; drive back.")
 
-    def adrift(self, measured: Measured) -> str:
+    def adrift(self, measured: MeasuredState) -> str:
         """What to say of a robot that is carried over its fence, whether it may go back or STOP is pressed; empty for nothing.
 
         Call it whenever something new is measured.
         """
-        self._doubt = doubt_of(measured.spread) if self._fence else 0.0
+        self._doubt = uncertainty_margin(measured.spread) if self._fence else 0.0
         pose, last = measured.pose, self._last
         if not self._fence or pose is None:
             return ""
@@ -232,14 +238,18 @@ class Keeper:
             room, outward = min(room - self._doubt, BACK_AT), max(outward, DRIFTS)
         return self._drift.told(self._own.name, room, outward, returns=returns)
 
-    def _fenced(self, twist: Twist, measured: Measured) -> Clamped:
+    def _fenced(self, twist: Twist, measured: MeasuredState) -> ClampedTwist:
         """Slower towards the fence, and slowly all ways where the place is not sure."""
         v, pose = twist.linear, measured.pose
         if not self._fence:
-            return Clamped(twist)
+            return ClampedTwist(twist)
         if pose is None:
-            return Clamped(_scaled(twist, 0.0, self._handling), NOT_PLACED) if v.x or v.y else Clamped(twist)
-        doubt, unsure = doubt_of(measured.spread), _unsure(measured)
+            return (
+                ClampedTwist(_scaled(twist, 0.0, self._handling), NOT_PLACED)
+                if v.x or v.y
+                else ClampedTwist(twist)
+            )
+        doubt, unsure = uncertainty_margin(measured.spread), _unsure(measured)
         if unsure:
             most = UNSURE * self.info.max_speed
             far = math.hypot(v.x, v.y)
@@ -252,30 +262,30 @@ class Keeper:
             rolls, levels = self._roll_rate(0.0, measured), -within(measured.pitch, 0.5)
             kept = Twist(Vector3(home.linear.x, 0.0, twist.linear.z), Vector3(rolls, levels, home.angular.z))
             self._back = True
-            return Clamped(kept, clamped.why)
-        return Clamped(clamped.twist, clamped.why or (unsure if v.x or v.y else ""))
+            return ClampedTwist(kept, clamped.why)
+        return ClampedTwist(clamped.twist, clamped.why or (unsure if v.x or v.y else ""))
 
-    def _within(self, twist: Twist, measured: Measured, pose: Pose2, doubt: float) -> Clamped:
+    def _within(self, twist: Twist, measured: MeasuredState, pose: Pose2, doubt: float) -> ClampedTwist:
         v, w = twist.linear, twist.angular
         creeps = kind_of(self._own.kind).comes_about and w.z != 0.0 and abs(v.x) < CREEP
-        wanted = Moving(math.copysign(CREEP, v.x) if creeps else v.x, v.y, w.z)
+        wanted = PlanarVelocity(math.copysign(CREEP, v.x) if creeps else v.x, v.y, w.z)
         if not wanted.speed:
-            return Clamped(twist)
+            return ClampedTwist(twist)
         done = self._fencing.slowed(pose, measured.moving, wanted, doubt)
         w = Vector3(self._roll_rate(w.x, measured), w.y, w.z)
         if done is wanted:
-            return Clamped(Twist(v, w))
+            return ClampedTwist(Twist(v, w))
         kept = Twist(Vector3(done.x, done.y, v.z), Vector3(w.x, w.y, done.turn))
         if creeps:
             kept = Twist(Vector3(0.0, 0.0, v.z), Vector3(w.x, w.y, 0.0))
         elif done.speed > wanted.speed / 2:
-            return Clamped(kept)
+            return ClampedTwist(kept)
         room = self._fencing.room(pose)
         where = f"is {room:.1f} m away" if room > 0.05 else "is here"
         known = f" and it knows its place to {SURE_ENOUGH * measured.spread:.1f} m only" if doubt else ""
-        return Clamped(kept, f"The robot's fence {where}{known}: it goes no nearer.")
+        return ClampedTwist(kept, f"The robot's fence {where}{known}: it goes no nearer.")
 
-    def _drifts_out(self, moving: Moving, pose: Pose2, doubt: float, kept: Twist) -> bool:
+    def _drifts_out(self, moving: PlanarVelocity, pose: Pose2, doubt: float, kept: Twist) -> bool:
         """It is carried over the fence, or will be, and what is left of its order does not bring it back."""
         if not self._handling.drifts:
             return False
@@ -285,19 +295,19 @@ class Keeper:
             self._returns = room < BACK_TO or out > most
         else:
             self._returns = (room < BACK_AT and out > DRIFTS) or out > most + 2 * DRIFTS
-        inward = -self._fencing.outward(pose, Moving(kept.linear.x, kept.linear.y, 0.0))
+        inward = -self._fencing.outward(pose, PlanarVelocity(kept.linear.x, kept.linear.y, 0.0))
         if not self._returns:
             self._way = 0.0
         return self._returns and inward < CREEP / 2
 
-    def _rolled(self, roll: float, measured: Measured) -> float:
+    def _rolled(self, roll: float, measured: MeasuredState) -> float:
         """As much of a `roll` [rad] as one that glides may have here: rolled, its fins push it aside."""
         if not (self._handling.glide and self._fence and measured.pose):
             return roll
-        room = self._fencing.room(measured.pose) - doubt_of(measured.spread)
+        room = self._fencing.room(measured.pose) - uncertainty_margin(measured.spread)
         return roll * max(0.0, min(1.0, room / LEVEL_FROM))
 
-    def _roll_rate(self, rate: float, measured: Measured) -> float:
+    def _roll_rate(self, rate: float, measured: MeasuredState) -> float:
         """One that is rolled farther than it may rolls back [rad/s]."""
         over = measured.roll - self._rolled(measured.roll, measured)
         return -within(over, 0.5) if abs(over) > 0.05 else rate
@@ -310,7 +320,7 @@ def _scaled(twist: Twist, part: float, handling: Handling) -> Twist:
     return Twist(Vector3(part * v.x, part * v.y, v.z), Vector3(w.x, w.y, turn * w.z))
 
 
-def _unsure(measured: Measured) -> str:
+def _unsure(measured: MeasuredState) -> str:
     """Why its place is not sure enough to promise a fence, as one sentence; empty when it is."""
     off = SURE_ENOUGH * measured.spread
     if measured.sure and not off > MOST_DOUBT:
@@ -319,7 +329,7 @@ def _unsure(measured: Measured) -> str:
     return f"The robot does not know {how} where it is, so its fence is not certain: it goes slowly; place it on the map."
 
 
-def _direction(measured: Measured) -> tuple[float, float]:
+def _direction(measured: MeasuredState) -> tuple[float, float]:
     """Where it was going, of length 1 in `base_link`; uphill when it stands."""
     x, y = measured.moving.x, measured.moving.y
     if math.hypot(x, y) < 0.02:

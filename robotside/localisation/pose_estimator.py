@@ -27,12 +27,12 @@ from bridge.msgs.tf2_msgs import TFMessage
 from robotside.core.bus import Publish
 from robotside.core.pose2 import Points, Pose2
 from robotside.kinds.registry import kind_of
-from robotside.localisation.position_uncertainty import Doubt
+from robotside.localisation.position_uncertainty import PositionUncertainty
 from robotside.localisation.scan_matching import Localiser
 from robotside.mapping.occupancy_grid import Grid
 from robotside.records.events import Say
 
-__all__ = ["Track", "Whereabouts"]
+__all__ = ["OdometryTrack", "PoseEstimator"]
 
 FIXES = 5
 """Satellite fixes averaged for the first guess."""
@@ -74,7 +74,7 @@ _NO_LASER = (
 )
 
 
-class Track:
+class OdometryTrack:
     """The last seconds of poses, to ask where the robot was when a sensor measured."""
 
     def __init__(self) -> None:
@@ -103,7 +103,7 @@ class Track:
         )
 
 
-class Whereabouts:
+class PoseEstimator:
     """Takes odometry, sweeps, fixes and compass; gives the pose in `map`, and says when it is not sure of it."""
 
     def __init__(self, info: RobotInfo, say: Say, publish: Publish) -> None:
@@ -111,7 +111,7 @@ class Whereabouts:
         has_place = not (math.isnan(info.latitude) or math.isnan(info.longitude))
         self._datum = Datum(info.latitude, info.longitude) if has_place else None
         self._localiser: Localiser | None = None
-        self._doubt = Doubt()
+        self._doubt = PositionUncertainty()
         self._fixes: deque[tuple[float, float]] = deque(maxlen=FIXES)
         self._compass = math.nan
         self._since = math.nan
@@ -125,7 +125,7 @@ class Whereabouts:
         self._rolls = kind_of(info.kind).on_the_ground
         self._touch: Bumper | None = None
         self._pushed = 0.0
-        self.track = Track()
+        self.track = OdometryTrack()
         """Poses in `map` of the last seconds."""
         self.odometer = 0.0
         """All that was driven since the start, by the wheels [m]."""

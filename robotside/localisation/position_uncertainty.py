@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["Doubt"]
+__all__ = ["PositionUncertainty"]
 
 
-class Doubt:
+class PositionUncertainty:
     """Variances of a place, along each axis [m2]."""
 
     def __init__(self) -> None:

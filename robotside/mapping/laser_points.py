@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from bridge.msgs.sensor_msgs import LaserScan
 from robotside.core.pose2 import ORIGIN, Points, Pose2
 
-__all__ = ["Laser"]
+__all__ = ["LaserProjection"]
 
 
-class Laser:
+class LaserProjection:
     """Turns sweeps into end points, for a laser mounted at `mount` in `base_link`."""
 
     def __init__(self, mount: Pose2 = ORIGIN) -> None:

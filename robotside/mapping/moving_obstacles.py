@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from robotside.core.pose2 import Points
 from robotside.mapping.distances import within
 
-__all__ = ["SHARE", "Movers"]
+__all__ = ["SHARE", "MovingObstacles"]
 
 AGO = 0.4
 """What is seen is compared with what was seen so long before [s]."""
@@ -25,7 +25,7 @@ REACH = 4.0
 """Farther away it does not matter yet [m]."""
 
 
-class Movers:
+class MovingObstacles:
     """Looks for them from sweep to sweep; everything in `map`."""
 
     def __init__(self) -> None:

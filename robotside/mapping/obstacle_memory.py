@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from robotside.core.pose2 import Points
 from robotside.mapping.occupancy_grid import Grid
 
-__all__ = ["Obstacles"]
+__all__ = ["ObstacleMemory"]
 
 CELL = 0.1
 """Things within this are one [m]."""
@@ -23,7 +23,7 @@ VAGUE = (0.6, 8.0)
 """The same two for what is seen vaguely, as by sonars [m, s]."""
 
 
-class Obstacles:
+class ObstacleMemory:
     """Places in `map` where something stands that is not on the map."""
 
     def __init__(self, grid: Grid) -> None:

@@ -14,7 +14,7 @@ from bridge.msgs.nav_msgs import OccupancyGrid
 from robotside.core.pose2 import Points
 from robotside.core.text import number
 from robotside.mapping.distances import distance_from
-from robotside.mapping.wavefront import BIT, bits
+from robotside.mapping.wavefront import CELLS_PER_STEP, work_steps
 
 __all__ = ["OCCUPIED", "Grid"]
 
@@ -112,7 +112,7 @@ class Grid:
         rows, columns = rows[inside], columns[inside]
         occupied, distance = self.occupied.copy(), self.distance.copy()
         occupied[rows, columns] = True
-        yield from bits(occupied.size, 10 * BIT)
+        yield from work_steps(occupied.size, 10 * CELLS_PER_STEP)
         most = math.ceil(reach / self.resolution) + 1
         side = np.arange(-most, most + 1)
         stamp = (np.hypot(side[:, None], side[None, :]) - 0.5) * self.resolution

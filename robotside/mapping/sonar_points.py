@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from bridge.msgs.pilothouse_msgs import SonarRing
 from robotside.core.pose2 import Points
 
-__all__ = ["NEAR", "Sonars"]
+__all__ = ["NEAR", "SonarProjection"]
 
 NEAR = 1.5
 """Beyond this a cone is too wide to say where something stands [m]."""
@@ -26,7 +26,7 @@ ARC = np.linspace(-0.5, 0.5, 7)
 """Places on the end of a cone that may have given the echo, in widths."""
 
 
-class Sonars:
+class SonarProjection:
     """Turns rings of distances into points."""
 
     def points(self, ring: SonarRing) -> Points:

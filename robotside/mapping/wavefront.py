@@ -8,15 +8,15 @@ from collections.abc import Generator, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["BIT", "Bits", "Cell", "Wave", "bits", "rows_at_once"]
+__all__ = ["CELLS_PER_STEP", "WorkSteps", "Cell", "Wavefront", "work_steps", "rows_at_once"]
 
 Cell = tuple[int, int]
 """Row and column."""
 
-Bits = Generator[None, None, None]
+WorkSteps = Generator[None, None, None]
 """Work of which each step takes a fraction of a millisecond."""
 
-BIT = 20_000
+CELLS_PER_STEP = 20_000
 """Cells of a map that one step looks at."""
 
 AT_ONCE, ROUND = 1_500, 300
@@ -31,7 +31,7 @@ THICKER = 0.002
 DIAGONAL = math.sqrt(2.0)
 
 
-def bits(cells: int, each: int = BIT) -> Bits:
+def work_steps(cells: int, each: int = CELLS_PER_STEP) -> WorkSteps:
     """So many steps as work on that many cells is worth."""
     for _ in range(math.ceil(cells / each)):
         yield
@@ -39,11 +39,11 @@ def bits(cells: int, each: int = BIT) -> Bits:
 
 def rows_at_once(shape: tuple[int, ...]) -> Iterator[slice]:
     """Rows of a map of this shape, as many as one step looks at."""
-    step = max(1, BIT // max(1, shape[1]))
+    step = max(1, CELLS_PER_STEP // max(1, shape[1]))
     return (slice(row, min(row + step, shape[0])) for row in range(0, shape[0], step))
 
 
-class Wave:
+class Wavefront:
     """Spreads over one map from one cell; a way costs its length [cells] times what its cells cost, the half of each."""
 
     def __init__(self, shape: tuple[int, ...], start: Cell) -> None:
@@ -66,7 +66,7 @@ class Wave:
         """Of the cheapest way to each cell; infinite where the wave has not come."""
         return self._cost[1:-1, 1:-1]
 
-    def spread(self, goal: Cell | None = None) -> Bits:
+    def spread(self, goal: Cell | None = None) -> WorkSteps:
         """Until the cheapest way to `goal` is known, or to every cell."""
         price, cost = self._price.ravel(), self._cost.ravel()
         waiting = np.array([self._index(self._start)])
@@ -82,7 +82,7 @@ class Wave:
             current = cost[cells] == spent  # the others were reached more cheaply meanwhile
             cells, spent = cells[current], spent[current]
             work += ROUND + len(cells)
-            yield from bits(work // AT_ONCE, 1)
+            yield from work_steps(work // AT_ONCE, 1)
             work %= AT_ONCE
             reached, paid = self._relax(price, cost, cells, spent)
             waiting = np.concatenate((waiting[later], reached))

@@ -14,7 +14,7 @@ from bridge.core.units import wrap
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.kinds.registry import kind_of
-from robotside.motion.measured import Measured
+from robotside.motion.measured import MeasuredState
 from robotside.motion.speed_limit import slower, within
 from robotside.motion.station_keeping import CREEP
 
@@ -103,7 +103,7 @@ def settled(order: Order, info: RobotInfo) -> Order:
     return order
 
 
-def leads_to(order: Manoeuvre, info: RobotInfo, measured: Measured) -> Twist:
+def leads_to(order: Manoeuvre, info: RobotInfo, measured: MeasuredState) -> Twist:
     """The twist that comes of `order`, in `base_link`; `info` is of what the robot can do, whatever it may.
 
     Up and down it tells only what a hand says: a height is kept by `levelled`.
@@ -210,7 +210,7 @@ def _eased(steering: float, leads: Twist, may: Twist) -> float:
     return math.atan(math.tan(steering) * within(part, 1.0))
 
 
-def _turn(yaw: float, info: RobotInfo, measured: Measured) -> float:
+def _turn(yaw: float, info: RobotInfo, measured: MeasuredState) -> float:
     """Towards a heading [rad/s]; 0 for the present one, or while nobody knows it."""
     if math.isnan(yaw) or measured.pose is None:
         return 0.0

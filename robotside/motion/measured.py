@@ -6,18 +6,18 @@ import math
 from dataclasses import dataclass
 
 from robotside.core.pose2 import Pose2
-from robotside.motion.stopping_path import REST, Moving
+from robotside.motion.stopping_path import REST, PlanarVelocity
 
-__all__ = ["Measured"]
+__all__ = ["MeasuredState"]
 
 
 @dataclass(frozen=True, slots=True)
-class Measured:
+class MeasuredState:
     """What the robot knows of itself; NaN and None for what it does not measure."""
 
     pose: Pose2 | None = None
     """In `map`."""
-    moving: Moving = REST
+    moving: PlanarVelocity = REST
     """As its wheels tell."""
     height: float = math.nan
     """Above the map's origin, which for boats is the water [m]."""

@@ -10,7 +10,7 @@ import math
 from bridge.msgs.geometry_msgs import Twist
 from robotside.motion.speed_limit import within
 
-__all__ = ["BACK_AT", "BACK_TO", "CREEP", "DRIFTS", "Drift", "back", "way_back"]
+__all__ = ["BACK_AT", "BACK_TO", "CREEP", "DRIFTS", "DriftMonitor", "back", "way_back"]
 
 BACK_AT, BACK_TO = 0.0, 0.4
 """With less room than the first one that drifts goes back, until it has the second [m]."""
@@ -43,7 +43,7 @@ def back(inward: tuple[float, float], way: float) -> Twist:
     return Twist.planar(speed, within(turn, BACK_TURN))
 
 
-class Drift:
+class DriftMonitor:
     """Tells once that a robot drifts over its fence, and again when it was back in between."""
 
     def __init__(self) -> None:

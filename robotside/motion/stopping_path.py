@@ -10,7 +10,7 @@ import numpy as np
 from robotside.core.pose2 import Points, Pose2
 from robotside.kinds.vehicle_kind import Handling
 
-__all__ = ["REACTION", "REST", "Moving", "reach", "track"]
+__all__ = ["REACTION", "REST", "PlanarVelocity", "reach", "track"]
 
 REACTION = 0.15
 """From a command until the next one can tell otherwise and is felt [s]: a period of odometry, and the drive's own lag."""
@@ -20,7 +20,7 @@ SPACING = 0.08
 _MOST = 240
 
 
-class Moving(NamedTuple):
+class PlanarVelocity(NamedTuple):
     """Velocities in `base_link`."""
 
     x: float
@@ -35,21 +35,23 @@ class Moving(NamedTuple):
         """[m/s]"""
         return math.hypot(self.x, self.y)
 
-    def scaled(self, part: float, turn: float = 1.0) -> Moving:
+    def scaled(self, part: float, turn: float = 1.0) -> PlanarVelocity:
         """With `part` of the speed and another of the turn rate."""
-        return Moving(part * self.x, part * self.y, turn * self.turn)
+        return PlanarVelocity(part * self.x, part * self.y, turn * self.turn)
 
 
-REST = Moving(0.0, 0.0, 0.0)
+REST = PlanarVelocity(0.0, 0.0, 0.0)
 
 
-def reach(start: Moving, command: Moving, handling: Handling) -> float:
+def reach(start: PlanarVelocity, command: PlanarVelocity, handling: Handling) -> float:
     """How far `track` gets at most [m]."""
     fastest = max(start.speed, command.speed)
     return fastest * REACTION + fastest * fastest / (2 * handling.braking)
 
 
-def track(pose: Pose2, start: Moving, command: Moving, handling: Handling, *, swings: bool = False) -> Points:
+def track(
+    pose: Pose2, start: PlanarVelocity, command: PlanarVelocity, handling: Handling, *, swings: bool = False
+) -> Points:
     """Places on the way of a robot that moves as `start`, obeys `command` for REACTION and then brakes, (n, 2) [m].
 
     Its speed changes as `handling` says. Its turn rate does at once, or when it `swings` no faster than `handling` says;
@@ -78,7 +80,12 @@ def track(pose: Pose2, start: Moving, command: Moving, handling: Handling, *, sw
 
 
 def _turning(
-    start: Moving, command: Moving, handling: Handling, at: Points, velocity: Points, swings: bool
+    start: PlanarVelocity,
+    command: PlanarVelocity,
+    handling: Handling,
+    at: Points,
+    velocity: Points,
+    swings: bool,
 ) -> Points:
     """The turn rate at each moment [rad/s]."""
     if handling.steers:

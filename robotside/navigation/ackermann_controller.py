@@ -14,12 +14,12 @@ from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Manoeuvrable, Robot
 from robotside.core.text import place_sentence
 from robotside.kinds.registry import kind_of
-from robotside.navigation.lattice_planner import Lattice, Piece
-from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, Grounded, Search
+from robotside.navigation.lattice_planner import LatticePlanner, Piece
+from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, GroundBound, Search
 from robotside.navigation.planner import Planner, Unreachable
-from robotside.navigation.pure_pursuit import Follower
+from robotside.navigation.pure_pursuit import PathFollower
 
-__all__ = ["Trucking", "bend_of", "girth"]
+__all__ = ["AckermannController", "bend_of", "girth"]
 
 FASTEST = 2.0
 """It goes by itself no faster than this [m/s], however fast it may be driven by hand."""
@@ -83,7 +83,7 @@ def bend_of(info: RobotInfo) -> float:
     return 1.0 / info.min_radius if info.min_radius > 0 else info.max_yaw_rate / info.max_speed
 
 
-class Trucking(Grounded):
+class AckermannController(GroundBound):
     """`going.Going` of a robot that turns only by driving, and drives backwards too."""
 
     stands = True
@@ -100,7 +100,7 @@ class Trucking(Grounded):
         self.turning = 1.0 / (SPARE * self._bend)
         self.cruise, self.clear = min(CRUISE * info.max_speed, FASTEST), self._girth + MARGIN + 0.1
         self._pieces: list[Piece] = []
-        self._follower: Follower | None = None
+        self._follower: PathFollower | None = None
         self._speed = 0.0
         self._tries = 0
         self._steered = 0.0
@@ -128,7 +128,7 @@ class Trucking(Grounded):
             if not grid.holds(*place):
                 raise Unreachable(f"{place_sentence(called, *place)} is off the map.")
         grid = yield from planner.seeing(obstacles)
-        lattice = Lattice(grid, SPARE * self._bend, self.discs, self._girth, MARGIN)
+        lattice = LatticePlanner(grid, SPARE * self._bend, self.discs, self._girth, MARGIN)
         pieces = yield from lattice.search(pose, goal)
         if not pieces:
             raise Unreachable(f"There is no way to {place_sentence(name, *goal[:2])} that it can drive.")
@@ -260,7 +260,7 @@ class Trucking(Grounded):
         along = _end(points)
         # aiming beyond the end it comes there in the direction of the way
         beyond = points[-1] + np.arange(0.1, BEYOND + 0.05, 0.1)[:, None] * along
-        self._follower = Follower(
+        self._follower = PathFollower(
             np.concatenate([points, beyond]), cruise=self.cruise, parameters=self._pursuit
         )
         self._speed = 0.0

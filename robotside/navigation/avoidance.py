@@ -16,7 +16,7 @@ from bridge.msgs.geometry_msgs import Twist
 from robotside.core.pose2 import Points
 from robotside.motion.speed_limit import within
 
-__all__ = ["HORIZON", "Avoidance", "Way", "free_lengths"]
+__all__ = ["HORIZON", "Avoidance", "AvoidanceResult", "free_lengths"]
 
 HORIZON = 2.5
 """Obstacles farther away than this do not matter yet [m]."""
@@ -35,7 +35,7 @@ ENOUGH = 0.35
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class AvoidanceResult:
     """What to do now."""
 
     twist: Twist
@@ -77,13 +77,13 @@ class Avoidance:
         self._turn = max_yaw_rate
         self._last = 0.0
 
-    def choose(self, distance: float, bearing: float, speed: float, points: Points) -> Way:
+    def choose(self, distance: float, bearing: float, speed: float, points: Points) -> AvoidanceResult:
         """The twist towards an aim at `distance` [m] and `bearing` [rad], at up to `speed` [m/s].
 
         `points` are what the laser sees, in `base_link`.
         """
         if abs(bearing) > 1.0:
-            return Way(Twist.planar(0.0, self._rate(2.0 * bearing)), False)
+            return AvoidanceResult(Twist.planar(0.0, self._rate(2.0 * bearing)), False)
         wanted = 2.0 * math.sin(bearing) / max(distance, 0.1)
         near = points[np.hypot(points[:, 0], points[:, 1]) < HORIZON]
         curvatures = np.append(CURVATURES, wanted)
@@ -91,8 +91,8 @@ class Avoidance:
         needed = min(distance, ENOUGH + speed * speed / (2 * BRAKING) + 0.4)
         best = self._best(curvatures, free, wanted, needed)
         if free[best] < min(ENOUGH, distance * 0.5):
-            return Way(Twist.planar(0.0, self._rate(1.5 * bearing)), True)
-        return Way(self._along(float(curvatures[best]), float(free[best]), speed), False)
+            return AvoidanceResult(Twist.planar(0.0, self._rate(1.5 * bearing)), True)
+        return AvoidanceResult(self._along(float(curvatures[best]), float(free[best]), speed), False)
 
     def _best(
         self, curvatures: NDArray[np.float64], free: NDArray[np.float64], wanted: float, needed: float

@@ -9,9 +9,9 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Manoeuvrable, Robot
 from robotside.kinds.registry import kind_of
-from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, OneWay
+from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, SinglePath
 
-__all__ = ["TAKES_OFF_TO", "Coursing"]
+__all__ = ["TAKES_OFF_TO", "CourseController"]
 
 TAKES_OFF_TO = 2.0
 """Above where it stands, which is over people's heads [m]."""
@@ -32,7 +32,7 @@ ALIGNED = 0.1
 """It looks to where it should within this [rad]."""
 
 
-class Coursing(OneWay):
+class CourseController(SinglePath):
     """`going.Going` of a robot that keeps courses."""
 
     stands = False

@@ -11,9 +11,9 @@ from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Robot
 from robotside.kinds.registry import kind_of
 from robotside.navigation.avoidance import Avoidance, free_lengths
-from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, Grounded, OneWay
+from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, GroundBound, SinglePath
 
-__all__ = ["Wheeling"]
+__all__ = ["DifferentialController"]
 
 STANDS = 0.03
 """Slower than this it gets nowhere [m/s]."""
@@ -25,7 +25,7 @@ CLOSE, ROOM = 0.04, 0.4
 """It goes back where it passes everything by this, and has so much room [m]."""
 
 
-class Wheeling(OneWay, Grounded):
+class DifferentialController(SinglePath, GroundBound):
     """`going.Going` of a robot that turns where it stands."""
 
     stands = False

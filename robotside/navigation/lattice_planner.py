@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from robotside.core.pose2 import Points, Pose2
 from robotside.mapping.occupancy_grid import Grid
-from robotside.mapping.wavefront import Wave, bits
+from robotside.mapping.wavefront import Wavefront, work_steps
 
-__all__ = ["MOST", "Lattice", "Piece"]
+__all__ = ["MOST", "LatticePlanner", "Piece"]
 
 STRIDE = 0.9
 """From a pose of the search to the next [m]."""
@@ -76,7 +76,7 @@ class _Node:
     """Of that way [m], negative backwards."""
 
 
-class Lattice:
+class LatticePlanner:
     """Looks for ways on one map."""
 
     def __init__(self, grid: Grid, bend: float, discs: Sequence[float], radius: float, margin: float) -> None:
@@ -114,7 +114,7 @@ class Lattice:
             yield
             seen.add(key)
             if self._tries(node, goal, len(seen)):
-                yield from bits(DEAR, 1)
+                yield from work_steps(DEAR, 1)
                 last = self._last(node, goal, min(self._need, room))
                 if last is not None:
                     return _pieces(last)
@@ -134,12 +134,12 @@ class Lattice:
         room = self._distance[::factor, ::factor]
         row, column = (index // factor for index in grid.cell(goal[0], goal[1]))
         row, column = min(max(row, 0), room.shape[0] - 1), min(max(column, 0), room.shape[1] - 1)
-        wave = Wave(room.shape, (row, column))
+        wave = Wavefront(room.shape, (row, column))
         # what stands too close already has to come away, but not from deep in a wall
         inside = np.where(room > -DEEP, 1e3, np.inf)
         wave.price[:] = np.where(room > self._need * 0.8, 1.0, np.where(room > 0, 8.0, inside))
         wave.price[row, column] = 1.0
-        yield from bits(room.size)
+        yield from work_steps(room.size)
         yield from wave.spread()
         left = wave.cost
         rows, columns = left.shape

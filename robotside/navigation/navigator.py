@@ -16,15 +16,15 @@ from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Manoeuvrable, Robot
 from robotside.core.text import place_sentence
 from robotside.kinds.registry import kind_of
-from robotside.mapping.obstacle_memory import Obstacles
+from robotside.mapping.obstacle_memory import ObstacleMemory
 from robotside.mapping.occupancy_grid import Grid
-from robotside.navigation.ackermann_controller import Trucking, girth
-from robotside.navigation.course_controller import Coursing
-from robotside.navigation.differential_controller import Wheeling
-from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, Going, Search
+from robotside.navigation.ackermann_controller import AckermannController, girth
+from robotside.navigation.course_controller import CourseController
+from robotside.navigation.differential_controller import DifferentialController
+from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, PathController, Search
 from robotside.navigation.planner import STEP, Planner, Unreachable
 
-__all__ = ["CRUISE", "UNSURE_SPEED", "Goal", "Guide", "Leg"]
+__all__ = ["CRUISE", "UNSURE_SPEED", "Goal", "Navigator", "LegState"]
 
 REPLAN = 1.0
 """Least time between two plans [s]."""
@@ -45,7 +45,7 @@ GIVE_UP = 3
 """Times stuck on one leg before it is given up."""
 
 
-class Leg(Enum):
+class LegState(Enum):
     """How the way to the goal stands."""
 
     UNDER_WAY = "under way"
@@ -73,25 +73,25 @@ class Goal:
         return name if name == self.place else f"{name[0].lower()}{name[1:]}"
 
 
-PATH_CONTROLLERS: dict[str, Callable[[Robot], Going]] = {
-    "differential": Wheeling,
-    "lattice": Trucking,
-    "course": Coursing,
+PATH_CONTROLLERS: dict[str, Callable[[Robot], PathController]] = {
+    "differential": DifferentialController,
+    "lattice": AckermannController,
+    "course": CourseController,
 }
 """How robots follow a path, by `path_controller` of their kind."""
 
 
-def going_of(robot: Robot) -> Going:
+def path_controller_of(robot: Robot) -> PathController:
     """The path controller of the robot's kind."""
     return PATH_CONTROLLERS[kind_of(robot.info.kind).path_controller](robot)
 
 
-def room_of(info: RobotInfo) -> float:
+def required_radius(info: RobotInfo) -> float:
     """The room that a robot needs round its place, whichever way it points [m]."""
     return girth(info) if kind_of(info.kind).path_controller == "lattice" else info.radius
 
 
-class Guide:
+class Navigator:
     """Drives one robot on one map."""
 
     def __init__(self, robot: Robot, grid: Grid, show: Callable[[Points], None]) -> None:
@@ -99,9 +99,9 @@ class Guide:
         self._robot, self._show = robot, show
         self.kind = info.kind
         """Of robot, as its information calls it."""
-        self.going: Going = going_of(robot)
+        self.going: PathController = path_controller_of(robot)
         """How it goes along a way."""
-        self._radius = room_of(info)
+        self._radius = required_radius(info)
         self.take_map(grid)
         self._goal: Goal | None = None
         self.reason: Problem = ""
@@ -123,7 +123,7 @@ class Guide:
         """Plan on `grid` from now on; only between two tasks."""
         self.planner = Planner(grid, self._radius)
         """What plans the ways on the map."""
-        self.obstacles = Obstacles(grid)
+        self.obstacles = ObstacleMemory(grid)
         """What was seen that is not on the map."""
 
     @property
@@ -206,34 +206,34 @@ class Guide:
         self._goal = None
         self._show(np.empty((0, 2)))
 
-    def update(self, pose: Pose2, points: Points, now: float) -> Leg:
+    def update(self, pose: Pose2, points: Points, now: float) -> LegState:
         """Drive on from `pose`, with the laser seeing `points` (in `base_link`); call it often."""
         goal = self._goal
         self._turning = False
         if goal is None:
-            return Leg.ARRIVED
+            return LegState.ARRIVED
         going = self.going
         self.waits_for = self.ready(now)
         if self.waits_for:
-            return Leg.BLOCKED if self.reason else Leg.UNDER_WAY
+            return LegState.BLOCKED if self.reason else LegState.UNDER_WAY
         if not going.under_way and not self.planning:
             self._ask(now)
         looks = self.planning and not self._look(pose, goal, now)
         if looks and (going.stands or not going.under_way):
             self._robot.stop()  # it may be rolling still, with no way to roll along
-            return Leg.BLOCKED if self.reason else Leg.UNDER_WAY
+            return LegState.BLOCKED if self.reason else LegState.UNDER_WAY
         if going.arrived(pose):
             return self._face(pose, goal)
         self._left = going.remaining(pose)
         if not self._progresses(pose, now):
-            return Leg.BLOCKED
+            return LegState.BLOCKED
         if now - self._planned >= REPLAN and self._in_the_way(now):
             self._ask(now)
         if self.planning and not looks:
             looks = not self._look(pose, goal, now)
         if not looks or not going.stands:
             going.steer(pose, points, sure=self.sure)
-        return Leg.UNDER_WAY
+        return LegState.UNDER_WAY
 
     def ready(self, now: float) -> str:
         """Get ready to go: what it does for that, as one sentence, empty when it goes. After too long there is a `reason`."""
@@ -292,13 +292,13 @@ class Guide:
         ahead = self.going.ahead[: int(self.going.look / STEP)]
         return bool(len(self.obstacles.near(ahead, self.going.clear, now)))
 
-    def _face(self, pose: Pose2, goal: Goal) -> Leg:
+    def _face(self, pose: Pose2, goal: Goal) -> LegState:
         """At the place: turn to the direction asked for, if any."""
         self._left = 0.0
         if math.isnan(goal.yaw) or self.going.face(pose, goal.yaw):
-            return Leg.ARRIVED
+            return LegState.ARRIVED
         self._turning = True
-        return Leg.UNDER_WAY
+        return LegState.UNDER_WAY
 
     def _progresses(self, pose: Pose2, now: float) -> bool:
         """False when it has stood too long, after some plans anew; `reason` says where."""

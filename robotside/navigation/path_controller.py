@@ -11,9 +11,9 @@ import numpy as np
 from robotside.core.pose2 import Points, Pose2
 from robotside.kinds.vehicle_kind import PursuitParameters
 from robotside.navigation.planner import Planner
-from robotside.navigation.pure_pursuit import ON_WHEELS, Follower
+from robotside.navigation.pure_pursuit import ON_WHEELS, PathFollower
 
-__all__ = ["CRUISE", "UNSURE_SPEED", "Going", "Grounded", "OneWay", "Search"]
+__all__ = ["CRUISE", "UNSURE_SPEED", "PathController", "GroundBound", "SinglePath", "Search"]
 
 CRUISE = 0.9
 """Part of the robot's greatest speed that it travels with by itself."""
@@ -26,7 +26,7 @@ Search = Generator[None, None, Points]
 """For a way: each step is a bit of work of less than a few milliseconds; it returns the points of the way."""
 
 
-class Going(Protocol):
+class PathController(Protocol):
     """Goes one way after the other; it stands without one until a `search` has ended, and again after `forget`."""
 
     stands: bool
@@ -88,8 +88,8 @@ class Going(Protocol):
         """Rise from the ground to `height` above the map's origin [m], NaN for the usual one; what cannot stays there."""
 
 
-class Grounded:
-    """What `Going` says of heights, for what stays on the ground."""
+class GroundBound:
+    """What `PathController` says of heights, for what stays on the ground."""
 
     def __init__(self) -> None:
         self.height = self.measured = math.nan
@@ -99,15 +99,15 @@ class Grounded:
         """It stays on the ground."""
 
 
-class OneWay:
-    """What `Going` says of the way, for what goes along a single path."""
+class SinglePath:
+    """What `PathController` says of the way, for what goes along a single path."""
 
     cruise: float
 
     def __init__(self, parameters: PursuitParameters = ON_WHEELS) -> None:
         super().__init__()
         self._parameters = parameters
-        self._follower: Follower | None = None
+        self._follower: PathFollower | None = None
         self._speed = 0.0
 
     @property
@@ -125,7 +125,7 @@ class OneWay:
     ) -> Search:
         """For a way to `goal`. Unreachable raises."""
         path = yield from planner.search((pose.x, pose.y), goal[:2], name, obstacles)
-        self._follower = Follower(path, cruise=self.cruise, parameters=self._parameters)
+        self._follower = PathFollower(path, cruise=self.cruise, parameters=self._parameters)
         return path
 
     def forget(self) -> None:

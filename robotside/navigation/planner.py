@@ -10,7 +10,7 @@ import numpy as np
 from robotside.core.pose2 import Points
 from robotside.core.text import place_sentence
 from robotside.mapping.occupancy_grid import Grid
-from robotside.mapping.wavefront import Bits, Cell, Wave, bits, rows_at_once
+from robotside.mapping.wavefront import Cell, Wavefront, WorkSteps, rows_at_once, work_steps
 
 __all__ = ["MARGIN", "PREFERRED", "STEP", "Planner", "Unreachable"]
 
@@ -106,7 +106,7 @@ class Planner:
         self._check_on_map(start, goal, name)
         grid = self.grid if obstacles is None else (yield from self.seeing(obstacles))
         straight = np.array([start, goal])
-        yield from bits(round(math.dist(start, goal) / STEP), PULLED)
+        yield from work_steps(round(math.dist(start, goal) / STEP), PULLED)
         if _room_along(grid, straight) >= self._want:
             return resampled(straight)
         route = yield from self._route(grid, start, goal, name)
@@ -127,7 +127,7 @@ class Planner:
         self, grid: Grid, start: tuple[float, float], goal: tuple[float, float], name: str
     ) -> Generator[None, None, Points]:
         from_cell, to_cell = grid.cell(*start), grid.cell(*goal)
-        wave = Wave(grid.occupied.shape, from_cell)
+        wave = Wavefront(grid.occupied.shape, from_cell)
         yield from self._price(grid, from_cell, wave)
         if not math.isfinite(wave.price[to_cell]):
             raise Unreachable(f"{place_sentence(name, *goal)} is too close to an obstacle.")
@@ -135,11 +135,11 @@ class Planner:
         cells = wave.way(to_cell)
         if not len(cells):
             raise Unreachable(f"There is no way to {place_sentence(name, *goal)}.")
-        yield from bits(len(cells), PULLED)
+        yield from work_steps(len(cells), PULLED)
         inner = np.array([grid.x, grid.y]) + (cells[1:-1, ::-1] + 0.5) * grid.resolution
         return np.concatenate([[start], inner, [goal]])
 
-    def _price(self, grid: Grid, start: Cell, wave: Wave) -> Bits:
+    def _price(self, grid: Grid, start: Cell, wave: Wavefront) -> WorkSteps:
         price, distance = wave.price, grid.distance
         for rows in rows_at_once(distance.shape):
             room = distance[rows]
@@ -164,7 +164,7 @@ class Planner:
                 here += 1  # no line from here has the room
             else:
                 left = math.dist(route[here].tolist(), route[-1].tolist())
-                yield from bits(round(left / STEP) + PULLED, PULLED)
+                yield from work_steps(round(left / STEP) + PULLED, PULLED)
                 here = self._farthest(grid, route, here)
             kept.append(here)
         return route[kept]

@@ -9,7 +9,7 @@ import numpy as np
 from robotside.core.pose2 import Points, Pose2
 from robotside.kinds.vehicle_kind import PursuitParameters
 
-__all__ = ["ARRIVED", "CREEP", "Follower"]
+__all__ = ["ARRIVED", "CREEP", "PathFollower"]
 
 ON_WHEELS = PursuitParameters()
 """Of one that turns where it stands."""
@@ -17,7 +17,7 @@ ARRIVED, CREEP = ON_WHEELS.goal_tolerance, ON_WHEELS.min_speed
 """Its circle of arrival [m] and its least speed on the way [m/s]."""
 
 
-class Follower:
+class PathFollower:
     """Steers along one path."""
 
     def __init__(

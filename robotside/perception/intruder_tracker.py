@@ -9,7 +9,7 @@ from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Intruder
 from bridge.msgs.std_msgs import Time
 
-__all__ = ["Intruders"]
+__all__ = ["IntruderTracker"]
 
 SAME = 1.2
 """Sightings within this distance are of the same thing [m]."""
@@ -33,7 +33,7 @@ class _Suspect:
     """The intruder's id; 0 while it is not reported."""
 
 
-class Intruders:
+class IntruderTracker:
     """Gathers sightings in `map` into intruders."""
 
     def __init__(self) -> None:

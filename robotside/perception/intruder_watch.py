@@ -23,11 +23,11 @@ from bridge.msgs.vision_msgs import (
 )
 from robotside.core.bus import Publish
 from robotside.core.pose2 import Points, Pose2
-from robotside.localisation.pose_estimator import Track
+from robotside.localisation.pose_estimator import OdometryTrack
 from robotside.perception.cone_detector import Sighting, find_cones
-from robotside.perception.intruder_tracker import Intruders
+from robotside.perception.intruder_tracker import IntruderTracker
 
-__all__ = ["CameraMount", "Watch"]
+__all__ = ["CameraMount", "IntruderWatch"]
 
 PERIOD = 0.2
 """Between two pictures that are searched [s]."""
@@ -52,12 +52,12 @@ class CameraMount:
     """Height above the ground [m]."""
 
 
-class Watch:
+class IntruderWatch:
     """Looks for cones in pictures at 5 Hz and places them with the laser."""
 
     def __init__(
         self,
-        track: Track,
+        track: OdometryTrack,
         fov: float,
         publish: Publish,
         report: Callable[[Intruder], None],
@@ -65,7 +65,7 @@ class Watch:
     ) -> None:
         self._track, self._publish, self._report, self._mount = track, publish, report, mount
         self._slope = math.tan((fov if math.isfinite(fov) else 1.2) / 2)
-        self.intruders = Intruders()
+        self.intruders = IntruderTracker()
         """All that were seen."""
         self._next = -math.inf
         self._points: Points = np.empty((0, 2))

@@ -43,9 +43,9 @@ from robotside.core.refusal import Refusal
 from robotside.core.robot import Robot
 from robotside.core.topic_demand import Demand
 from robotside.kinds.registry import described, kind_of, unknown
-from robotside.limits.limits import Keeper
+from robotside.limits.limits import LimitKeeper
 from robotside.motion.manoeuvres import Order
-from robotside.motion.measured import Measured
+from robotside.motion.measured import MeasuredState
 from robotside.records import Records
 from robotside.records.events import Events
 from robotside.records.records_publisher import Shown
@@ -92,7 +92,7 @@ class Station:
         self._next_diagnostics = self._next_fault = -math.inf
         self._turned = -math.inf
         """When trouble began or ended last [s]: what was measured before says nothing of the time since."""
-        self.keeper = Keeper(config.limits, port_info(robot))
+        self.keeper = LimitKeeper(config.limits, port_info(robot))
         """Keeps the robot to its limits."""
         self.info = replace(
             described(self.keeper.info),
@@ -388,7 +388,7 @@ class Station:
         self._held = bool(why)
         return done
 
-    def _measured(self) -> Measured:
+    def _measured(self) -> MeasuredState:
         where = self.autonomy.whereabouts
         return self.readiness.senses.measured(where.pose, spread=where.spread, sure=where.sure)
 

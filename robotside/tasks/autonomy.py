@@ -33,13 +33,13 @@ from robotside.core.refusal import Refusal
 from robotside.core.robot import Robot
 from robotside.core.topic_demand import Demand
 from robotside.limits.bumper_guard import AGAIN
-from robotside.localisation.pose_estimator import Whereabouts
-from robotside.mapping.laser_points import Laser
-from robotside.mapping.moving_obstacles import Movers
+from robotside.localisation.pose_estimator import PoseEstimator
+from robotside.mapping.laser_points import LaserProjection
+from robotside.mapping.moving_obstacles import MovingObstacles
 from robotside.mapping.occupancy_grid import Grid
-from robotside.mapping.sonar_points import Sonars
-from robotside.navigation.navigator import Guide
-from robotside.perception.intruder_watch import Watch
+from robotside.mapping.sonar_points import SonarProjection
+from robotside.navigation.navigator import Navigator
+from robotside.perception.intruder_watch import IntruderWatch
 from robotside.records import Records
 from robotside.records.events import Events
 from robotside.tasks.behaviours.course import Course
@@ -99,22 +99,22 @@ class Autonomy:
         self._now = 0.0
         self._kind = info.kind
         self._heard: dict[str, float] = {}
-        self._laser = Laser(Pose2(info.laser_x, 0.0, 0.0))
-        self._sonars, self._movers = Sonars(), Movers()
+        self._laser = LaserProjection(Pose2(info.laser_x, 0.0, 0.0))
+        self._sonars, self._movers = SonarProjection(), MovingObstacles()
         self._points: Points = np.empty((0, 2))
         self._swept: Pose2 | None = None
         self._bumped, self._let_go = False, -math.inf
         self.battery = math.nan
         """0 empty to 1 full; NaN while unknown."""
         self._records = records
-        self.whereabouts = Whereabouts(info, events.say, bus.publish)
+        self.whereabouts = PoseEstimator(info, events.say, bus.publish)
         self.has_map = False
         """There is a map to localise and plan on."""
-        self.guide = Guide(robot, Grid.unknown(), self._show_plan)
+        self.guide = Navigator(robot, Grid.unknown(), self._show_plan)
         if chart is not None:
             self._take_map(chart)
         self.situation = Situation()
-        self.watch = Watch(self.whereabouts.track, info.camera_fov, bus.publish, self._found)
+        self.watch = IntruderWatch(self.whereabouts.track, info.camera_fov, bus.publish, self._found)
         self.telling = Telling(records, lambda status: bus.publish("/task/status", status), clock)
         """Tells everybody how the task is."""
         self.engine = self._engine(clock)

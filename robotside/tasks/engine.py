@@ -16,7 +16,7 @@ from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskRun, TaskSt
 from bridge.msgs.std_msgs import Time
 from robotside.core.notice import Notice, coded
 from robotside.core.pose2 import Points, Pose2
-from robotside.navigation.navigator import Guide
+from robotside.navigation.navigator import Navigator
 from robotside.records.events import Say
 from robotside.tasks.behaviours.course import Noted, Outline
 from robotside.tasks.behaviours.situation import Situation
@@ -63,7 +63,7 @@ class Engine:
 
     def __init__(
         self,
-        guide: Guide,
+        guide: Navigator,
         situation: Situation,
         *,
         show: Callable[[TaskStatus], None],

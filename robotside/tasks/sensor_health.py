@@ -12,8 +12,8 @@ from bridge.msgs.pilothouse_msgs import Bumper, FlightState
 from bridge.msgs.sensor_msgs import Imu
 from robotside.core.pose2 import Pose2
 from robotside.kinds.registry import kind_of
-from robotside.motion.measured import Measured
-from robotside.motion.stopping_path import Moving
+from robotside.motion.measured import MeasuredState
+from robotside.motion.stopping_path import PlanarVelocity
 
 __all__ = ["PATIENCE", "Senses", "needed"]
 
@@ -56,7 +56,7 @@ class Senses:
     def __init__(self, kind: str = "wheels") -> None:
         """Of a robot of a `kind`, as its information calls it."""
         self._kind = kind
-        self._measured = Measured()
+        self._measured = MeasuredState()
         self._heard: dict[str, float] = {}
 
     def take(self, topic: str, msg: Msg, now: float) -> None:
@@ -66,7 +66,7 @@ class Senses:
         if isinstance(msg, Odometry):
             x, y = _level(msg)
             height = msg.pose.pose.position.z
-            moving = Moving(x, y, msg.twist.twist.angular.z)
+            moving = PlanarVelocity(x, y, msg.twist.twist.angular.z)
             if all(map(math.isfinite, (*moving, height))):
                 self._measured = replace(self._measured, moving=moving, height=height)
         elif isinstance(msg, Imu) and msg.orientation_covariance[0] >= 0:
@@ -82,7 +82,7 @@ class Senses:
                 overturned=msg.phase == "turned_over",
             )
 
-    def measured(self, pose: Pose2 | None, *, spread: float = 0.0, sure: bool = True) -> Measured:
+    def measured(self, pose: Pose2 | None, *, spread: float = 0.0, sure: bool = True) -> MeasuredState:
         """All of it, with the pose in `map` that was made of it, and how sure that is."""
         return replace(self._measured, pose=pose, spread=spread, sure=sure)
 

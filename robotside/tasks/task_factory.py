@@ -16,7 +16,7 @@ from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
 from robotside.kinds.registry import kind_of
-from robotside.navigation.navigator import Goal, Guide
+from robotside.navigation.navigator import Goal, Navigator
 from robotside.records import Records
 from robotside.records.events import Say
 from robotside.tasks.behaviours.course import Course, Span
@@ -83,7 +83,7 @@ class Assignments:
 
     def __init__(
         self,
-        guide: Guide,
+        guide: Navigator,
         situation: Situation,
         info: RobotInfo,
         *,

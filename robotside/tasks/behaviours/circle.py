@@ -10,7 +10,7 @@ from py_trees.common import Status
 
 from bridge.core.codes import Code
 from robotside.core.notice import Notice
-from robotside.navigation.navigator import Goal, Guide, Leg
+from robotside.navigation.navigator import Goal, LegState, Navigator
 from robotside.records.events import Say
 from robotside.tasks.behaviours.situation import Seen, Situation
 
@@ -30,7 +30,7 @@ class Circle(Behaviour):
     """
 
     def __init__(
-        self, guide: Guide, situation: Situation, say: Say, fault: Callable[[float, float], str]
+        self, guide: Navigator, situation: Situation, say: Say, fault: Callable[[float, float], str]
     ) -> None:
         """`fault` tells why the robot cannot or may not stand at a place; empty when it can."""
         super().__init__("circle intruders")
@@ -52,9 +52,9 @@ class Circle(Behaviour):
         now.tell("circling", f"Going round intruder {seen.id} and looking at it.", still=4.0 * left)
         if self._sides:
             leg = self._guide.update(now.pose, now.points, now.now)
-            if leg is Leg.UNDER_WAY:
+            if leg is LegState.UNDER_WAY:
                 return Status.RUNNING
-            self._looked += leg is Leg.ARRIVED
+            self._looked += leg is LegState.ARRIVED
             self._sides.pop(0)
         if self._sides:
             self._guide.head_for(self._sides[0])

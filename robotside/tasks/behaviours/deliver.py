@@ -17,7 +17,7 @@ from py_trees.composites import Sequence
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Place
 from robotside.core.notice import Notice
-from robotside.navigation.navigator import Guide
+from robotside.navigation.navigator import Navigator
 from robotside.records.events import Say
 from robotside.tasks.behaviours.acts import Act, Rounds
 from robotside.tasks.behaviours.ask import AskAt, Question
@@ -30,7 +30,7 @@ __all__ = ["deliver"]
 
 
 def deliver(
-    places: Places[Place], message: str, tag: str, guide: Guide, situation: Situation, say: Say
+    places: Places[Place], message: str, tag: str, guide: Navigator, situation: Situation, say: Say
 ) -> tuple[Course, Behaviour]:
     """From the first of `places` to the second, and on to the third if there is one.
 

@@ -12,7 +12,7 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Place
 from robotside.core.notice import Notice
 from robotside.core.pose2 import Pose2
-from robotside.navigation.navigator import Goal, Guide
+from robotside.navigation.navigator import Goal, Navigator
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.drive_to import LEG_STATUS
 from robotside.tasks.behaviours.situation import Situation
@@ -47,7 +47,7 @@ def before(dock: Place) -> Goal:
 class Dock(Behaviour):
     """Succeeds when the battery takes charge; fails when there is no way or no charge in time, and says which."""
 
-    def __init__(self, dock: Place, course: Course, guide: Guide, situation: Situation) -> None:
+    def __init__(self, dock: Place, course: Course, guide: Navigator, situation: Situation) -> None:
         """`course` has the one point that `before` gives."""
         super().__init__("dock")
         self._dock, self._course, self._guide, self._situation = dock, course, guide, situation

@@ -8,13 +8,17 @@ from collections.abc import Callable
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from robotside.navigation.navigator import Goal, Guide, Leg
+from robotside.navigation.navigator import Goal, LegState, Navigator
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.situation import Situation
 
 __all__ = ["LEG_STATUS", "DriveTo"]
 
-LEG_STATUS = {Leg.UNDER_WAY: Status.RUNNING, Leg.ARRIVED: Status.SUCCESS, Leg.BLOCKED: Status.FAILURE}
+LEG_STATUS = {
+    LegState.UNDER_WAY: Status.RUNNING,
+    LegState.ARRIVED: Status.SUCCESS,
+    LegState.BLOCKED: Status.FAILURE,
+}
 
 STANDS = 4.0
 """Without moving for so long it is said that it makes no way [s]."""
@@ -29,7 +33,7 @@ class DriveTo(Behaviour):
     def __init__(
         self,
         course: Course,
-        guide: Guide,
+        guide: Navigator,
         situation: Situation,
         words: Callable[[Goal], str] = lambda goal: f"Heading for {goal.spoken}.",
     ) -> None:
@@ -72,11 +76,11 @@ class DriveTo(Behaviour):
         """Stand still, whatever the reason."""
         self._guide.rest()
 
-    def _sentence(self, leg: Leg) -> str:
+    def _sentence(self, leg: LegState) -> str:
         goal = self._course.goal
-        if leg is Leg.BLOCKED:
+        if leg is LegState.BLOCKED:
             return self._guide.reason
-        if leg is Leg.ARRIVED:
+        if leg is LegState.ARRIVED:
             return f"{goal.name} reached."
         if self._guide.planning:
             return f"Looking for a way to {goal.spoken}."

@@ -10,7 +10,7 @@ from py_trees.common import Status
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.core.notice import Notice
-from robotside.navigation.navigator import Guide
+from robotside.navigation.navigator import Navigator
 from robotside.tasks.behaviours.situation import Situation
 
 __all__ = ["Land", "Surface", "TakeOff"]
@@ -33,7 +33,7 @@ class _UpAndDown(Behaviour):
 
     title, order, lasts = "", "", math.inf
 
-    def __init__(self, guide: Guide, situation: Situation, height: float = math.nan) -> None:
+    def __init__(self, guide: Navigator, situation: Situation, height: float = math.nan) -> None:
         """`height` is that of the order [m], NaN for none."""
         super().__init__(self.order.replace("_", " "))
         self._guide, self._situation, self._height = guide, situation, height

@@ -14,10 +14,10 @@ from robotside.core.notice import Notice
 from robotside.core.pose2 import Points
 from robotside.core.text import heading
 from robotside.kinds.registry import kind_of
-from robotside.navigation.ackermann_controller import Trucking
+from robotside.navigation.ackermann_controller import AckermannController
 from robotside.navigation.avoidance import BRAKING, GAP, HORIZON, free_lengths
-from robotside.navigation.course_controller import Coursing
-from robotside.navigation.navigator import UNSURE_SPEED, Guide
+from robotside.navigation.course_controller import CourseController
+from robotside.navigation.navigator import UNSURE_SPEED, Navigator
 from robotside.navigation.planner import MARGIN
 from robotside.tasks.behaviours.course import Span
 from robotside.tasks.behaviours.situation import Situation
@@ -48,7 +48,7 @@ class FollowHeading(Behaviour):
         heading: float,
         speed: float,
         span: Span,
-        guide: Guide,
+        guide: Navigator,
         situation: Situation,
         *,
         throttle: float = math.nan,
@@ -108,7 +108,7 @@ class FollowHeading(Behaviour):
     def _go(self, speed: float, error: float) -> None:
         """Ahead at `speed` [m/s] and round by `error` [rad]."""
         going = self._guide.going
-        if isinstance(going, Coursing):
+        if isinstance(going, CourseController):
             full = speed >= self._wanted and math.isnan(self._speed) and not math.isnan(self._throttle)
             going.along(self._heading, math.nan if full else speed, self._throttle if full else math.nan)
             return
@@ -165,7 +165,7 @@ class FollowHeading(Behaviour):
     def _thing(self) -> float:
         """Free way ahead as the laser sees it [m], up to the horizon."""
         going, points = self._guide.going, self._situation.points
-        if isinstance(going, Trucking):
+        if isinstance(going, AckermannController):
             error = math.remainder(self._heading - self._situation.pose.yaw, math.tau)
             bend = max(-1.0, min(1.0, 2.0 * error)) / going.turning
             return going.free(bend, points)

@@ -9,7 +9,7 @@ from py_trees.common import Status
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.kinds.registry import kind_of
-from robotside.navigation.navigator import Goal, Guide, Leg
+from robotside.navigation.navigator import Goal, LegState, Navigator
 from robotside.tasks.behaviours.course import Span
 from robotside.tasks.behaviours.fly import TakeOff
 from robotside.tasks.behaviours.situation import Situation
@@ -23,7 +23,7 @@ class Hold(Behaviour):
     What swims or flies keeps its heading and its height, or goes to the one that is asked for; what drifts comes back.
     """
 
-    def __init__(self, span: Span, guide: Guide, situation: Situation, height: float = math.nan) -> None:
+    def __init__(self, span: Span, guide: Navigator, situation: Situation, height: float = math.nan) -> None:
         """`height` above the map's origin [m]; NaN for the present one."""
         super().__init__("hold")
         self._span, self._guide, self._situation, self._height = span, guide, situation, height
@@ -67,7 +67,7 @@ class Hold(Behaviour):
             guide.head_for(place)
         if self._returns:
             now.tell("driving", "Coming back to where it holds: it was carried away.")
-            self._returns = guide.update(now.pose, now.points, now.now) is Leg.UNDER_WAY
+            self._returns = guide.update(now.pose, now.points, now.now) is LegState.UNDER_WAY
             if not self._returns:
                 guide.rest()
             return

@@ -12,7 +12,7 @@ from py_trees.composites import Sequence
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Place
 from robotside.core.notice import Notice
-from robotside.navigation.navigator import Goal, Guide
+from robotside.navigation.navigator import Goal, Navigator
 from robotside.records.events import Say
 from robotside.tasks.behaviours.acts import Act, Rounds
 from robotside.tasks.behaviours.course import Course
@@ -35,7 +35,7 @@ STAY = 6.0
 class _Lead(DriveTo):
     """Drives to the course's point, no faster than who follows."""
 
-    def __init__(self, course: Course, guide: Guide, situation: Situation, say: Say) -> None:
+    def __init__(self, course: Course, guide: Navigator, situation: Situation, say: Say) -> None:
         super().__init__(course, guide, situation, self._doing)
         self._say = say
         self._alone_since = math.nan
@@ -106,7 +106,7 @@ class _Tell(Behaviour):
 
 
 def lead(
-    places: Places[Place], message: str, guide: Guide, situation: Situation, say: Say
+    places: Places[Place], message: str, guide: Navigator, situation: Situation, say: Say
 ) -> tuple[Course, Behaviour]:
     """Along `places` in their order; `message` is told at the start, empty when there is nothing to tell."""
     course = Course([at_place(place) for place in places])

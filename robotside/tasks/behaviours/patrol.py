@@ -19,7 +19,7 @@ from py_trees.composites import Selector, Sequence
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Mission, Place, Waypoint
 from robotside.core.notice import Notice
-from robotside.navigation.navigator import Goal, Guide
+from robotside.navigation.navigator import Goal, Navigator
 from robotside.records.events import Say
 from robotside.tasks.behaviours.acts import Act, Rounds
 from robotside.tasks.behaviours.circle import Circle
@@ -46,7 +46,7 @@ def patrol_course(mission: Mission, rng: random.Random) -> Course:
 
 def patrol(
     course: Course,
-    guide: Guide,
+    guide: Navigator,
     situation: Situation,
     say: Say,
     fault: Callable[[float, float], str] = lambda *_: "",
@@ -90,7 +90,7 @@ def patrol(
     return Rounds("patrol", visit, finished)
 
 
-def way(course: Course, guide: Guide, situation: Situation, say: Say | None = None) -> Behaviour:
+def way(course: Course, guide: Navigator, situation: Situation, say: Say | None = None) -> Behaviour:
     """The tree that visits the points of `course` once, and fails where one cannot be reached."""
 
     def reached() -> bool:
@@ -105,7 +105,7 @@ def way(course: Course, guide: Guide, situation: Situation, say: Say | None = No
     return Rounds("way", leg, lambda: course.finished)
 
 
-def single(name: str, place: Waypoint, guide: Guide, situation: Situation) -> tuple[Course, Behaviour]:
+def single(name: str, place: Waypoint, guide: Navigator, situation: Situation) -> tuple[Course, Behaviour]:
     """The way to one place, as `Home`: its course and its tree, which fails when the place cannot be reached."""
     course = Course([_goal(name, place)])
 

@@ -11,8 +11,8 @@ from bridge.msgs.geometry_msgs import Twist
 from robotside.control.safe_state import GROUND, LONGEST, SURFACE, Act, SafeState
 from robotside.core.config import NOTHING_SET, SafeStateSettings
 from robotside.core.pose2 import Pose2
-from robotside.motion.measured import Measured
-from robotside.motion.stopping_path import Moving
+from robotside.motion.measured import MeasuredState
+from robotside.motion.stopping_path import PlanarVelocity
 
 TICK = 1 / 20
 
@@ -40,11 +40,19 @@ class Body:
         self.safe = SafeState(self.kind, self.settings)
 
     @property
-    def measured(self) -> Measured:
-        seen = Measured(
-            Pose2(0.0, 0.0, self.yaw), Moving(self.speed, 0.0, 0.0), self.height, self.roll, self.pitch
+    def measured(self) -> MeasuredState:
+        seen = MeasuredState(
+            Pose2(0.0, 0.0, self.yaw),
+            PlanarVelocity(self.speed, 0.0, 0.0),
+            self.height,
+            self.roll,
+            self.pitch,
         )
-        return replace(seen, pose=None, height=math.nan, moving=Moving(0.3, 0.0, 0.0)) if self.blind else seen
+        return (
+            replace(seen, pose=None, height=math.nan, moving=PlanarVelocity(0.3, 0.0, 0.0))
+            if self.blind
+            else seen
+        )
 
     def lose(self, seconds: float, *, lost: bool = True) -> Act:
         self.safe.enter(self.now, self.measured)

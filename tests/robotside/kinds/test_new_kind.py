@@ -20,10 +20,10 @@ from robotside.core.config import NOTHING_SET, LimitSettings
 from robotside.core.pose2 import Pose2
 from robotside.kinds.registry import KINDS
 from robotside.kinds.vehicle_kind import Handling, PursuitParameters, SafeStateDefaults, VehicleKind
-from robotside.limits.limits import Keeper
-from robotside.motion.measured import Measured
-from robotside.motion.stopping_path import Moving
-from robotside.navigation.course_controller import Coursing
+from robotside.limits.limits import LimitKeeper
+from robotside.motion.measured import MeasuredState
+from robotside.motion.stopping_path import PlanarVelocity
+from robotside.navigation.course_controller import CourseController
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
 from widgets.core.task_words import fields, will
@@ -65,18 +65,18 @@ def info(scene: Scene) -> RobotInfo:
 def near_its_fence(kind: str) -> float:
     """The speed that is left of 1 m/s ahead, 0.7 m from its fence [m/s]."""
     settings = LimitSettings(keep_in=[[(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)]])
-    keeper = Keeper(settings, RobotInfo(kind=kind, radius=0.3, max_speed=2.0, max_yaw_rate=1.0))
-    measured = Measured(pose=Pose2(4.0, 0.0, 0.0), moving=Moving(0.1, 0.0, 0.0))
+    keeper = LimitKeeper(settings, RobotInfo(kind=kind, radius=0.3, max_speed=2.0, max_yaw_rate=1.0))
+    measured = MeasuredState(pose=Pose2(4.0, 0.0, 0.0), moving=PlanarVelocity(0.1, 0.0, 0.0))
     return keeper.clamp(Twist.planar(1.0, 0.0), measured).twist.linear.x
 
 
 def test_it_goes_brakes_and_rests_by_its_record(scene: Scene) -> None:
     going = scene.station.autonomy.guide.going
-    assert isinstance(going, Coursing)
+    assert isinstance(going, CourseController)
     assert going.turning > 0.0
     safe = SafeState("airboat", NOTHING_SET.safe_state)
-    safe.enter(0.0, Measured())
-    assert safe.step(0.0, Measured(), lost=True).phase == "idles and holds its heading"
+    safe.enter(0.0, MeasuredState())
+    assert safe.step(0.0, MeasuredState(), lost=True).phase == "idles and holds its heading"
     assert 0.0 < near_its_fence("airboat") < 0.8 * near_its_fence("wheels")
 
 

@@ -21,8 +21,8 @@ from bridge.msgs.pilothouse_msgs import (
 from robotside.control.safe_state import SafeState
 from robotside.core.config import NOTHING_SET, Config, LimitSettings
 from robotside.kinds.registry import GENERIC, KINDS, described, kind_of, unknown
-from robotside.motion.measured import Measured
-from robotside.navigation.differential_controller import Wheeling
+from robotside.motion.measured import MeasuredState
+from robotside.navigation.differential_controller import DifferentialController
 from robotside.navigation.navigator import PATH_CONTROLLERS
 from robotside.tasks.task_factory import tasks_of
 from sim.robot import ROBOTS
@@ -129,8 +129,8 @@ def test_every_kind_is_known_wherever_it_counts(kind: str) -> None:
     assert record.icon in ICONS
     assert set(record.order_fields) <= {"speed", "throttle", "height"}
     safe = SafeState(kind, NOTHING_SET.safe_state)
-    safe.enter(0.0, Measured())
-    assert safe.step(0.0, Measured(), lost=True).phase
+    safe.enter(0.0, MeasuredState())
+    assert safe.step(0.0, MeasuredState(), lost=True).phase
 
 
 def test_a_robot_keeps_the_words_of_its_own() -> None:
@@ -169,5 +169,5 @@ def test_an_unknown_kind_is_said_once_and_goes_as_if_on_wheels(tmp_path: Path) -
     told = run.station.events.since(0, run.station.events.boot)
     events = [event.text for event in told if event.text.startswith(said)]
     assert len(events) == 1
-    assert isinstance(run.station.autonomy.guide.going, Wheeling)
+    assert isinstance(run.station.autonomy.guide.going, DifferentialController)
     assert "dock" not in run.station.info.tasks

@@ -13,7 +13,7 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.door.station_door import StationDoor
 from robotside.limits.bumper_guard import kept_off
 from robotside.motion.manoeuvres import Order
-from robotside.motion.measured import Measured
+from robotside.motion.measured import MeasuredState
 from sim.robot import ROBOTS, SimRobot
 from sim.simulation.simulation import Simulation
 from tests.robotside.sim_run import Run
@@ -21,19 +21,21 @@ from tests.sim.rooms import room
 
 WHEELS, TRUCK = RobotInfo(kind="wheels"), RobotInfo(kind="ackermann", max_speed=5.0)
 DRONE = RobotInfo(kind="quadrotor", manoeuvres=["twist", "tilt"], max_tilt=0.35)
-AHEAD, BEHIND, LEFT = (Measured(touched=bearing) for bearing in (0.0, math.pi, math.pi / 2))
+AHEAD, BEHIND, LEFT = (MeasuredState(touched=bearing) for bearing in (0.0, math.pi, math.pi / 2))
 
 
 def test_what_touches_nothing_goes_as_it_is_told() -> None:
     order = Twist.planar(0.5, 0.2)
-    assert kept_off(order, WHEELS, Measured()) is order
+    assert kept_off(order, WHEELS, MeasuredState()) is order
 
 
 @pytest.mark.parametrize(
     ("speed", "touched", "left"),
     [(0.5, AHEAD, 0.0), (-0.5, AHEAD, -0.5), (-0.5, BEHIND, 0.0), (0.5, BEHIND, 0.5), (0.5, LEFT, 0.5)],
 )
-def test_wheels_turn_and_drive_away_but_not_into_it(speed: float, touched: Measured, left: float) -> None:
+def test_wheels_turn_and_drive_away_but_not_into_it(
+    speed: float, touched: MeasuredState, left: float
+) -> None:
     assert kept_off(Twist.planar(speed, 0.3), WHEELS, touched) == Twist.planar(left, 0.3)
 
 

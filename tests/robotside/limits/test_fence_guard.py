@@ -15,8 +15,8 @@ from robotside.core.pose2 import Pose2
 from robotside.kinds.registry import KINDS
 from robotside.kinds.vehicle_kind import Handling
 from robotside.limits.fence import Fence
-from robotside.limits.fence_guard import GAP, Fencing
-from robotside.motion.stopping_path import REST, Moving
+from robotside.limits.fence_guard import GAP, FenceGuard
+from robotside.motion.stopping_path import REST, PlanarVelocity
 
 RADIUS = 0.2
 WHEELS = KINDS["wheels"].handling
@@ -38,7 +38,7 @@ class Vehicle:
         self._handling, self._prompt, self._swings = handling, prompt, swings
         self.least = math.inf
 
-    def go(self, command: Moving) -> None:
+    def go(self, command: PlanarVelocity) -> None:
         for _ in range(5):
             self._follow(command, TICK / 5)
             yaw = self.pose.yaw + self.moving.turn * TICK / 10
@@ -48,7 +48,7 @@ class Vehicle:
             self.pose = Pose2(x, y, yaw + self.moving.turn * TICK / 10)
             self.least = min(self.least, float(YARD.clearance(np.array([[x, y]]))[0]) - RADIUS)
 
-    def _follow(self, command: Moving, time: float) -> None:
+    def _follow(self, command: PlanarVelocity, time: float) -> None:
         if self._prompt:
             self.moving = command
             return
@@ -60,9 +60,9 @@ class Vehicle:
         x, y = self.moving.x + part * ax, self.moving.y + part * ay
         if self._handling.steers:
             turn = self._bend(command) * math.hypot(x, y)
-        self.moving = Moving(x, y, turn)
+        self.moving = PlanarVelocity(x, y, turn)
 
-    def _bend(self, command: Moving) -> float:
+    def _bend(self, command: PlanarVelocity) -> float:
         """Of one that steers [1/m]; told to stop it keeps its wheels as they are when it `swings`, else straight."""
         if command.speed > 1e-3:
             return command.turn / command.speed
@@ -76,16 +76,16 @@ class Vehicle:
 
 
 def test_far_from_the_fence_a_command_is_obeyed_as_it_is() -> None:
-    wanted = Moving(0.7, 0.0, 0.5)
-    assert Fencing(YARD, RADIUS, WHEELS).slowed(Pose2(-2.5, 0.0, 0.0), REST, wanted) == wanted
+    wanted = PlanarVelocity(0.7, 0.0, 0.5)
+    assert FenceGuard(YARD, RADIUS, WHEELS).slowed(Pose2(-2.5, 0.0, 0.0), REST, wanted) == wanted
 
 
 def test_towards_the_fence_it_gets_slower_and_stops_before_it() -> None:
-    fencing = Fencing(YARD, RADIUS, WHEELS)
+    fencing = FenceGuard(YARD, RADIUS, WHEELS)
     robot = Vehicle(Pose2(-3.0, 0.0, math.pi), WHEELS, prompt=True)
     seen = []
     for _ in range(200):
-        robot.go(fencing.slowed(robot.pose, robot.moving, Moving(0.7, 0.0, 0.0)))
+        robot.go(fencing.slowed(robot.pose, robot.moving, PlanarVelocity(0.7, 0.0, 0.0)))
         seen.append(robot.moving.x)
     assert all(after <= before for before, after in pairwise(seen))
     assert seen[-1] < 0.02
@@ -93,62 +93,62 @@ def test_towards_the_fence_it_gets_slower_and_stops_before_it() -> None:
 
 
 def test_along_away_and_on_the_spot_it_is_free() -> None:
-    fencing = Fencing(YARD, RADIUS, WHEELS)
+    fencing = FenceGuard(YARD, RADIUS, WHEELS)
     close = Pose2(-4.0 + RADIUS + GAP, 0.0, math.pi)
-    for wanted in (Moving(-0.7, 0.0, 0.0), Moving(0.0, 0.0, 1.9)):
+    for wanted in (PlanarVelocity(-0.7, 0.0, 0.0), PlanarVelocity(0.0, 0.0, 1.9)):
         assert fencing.slowed(close, REST, wanted) == wanted
-    along = Moving(0.7, 0.0, 0.0)
+    along = PlanarVelocity(0.7, 0.0, 0.0)
     assert fencing.slowed(Pose2(close.x, 0.0, math.pi / 2), REST, along) == along
 
 
 def test_a_turn_towards_the_fence_is_put_off_until_it_is_slow_enough() -> None:
-    fencing = Fencing(YARD, RADIUS, WHEELS)
+    fencing = FenceGuard(YARD, RADIUS, WHEELS)
     close = Pose2(-4.0 + RADIUS + GAP + 0.02, -1.5, math.pi / 2)
-    turn = Moving(0.05, 0.0, 1.9)
+    turn = PlanarVelocity(0.05, 0.0, 1.9)
     assert fencing.slowed(close, REST, turn) == turn
-    assert fencing.slowed(close, Moving(1.5, 0.0, 0.0), turn) == REST
+    assert fencing.slowed(close, PlanarVelocity(1.5, 0.0, 0.0), turn) == REST
 
 
 def test_a_turn_that_has_not_died_away_yet_is_counted_in() -> None:
-    fencing = Fencing(YARD, RADIUS, WHEELS)
+    fencing = FenceGuard(YARD, RADIUS, WHEELS)
     close = Pose2(-4.0 + RADIUS + GAP + 0.02, -1.5, math.pi / 2)
-    straight = Moving(0.7, 0.0, 0.0)
+    straight = PlanarVelocity(0.7, 0.0, 0.0)
     assert fencing.slowed(close, straight, straight) == straight
-    assert fencing.slowed(close, Moving(0.7, 0.0, 1.5), straight) != straight
+    assert fencing.slowed(close, PlanarVelocity(0.7, 0.0, 1.5), straight) != straight
 
 
 def test_one_that_can_go_sideways_slides_along_the_fence() -> None:
-    fencing = Fencing(YARD, RADIUS, KINDS["quadrotor"].handling)
-    slid = fencing.slowed(Pose2(-4.0 + RADIUS + GAP, 0.0, math.pi), REST, Moving(0.5, 0.5, 0.0))
+    fencing = FenceGuard(YARD, RADIUS, KINDS["quadrotor"].handling)
+    slid = fencing.slowed(Pose2(-4.0 + RADIUS + GAP, 0.0, math.pi), REST, PlanarVelocity(0.5, 0.5, 0.0))
     assert slid.x == pytest.approx(0.0, abs=0.02)
     assert slid.y == pytest.approx(0.5)
 
 
 def test_what_slides_along_a_fence_that_it_came_too_near_to_goes_inward_a_little() -> None:
-    fencing = Fencing(YARD, RADIUS, KINDS["quadrotor"].handling)
-    slid = fencing.slowed(Pose2(-4.0 + RADIUS - 0.05, 0.0, math.pi), REST, Moving(0.5, 0.5, 0.0))
+    fencing = FenceGuard(YARD, RADIUS, KINDS["quadrotor"].handling)
+    slid = fencing.slowed(Pose2(-4.0 + RADIUS - 0.05, 0.0, math.pi), REST, PlanarVelocity(0.5, 0.5, 0.0))
     assert slid.x == pytest.approx(-0.15, abs=0.03)
     assert slid.y == pytest.approx(0.5)
 
 
 def test_one_that_steers_goes_slower_on_the_same_arc() -> None:
-    fencing = Fencing(YARD, RADIUS, KINDS["ackermann"].handling)
-    slowed = fencing.slowed(Pose2(-3.4, 0.0, math.pi), REST, Moving(2.0, 0.0, 0.5))
+    fencing = FenceGuard(YARD, RADIUS, KINDS["ackermann"].handling)
+    slowed = fencing.slowed(Pose2(-3.4, 0.0, math.pi), REST, PlanarVelocity(2.0, 0.0, 0.5))
     assert 0.0 < slowed.x < 2.0
     assert slowed.turn / slowed.x == pytest.approx(0.25)
 
 
 def test_from_outside_only_ways_that_lead_back_are_allowed() -> None:
-    fencing = Fencing(YARD, RADIUS, WHEELS)
+    fencing = FenceGuard(YARD, RADIUS, WHEELS)
     lost = Pose2(-6.0, 0.0, 0.0)
-    assert fencing.slowed(lost, REST, Moving(0.7, 0.0, 0.0)) == Moving(0.7, 0.0, 0.0)
-    assert fencing.slowed(lost, REST, Moving(-0.7, 0.0, 0.3)) == Moving(0.0, 0.0, 0.3)
+    assert fencing.slowed(lost, REST, PlanarVelocity(0.7, 0.0, 0.0)) == PlanarVelocity(0.7, 0.0, 0.0)
+    assert fencing.slowed(lost, REST, PlanarVelocity(-0.7, 0.0, 0.3)) == PlanarVelocity(0.0, 0.0, 0.3)
 
 
 def test_a_way_through_a_thin_area_is_no_way_past_it() -> None:
     wall = Fence([box(-9.0, -9.0, 9.0, 9.0)], [box(1.0, -9.0, 1.01, 9.0)])
-    slowed = Fencing(wall, 0.0, KINDS["ackermann"].handling).slowed(
-        Pose2(0.0, 0.0, 0.0), REST, Moving(5.0, 0.0, 0.0)
+    slowed = FenceGuard(wall, 0.0, KINDS["ackermann"].handling).slowed(
+        Pose2(0.0, 0.0, 0.0), REST, PlanarVelocity(5.0, 0.0, 0.0)
     )
     assert slowed.x < 1.8
 
@@ -174,12 +174,12 @@ def test_whatever_is_commanded_from_inside_the_body_stays_inside_until_it_is_at_
     swings: bool,
 ) -> None:
     handling, fastest = KINDS[kind].handling, FASTEST[kind]
-    fencing = Fencing(YARD, RADIUS, handling)
+    fencing = FenceGuard(YARD, RADIUS, handling)
     robot = Vehicle(Pose2(*place), handling, prompt=prompt, swings=swings)
     for forward, left, turn, ticks in commands:
         y = left * fastest if handling.sideways else 0.0
         rate = turn * abs(forward) / 2 if handling.steers else turn
-        wanted = Moving(forward * fastest, y, rate)
+        wanted = PlanarVelocity(forward * fastest, y, rate)
         for _ in range(ticks):
             robot.go(fencing.slowed(robot.pose, robot.moving, wanted))
     robot.come_to_rest()

@@ -14,10 +14,10 @@ from bridge.msgs.geometry_msgs import Point32, Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
 from robotside.core.config import LimitSettings
 from robotside.core.pose2 import Pose2
-from robotside.limits.limits import NOT_PLACED, Keeper
+from robotside.limits.limits import NOT_PLACED, LimitKeeper
 from robotside.mapping.occupancy_grid import Grid
-from robotside.motion.measured import Measured
-from robotside.motion.stopping_path import Moving
+from robotside.motion.measured import MeasuredState
+from robotside.motion.stopping_path import PlanarVelocity
 from robotside.navigation.planner import Planner
 
 WHEELS = RobotInfo("P", "wheels", max_speed=0.7, max_yaw_rate=1.9, radius=0.2)
@@ -26,7 +26,7 @@ AQUA = RobotInfo("A", "hexapod", max_speed=0.8, max_yaw_rate=1.0, radius=0.3)
 SQUARE = ((-4.0, -4.0), (4.0, -4.0), (4.0, 4.0), (-4.0, 4.0))
 POST = ((1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (1.0, 2.0))
 FENCED = LimitSettings(keep_in=(SQUARE,), keep_out=(POST,))
-HOME = Measured(Pose2(0.0, 0.0, 0.0))
+HOME = MeasuredState(Pose2(0.0, 0.0, 0.0))
 AHEAD = Twist.planar(0.6, 0.2)
 
 
@@ -38,13 +38,13 @@ def twist(x: float = 0.0, y: float = 0.0, z: float = 0.0, turn: float = 0.0) -> 
 
 
 def test_without_limits_a_command_within_the_robots_own_is_left_as_it_is() -> None:
-    keeper = Keeper(LimitSettings(), WHEELS)
-    assert keeper.clamp(AHEAD, Measured()) == (AHEAD, "")
+    keeper = LimitKeeper(LimitSettings(), WHEELS)
+    assert keeper.clamp(AHEAD, MeasuredState()) == (AHEAD, "")
     assert keeper.info == WHEELS
 
 
 def test_speed_and_turn_are_limited_and_the_robot_says_so_of_itself() -> None:
-    keeper = Keeper(LimitSettings(max_speed=0.3, max_yaw_rate=0.5), DRONE)
+    keeper = LimitKeeper(LimitSettings(max_speed=0.3, max_yaw_rate=0.5), DRONE)
     done = keeper.clamp(twist(3.0, 4.0, 0.0, -1.0), HOME).twist
     assert (done.linear.x, done.linear.y) == pytest.approx((0.18, 0.24))
     assert done.angular.z == -0.5
@@ -52,30 +52,30 @@ def test_speed_and_turn_are_limited_and_the_robot_says_so_of_itself() -> None:
 
 
 def test_a_limit_above_what_the_robot_can_do_changes_nothing() -> None:
-    assert Keeper(LimitSettings(max_speed=9.0), WHEELS).info.max_speed == 0.7
+    assert LimitKeeper(LimitSettings(max_speed=9.0), WHEELS).info.max_speed == 0.7
 
 
 # the fence
 
 
 def test_towards_the_fence_a_command_is_slowed_and_said() -> None:
-    keeper = Keeper(FENCED, WHEELS)
-    done, why = keeper.clamp(Twist.planar(0.7, 0.3), Measured(Pose2(3.6, 0.0, 0.0)))
+    keeper = LimitKeeper(FENCED, WHEELS)
+    done, why = keeper.clamp(Twist.planar(0.7, 0.3), MeasuredState(Pose2(3.6, 0.0, 0.0)))
     assert 0.0 < done.linear.x < 0.35
     assert done.angular.z == 0.3
     assert why == "The robot's fence is 0.2 m away: it goes no nearer."
 
 
 def test_along_the_fence_a_command_is_left_alone() -> None:
-    keeper = Keeper(FENCED, WHEELS)
-    assert keeper.clamp(Twist.planar(0.7, 0.0), Measured(Pose2(3.6, 0.0, math.pi / 2))).why == ""
+    keeper = LimitKeeper(FENCED, WHEELS)
+    assert keeper.clamp(Twist.planar(0.7, 0.0), MeasuredState(Pose2(3.6, 0.0, math.pi / 2))).why == ""
 
 
 def test_more_braking_lets_it_go_nearer_at_speed() -> None:
-    near = Measured(Pose2(3.4, 0.0, 0.0))
-    usual = Keeper(FENCED, WHEELS).clamp(Twist.planar(0.7, 0.0), near).twist
+    near = MeasuredState(Pose2(3.4, 0.0, 0.0))
+    usual = LimitKeeper(FENCED, WHEELS).clamp(Twist.planar(0.7, 0.0), near).twist
     better = (
-        Keeper(LimitSettings(keep_in=(SQUARE,), braking=4.0), WHEELS)
+        LimitKeeper(LimitSettings(keep_in=(SQUARE,), braking=4.0), WHEELS)
         .clamp(Twist.planar(0.7, 0.0), near)
         .twist
     )
@@ -83,14 +83,14 @@ def test_more_braking_lets_it_go_nearer_at_speed() -> None:
 
 
 def test_a_robot_that_does_not_know_where_it_is_keeps_to_its_fence_by_standing() -> None:
-    done, why = Keeper(FENCED, WHEELS).clamp(AHEAD, Measured())
+    done, why = LimitKeeper(FENCED, WHEELS).clamp(AHEAD, MeasuredState())
     assert (done.linear.x, done.angular.z) == (0.0, 0.2)
     assert why == NOT_PLACED
-    assert Keeper(LimitSettings(max_speed=0.3), WHEELS).clamp(AHEAD, Measured()).why == ""
+    assert LimitKeeper(LimitSettings(max_speed=0.3), WHEELS).clamp(AHEAD, MeasuredState()).why == ""
 
 
 def test_rising_is_free_at_the_fence() -> None:
-    done = Keeper(FENCED, DRONE).clamp(twist(1.0, 0.0, 1.0), Measured(Pose2(3.6, 0.0, 0.0))).twist
+    done = LimitKeeper(FENCED, DRONE).clamp(twist(1.0, 0.0, 1.0), MeasuredState(Pose2(3.6, 0.0, 0.0))).twist
     assert done.linear.x < 0.3
     assert done.linear.z == 1.0
 
@@ -106,48 +106,49 @@ def test_rising_is_free_at_the_fence() -> None:
     ],
 )
 def test_a_goal_outside_or_too_near_is_refused_with_the_reason(place: tuple[float, float], said: str) -> None:
-    assert Keeper(FENCED, WHEELS).fault("Point 3", *place) == said
+    assert LimitKeeper(FENCED, WHEELS).fault("Point 3", *place) == said
 
 
 def test_without_a_fence_every_goal_will_do() -> None:
-    assert Keeper(LimitSettings(), WHEELS).fault("The goal", 1e6, 0.0) == ""
+    assert LimitKeeper(LimitSettings(), WHEELS).fault("The goal", 1e6, 0.0) == ""
 
 
 def test_a_robot_outside_its_fence_cannot_start_by_itself() -> None:
-    keeper = Keeper(FENCED, WHEELS)
+    keeper = LimitKeeper(FENCED, WHEELS)
     said = "The robot at (6.0, 0.0) is outside its fence; drive it back by hand first."
     assert keeper.outside(Pose2(6.0, 0.0, 0.0)) == said
     assert keeper.outside(Pose2(0.0, 0.0, 0.0)) == keeper.outside(None) == ""
 
 
 def test_plans_are_made_within_the_fence() -> None:
-    marked = Keeper(FENCED, WHEELS).marked(Grid(np.zeros((100, 100), dtype=np.bool_), 0.1, -5.0, -5.0))
+    marked = LimitKeeper(FENCED, WHEELS).marked(Grid(np.zeros((100, 100), dtype=np.bool_), 0.1, -5.0, -5.0))
     assert marked.occupied[marked.cell(4.5, 0.0)]
     assert marked.occupied[marked.cell(3.9, 0.0)]
     assert not marked.occupied[marked.cell(3.7, 0.0)]
 
 
 ROOMY = Planner(
-    Keeper(FENCED, WHEELS).marked(Grid(np.zeros((120, 120), dtype=np.bool_), 0.1, -6.0, -6.0)), WHEELS.radius
+    LimitKeeper(FENCED, WHEELS).marked(Grid(np.zeros((120, 120), dtype=np.bool_), 0.1, -6.0, -6.0)),
+    WHEELS.radius,
 )
 
 
 @example(2.390625, 2.390625)
 @given(st.floats(-5.0, 5.0), st.floats(-5.0, 5.0))
 def test_a_goal_that_is_allowed_is_one_that_can_be_planned_to(x: float, y: float) -> None:
-    if not Keeper(FENCED, WHEELS).fault("The goal", x, y):
+    if not LimitKeeper(FENCED, WHEELS).fault("The goal", x, y):
         assert ROOMY.fault("The goal", x, y) == ""
 
 
 # height and depth
 
 
-def at(height: float, pitch: float = 0.0) -> Measured:
-    return Measured(Pose2(0.0, 0.0, 0.0), height=height, pitch=pitch)
+def at(height: float, pitch: float = 0.0) -> MeasuredState:
+    return MeasuredState(Pose2(0.0, 0.0, 0.0), height=height, pitch=pitch)
 
 
 def test_up_to_the_greatest_height_it_gets_slower_and_down_is_free() -> None:
-    keeper = Keeper(LimitSettings(max_height=10.0), DRONE)
+    keeper = LimitKeeper(LimitSettings(max_height=10.0), DRONE)
     assert keeper.clamp(twist(z=1.0), at(2.0)).twist.linear.z == 1.0
     assert 0.0 < keeper.clamp(twist(z=1.0), at(9.8)).twist.linear.z < 0.6
     assert keeper.clamp(twist(z=1.0), at(10.0)) == (twist(), "The robot goes no higher than 10 m.")
@@ -155,32 +156,32 @@ def test_up_to_the_greatest_height_it_gets_slower_and_down_is_free() -> None:
 
 
 def test_depth_has_two_ends() -> None:
-    keeper = Keeper(LimitSettings(min_depth=1.0, max_depth=20.0), AQUA)
+    keeper = LimitKeeper(LimitSettings(min_depth=1.0, max_depth=20.0), AQUA)
     assert keeper.clamp(twist(z=-0.5), at(-20.0)).why == "The robot goes no deeper than 20 m of depth."
     assert keeper.clamp(twist(z=0.5), at(-1.0)).why == "The robot goes no higher than 1 m of depth."
     assert keeper.clamp(twist(z=0.5), at(-20.0)).why == ""
 
 
 def test_a_bow_that_points_down_counts_as_going_down() -> None:
-    keeper = Keeper(LimitSettings(max_depth=20.0), AQUA)
+    keeper = LimitKeeper(LimitSettings(max_depth=20.0), AQUA)
     done, why = keeper.clamp(twist(x=0.5), at(-20.0, pitch=0.5))
     assert done.linear.z * math.cos(0.5) - done.linear.x * math.sin(0.5) == pytest.approx(0.0)
     assert why
 
 
 def test_far_from_both_ends_a_command_is_left_as_it_is() -> None:
-    keeper = Keeper(LimitSettings(max_depth=20.0), AQUA)
+    keeper = LimitKeeper(LimitSettings(max_depth=20.0), AQUA)
     wanted = twist(x=0.37, z=0.11)
     assert keeper.clamp(wanted, at(-10.0, pitch=0.3)).twist == wanted
 
 
 def test_without_a_height_that_is_measured_nothing_is_known_to_be_kept() -> None:
-    assert Keeper(LimitSettings(max_height=10.0), DRONE).clamp(twist(z=1.0), HOME).twist.linear.z == 1.0
+    assert LimitKeeper(LimitSettings(max_height=10.0), DRONE).clamp(twist(z=1.0), HOME).twist.linear.z == 1.0
 
 
 @given(st.floats(0.0, 10.0), st.lists(st.floats(-2.0, 2.0), min_size=1, max_size=60))
 def test_whatever_is_commanded_the_height_is_kept(start: float, rates: list[float]) -> None:
-    keeper, z, speed = Keeper(LimitSettings(max_height=10.0), DRONE), start, 0.0
+    keeper, z, speed = LimitKeeper(LimitSettings(max_height=10.0), DRONE), start, 0.0
     for rate in [*rates, *[0.0] * 60]:
         wanted = keeper.clamp(twist(z=rate), at(z)).twist.linear.z
         speed += max(-0.05, min(0.05, wanted - speed))
@@ -191,12 +192,14 @@ def test_whatever_is_commanded_the_height_is_kept(start: float, rates: list[floa
 # slope
 
 
-def tilted(degrees: float, forward: float = 0.3) -> Measured:
-    return Measured(Pose2(0.0, 0.0, 0.0), Moving(forward, 0.0, 0.0), pitch=-math.radians(degrees))
+def tilted(degrees: float, forward: float = 0.3) -> MeasuredState:
+    return MeasuredState(
+        Pose2(0.0, 0.0, 0.0), PlanarVelocity(forward, 0.0, 0.0), pitch=-math.radians(degrees)
+    )
 
 
 def test_where_it_gets_steep_it_goes_slower_and_beyond_the_limit_only_back() -> None:
-    keeper = Keeper(LimitSettings(max_slope_degrees=10.0), WHEELS)
+    keeper = LimitKeeper(LimitSettings(max_slope_degrees=10.0), WHEELS)
     assert keeper.clamp(AHEAD, tilted(5.0)).twist == AHEAD
     assert 0.2 < keeper.clamp(AHEAD, tilted(9.0)).twist.linear.x < 0.4
     done, why = keeper.clamp(AHEAD, tilted(12.0))
@@ -207,14 +210,14 @@ def test_where_it_gets_steep_it_goes_slower_and_beyond_the_limit_only_back() -> 
 
 
 def test_down_a_slope_it_goes_back_up() -> None:
-    keeper = Keeper(LimitSettings(max_slope_degrees=10.0), WHEELS)
-    down = Measured(Pose2(0.0, 0.0, 0.0), Moving(0.3, 0.0, 0.0), pitch=math.radians(12.0))
+    keeper = LimitKeeper(LimitSettings(max_slope_degrees=10.0), WHEELS)
+    down = MeasuredState(Pose2(0.0, 0.0, 0.0), PlanarVelocity(0.3, 0.0, 0.0), pitch=math.radians(12.0))
     assert keeper.clamp(AHEAD, down).twist.linear.x == 0.0
     assert keeper.clamp(Twist.planar(-0.6, 0.0), down).twist.linear.x < 0.0
 
 
 def test_started_on_a_slope_it_goes_only_down() -> None:
-    keeper = Keeper(LimitSettings(max_slope_degrees=10.0), WHEELS)
+    keeper = LimitKeeper(LimitSettings(max_slope_degrees=10.0), WHEELS)
     assert keeper.clamp(AHEAD, tilted(12.0, forward=0.0)).twist.linear.x == 0.0
     assert keeper.clamp(Twist.planar(-0.6, 0.0), tilted(12.0, forward=0.0)).twist.linear.x < 0.0
 
@@ -224,7 +227,7 @@ def test_started_on_a_slope_it_goes_only_down() -> None:
 
 def test_the_message_tells_all_and_nan_is_no_limit() -> None:
     settings = LimitSettings(max_speed=0.5, max_slope_degrees=90.0, keep_in=(SQUARE,), keep_out=(POST,))
-    told = from_json(to_json(Keeper(settings, WHEELS).message), Limits)
+    told = from_json(to_json(LimitKeeper(settings, WHEELS).message), Limits)
     assert told.max_speed == 0.5
     assert told.max_slope == pytest.approx(math.pi / 2)
     assert math.isnan(told.max_depth)

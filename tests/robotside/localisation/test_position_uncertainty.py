@@ -6,11 +6,11 @@ import math
 
 import pytest
 
-from robotside.localisation.position_uncertainty import Doubt
+from robotside.localisation.position_uncertainty import PositionUncertainty
 
 
 def test_reckoning_adds_up_from_the_last_time_that_the_place_was_known() -> None:
-    doubt = Doubt()
+    doubt = PositionUncertainty()
     doubt.reckon(0.1)
     doubt.settle()
     assert doubt.variance == 0.0
@@ -21,7 +21,7 @@ def test_reckoning_adds_up_from_the_last_time_that_the_place_was_known() -> None
 
 
 def test_many_fixes_are_no_better_than_one_for_they_err_together() -> None:
-    doubt = Doubt()
+    doubt = PositionUncertainty()
     doubt.reckon(2.0)
     for _ in range(100):
         doubt.fix(0.7)
@@ -31,7 +31,7 @@ def test_many_fixes_are_no_better_than_one_for_they_err_together() -> None:
 
 
 def test_odometry_that_begins_anew_takes_no_doubt_away() -> None:
-    doubt = Doubt()
+    doubt = PositionUncertainty()
     doubt.reckon(1.0)
     doubt.reckon(0.0)
     assert doubt.variance == pytest.approx(1.0)
@@ -40,7 +40,7 @@ def test_odometry_that_begins_anew_takes_no_doubt_away() -> None:
 
 
 def test_what_sees_walls_has_none() -> None:
-    doubt = Doubt()
+    doubt = PositionUncertainty()
     doubt.reckon(1.0)
     doubt.see()
     assert doubt.variance == 0.0

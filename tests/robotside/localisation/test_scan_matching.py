@@ -13,7 +13,7 @@ from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import LaserScan
 from robotside.core.pose2 import Points, Pose2
 from robotside.localisation.scan_matching import DISTRUSTED, UNSURE_AFTER, Localiser
-from robotside.mapping.laser_points import Laser
+from robotside.mapping.laser_points import LaserProjection
 from robotside.mapping.occupancy_grid import Grid
 from tests.fakes import Box, FakeRobot, Pillar
 
@@ -25,7 +25,7 @@ BOXES = [Box(-4.0, 2.0, -2.0, 4.0), Box(3.0, -4.0, 4.0, -2.0), Box(5.0, 3.0, 7.0
 
 
 def sweep(robot: FakeRobot, now: float = 0.0) -> Points:
-    return next(Laser().points(msg) for _, msg in robot.read(now) if isinstance(msg, LaserScan))
+    return next(LaserProjection().points(msg) for _, msg in robot.read(now) if isinstance(msg, LaserScan))
 
 
 def off(localiser: Localiser, truth: tuple[float, float, float]) -> tuple[float, float]:
@@ -53,7 +53,7 @@ def test_over_a_hundred_metres_of_drifting_odometry_the_error_stays_below_a_tent
     robot = FakeRobot(start=(0.0, 0.0, 0.0), boxes=BOXES, pillars=pillars, drift=drift, beams=120)
     localiser = Localiser(Grid.from_msg(robot.map()))
     localiser.place(Pose2(0.0, 0.0, 0.0), spread=0.1, turn=0.05)
-    laser, worst, now = Laser(), 0.0, 0.0
+    laser, worst, now = LaserProjection(), 0.0, 0.0
     robot.drive(Twist.planar(0.5, 0.25))
     while now < 200.0:
         now += 0.1

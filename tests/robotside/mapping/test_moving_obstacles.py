@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from robotside.mapping.moving_obstacles import SHARE, Movers
+from robotside.mapping.moving_obstacles import SHARE, MovingObstacles
 
 WALL = np.column_stack([np.linspace(-3.0, 3.0, 60), np.full(60, 2.0)])
 
 
 def test_who_comes_nearer_moves_and_the_wall_does_not() -> None:
-    movers, moving = Movers(), np.zeros(0, dtype=np.bool_)
+    movers, moving = MovingObstacles(), np.zeros(0, dtype=np.bool_)
     for step in range(8):
         person = np.array([[2.0 - 0.08 * step, 0.0]])
         moving = movers.moving(np.concatenate([WALL, person]), 0.1 * step)
@@ -18,11 +18,11 @@ def test_who_comes_nearer_moves_and_the_wall_does_not() -> None:
 
 
 def test_what_was_not_looked_at_for_long_is_not_said_to_move() -> None:
-    movers = Movers()
+    movers = MovingObstacles()
     assert not movers.moving(WALL, 0.0).any()
     assert not movers.moving(WALL + 1.0, 5.0).any()
     assert not movers.moving(np.empty((0, 2)), 5.3).any()
 
 
 def test_the_other_gets_the_rest_of_the_room() -> None:
-    assert Movers.nearer(np.array([[2.0, 0.4], [9.0, 0.0]])).tolist() == [[2.0 * SHARE, 0.4 * SHARE]]
+    assert MovingObstacles.nearer(np.array([[2.0, 0.4], [9.0, 0.0]])).tolist() == [[2.0 * SHARE, 0.4 * SHARE]]

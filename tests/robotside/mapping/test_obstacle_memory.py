@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from robotside.mapping.obstacle_memory import FADES, UNKNOWN, VAGUE, Obstacles
+from robotside.mapping.obstacle_memory import FADES, UNKNOWN, VAGUE, ObstacleMemory
 from robotside.mapping.occupancy_grid import Grid
 
 GRID = Grid(np.pad(np.zeros((80, 80), dtype=np.bool_), 2, constant_values=True), 0.1, -4.2, -4.2)
@@ -12,7 +12,7 @@ MIDDLE = np.array([[0.0, 0.0]])
 
 
 def test_it_is_remembered_for_a_while_and_for_a_shorter_one_where_it_was_seen_vaguely() -> None:
-    sharp, vague = Obstacles(GRID), Obstacles(GRID)
+    sharp, vague = ObstacleMemory(GRID), ObstacleMemory(GRID)
     sharp.see(MIDDLE, 0.0)
     vague.see(MIDDLE, 0.0, vague=True)
     assert len(sharp.points(VAGUE[1] + 0.1)) == 1
@@ -22,7 +22,7 @@ def test_it_is_remembered_for_a_while_and_for_a_shorter_one_where_it_was_seen_va
 
 
 def test_a_vague_look_does_not_shorten_what_was_seen_well() -> None:
-    obstacles = Obstacles(GRID)
+    obstacles = ObstacleMemory(GRID)
     obstacles.see(MIDDLE, 0.0)
     obstacles.see(MIDDLE, 1.0, vague=True)
     assert len(obstacles.points(FADES - 0.1)) == 1
@@ -30,5 +30,5 @@ def test_a_vague_look_does_not_shorten_what_was_seen_well() -> None:
 
 def test_what_may_be_a_wall_of_the_map_is_nothing_new() -> None:
     aside = np.array([[4.0 - (UNKNOWN + VAGUE[0]) / 2, 0.0]])
-    assert Obstacles(GRID).fresh(aside).tolist() == [True]
-    assert Obstacles(GRID).fresh(aside, vague=True).tolist() == [False]
+    assert ObstacleMemory(GRID).fresh(aside).tolist() == [True]
+    assert ObstacleMemory(GRID).fresh(aside, vague=True).tolist() == [False]

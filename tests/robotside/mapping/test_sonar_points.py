@@ -8,7 +8,7 @@ import numpy as np
 
 from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.pilothouse_msgs import SonarRing
-from robotside.mapping.sonar_points import NEAR, Sonars
+from robotside.mapping.sonar_points import NEAR, SonarProjection
 
 
 def ring(*ranges: float) -> SonarRing:
@@ -25,7 +25,7 @@ def ring(*ranges: float) -> SonarRing:
 
 
 def test_a_near_thing_stands_somewhere_across_the_end_of_its_cone() -> None:
-    points = Sonars().points(ring(1.0, math.inf))
+    points = SonarProjection().points(ring(1.0, math.inf))
     assert np.hypot(*points.T).tolist() == [1.2] * 3
     angles = np.arctan2(points[:, 1], points[:, 0])
     assert 0.1 < angles.max() < 0.2
@@ -33,10 +33,10 @@ def test_a_near_thing_stands_somewhere_across_the_end_of_its_cone() -> None:
 
 
 def test_what_is_too_close_stands_right_before_its_sonar() -> None:
-    points = Sonars().points(ring(math.inf, -math.inf))
+    points = SonarProjection().points(ring(math.inf, -math.inf))
     assert (np.hypot(*points.T) < 0.2 + 0.15).all()
     assert np.allclose(points[1], (0.0, np.hypot(*points[1])))
 
 
 def test_far_echoes_and_those_that_are_no_numbers_say_nothing() -> None:
-    assert len(Sonars().points(ring(NEAR + 0.1, math.nan, math.inf, 5.9))) == 0
+    assert len(SonarProjection().points(ring(NEAR + 0.1, math.nan, math.inf, 5.9))) == 0

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from robotside.mapping.wavefront import Cell, Wave
+from robotside.mapping.wavefront import Cell, Wavefront
 
 ROWS, COLUMNS = 24, 31
 
@@ -38,8 +38,8 @@ def plainly(price: NDArray[np.float64], start: Cell) -> NDArray[np.float64]:
     return cost
 
 
-def wave(price: NDArray[np.float64], start: Cell = (0, 0)) -> Wave:
-    found = Wave(price.shape, start)
+def wave(price: NDArray[np.float64], start: Cell = (0, 0)) -> Wavefront:
+    found = Wavefront(price.shape, start)
     found.price[:] = price
     return found
 
@@ -87,13 +87,13 @@ def test_no_way_leads_over_the_edge() -> None:
 
 def test_a_large_map_takes_more_steps_and_no_larger_ones(monkeypatch: pytest.MonkeyPatch) -> None:
     most = []
-    relax = Wave._relax
+    relax = Wavefront._relax
 
-    def counted(self: Wave, *words: NDArray[np.float32]) -> object:
+    def counted(self: Wavefront, *words: NDArray[np.float32]) -> object:
         most.append(words[2].size)
         return relax(self, *words)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(Wave, "_relax", counted)
+    monkeypatch.setattr(Wavefront, "_relax", counted)
     steps = {side: sum(1 for _ in wave(np.ones((side, side))).spread()) for side in (100, 400)}
     assert steps[400] > 5 * steps[100]
     assert sum(most) / sum(steps.values()) < 1_500

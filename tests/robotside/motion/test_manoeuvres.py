@@ -13,10 +13,10 @@ from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.core.config import LimitSettings
 from robotside.core.pose2 import Pose2
-from robotside.limits.limits import Keeper, Kept
+from robotside.limits.limits import KeptOrder, LimitKeeper
 from robotside.motion.manoeuvres import at_rest, finite, leads_to, paced, settled
-from robotside.motion.measured import Measured
-from robotside.motion.stopping_path import Moving
+from robotside.motion.measured import MeasuredState
+from robotside.motion.stopping_path import PlanarVelocity
 
 TRUCK = RobotInfo(
     "T", "ackermann", max_speed=5.0, max_yaw_rate=1.4, radius=1.0, max_steering=0.52, min_radius=3.5
@@ -33,8 +33,8 @@ def knowing(info: RobotInfo, *kinds: str) -> RobotInfo:
     return msgspec.structs.replace(info, manoeuvres=list(kinds or KINDS))
 
 
-def keep(info: RobotInfo, order: Manoeuvre, measured: Measured, **limits: object) -> Kept:
-    return Keeper(LimitSettings(**limits), knowing(info)).keep(order, measured)  # type: ignore[arg-type]
+def keep(info: RobotInfo, order: Manoeuvre, measured: MeasuredState, **limits: object) -> KeptOrder:
+    return LimitKeeper(LimitSettings(**limits), knowing(info)).keep(order, measured)  # type: ignore[arg-type]
 
 
 def tilt(**words: float) -> Manoeuvre:
@@ -50,25 +50,25 @@ def steer(steering: float, **words: float) -> Manoeuvre:
 
 
 def test_steered_wheels_lead_round_a_circle() -> None:
-    twist = leads_to(steer(0.52, speed=2.0), TRUCK, Measured())
+    twist = leads_to(steer(0.52, speed=2.0), TRUCK, MeasuredState())
     assert twist.linear.x / twist.angular.z == pytest.approx(3.5)
-    back = leads_to(steer(-0.26, speed=-2.0), TRUCK, Measured())
+    back = leads_to(steer(-0.26, speed=-2.0), TRUCK, MeasuredState())
     assert back.angular.z == pytest.approx(2.0 * math.tan(0.26) / math.tan(0.52) / 3.5)
 
 
 def test_a_throttle_leads_to_its_share_of_the_speed() -> None:
-    assert leads_to(steer(0.0, throttle=-0.5), BOAT, Measured()).linear.x == -1.0
-    assert leads_to(steer(0.3), BOAT, Measured()) == Twist()
+    assert leads_to(steer(0.0, throttle=-0.5), BOAT, MeasuredState()).linear.x == -1.0
+    assert leads_to(steer(0.3), BOAT, MeasuredState()) == Twist()
 
 
 def test_a_course_leads_round_to_it() -> None:
     course = Manoeuvre(kind="course", speed=1.0, yaw=0.1)
-    assert leads_to(course, BOAT, Measured(HERE)).angular.z == pytest.approx(0.09)
-    assert leads_to(course, BOAT, Measured()).angular.z == 0.0
+    assert leads_to(course, BOAT, MeasuredState(HERE)).angular.z == pytest.approx(0.09)
+    assert leads_to(course, BOAT, MeasuredState()).angular.z == 0.0
 
 
 def test_what_leans_gains_speed_where_it_leans_to_and_level_it_floats_on() -> None:
-    still, on = Measured(HERE), Measured(HERE, Moving(2.0, 0.0, 0.0))
+    still, on = MeasuredState(HERE), MeasuredState(HERE, PlanarVelocity(2.0, 0.0, 0.0))
     assert leads_to(tilt(pitch=0.2), DRONE, still).linear.x == pytest.approx(0.3 * 9.81 * math.tan(0.2))
     assert leads_to(tilt(roll=0.2), DRONE, still).linear.y < 0
     assert leads_to(tilt(), DRONE, on).linear.x == 2.0
@@ -140,11 +140,11 @@ def test_on_a_good_link_an_order_stays_as_it_is() -> None:
 
 def test_within_its_limits_an_order_is_left_as_it_is() -> None:
     order = tilt(pitch=0.2, z=0.5)
-    assert keep(DRONE, order, Measured(HERE, height=2.0)).order is order
+    assert keep(DRONE, order, MeasuredState(HERE, height=2.0)).order is order
 
 
 def test_a_speed_limit_makes_a_speed_of_a_throttle_and_keeps_the_rudder() -> None:
-    done = keep(BOAT, steer(0.2, throttle=1.0), Measured(HERE), max_speed=0.8).order
+    done = keep(BOAT, steer(0.2, throttle=1.0), MeasuredState(HERE), max_speed=0.8).order
     assert isinstance(done, Manoeuvre)
     assert done.speed == 0.8
     assert done.steering == pytest.approx(0.2, abs=0.05)
@@ -152,39 +152,39 @@ def test_a_speed_limit_makes_a_speed_of_a_throttle_and_keeps_the_rudder() -> Non
 
 
 def test_what_leans_is_held_at_the_speed_limit_by_a_twist() -> None:
-    fast = Measured(HERE, Moving(0.9, 0.0, 0.0), height=2.0)
+    fast = MeasuredState(HERE, PlanarVelocity(0.9, 0.0, 0.0), height=2.0)
     done = keep(DRONE, tilt(pitch=0.3), fast, max_speed=1.0).order
     assert isinstance(done, Twist)
     assert done.linear.x == pytest.approx(1.0)
 
 
 def test_a_turn_limit_eases_the_steering() -> None:
-    done = keep(TRUCK, steer(0.5, speed=4.0), Measured(HERE), max_yaw_rate=0.4).order
+    done = keep(TRUCK, steer(0.5, speed=4.0), MeasuredState(HERE), max_yaw_rate=0.4).order
     assert isinstance(done, Manoeuvre)
-    assert leads_to(done, TRUCK, Measured()).angular.z == pytest.approx(0.4)
+    assert leads_to(done, TRUCK, MeasuredState()).angular.z == pytest.approx(0.4)
     assert done.speed == 4.0
 
 
 def test_a_fence_ahead_makes_a_throttle_less_and_level_flight_a_brake() -> None:
-    near = Measured(Pose2(2.4, 0.0, 0.0), Moving(1.0, 0.0, 0.0))
+    near = MeasuredState(Pose2(2.4, 0.0, 0.0), PlanarVelocity(1.0, 0.0, 0.0))
     slow, why = keep(BOAT, steer(0.0, throttle=1.0), near, keep_in=(SQUARE,))
     assert slow == Twist()
     assert why == "The robot's fence is 1.1 m away: it goes no nearer."
-    far = Measured(Pose2(0.0, 0.0, 0.0), Moving(0.5, 0.0, 0.0))
+    far = MeasuredState(Pose2(0.0, 0.0, 0.0), PlanarVelocity(0.5, 0.0, 0.0))
     less = keep(BOAT, steer(0.0, throttle=1.0), far, keep_in=(SQUARE,)).order
     assert isinstance(less, Manoeuvre)
     assert 0.3 < less.speed < 1.2
-    on = Measured(Pose2(2.4, 0.0, 0.0), Moving(1.9, 0.0, 0.0), height=2.0)
+    on = MeasuredState(Pose2(2.4, 0.0, 0.0), PlanarVelocity(1.9, 0.0, 0.0), height=2.0)
     level = keep(DRONE, tilt(turn=0.1), on, keep_in=(SQUARE,)).order
     assert isinstance(level, Twist)
     assert level.linear.x < 1.0
     away = tilt(pitch=-0.3)
-    slower = Measured(on.pose, Moving(0.8, 0.0, 0.0), height=2.0)
+    slower = MeasuredState(on.pose, PlanarVelocity(0.8, 0.0, 0.0), height=2.0)
     assert keep(DRONE, away, slower, keep_in=(SQUARE,)).order is away
 
 
 def test_a_swimmer_at_its_fence_lies_level_and_may_still_rise() -> None:
-    at = Measured(Pose2(3.64, 0.0, 0.0), Moving(0.03, 0.0, 0.0), height=-2.0)
+    at = MeasuredState(Pose2(3.64, 0.0, 0.0), PlanarVelocity(0.03, 0.0, 0.0), height=-2.0)
     done = keep(AQUA, tilt(roll=0.3, pitch=0.3, throttle=1.0, z=0.1), at, keep_in=(SQUARE,)).order
     assert isinstance(done, Manoeuvre)
     assert (done.speed, done.roll, done.pitch) == (0.0, 0.0, 0.0)
@@ -192,7 +192,7 @@ def test_a_swimmer_at_its_fence_lies_level_and_may_still_rise() -> None:
 
 
 def test_a_climb_is_held_at_the_greatest_height_however_it_leans() -> None:
-    high = Measured(HERE, Moving(2.0, 0.0, 0.0), height=4.98, pitch=0.3)
+    high = MeasuredState(HERE, PlanarVelocity(2.0, 0.0, 0.0), height=4.98, pitch=0.3)
     done, why = keep(DRONE, tilt(pitch=0.3, z=1.0), high, max_height=5.0)
     assert isinstance(done, Manoeuvre)
     assert done.pitch == 0.3
@@ -203,25 +203,25 @@ def test_a_climb_is_held_at_the_greatest_height_however_it_leans() -> None:
 @pytest.mark.parametrize("kind", ["hover", "course", "take_off"])
 def test_no_height_is_held_beyond_the_limits(kind: str) -> None:
     order = Manoeuvre(kind=kind, height=40.0, speed=0.0)
-    done = keep(DRONE, order, Measured(HERE, height=2.0), max_height=5.0).order
+    done = keep(DRONE, order, MeasuredState(HERE, height=2.0), max_height=5.0).order
     assert isinstance(done, Manoeuvre)
     assert done.height == 5.0
 
 
 def test_the_usual_height_of_a_take_off_is_cut_too() -> None:
-    done = keep(DRONE, Manoeuvre(kind="take_off"), Measured(HERE, height=0.0), max_height=0.6).order
+    done = keep(DRONE, Manoeuvre(kind="take_off"), MeasuredState(HERE, height=0.0), max_height=0.6).order
     assert isinstance(done, Manoeuvre)
     assert done.height == 0.6
 
 
 def test_one_that_must_stay_under_water_does_not_surface() -> None:
-    done = keep(AQUA, Manoeuvre(kind="surface"), Measured(HERE, height=-3.0), min_depth=1.0).order
+    done = keep(AQUA, Manoeuvre(kind="surface"), MeasuredState(HERE, height=-3.0), min_depth=1.0).order
     assert isinstance(done, Manoeuvre)
     assert (done.kind, done.height) == ("hover", -1.0)
 
 
 def test_a_swimmer_that_dives_is_slowed_before_its_greatest_depth() -> None:
-    deep = Measured(HERE, Moving(0.5, 0.0, 0.0), height=-4.98, pitch=0.5)
+    deep = MeasuredState(HERE, PlanarVelocity(0.5, 0.0, 0.0), height=-4.98, pitch=0.5)
     done = keep(AQUA, tilt(pitch=0.5, throttle=1.0), deep, max_depth=5.0).order
     assert isinstance(done, Manoeuvre)
     assert abs(done.speed) < 0.15
@@ -231,26 +231,26 @@ def test_a_swimmer_that_dives_is_slowed_before_its_greatest_depth() -> None:
 
 
 def test_one_that_knows_no_manoeuvres_gets_the_twist_that_comes_nearest() -> None:
-    keeper = Keeper(LimitSettings(), TRUCK)
-    done = keeper.keep(steer(0.52, speed=2.0), Measured(HERE)).order
+    keeper = LimitKeeper(LimitSettings(), TRUCK)
+    done = keeper.keep(steer(0.52, speed=2.0), MeasuredState(HERE)).order
     assert isinstance(done, Twist)
     assert done.angular.z == pytest.approx(2.0 / 3.5)
-    assert keeper.keep(Manoeuvre(kind="hover"), Measured(HERE)).order == Twist()
+    assert keeper.keep(Manoeuvre(kind="hover"), MeasuredState(HERE)).order == Twist()
 
 
 @pytest.mark.parametrize("order", [Manoeuvre(kind="take_off"), tilt(z=1.0), Twist.planar(1.0, 0.0)])
 def test_one_that_has_turned_over_does_nothing(order: Manoeuvre | Twist) -> None:
-    keeper = Keeper(LimitSettings(), knowing(DRONE))
-    assert keeper.keep(order, Measured(HERE, roll=math.pi)) == (
+    keeper = LimitKeeper(LimitSettings(), knowing(DRONE))
+    assert keeper.keep(order, MeasuredState(HERE, roll=math.pi)) == (
         Twist(),
         "D has turned over; put it upright first.",
     )
-    assert keeper.keep(order, Measured(HERE, roll=0.6)).order == order
+    assert keeper.keep(order, MeasuredState(HERE, roll=0.6)).order == order
 
 
 def test_a_swimmer_may_lie_on_its_back() -> None:
     order = tilt(throttle=0.5)
-    assert keep(AQUA, order, Measured(HERE, roll=math.pi)).order is order
+    assert keep(AQUA, order, MeasuredState(HERE, roll=math.pi)).order is order
 
 
 @pytest.mark.parametrize("kind", ["take_off", "hover", "course"])
@@ -266,7 +266,7 @@ def test_a_height_beyond_the_limit_is_cut_to_it_and_that_is_said(
     kind: str, height: float, goes: float, why: str
 ) -> None:
     info = RobotInfo(kind="quadrotor", max_speed=4.0, manoeuvres=["take_off", "hover", "course"])
-    flying = Measured(Pose2(0.0, 0.0, 0.0), height=2.0)
+    flying = MeasuredState(Pose2(0.0, 0.0, 0.0), height=2.0)
     done, said = keep(info, Manoeuvre(kind=kind, height=height), flying, max_height=10.0)
     assert isinstance(done, Manoeuvre)
     if math.isfinite(goes) or kind != "take_off":

@@ -9,10 +9,10 @@ import pytest
 from robotside.core.config import LimitSettings
 from robotside.core.pose2 import Pose2
 from robotside.limits.fence_guard import MOST_DOUBT
-from robotside.limits.limits import Keeper
-from robotside.motion.measured import Measured
-from robotside.motion.station_keeping import BACK_SPEED, Drift, back, way_back
-from robotside.motion.stopping_path import Moving
+from robotside.limits.limits import LimitKeeper
+from robotside.motion.measured import MeasuredState
+from robotside.motion.station_keeping import BACK_SPEED, DriftMonitor, back, way_back
+from robotside.motion.stopping_path import PlanarVelocity
 from tests.robotside.limits.test_limits import AQUA, SQUARE, WHEELS, twist
 from tests.robotside.motion.test_manoeuvres import BOAT
 
@@ -42,7 +42,7 @@ def test_one_that_turns_where_it_is_looks_inside_before_it_goes() -> None:
 
 
 def test_a_drift_is_told_once_until_it_was_back() -> None:
-    drift = Drift()
+    drift = DriftMonitor()
     assert drift.told("M", 0.1, 0.1) == ""
     assert drift.told("M", -0.1, 0.1) == "M drifts over its fence."
     assert drift.told("M", -0.2, 0.1) == ""
@@ -51,40 +51,40 @@ def test_a_drift_is_told_once_until_it_was_back() -> None:
     assert drift.told("M", -0.1, 0.1) != ""
 
 
-def outside(spread: float = 0.0) -> Measured:
-    return Measured(Pose2(3.9, 0.0, 0.0), Moving(0.08, 0.0, 0.0), height=-1.0, spread=spread)
+def outside(spread: float = 0.0) -> MeasuredState:
+    return MeasuredState(Pose2(3.9, 0.0, 0.0), PlanarVelocity(0.08, 0.0, 0.0), height=-1.0, spread=spread)
 
 
 @pytest.mark.parametrize("info", [BOAT, AQUA])
 def test_what_water_carries_over_its_fence_goes_back_though_it_was_told_to_rest(info: object) -> None:
-    keeper = Keeper(FENCED, info)  # type: ignore[arg-type]
+    keeper = LimitKeeper(FENCED, info)  # type: ignore[arg-type]
     done = keeper.clamp(twist(), outside()).twist
     assert done.linear.x < 0 or abs(done.angular.z) > 0.3
     assert keeper.adrift(outside()).endswith("drifts towards its fence; it goes back by itself.")
 
 
 def test_what_stands_by_its_wheels_never_goes_back_by_itself() -> None:
-    assert Keeper(FENCED, WHEELS).clamp(twist(), outside()) == (twist(), "")
+    assert LimitKeeper(FENCED, WHEELS).clamp(twist(), outside()) == (twist(), "")
 
 
 def test_a_boat_does_not_turn_on_the_spot_at_its_fence_for_its_rudder_needs_way() -> None:
-    still = Measured(Pose2(3.35, 0.0, 0.0))
-    done = Keeper(FENCED, BOAT).clamp(twist(turn=0.4), still).twist
+    still = MeasuredState(Pose2(3.35, 0.0, 0.0))
+    done = LimitKeeper(FENCED, BOAT).clamp(twist(turn=0.4), still).twist
     assert done == twist()
-    inside = Measured(Pose2(0.0, 0.0, 0.0))
-    assert Keeper(FENCED, BOAT).clamp(twist(turn=0.4), inside).twist == twist(turn=0.4)
+    inside = MeasuredState(Pose2(0.0, 0.0, 0.0))
+    assert LimitKeeper(FENCED, BOAT).clamp(twist(turn=0.4), inside).twist == twist(turn=0.4)
 
 
 def test_what_nothing_drives_says_that_it_drifts_out() -> None:
-    keeper = Keeper(FENCED, BOAT)
+    keeper = LimitKeeper(FENCED, BOAT)
     assert keeper.adrift(outside()).endswith("drifts over its fence.")
     assert keeper.adrift(outside()) == ""
 
 
 @pytest.mark.parametrize("spread", [0.0, 0.04, 0.3, 0.9])
 def test_it_keeps_off_the_fence_by_what_its_place_may_be_off(spread: float) -> None:
-    keeper, room = Keeper(FENCED, WHEELS), max(0.1, 2 * spread)
-    near = Measured(Pose2(4.0 - 0.2 - room, 0.0, 0.0), spread=spread)
+    keeper, room = LimitKeeper(FENCED, WHEELS), max(0.1, 2 * spread)
+    near = MeasuredState(Pose2(4.0 - 0.2 - room, 0.0, 0.0), spread=spread)
     assert keeper.clamp(twist(0.5), near).twist.linear.x == pytest.approx(0.0, abs=0.02)
     assert keeper.clamp(twist(-0.5), near).twist.linear.x == -0.5
     keeper.adrift(near)
@@ -96,26 +96,28 @@ def test_it_keeps_off_the_fence_by_what_its_place_may_be_off(spread: float) -> N
 @pytest.mark.parametrize("x", [-3.0, 0.0, 2.0, 3.0, 3.6])
 def test_the_less_sure_it_is_the_slower_it_goes_towards_its_fence(x: float) -> None:
     speeds = [
-        Keeper(FENCED, WHEELS).clamp(twist(0.6), Measured(Pose2(x, 0.0, 0.0), spread=spread)).twist.linear.x
+        LimitKeeper(FENCED, WHEELS)
+        .clamp(twist(0.6), MeasuredState(Pose2(x, 0.0, 0.0), spread=spread))
+        .twist.linear.x
         for spread in (0.0, 0.1, 0.5, 1.2)
     ]
     assert speeds == sorted(speeds, reverse=True)
 
 
 def test_a_place_that_is_not_sure_is_said_and_makes_it_slow_where_there_is_a_fence() -> None:
-    lost = Measured(Pose2(0.0, 0.0, 0.0), sure=False)
-    done, why = Keeper(FENCED, WHEELS).clamp(twist(0.6), lost)
+    lost = MeasuredState(Pose2(0.0, 0.0, 0.0), sure=False)
+    done, why = LimitKeeper(FENCED, WHEELS).clamp(twist(0.6), lost)
     assert done.linear.x == pytest.approx(0.25 * WHEELS.max_speed)
     assert why.startswith("The robot does not know for sure where it is, so its fence is not certain")
-    assert Keeper(LimitSettings(), WHEELS).clamp(twist(0.6), lost) == (twist(0.6), "")
-    vague = Measured(Pose2(0.0, 0.0, 0.0), spread=MOST_DOUBT)
-    assert "to 4.0 m only" in Keeper(FENCED, WHEELS).clamp(twist(0.6), vague).why
+    assert LimitKeeper(LimitSettings(), WHEELS).clamp(twist(0.6), lost) == (twist(0.6), "")
+    vague = MeasuredState(Pose2(0.0, 0.0, 0.0), spread=MOST_DOUBT)
+    assert "to 4.0 m only" in LimitKeeper(FENCED, WHEELS).clamp(twist(0.6), vague).why
 
 
 def test_the_faster_a_swimmer_is_carried_on_the_earlier_it_brakes() -> None:
-    keeper = Keeper(FENCED, AQUA)
+    keeper = LimitKeeper(FENCED, AQUA)
     speeds = [
-        keeper.clamp(twist(0.6), Measured(Pose2(x, 0.0, 0.0), height=-1.0)).twist.linear.x
+        keeper.clamp(twist(0.6), MeasuredState(Pose2(x, 0.0, 0.0), height=-1.0)).twist.linear.x
         for x in (0.0, 2.2, 2.8, 3.3)
     ]
     assert speeds == sorted(speeds, reverse=True)

@@ -10,7 +10,7 @@ import pytest
 
 from robotside.core.pose2 import Points, Pose2
 from robotside.mapping.occupancy_grid import Grid
-from robotside.navigation.ackermann_controller import HORIZON, Trucking
+from robotside.navigation.ackermann_controller import HORIZON, AckermannController
 from robotside.navigation.planner import Planner, Unreachable
 from tests.fakes import FakeRobot
 
@@ -18,12 +18,12 @@ NOTHING: Points = np.empty((0, 2))
 GRID = Grid(np.zeros((400, 400), dtype=np.bool_), 0.1, -20.0, -20.0)
 
 
-def truck(start: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> tuple[FakeRobot, Trucking]:
+def truck(start: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> tuple[FakeRobot, AckermannController]:
     robot = FakeRobot(start=start)
     robot.info = msgspec.structs.replace(
         robot.info, kind="ackermann", max_speed=5.0, max_yaw_rate=1.4, radius=2.6, min_radius=3.5
     )
-    return robot, Trucking(robot)
+    return robot, AckermannController(robot)
 
 
 def drive(goal: tuple[float, float, float], things: Points = NOTHING) -> tuple[FakeRobot, float]:

@@ -11,7 +11,7 @@ import pytest
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.core.pose2 import Points, Pose2
 from robotside.mapping.occupancy_grid import Grid
-from robotside.navigation.course_controller import FASTEST, SLOW, Coursing
+from robotside.navigation.course_controller import FASTEST, SLOW, CourseController
 from robotside.navigation.path_controller import UNSURE_SPEED
 from robotside.navigation.planner import Planner
 from tests.fakes import FakeRobot
@@ -39,7 +39,7 @@ class Course(FakeRobot):
 def steered(kind: str, yaw: float, *, fastest: float = 1.5, sure: bool = True) -> Manoeuvre:
     """What one that looks to `yaw` [rad] is told, with its goal 15 m to the east."""
     robot = Course(kind, fastest)
-    going, pose = Coursing(robot), Pose2(0.0, 0.0, yaw)
+    going, pose = CourseController(robot), Pose2(0.0, 0.0, yaw)
     list(going.search(PLANNER, pose, (15.0, 0.0, math.nan), "The goal", NOTHING))
     going.steer(pose, NOTHING, sure=sure)
     return robot.told[-1]
@@ -78,8 +78,8 @@ def test_with_an_unsure_place_it_creeps(kind: str) -> None:
 
 def test_a_boat_looks_wherever_it_came_from_and_others_turn_to_where_they_should() -> None:
     pose = Pose2(0.0, 0.0, 0.0)
-    assert Coursing(Course("boat", 1.0)).face(pose, 2.0)
+    assert CourseController(Course("boat", 1.0)).face(pose, 2.0)
     robot = Course("hexapod", 1.0)
-    assert not Coursing(robot).face(pose, 2.0)
+    assert not CourseController(robot).face(pose, 2.0)
     assert (robot.told[-1].yaw, robot.told[-1].speed) == (2.0, 0.0)
-    assert Coursing(robot).face(pose, 0.05)
+    assert CourseController(robot).face(pose, 0.05)

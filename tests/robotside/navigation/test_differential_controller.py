@@ -8,7 +8,7 @@ import numpy as np
 
 from robotside.core.pose2 import Points, Pose2
 from robotside.mapping.occupancy_grid import Grid
-from robotside.navigation.differential_controller import BACK, BACKS, PATIENCE, Wheeling
+from robotside.navigation.differential_controller import BACK, BACKS, PATIENCE, DifferentialController
 from robotside.navigation.planner import Planner
 from tests.fakes import FakeRobot
 
@@ -20,7 +20,7 @@ AHEAD = 0.45 * np.column_stack([np.cos(RING), np.sin(RING)])
 def steered(points: Points, times: int) -> list[float]:
     """How fast it was told to go each time, with something at `points`, wherever it is [m/s]."""
     robot = FakeRobot()
-    going = Wheeling(robot)
+    going = DifferentialController(robot)
     list(
         going.search(
             Planner(GRID, 0.18), Pose2(0.0, 0.0, 0.0), (4.0, 0.0, math.nan), "The goal", np.empty((0, 2))

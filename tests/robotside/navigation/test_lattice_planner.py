@@ -10,15 +10,15 @@ import pytest
 
 from robotside.core.pose2 import Pose2
 from robotside.mapping.occupancy_grid import Grid
-from robotside.navigation.lattice_planner import Lattice, Piece
+from robotside.navigation.lattice_planner import LatticePlanner, Piece
 
 BEND = 0.25
 DISCS, RADIUS, MARGIN = (0.0, 1.0, 2.0), 0.95, 0.15
 OPEN = Grid(np.zeros((300, 300), dtype=np.bool_), 0.1, -15.0, -15.0)
 
 
-def lattice(grid: Grid = OPEN) -> Lattice:
-    return Lattice(grid, BEND, DISCS, RADIUS, MARGIN)
+def lattice(grid: Grid = OPEN) -> LatticePlanner:
+    return LatticePlanner(grid, BEND, DISCS, RADIUS, MARGIN)
 
 
 def walled(*boxes: tuple[float, float, float, float]) -> Grid:

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from robotside.core.pose2 import Pose2
-from robotside.mapping.laser_points import Laser
+from robotside.mapping.laser_points import LaserProjection
 from robotside.mapping.occupancy_grid import Grid
-from robotside.navigation.navigator import Goal, Guide, Leg
+from robotside.navigation.navigator import Goal, LegState, Navigator
 from tests.fakes import Box, FakeRobot, Pillar
 
 PERIOD = 0.05
@@ -24,17 +24,17 @@ class Trip:
         self.robot = robot
         self.now = 0.0
         self.plans: list[np.ndarray] = []
-        self.guide = Guide(robot, Grid.from_msg(robot.map()), self.plans.append)
-        self._laser = Laser()
+        self.guide = Navigator(robot, Grid.from_msg(robot.map()), self.plans.append)
+        self._laser = LaserProjection()
         self._points = np.empty((0, 2))
         self.room = math.inf
         self._read()
 
-    def go(self, goal: Goal, limit: float = 120.0) -> Leg:
+    def go(self, goal: Goal, limit: float = 120.0) -> LegState:
         self.guide.head_for(goal)
         end = self.now + limit
-        leg = Leg.UNDER_WAY
-        while leg is Leg.UNDER_WAY and self.now < end:
+        leg = LegState.UNDER_WAY
+        while leg is LegState.UNDER_WAY and self.now < end:
             leg = self.guide.update(Pose2(*self.robot.pose), self._points, self.now)
             self.now += PERIOD
             self._read()
@@ -65,27 +65,27 @@ def arrived(robot: FakeRobot, goal: Goal) -> bool:
 def test_it_reaches_a_goal_in_the_open_and_rests_there() -> None:
     run = trip()
     goal = Goal("Point 1", 5.0, 2.0)
-    assert run.go(goal) is Leg.ARRIVED
+    assert run.go(goal) is LegState.ARRIVED
     assert arrived(run.robot, goal)
     assert run.robot.at_rest
 
 
 def test_it_turns_to_the_direction_asked_for() -> None:
     run = trip()
-    assert run.go(Goal("Point 1", -3.0, 0.0, math.pi / 2)) is Leg.ARRIVED
+    assert run.go(Goal("Point 1", -3.0, 0.0, math.pi / 2)) is LegState.ARRIVED
     assert run.robot.pose[2] == pytest.approx(math.pi / 2, abs=0.06)
 
 
 def test_a_goal_behind_is_reached_without_a_wide_turn() -> None:
     run = trip(start=(-6.0, 0.0, math.pi))
-    assert run.go(Goal("Point 1", -3.0, 0.0)) is Leg.ARRIVED
+    assert run.go(Goal("Point 1", -3.0, 0.0)) is LegState.ARRIVED
     assert run.now < 15.0
 
 
 def test_it_goes_round_what_is_on_the_map() -> None:
     run = trip(boxes=[Box(-2.0, -3.0, 2.0, 3.0)])
     goal = Goal("Point 1", 6.0, 0.0)
-    assert run.go(goal) is Leg.ARRIVED
+    assert run.go(goal) is LegState.ARRIVED
     assert arrived(run.robot, goal)
     assert run.room > 0.1
 
@@ -94,7 +94,7 @@ def test_it_goes_round_what_is_on_the_map() -> None:
 def test_it_passes_a_pillar_that_is_not_on_the_map_without_contact(aside: float) -> None:
     run = trip(pillars=[Pillar(0.0, aside)])
     goal = Goal("Point 1", 6.0, 0.0)
-    assert run.go(goal) is Leg.ARRIVED
+    assert run.go(goal) is LegState.ARRIVED
     assert arrived(run.robot, goal)
     assert run.room > 0.05
 
@@ -104,14 +104,14 @@ def test_it_passes_a_row_of_pillars_without_contact() -> None:
         pillars=[Pillar(-3.0, 0.1), Pillar(-1.5, -0.4), Pillar(0.0, 0.3), Pillar(2.0, 0.0), Pillar(3.5, -0.2)]
     )
     goal = Goal("Point 1", 6.0, 0.0)
-    assert run.go(goal) is Leg.ARRIVED
+    assert run.go(goal) is LegState.ARRIVED
     assert run.room > 0.05
 
 
 def test_it_passes_a_gap_that_is_not_much_wider_than_itself() -> None:
     run = trip(pillars=[Pillar(0.0, y) for y in np.arange(-6.0, 6.1, 0.2).tolist() if abs(y) > 0.55])
     goal = Goal("Point 1", 6.0, 0.0)
-    assert run.go(goal) is Leg.ARRIVED
+    assert run.go(goal) is LegState.ARRIVED
     assert run.room > 0.05
 
 
@@ -122,13 +122,13 @@ def test_a_pillar_that_appears_right_ahead_is_not_hit() -> None:
     x, y, _ = run.robot.pose
     run.robot.pillars.append(Pillar(x + 0.8, y))
     goal = Goal("Point 1", 6.0, 0.0)
-    assert run.go(goal) is Leg.ARRIVED
+    assert run.go(goal) is LegState.ARRIVED
     assert run.room > 0.02
 
 
 def test_a_way_that_is_closed_by_something_new_is_given_up_with_a_sentence() -> None:
     run = trip(pillars=[Pillar(0.0, y) for y in np.arange(-6.0, 6.1, 0.2).tolist()])
-    assert run.go(Goal("Point 2", 6.0, 0.0), limit=200.0) is Leg.BLOCKED
+    assert run.go(Goal("Point 2", 6.0, 0.0), limit=200.0) is LegState.BLOCKED
     assert "point 2 at (6.0, 0.0)" in run.guide.reason.lower()
     assert run.room > 0.05
     assert run.robot.at_rest
@@ -142,7 +142,7 @@ def test_a_goal_behind_closed_walls_is_unreachable_at_once() -> None:
         Box(5.5, -2.0, 6.0, 2.0),
     ]
     run = trip(boxes=walls)
-    assert run.go(Goal("Point 4", 4.0, 0.0)) is Leg.BLOCKED
+    assert run.go(Goal("Point 4", 4.0, 0.0)) is LegState.BLOCKED
     assert run.guide.reason == "There is no way to Point 4 at (4.0, 0.0)."
 
 
@@ -159,7 +159,7 @@ def test_a_leg_goes_on_after_a_rest_from_wherever_the_robot_is_then() -> None:
     goal = Goal("Point 1", 6.0, 0.0)
     run.go(goal, limit=3.0)
     run.robot.pose = (-2.0, 3.0, 2.0)
-    assert run.go(goal) is Leg.ARRIVED
+    assert run.go(goal) is LegState.ARRIVED
     assert arrived(run.robot, goal)
 
 

@@ -9,12 +9,12 @@ import pytest
 
 from robotside.kinds.registry import KINDS
 from robotside.mapping.occupancy_grid import Grid
-from robotside.navigation.navigator import Guide
-from robotside.navigation.path_controller import Going, Grounded
+from robotside.navigation.navigator import Navigator
+from robotside.navigation.path_controller import GroundBound, PathController
 from tests.fakes import FakeRobot
 
 
-class Hopping(Grounded):
+class Hopping(GroundBound):
     """Some other way to go that has heights."""
 
     def __init__(self) -> None:
@@ -26,10 +26,10 @@ class Hopping(Grounded):
         self.rose.append(height)
 
 
-def guide(kind: str = "wheels") -> Guide:
+def guide(kind: str = "wheels") -> Navigator:
     robot = FakeRobot()
     robot.info = msgspec.structs.replace(robot.info, kind=kind)
-    return Guide(robot, Grid.from_msg(robot.map()), lambda _: None)
+    return Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
 
 
 def test_heights_and_taking_off_reach_any_way_of_going() -> None:
@@ -45,7 +45,7 @@ def test_heights_and_taking_off_reach_any_way_of_going() -> None:
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_kind_hears_of_its_height(kind: str) -> None:
     guide_ = guide(kind)
-    going: Going = guide_.going
+    going: PathController = guide_.going
     assert math.isnan(guide_.height)
     guide_.measured(-2.0)
     guide_.keep_height(-3.0)

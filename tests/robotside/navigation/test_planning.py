@@ -14,8 +14,8 @@ from bridge.msgs.geometry_msgs import Twist
 from robotside.core.pose2 import Pose2
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation import lattice_planner as lattice
-from robotside.navigation.lattice_planner import Lattice
-from robotside.navigation.navigator import AT_ONCE, Goal, Guide, Leg
+from robotside.navigation.lattice_planner import LatticePlanner
+from robotside.navigation.navigator import AT_ONCE, Goal, LegState, Navigator
 from tests.fakes import Box, FakeRobot
 from tests.robotside.scene import Scene
 
@@ -34,13 +34,13 @@ class Looks:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.count = 0
-        children = Lattice._children
+        children = LatticePlanner._children
 
         def counted(*words: object) -> object:
             self.count += 1
             return children(*words)  # type: ignore[arg-type]
 
-        monkeypatch.setattr(Lattice, "_children", counted)
+        monkeypatch.setattr(LatticePlanner, "_children", counted)
 
 
 @pytest.fixture
@@ -59,18 +59,18 @@ def test_the_hardest_search_takes_no_more_than_its_share_of_each_update(
 ) -> None:
     monkeypatch.setattr(lattice, "MOST", 10 * AT_ONCE)
     robot = truck(*CLOSED)
-    guide = Guide(robot, Grid.from_msg(robot.map()), lambda _: None)
+    guide = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
     guide.head_for(GOAL)
     shares = []
     for tick in range(100):
         before = looks.count
         leg = guide.update(Pose2(*robot.pose), np.empty((0, 2)), tick * 0.05)
         shares.append(looks.count - before)
-        if leg is Leg.BLOCKED:
+        if leg is LegState.BLOCKED:
             break
         assert guide.planning
         assert robot.at_rest
-    assert leg is Leg.BLOCKED
+    assert leg is LegState.BLOCKED
     assert guide.reason == "There is no way to Point 1 at (5.0, 0.0) that it can drive."
     assert max(shares) <= AT_ONCE
     assert 9 * AT_ONCE < sum(shares) <= 10 * AT_ONCE
@@ -82,7 +82,7 @@ def test_it_finds_bit_by_bit_what_it_finds_in_one_go() -> None:
 
     def drawn() -> list[list[list[float]]]:
         ways: list[list[list[float]]] = []
-        guide = Guide(robot, grid, lambda way: ways.append(way.tolist()))
+        guide = Navigator(robot, grid, lambda way: ways.append(way.tolist()))
         guide.head_for(GOAL)
         for tick in range(1000):
             guide.update(Pose2(-4.0, 0.0, 0.0), np.empty((0, 2)), tick * 0.05)
@@ -152,12 +152,12 @@ def test_every_kind_looks_for_a_way_a_bit_at_a_time_and_stands_meanwhile(
     monkeypatch.setattr("robotside.navigation.navigator.AT_ONCE", 1)
     robot = truck(Box(0.0, -2.0, 0.4, 2.0))
     robot.info = msgspec.structs.replace(robot.info, kind=kind)
-    guide = Guide(robot, Grid.from_msg(robot.map()), lambda _: None)
+    guide = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
     robot.drive(Twist.planar(0.5, 0.0))
     guide.head_for(GOAL)
     ticks = 0
     while guide.going.under_way is False and ticks < 500:
-        assert guide.update(Pose2(*robot.pose), np.empty((0, 2)), ticks * 0.05) is Leg.UNDER_WAY
+        assert guide.update(Pose2(*robot.pose), np.empty((0, 2)), ticks * 0.05) is LegState.UNDER_WAY
         ticks += 1
         assert guide.going.under_way or (guide.planning and robot.at_rest)
     assert 5 < ticks < 500
@@ -168,7 +168,7 @@ def test_while_it_looks_for_another_way_it_goes_on_along_the_one_that_it_has(
 ) -> None:
     robot = truck()
     robot.info = msgspec.structs.replace(robot.info, kind="wheels")
-    guide = Guide(robot, Grid.from_msg(robot.map()), lambda _: None)
+    guide = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
     guide.head_for(GOAL)
     nothing = np.empty((0, 2))
     guide.update(Pose2(-4.0, 0.0, 0.0), nothing, 0.0)

@@ -13,16 +13,16 @@ from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.std_msgs import Header, Time
 from bridge.msgs.vision_msgs import Detection2DArray
 from robotside.core.pose2 import Pose2
-from robotside.localisation.pose_estimator import Track
-from robotside.perception.intruder_tracker import CONFIRM, Intruders
-from robotside.perception.intruder_watch import Watch, jpeg_size
+from robotside.localisation.pose_estimator import OdometryTrack
+from robotside.perception.intruder_tracker import CONFIRM, IntruderTracker
+from robotside.perception.intruder_watch import IntruderWatch, jpeg_size
 from tests.robotside.perception.test_cone_detector import cone, jpeg, picture
 
 FOV = 1.2
 
 
 def test_a_thing_is_reported_with_its_third_sighting_and_never_again() -> None:
-    intruders = Intruders()
+    intruders = IntruderTracker()
     told = [intruders.see(5.0 + 0.1 * (n % 2), 2.0, 4.0, float(n)) for n in range(20)]
     assert [n for n, intruder in enumerate(told) if intruder] == [CONFIRM - 1]
     assert len(intruders.known) == 1
@@ -30,7 +30,7 @@ def test_a_thing_is_reported_with_its_third_sighting_and_never_again() -> None:
 
 
 def test_two_things_are_numbered_in_the_order_of_their_reports() -> None:
-    intruders = Intruders()
+    intruders = IntruderTracker()
     for n in range(CONFIRM):
         intruders.see(0.0, 0.0, 4.0, float(n))
         intruders.see(3.0, 0.0, 4.0, float(n))
@@ -38,7 +38,7 @@ def test_two_things_are_numbered_in_the_order_of_their_reports() -> None:
 
 
 def test_near_sightings_count_more_than_far_ones() -> None:
-    intruders = Intruders()
+    intruders = IntruderTracker()
     intruders.see(5.8, 0.0, 6.0, 0.0)
     intruders.see(5.0, 0.0, 1.0, 1.0)
     intruders.see(5.0, 0.0, 1.0, 2.0)
@@ -46,14 +46,14 @@ def test_near_sightings_count_more_than_far_ones() -> None:
 
 
 def test_scattered_single_sightings_are_nothing() -> None:
-    intruders = Intruders()
+    intruders = IntruderTracker()
     for n in range(10):
         intruders.see(3.0 * n, 0.0, 4.0, float(n))
     assert intruders.known == []
 
 
 def test_sightings_that_are_long_past_do_not_count() -> None:
-    intruders = Intruders()
+    intruders = IntruderTracker()
     for n in range(CONFIRM):
         assert intruders.see(0.0, 0.0, 4.0, 30.0 * n) is None
 
@@ -64,10 +64,12 @@ class Scene:
     def __init__(self) -> None:
         self.said: list[tuple[str, Msg]] = []
         self.found: list[Intruder] = []
-        track = Track()
+        track = OdometryTrack()
         for n in range(40):
             track.add(n * 0.05, Pose2(1.0, 2.0, math.pi / 2))
-        self.watch = Watch(track, FOV, lambda topic, msg: self.said.append((topic, msg)), self.found.append)
+        self.watch = IntruderWatch(
+            track, FOV, lambda topic, msg: self.said.append((topic, msg)), self.found.append
+        )
         image, draw = picture()
         focal = 320 / math.tan(FOV / 2)
         cone(draw, 320 - focal * 0.5 / 2.92, 240 + focal * 0.36 / 2.92, 0.6 * focal / 2.92)
@@ -118,7 +120,7 @@ def test_the_size_of_a_picture_is_read_from_its_header() -> None:
 
 
 def test_where_the_robot_was_is_asked_between_two_poses() -> None:
-    track = Track()
+    track = OdometryTrack()
     assert track.at(0.0) is None
     track.add(0.0, Pose2(0.0, 0.0, 3.1))
     track.add(1.0, Pose2(2.0, 0.0, -3.1))

@@ -17,7 +17,7 @@ from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import LineSensor
 from bridge.msgs.sensor_msgs import Imu, LaserScan, Range
 from robotside.core.pose2 import Pose2
-from robotside.motion.stopping_path import Moving
+from robotside.motion.stopping_path import PlanarVelocity
 from robotside.tasks.sensor_health import PATIENCE, Senses, needed
 
 MOVING = Twist(Vector3(0.3, 0.1), Vector3(0.0, 0.0, 0.2))
@@ -30,7 +30,7 @@ def test_odometry_tells_speed_and_height_and_the_imu_how_it_is_tilted() -> None:
     senses.take("/odom", ODOM, 1.0)
     senses.take("/imu/data", Imu(orientation=Quaternion.from_rpy(0.1, -0.2, 3.0)), 1.0)
     found = senses.measured(Pose2(1.0, 2.0, 3.0))
-    assert (found.moving, found.height) == (Moving(0.3, 0.1, 0.2), -2.0)
+    assert (found.moving, found.height) == (PlanarVelocity(0.3, 0.1, 0.2), -2.0)
     assert math.isclose(found.roll, 0.1)
     assert math.isclose(found.pitch, -0.2)
     assert found.pose == (1.0, 2.0, 3.0)
@@ -41,7 +41,7 @@ def test_what_is_no_number_changes_nothing() -> None:
     senses.take("/odom", ODOM, 1.0)
     wild = TwistWithCovariance(Twist(Vector3(math.inf), Vector3(0.0, 0.0, math.nan)))
     senses.take("/odom", Odometry(twist=wild), 1.1)
-    assert senses.measured(None).moving == Moving(0.3, 0.1, 0.2)
+    assert senses.measured(None).moving == PlanarVelocity(0.3, 0.1, 0.2)
 
 
 def test_an_imu_without_orientation_says_nothing_of_it() -> None:

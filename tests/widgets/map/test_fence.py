@@ -9,7 +9,7 @@ from bridge.msgs.geometry_msgs import Point32, Polygon
 from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
 from robotside.core.config import LimitSettings
 from robotside.limits.limits import GOAL_ROOM as ROBOTS_ROOM
-from robotside.limits.limits import Keeper
+from robotside.limits.limits import LimitKeeper
 from widgets.map.fence import GOAL_ROOM, MAX_CORNERS, Fence
 
 SQUARE = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
@@ -93,7 +93,7 @@ def test_it_says_what_the_robot_itself_is_going_to_say():
             for count in rng.integers(3, 8, 4)
         ]
         settings = LimitSettings(keep_in=rings[:2], keep_out=rings[2:])
-        keeper = Keeper(settings, RobotInfo(radius=0.25))
+        keeper = LimitKeeper(settings, RobotInfo(radius=0.25))
         fence = Fence.of(keeper.message)
         for x, y in rng.uniform(-8, 8, (60, 2)):
             assert fence.fault("Point 1", x, y, 0.25) == keeper.fault("Point 1", float(x), float(y))

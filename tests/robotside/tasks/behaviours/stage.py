@@ -11,7 +11,7 @@ from py_trees.common import Status
 from bridge.msgs.pilothouse_msgs import Mission
 from robotside.core.pose2 import Pose2
 from robotside.mapping.occupancy_grid import Grid
-from robotside.navigation.navigator import Guide
+from robotside.navigation.navigator import Navigator
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.patrol import patrol, patrol_course
 from robotside.tasks.behaviours.situation import Situation
@@ -26,7 +26,7 @@ class Stage:
     def __init__(self, *boxes: Box, pillars: tuple[Pillar, ...] = ()) -> None:
         self.robot = FakeRobot(boxes=boxes, pillars=pillars)
         self.situation = Situation()
-        self.guide = Guide(self.robot, Grid.from_msg(self.robot.map()), lambda _: None)
+        self.guide = Navigator(self.robot, Grid.from_msg(self.robot.map()), lambda _: None)
         self.said: list[str] = []
         self.fault: Callable[[float, float], str] = lambda x, y: self.guide.planner.fault("It", x, y)
         list(self.robot.read(0.0))
