@@ -41,7 +41,7 @@ DESKTOP_ONLY = (
 )
 """What the phone does not have."""
 
-OPTIONAL = {"hama", "hibari", "miniaudio", "pocketsphinx"}
+OPTIONAL = {"PIL", "hama", "hibari", "miniaudio", "pocketsphinx"}
 """What of that the handheld uses where it is there, and goes on without elsewhere."""
 
 NO_RECIPE = {

@@ -6,7 +6,7 @@ from bridge.core.errors import ProtocolError
 from bridge.protocol.fragments import Fragments
 from bridge.protocol.names import wrong
 from bridge.protocol.ops import BinaryPublish, Fragment, Op, Png
-from bridge.protocol.png import MAX_FILTERED_BYTES, pixels
+from bridge.protocol.png import pixels
 from bridge.protocol.wire import parse, parse_binary, parse_each
 
 __all__ = ["Arrival", "Arrivals"]
@@ -25,16 +25,13 @@ class Arrivals:
         *,
         most: int = 4,
         lifetime: float = 10.0,
-        filtered: int = MAX_FILTERED_BYTES,
         most_values: int | None = None,
     ) -> None:
         """`most` texts may be unfinished at a time, each for `lifetime` [s] after its last fragment.
 
-        What takes long to read is bounded too: `filtered` are the bytes in filtered rows of a frame's pictures, `most_values`
-        the values in a frame of CBOR, None for any.
+        `most_values` bounds the values in a frame of CBOR, which take long to read; None for no limit.
         """
         self._limit = limit_bytes
-        self._filtered = filtered
         self._most_values = most_values
         self._lost: list[ProtocolError] = []
         self._fragments = Fragments(limit_bytes, most, lifetime, given_up=self._lost.append)
@@ -54,7 +51,7 @@ class Arrivals:
                 return [op]
             found = [op]
         self._fragments.expire(now)
-        return _Unpacking(self._limit, self._filtered, self._fragments, self._lost, now).unpacked(found)
+        return _Unpacking(self._limit, self._fragments, self._lost, now).unpacked(found)
 
     def expire(self, now: float) -> list[ProtocolError]:
         """What is given up at `now` [s] because the rest did not come; to be called every second or so."""
@@ -66,11 +63,8 @@ class Arrivals:
 class _Unpacking:
     """One frame being unpacked. A picture may stand in fragments, and nothing else within another."""
 
-    def __init__(
-        self, limit: int, filtered: int, fragments: Fragments, lost: list[ProtocolError], now: float
-    ) -> None:
+    def __init__(self, limit: int, fragments: Fragments, lost: list[ProtocolError], now: float) -> None:
         self._left = limit
-        self._filtered = filtered
         self._fragments = fragments
         self._lost = lost
         self._now = now
@@ -100,9 +94,8 @@ class _Unpacking:
     def _picture(self, op: Png, within: type[Op] | None) -> list[Arrival]:
         if within is Png:
             raise wrong(op, "A png cannot stand in a png.")
-        text, filtered = pixels(op, self._left, self._filtered)
+        text = pixels(op, self._left)
         self._left -= len(text)
-        self._filtered -= filtered
         return self.unpacked(parse_each(text), Png)
 
 
