@@ -13,15 +13,13 @@ from msgspec import Raw
 from bridge.codec import from_json
 from bridge.core.errors import NoReply, NotConnected, ProtocolError, Refused
 from bridge.msgs import TYPES, Msg
+from bridge.msgs.action_msgs import GoalStatus
 from bridge.protocol import ActionFeedback, ActionResult, goal_status
 
-__all__ = ["CANCELED", "SUCCEEDED", "Goal", "action_of", "part_of", "reason"]
+__all__ = ["Goal", "action_of", "part_of", "reason"]
 
 log = logging.getLogger(__name__)
 R = TypeVar("R", bound=Msg)
-
-EXECUTING, SUCCEEDED, CANCELED, ABORTED = 2, 4, 5, 6
-"""Of action_msgs/GoalStatus."""
 
 
 class Goal(Generic[R]):
@@ -36,7 +34,7 @@ class Goal(Generic[R]):
         cancel: Callable[[], bool],
     ) -> None:
         self.action = action
-        self.status = EXECUTING
+        self.status = GoalStatus.STATUS_EXECUTING
         """As in action_msgs/GoalStatus: 2 under way, 4 succeeded, 5 canceled, 6 aborted; 0 when nobody can say."""
         self._type = result
         self._feedback = feedback
@@ -68,8 +66,8 @@ class Goal(Generic[R]):
             raise NotConnected(f"The connection was cut before {self.action} was finished.")
         if not found.result:
             raise Refused(reason(found.values) or f"The robot refused {self.action}.")
-        if self.status in (CANCELED, ABORTED):
-            word = "cancelled" if self.status == CANCELED else "aborted"
+        if self.status in (GoalStatus.STATUS_CANCELED, GoalStatus.STATUS_ABORTED):
+            word = "cancelled" if self.status == GoalStatus.STATUS_CANCELED else "aborted"
             raise Refused(f"{self.action} was {word}.")
         return from_json(found.values, self._type)
 

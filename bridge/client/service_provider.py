@@ -11,10 +11,10 @@ from typing import Any
 import msgspec
 from msgspec import Raw
 
-from bridge.client.client_goals import ABORTED, CANCELED, SUCCEEDED
 from bridge.codec import to_json
 from bridge.core.errors import BridgeError, ProtocolError
 from bridge.msgs import TYPES, Msg
+from bridge.msgs.action_msgs import GoalStatus
 from bridge.protocol import (
     ActionFeedback,
     ActionResult,
@@ -119,7 +119,7 @@ class ServiceProvider:
         if self._goals.get(op.id) is task:
             del self._goals[op.id]
         if task.cancelled() and self._session.goal_ended(op.id):  # taken back before it began
-            self._send(_result(op, b"{}", CANCELED, ok=True))
+            self._send(_result(op, b"{}", GoalStatus.STATUS_CANCELED, ok=True))
 
     def _take_back(self, id: Id) -> None:
         if task := self._goals.get(id):
@@ -133,9 +133,9 @@ class ServiceProvider:
 
         try:
             found = await run(arguments(op.args, goal), tell)
-            outcome = _result(op, to_json(found, self._session.ros2), SUCCEEDED, ok=True)
+            outcome = _result(op, to_json(found, self._session.ros2), GoalStatus.STATUS_SUCCEEDED, ok=True)
         except asyncio.CancelledError:
-            outcome = _result(op, b"{}", CANCELED, ok=True)
+            outcome = _result(op, b"{}", GoalStatus.STATUS_CANCELED, ok=True)
         except BridgeError as error:
             outcome = self._aborted(op, str(error))
         except Exception:
@@ -147,7 +147,7 @@ class ServiceProvider:
     def _aborted(self, op: SendActionGoal, sentence: str) -> ActionResult:
         """Without the sentence for rosbridge_server, which drops values that are no object."""
         values = b"{}" if self._foreign() else msgspec.json.encode(sentence)
-        return _result(op, values, ABORTED, ok=False)
+        return _result(op, values, GoalStatus.STATUS_ABORTED, ok=False)
 
 
 def _result(op: SendActionGoal, values: bytes, status: int, *, ok: bool) -> ActionResult:

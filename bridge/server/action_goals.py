@@ -8,13 +8,13 @@ from collections.abc import Callable
 import msgspec
 from msgspec import Raw
 
-from bridge.client.client_goals import CANCELED, SUCCEEDED
 from bridge.codec import to_json
 from bridge.core.async_tasks import cancel_all
 from bridge.core.errors import BridgeError
 from bridge.core.robot_catalogue import Action, Session
 from bridge.core.robot_door import RobotDoor
 from bridge.msgs import Msg
+from bridge.msgs.action_msgs import GoalStatus
 from bridge.protocol import (
     MISSING,
     ActionFeedback,
@@ -97,7 +97,7 @@ class ActionGoals:
         def ended(task: asyncio.Task[None]) -> None:
             self._tasks.discard(task)
             if task.cancelled():
-                self._end(op, _done(op, to_json(action.result()), CANCELED))
+                self._end(op, _done(op, to_json(action.result()), GoalStatus.STATUS_CANCELED))
 
         task.add_done_callback(ended)
         return task.cancel
@@ -109,7 +109,7 @@ class ActionGoals:
 
         try:
             result = await self._door.run(self._session, action.name, goal, tell)
-            self._end(op, _done(op, to_json(result), SUCCEEDED))
+            self._end(op, _done(op, to_json(result), GoalStatus.STATUS_SUCCEEDED))
         except BridgeError as error:
             self._end(op, _failed(op, str(error)))
 
