@@ -76,7 +76,8 @@ class Code(StrEnum):
     DRIVE_ON_GROUND = "drive_on_ground", "No stick starts the rotors; take_off does.", "robot"
     DRIVE_TOUCHES = "drive_touches", "The robot touches something there and is not pushed on."
     DRIVE_EXCESSIVE = "drive_excessive", "More was asked for than the robot may.", "robot", "asked", "allowed"
-    DRIVE_LIMITED = "drive_limited", "The fence, a height or a depth limits where it is driven."
+    DRIVE_LEVEL = "drive_level", "The robot goes no higher or deeper.", "height"
+    DRIVE_STEEP = "drive_steep", "It is too steep there for the robot."
 
     # where it is and where it may stand
 
@@ -91,6 +92,9 @@ class Code(StrEnum):
     POSITION_SURE = "position_sure", "The robot is sure again where it is."
     POSITION_BY_WHEELS = "position_by_wheels", "The robot has no laser and reckons by its wheels."
     FENCE_LEFT = "fence_left", "The robot is outside its fence.", "x", "y"
+    FENCE_NEAR = "fence_near", "The fence is near: the robot goes no nearer.", "room"
+    FENCE_DRIFT = "fence_drift", "The robot is carried over its fence, or goes back from it.", "robot"
+    FENCE_UNPLACED = "fence_unplaced", "The position is unknown, and so is the fence: the robot stays."
     FENCE_UNSURE = "fence_unsure", "The position is unsure, and so is the fence: the robot goes slowly."
     PLACE_OFF_MAP = "place_off_map", "The place is off the map.", "place", "x", "y"
     PLACE_IN_OBSTACLE = "place_in_obstacle", "The place is in an obstacle.", "place", "x", "y"

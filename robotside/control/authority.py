@@ -8,10 +8,22 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
+from bridge.core.codes import Code
 from bridge.core.link_state import CONTROL_TIMEOUT
+from robotside.core.notice import Notice, Problem
 from robotside.core.text import number, plain
 
-__all__ = ["AGAIN", "REMEMBERED", "SILENT", "TO_OBJECT", "Asker", "Authority", "Driver", "Operator"]
+__all__ = [
+    "AGAIN",
+    "NOT_ASKED",
+    "REMEMBERED",
+    "SILENT",
+    "TO_OBJECT",
+    "Asker",
+    "Authority",
+    "Driver",
+    "Operator",
+]
 
 SILENT = 1.0
 """A driver who was not heard for this long may come back over another connection [s]; until then that is somebody else."""
@@ -21,6 +33,8 @@ TO_OBJECT = 10.0
 
 AGAIN = 30.0
 """Whom a driver objected to may ask the same driver again so long afterwards [s]."""
+
+NOT_ASKED = Notice(Code.CONTROL_NOT_ASKED, "Nobody asks for control.")
 
 LONGEST_NAME = 40
 """Characters kept of what a client calls itself."""
@@ -79,7 +93,8 @@ class Authority:
         self._names: dict[str, tuple[str, str]] = {}
         self._called: dict[str, tuple[str, str]] = {}
         """What an id wants to be called and what it is called, the one that was heard last at the end."""
-        self._fell = ""
+        self._fell = self.fell_id = ""
+        """The name of a driver who fell silent, until `mind` has returned it, and the id of the last one who did."""
         self._refused: dict[tuple[str, str], float] = {}
 
     @property
@@ -131,7 +146,7 @@ class Authority:
         """`client` has control, over this connection."""
         return self._driver is not None and self._driver.client.id == client.id
 
-    def objection(self, client: Operator, advice: str = "ask there, or wait until it is released") -> str:
+    def objection(self, client: Operator, advice: str = "ask there, or wait until it is released") -> Problem:
         """Why `client` may not change what the robot will do, with an `advice`; empty when it may.
 
         One id may drive over one connection: another with the same counts as the same only when the first has been
@@ -141,12 +156,13 @@ class Authority:
         if held is None or client.id == held.client.id:
             return ""
         if self.id(client) != held.client_id:
-            return f"{held.name} has control; {advice}."
+            return _held(held, advice)
         if client.last_heard - held.client.last_heard > SILENT:
             return ""
-        return f"{held.name} has control over another connection with the same client_id; {advice}."
+        said = f"{held.name} has control over another connection with the same client_id; {advice}."
+        return Notice(Code.CONTROL_HELD_ELSEWHERE, said, actor_id=held.client_id, name=held.name)
 
-    def acquire(self, client: Operator, now: float) -> str:
+    def acquire(self, client: Operator, now: float) -> Problem:
         """Give control to `client` if it is free or its own."""
         self._look(now)
         problem = self.objection(client)
@@ -154,7 +170,7 @@ class Authority:
             self._give(client)
         return problem
 
-    def release(self, client: Operator) -> str:
+    def release(self, client: Operator) -> Problem:
         """Take control from `client`, for who asked for it if anybody did; or take back that `client` asks for it."""
         if self._asker is not None and self._asker.client.id == client.id:
             self._asker = None
@@ -164,7 +180,7 @@ class Authority:
             self._pass_on()
         return problem
 
-    def request(self, client: Operator, now: float) -> str:
+    def request(self, client: Operator, now: float) -> Problem:
         """Give control to `client` at once if it may have it, else ask the driver, who has TO_OBJECT to object.
 
         Asking again changes nothing; there is one who asks at a time.
@@ -175,26 +191,25 @@ class Authority:
         if held is None or not problem or client_id == held.client_id:
             return problem
         if asker is not None:
-            same = asker.client_id == client_id
-            return (
-                ""
-                if same
-                else f"{asker.name} has asked {held.name} for control already; wait for the answer."
-            )
+            return "" if asker.client_id == client_id else _asked_already(asker, held)
         wait = self._refused.get((held.client_id, client_id), now) - now
         if wait > 0:
-            return f"{held.name} has objected; ask again in {number(wait)} s."
+            said, code = (
+                f"{held.name} has objected; ask again in {number(wait)} s.",
+                Code.CONTROL_OBJECTED_LATELY,
+            )
+            return Notice(code, said, actor_id=held.client_id, name=held.name, seconds=wait)
         self._asker = Asker(client_id, name, client, now + TO_OBJECT)
         return ""
 
-    def grant(self, client: Operator) -> str:
+    def grant(self, client: Operator) -> Problem:
         """The driver hands control over to who asks for it."""
         problem = self._answering(client)
         if not problem:
             self._pass_on()
         return problem
 
-    def object(self, client: Operator, now: float) -> str:
+    def object(self, client: Operator, now: float) -> Problem:
         """The driver keeps control; who asked may ask again after AGAIN."""
         problem = self._answering(client)
         if problem or self._driver is None or self._asker is None:
@@ -208,7 +223,7 @@ class Authority:
     def mind(self, now: float) -> str:
         """Let control lapse and go over when it is time.
 
-        Returns the name of a driver who fell silent since the last call, empty when none did.
+        Returns the name of a driver who fell silent since the last call, whose id is `fell_id`; empty when none did.
         """
         self._look(now)
         fell, self._fell = self._fell, ""
@@ -218,7 +233,7 @@ class Authority:
         if self._asker is not None and now - self._asker.client.last_heard > CONTROL_TIMEOUT:
             self._asker = None
         if self._driver is not None and now - self._driver.client.last_heard > CONTROL_TIMEOUT:
-            self._fell = self._driver.name
+            self._fell, self.fell_id = self._driver.name, self._driver.client_id
             self._pass_on()
         elif self._asker is not None and now >= self._asker.due:
             self._pass_on()
@@ -233,11 +248,11 @@ class Authority:
         self._names.pop(client.id, None)
         return held
 
-    def _answering(self, client: Operator) -> str:
+    def _answering(self, client: Operator) -> Problem:
         if self._driver is None or self._asker is None:
-            return "Nobody asks for control."
+            return NOT_ASKED
         if not self.holds(client):
-            return f"{self._driver.name} has control; only its holder can answer."
+            return _held(self._driver, "only its holder can answer")
         return ""
 
     def _pass_on(self) -> None:
@@ -253,3 +268,14 @@ class Authority:
 
     def _identity(self, client: Operator) -> tuple[str, str]:
         return self._names.get(client.id, (client.id, f"a client at {client.address}"))
+
+
+def _held(held: Driver, advice: str) -> Notice:
+    said = f"{held.name} has control; {advice}."
+    return Notice(Code.CONTROL_HELD, said, actor_id=held.client_id, name=held.name)
+
+
+def _asked_already(asker: Asker, held: Driver) -> Notice:
+    said = f"{asker.name} has asked {held.name} for control already; wait for the answer."
+    code = Code.CONTROL_ASKED_ALREADY
+    return Notice(code, said, actor_id=asker.client_id, name=asker.name, driver=held.name)

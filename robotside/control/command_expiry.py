@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import math
 
+from bridge.core.codes import Code
 from robotside.control.authority import Operator
+from robotside.core.notice import Notice, Problem
 from robotside.core.text import number
 
 __all__ = ["AHEAD", "HELD", "UNSTAMPED", "VALID", "Expiry"]
@@ -50,7 +52,7 @@ class Expiry:
         lead = self._leads.get(client.id)
         return min(stamp - (lead.ahead if lead else 0.0), now)
 
-    def fault(self, client: Operator, now: float, stamp: float | None, *, rest: bool) -> str:
+    def fault(self, client: Operator, now: float, stamp: float | None, *, rest: bool) -> Problem:
         """Why a drive command that has just come does not count, as one sentence; empty when it does.
 
         `stamp` is when it was given [s]; None and NaN when nobody said: then it is as old as it can be at most. `rest`
@@ -60,16 +62,19 @@ class Expiry:
             return "" if rest else _untold(now - client.answered)
         if not client.asked_time:
             said = "its stamp is of a clock that was never compared with the robot's"
-            return f"A drive command was dropped: {said}; ask /rosapi/get_time first."
+            said = f"A drive command was dropped: {said}; ask /rosapi/get_time first."
+            return Notice(Code.DRIVE_CLOCK_UNKNOWN, said)
         if stamp - now > AHEAD:
-            return f"A drive command was dropped: its clock is {number(stamp - now)} s ahead of the robot's."
+            said = f"A drive command was dropped: its clock is {number(stamp - now)} s ahead of the robot's."
+            return Notice(Code.DRIVE_CLOCK_AHEAD, said, seconds=stamp - now)
         self._leads.setdefault(client.id, _Lead()).learn(stamp, now, client.rtt)
         allowed, age = VALID if rest else HELD, now - self.given(client, now, stamp)
         if age > allowed:
             late = f"it came {number(age)} s late and has to come within {allowed} s"
-            return f"A drive command was dropped: {late}."
+            return Notice(Code.DRIVE_LATE, f"A drive command was dropped: {late}.", age=age, allowed=allowed)
         if stamp <= self._newest.get(client.id, -math.inf):
-            return "A drive command was dropped: a newer one came before it."
+            said = "A drive command was dropped: a newer one came before it."
+            return Notice(Code.DRIVE_OVERTAKEN, said)
         self._newest[client.id] = stamp
         return ""
 
@@ -97,8 +102,9 @@ class _Lead:
         self._at = now
 
 
-def _untold(age: float) -> str:
+def _untold(age: float) -> Problem:
     if age <= UNSTAMPED:
         return ""
     may, allowed = f"it has no stamp and may be {number(age)} s old", f"{UNSTAMPED} s is allowed"
-    return f"A drive command was dropped: {may}; {allowed}."
+    said = f"A drive command was dropped: {may}; {allowed}."
+    return Notice(Code.DRIVE_UNSTAMPED, said, age=age, allowed=UNSTAMPED)

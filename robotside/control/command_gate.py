@@ -9,16 +9,18 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.control.authority import Authority, Operator
 from robotside.control.command_expiry import HELD, Expiry
 from robotside.control.latency_speed_cap import Pace
 from robotside.control.neutral_interlock import LET_GO, Sticks
+from robotside.core.notice import Notice, Problem
 from robotside.motion.manoeuvres import Order, at_rest, finite, paced
 
 __all__ = ["SOMEBODY", "STOP_SENTENCE", "Controls", "Ruling"]
 
-STOP_SENTENCE = "STOP is pressed; hold Release to drive again."
+STOP_SENTENCE = Notice(Code.STOP_IS_PRESSED, "STOP is pressed; hold Release to drive again.")
 
 SOMEBODY = "somebody"
 """Who pressed STOP without a name."""
@@ -34,7 +36,7 @@ class Ruling:
 
     order: Order | None
     """To pass to the robot at once; None when it must not be."""
-    said: str = ""
+    said: Problem = ""
     """Why not, as one sentence; empty when nobody needs to know."""
 
 
@@ -105,7 +107,7 @@ class Controls(Authority):
         *,
         stamp: float | None = None,
         auto: bool = False,
-        trouble: str = "",
+        trouble: Problem = "",
     ) -> Ruling:
         """Judge a drive command that has just come; `stamp` is when it was given [s], None when nobody said.
 
@@ -162,14 +164,15 @@ class Controls(Authority):
         self.hold()
         self._sticks.void_all()
 
-    def _refusal(self, client: Operator, now: float, counts: bool) -> str:
+    def _refusal(self, client: Operator, now: float, counts: bool) -> Problem:
         """Why a sound command of `client` is not obeyed; empty when it is, and then it has control."""
         if self.stopped:
             return STOP_SENTENCE
         self._look(now)
         return self.objection(client) or (self.acquire(client, now) if counts else LET_GO)
 
-    def _fault(self, client: Operator, order: Order, now: float, stamp: float | None) -> str:
+    def _fault(self, client: Operator, order: Order, now: float, stamp: float | None) -> Problem:
         if not finite(order):
-            return "A drive command was dropped: its speeds are not all numbers."
+            said = "A drive command was dropped: its speeds are not all numbers."
+            return Notice(Code.DRIVE_INVALID, said)
         return self._expiry.fault(client, now, stamp, rest=at_rest(order))

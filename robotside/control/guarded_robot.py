@@ -7,9 +7,11 @@ from collections.abc import Callable, Iterable
 
 from msgspec.structs import replace
 
+from bridge.core.codes import Code
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Pose, Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
+from robotside.core.notice import Notice, Problem
 from robotside.core.robot import Equipped, Levelled, Manoeuvrable, Resettable, Robot, Stoppable
 from robotside.motion.manoeuvres import BY_ITSELF, Order
 
@@ -49,9 +51,10 @@ class Guarded:
         self._given: Order | None = None
 
     @property
-    def trouble(self) -> str:
+    def trouble(self) -> Problem:
         """Why it can be neither driven nor heard just now; empty when all is well."""
-        return self._robot.trouble
+        trouble = self._robot.trouble
+        return Notice(Code.ROBOT_UNREACHABLE, trouble) if trouble else ""
 
     def press_stop(self) -> None:
         """Brake, hold what moves on it, and press the STOP behind, if the robot has one of its own."""

@@ -8,8 +8,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 
+from bridge.core.codes import Code
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
+from robotside.core.notice import Notice, Problem
 from robotside.motion.manoeuvres import Order
 from robotside.records.events import Say
 
@@ -22,11 +24,12 @@ ROUNDED = 1.01
 """A stick at its stop may be above the limit by so much: numbers are rounded on their way."""
 
 
-def excess(order: Order, info: RobotInfo) -> str:
+def excess(order: Order, info: RobotInfo) -> Problem:
     """What of `order` is more than the robot may do, with what is allowed, as one sentence; empty when nothing is."""
     for says, asked, most, unit in _asked(order, info):
         if abs(asked) > most * ROUNDED:
-            return f"{info.name} {says} at most {_number(most)}{unit}; {_number(abs(asked))}{unit} was asked for."
+            said = f"{info.name} {says} at most {_number(most)}{unit}; {_number(abs(asked))}{unit} was asked for."
+            return Notice(Code.DRIVE_EXCESSIVE, said, robot=info.name, asked=abs(asked), allowed=most)
     return ""
 
 

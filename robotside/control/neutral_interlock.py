@@ -7,6 +7,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from bridge.core.codes import Code
+from robotside.core.notice import Notice
+
 __all__ = ["LET_GO", "Sticks"]
 
 PAUSE = 0.5
@@ -15,7 +18,10 @@ PAUSE = 0.5
 NOTICED = 0.7
 """A robot that stands for longer though its stick is pushed has stopped in its driver's eyes [s]; less is a hiccup of the link."""
 
-LET_GO = "The robot was stopped while the stick was held: let the stick go once, then push it again."
+LET_GO = Notice(
+    Code.DRIVE_NOT_RELEASED,
+    "The robot was stopped while the stick was held: let the stick go once, then push it again.",
+)
 
 
 @dataclass(slots=True)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from bridge.core.codes import Code
+from robotside.core.notice import Notice
 from robotside.records import Records
 from robotside.records.events import Say
 
@@ -39,10 +41,12 @@ class Latch:
                 ("pressed", "release it") if self._records.stopped_by else ("released", "press it")
             )
             said = f"a restart of the robot's computer would {outcome}. {self._records.trouble}".strip()
-            self._say("stop", f"That STOP is {state} could not be kept: {said}", "alarm")
+            said = f"That STOP is {state} could not be kept: {said}"
+            self._say("stop", Notice(Code.STOP_UNKEPT, said, state=state), "alarm")
 
     def _look(self) -> None:
         if self._unkept and self._records.stop_kept:
             self._unkept = False
             state = "pressed" if self._records.stopped_by else "released"
-            self._say("stop", f"That STOP is {state} is kept now.", "ok")
+            said = f"That STOP is {state} is kept now."
+            self._say("stop", Notice(Code.STOP_KEPT, said, state=state), "ok")

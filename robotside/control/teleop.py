@@ -6,15 +6,17 @@ import math
 from collections.abc import Callable
 from typing import Protocol
 
+from bridge.core.codes import Code
 from bridge.core.link_state import CONTROL_TIMEOUT
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from robotside.control.authority import TO_OBJECT, Operator
+from robotside.control.authority import NOT_ASKED, TO_OBJECT, Asker, Driver, Operator
 from robotside.control.command_gate import Controls
 from robotside.control.guarded_robot import Guarded
 from robotside.control.limit_violations import Excesses
 from robotside.control.safe_state import Act, SafeState
 from robotside.core.config import ControlSettings
+from robotside.core.notice import Notice, Problem
 from robotside.core.refusal import Refusal
 from robotside.kinds.registry import kind_of
 from robotside.limits.bumper_guard import AGAIN, kept_off
@@ -36,7 +38,7 @@ class TaskRunner(Protocol):
     def running(self) -> bool:
         """A task is under way and moves the robot."""
 
-    def pause(self, reason: str, level: str = "info") -> None:
+    def pause(self, reason: Notice, level: str = "info") -> None:
         """Hold the running task where it is; `reason` is one sentence."""
 
 
@@ -64,9 +66,11 @@ class Options:
     def set(self, name: str, value: str, then: Callable[[], object]) -> None:
         """Switch one, and call `then` once that is kept; Refusal for what does not exist."""
         if name not in self._usual:
-            raise Refusal(f"There is no setting {name!r}; there are {', '.join(self._usual)}.")
+            said = f"There is no setting {name!r}; there are {', '.join(self._usual)}."
+            raise Refusal(Notice(Code.SETTING_UNKNOWN, said, setting=name))
         if value not in ("on", "off"):
-            raise Refusal(f"{name} is on or off, not {value!r}.")
+            said = f"{name} is on or off, not {value!r}."
+            raise Refusal(Notice(Code.SETTING_VALUE_UNKNOWN, said, setting=name, value=value))
         self._keep(name, value, then)
 
 
@@ -103,19 +107,24 @@ class Helm:
         """Bring everything up to `now` [s, robot clock]."""
         clock, controls = self._clock(), self._controls
         if self._engine.running and turned_over(self._measured(), self._robot.info.kind):
-            self._engine.pause(f"Paused: {self._robot.info.name} has turned over.", "alarm")
+            robot = self._robot.info.name
+            over = Notice(Code.TASK_OVERTURNED, f"Paused: {robot} has turned over.", robot=robot)
+            self._engine.pause(over, "alarm")
         lost = controls.mind(clock)
         if lost:
-            self._say(
-                "control", f"{lost} was not heard for {CONTROL_TIMEOUT:.0f} s and lost control.", "warn"
+            said, who = (
+                f"{lost} was not heard for {CONTROL_TIMEOUT:.0f} s and lost control.",
+                controls.fell_id,
             )
-            self._lost(lost, now)
+            lapsed = Notice(Code.CONTROL_LAPSED, said, actor_id=who, name=lost, seconds=CONTROL_TIMEOUT)
+            self._say("control", lapsed, "warn")
+            self._lost(lost, who, now)
         controls.look(clock)
         if controls.expired(clock) and not self._engine.running:
             self.rest(now)
         self._keep_safe(now)
 
-    def drive(self, client: Operator, order: Order, stamp: float | None) -> str:
+    def drive(self, client: Operator, order: Order, stamp: float | None) -> Problem:
         """Obey a drive command, a twist or a manoeuvre, or say why not; empty when there is nothing to say.
 
         `stamp` is when it was given [s, operators' clock], None when nobody said.
@@ -132,7 +141,9 @@ class Helm:
         if ruling.order is None:
             return ruling.said
         self._safe.leave()
-        engine.pause(f"Paused: {self._controls.name(client)} took the stick.", "warn")
+        name, client_id = self._controls.name(client), self._controls.id(client)
+        said = f"Paused: {name} took the stick."
+        engine.pause(Notice(Code.TASK_TAKEN_OVER, said, actor_id=client_id, name=name), "warn")
         self._excesses.look(client.id, order)
         self._ran = self._returned = False
         self._robot.follow(self._kept_off(settled(ruling.order, self._robot.info)))
@@ -145,29 +156,33 @@ class Helm:
             return order
         before, self._pushed = self._pushed, self._clock()
         if self._pushed - before > AGAIN:
-            self._say("control", "It touches something there: no stick pushes it on. Drive it away.", "warn")
+            said = "It touches something there: no stick pushes it on. Drive it away."
+            self._say("control", Notice(Code.DRIVE_TOUCHES, said), "warn")
         return left
 
-    def _grounded(self, order: Order) -> str:
+    def _grounded(self, order: Order) -> Problem:
         """Why `order` starts no rotors: that takes a task, which nobody gives by brushing against a stick; empty when it need not."""
         info, measured = self._robot.info, self._measured()
         twist = order if isinstance(order, Twist) else order.twist
         stands = measured.landed and not measured.overturned  # of that it is told why nothing moves it
         if not (kind_of(info.kind).flies and stands and twist.linear.z > 0):
             return ""
-        return f"{info.name} stands on the ground: sticks start no rotors, the task take_off does."
+        said = f"{info.name} stands on the ground: sticks start no rotors, the task take_off does."
+        return Notice(Code.DRIVE_ON_GROUND, said, robot=info.name)
 
-    def _strange(self, order: Order) -> str:
+    def _strange(self, order: Order) -> Problem:
         """Why nobody can drive this robot by such an order, as one sentence; empty when somebody can."""
         if not isinstance(order, Manoeuvre):
             return ""
         info = self._robot.info
         if order.kind not in BY_STICK:
             said = f"it is {', '.join(BY_STICK[:-1])} or {BY_STICK[-1]}, not {order.kind!r}"
-            return f"A drive command was dropped: {said}."
+            dropped = f"A drive command was dropped: {said}."
+            return Notice(Code.DRIVE_KIND_UNKNOWN, dropped, kind=order.kind)
         lacks = {"steer": not info.max_steering, "tilt": not info.max_tilt}
         if lacks.get(order.kind) and order.kind not in info.manoeuvres:
-            return f"A drive command was dropped: {info.name} cannot {order.kind}."
+            said = f"A drive command was dropped: {info.name} cannot {order.kind}."
+            return Notice(Code.DRIVE_UNABLE, said, robot=info.name, kind=order.kind)
         return ""
 
     def put_back(self) -> None:
@@ -183,15 +198,19 @@ class Helm:
 
     def gone(self, client: Operator, now: float) -> None:
         """A client's socket closed; if it was driving, the robot takes its safe state at once."""
-        drove, name = self._controls.drives(client), self._controls.name(client)
+        drove, name, who = (
+            self._controls.drives(client),
+            self._controls.name(client),
+            self._controls.id(client),
+        )
         held = self._controls.gone(client)
         self._excesses.forget(client.id)
         if drove and not self._engine.running:
             self.rest(now)
         if held:
-            self._lost(name, now)
+            self._lost(name, who, now)
 
-    def release(self, client: Operator, now: float) -> str:
+    def release(self, client: Operator, now: float) -> Problem:
         """Give control back; returns why not, empty when done. A robot driven by hand takes its safe state."""
         problem = self._controls.release(client)
         self._handed(now)
@@ -208,15 +227,14 @@ class Helm:
         if asker is None or held is None or controls.holds(client):
             return "You have control."
         if asker is not before:
-            said = f"{asker.name} asks for control; it goes over in {TO_OBJECT:.0f} s unless {held.name} objects."
-            self._say("control", said, "warn")
+            self._say("control", _asks(asker, held), "warn")
         return f"{held.name} is asked; you have control in {max(0.0, asker.due - self._clock()):.0f} s unless {held.name} objects."
 
     def grant(self, client: Operator, now: float) -> str:
         """Hand control over to who asks; the sentence of success, or Refusal."""
         problem = self._controls.grant(client)
         if problem or self._controls.driver is None:
-            raise Refusal(problem)
+            raise Refusal(problem or NOT_ASKED)
         self._handed(now)
         return f"{self._controls.driver.name} has control."
 
@@ -225,8 +243,10 @@ class Helm:
         asker = self._controls.asker
         problem = self._controls.object(client, self._clock())
         if problem or asker is None:
-            raise Refusal(problem)
-        self._say("control", f"{self._controls.name(client)} objected: {asker.name} does not get control.")
+            raise Refusal(problem or NOT_ASKED)
+        name, client_id = self._controls.name(client), self._controls.id(client)
+        said, code = f"{name} objected: {asker.name} does not get control.", Code.CONTROL_OBJECTED
+        self._say("control", Notice(code, said, actor_id=client_id, name=name, asker=asker.name))
         return f"You keep control; {asker.name} is told."
 
     def _handed(self, now: float) -> None:
@@ -234,10 +254,11 @@ class Helm:
         if self._controls.expired(self._clock()) and not self._engine.running:
             self.rest(now)
 
-    def _lost(self, name: str, now: float) -> None:
+    def _lost(self, name: str, client_id: str, now: float) -> None:
         """Who had control is not heard any more: a task goes on, unless it was told otherwise."""
         if self._options.on(LOST_LINK_STOPS_TASK):
-            self._engine.pause(f"Paused: the link to {name} was lost.", "warn")
+            said = f"Paused: the link to {name} was lost."
+            self._engine.pause(Notice(Code.TASK_LINK_LOST, said, actor_id=client_id, name=name), "warn")
         if not (self._engine.running or self._safe.brakes):
             self._enter(now)
 
@@ -263,7 +284,7 @@ class Helm:
         if act.home and not (before and before.home):
             self._returned = self._go_home()
             if self._returned:
-                self._say("control", "Nobody drives the robot: it goes home.", "warn")
+                self._say("control", _nobody_drives("goes home"), "warn")
                 return
             self._safe.cannot_return()
         if act.order is not None:
@@ -274,4 +295,14 @@ class Helm:
         elif before is None or before.twist is not None:
             self._robot.stop()
         if before is not None and act.phase != before.phase and act.phase not in ("is at rest", "brakes"):
-            self._say("control", f"Nobody drives the robot: it {act.phase}.", "warn")
+            self._say("control", _nobody_drives(act.phase), "warn")
+
+
+def _asks(asker: Asker, held: Driver) -> Notice:
+    said = f"{asker.name} asks for control; it goes over in {TO_OBJECT:.0f} s unless {held.name} objects."
+    who, name, driver = asker.client_id, asker.name, held.name
+    return Notice(Code.CONTROL_ASKED, said, actor_id=who, name=name, driver=driver, seconds=TO_OBJECT)
+
+
+def _nobody_drives(does: str) -> Notice:
+    return Notice(Code.NOBODY_DRIVES, f"Nobody drives the robot: it {does}.", phase=does)

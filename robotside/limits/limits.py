@@ -13,9 +13,11 @@ from typing import NamedTuple
 import msgspec
 import numpy as np
 
+from bridge.core.codes import Code
 from bridge.msgs.geometry_msgs import Point32, Polygon, Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
 from robotside.core.config import LimitSettings, Ring
+from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Pose2
 from robotside.core.text import place_sentence
 from robotside.kinds.registry import kind_of
@@ -32,7 +34,7 @@ from robotside.motion.stopping_path import REACTION, PlanarVelocity
 __all__ = ["GOAL_ROOM", "PATH_ROOM", "ClampedTwist", "LimitKeeper", "KeptOrder", "turned_over"]
 
 GOAL_ROOM = 0.4
-"""Kept between the body and the fence at a goal [m]: following a path is not exact."""
+"""KeptOrder between the body and the fence at a goal [m]: following a path is not exact."""
 PATH_ROOM = 0.15
 """Of the map, what is nearer than this to the fence is no place to plan through [m]."""
 STEEP_FROM, STEEP_SLOWEST = 0.8, 0.3
@@ -43,14 +45,17 @@ DIVING = 0.1
 """From this pitch on a swimmer goes up and down as it goes ahead, and its fins cannot make up for that [rad]."""
 UNSURE = 0.25
 """A robot that is not sure of its place goes at this part of its speed while it has a fence."""
-NOT_PLACED = "The robot does not know where it is, so it cannot keep to its fence; place it on the map."
+NOT_PLACED = Notice(
+    Code.FENCE_UNPLACED,
+    "The robot does not know where it is, so it cannot keep to its fence; place it on the map.",
+)
 
 
 class ClampedTwist(NamedTuple):
     """A drive command as it may be done."""
 
     twist: Twist
-    why: str = ""
+    why: Problem = ""
     """What holds it back by more than half, as one sentence; empty when nothing does."""
 
 
@@ -58,7 +63,7 @@ class KeptOrder(NamedTuple):
     """An order of any kind as it may be done."""
 
     order: Order
-    why: str = ""
+    why: Problem = ""
     """As that of `ClampedTwist`."""
 
 
@@ -117,28 +122,32 @@ class LimitKeeper:
         """The lowest and the highest [m] at which it may be that can go from one to the other of its `own`."""
         return max(own[0], self._deepest), min(own[1], self._height)
 
-    def fault(self, name: str, x: float, y: float) -> str:
+    def fault(self, name: str, x: float, y: float) -> Problem:
         """Why the robot may not be sent to a place [m, in `map`], as one sentence that calls it `name`; empty when it may."""
         if not self._fence:
             return ""
         where = place_sentence(name, x, y)
         room = self.room(x, y)
         if not room > 0:
-            return f"{where} is outside the robot's fence."
+            return Notice(
+                Code.PLACE_OUTSIDE_FENCE, f"{where} is outside the robot's fence.", place=name, x=x, y=y
+            )
         need = self._radius + max(GOAL_ROOM, self._doubt + 2 * PATH_ROOM)
         if room < need:
-            return f"{where} is {room:.2f} m from the robot's fence; the robot needs {need:.2f} m."
+            said = f"{where} is {room:.2f} m from the robot's fence; the robot needs {need:.2f} m."
+            return Notice(Code.PLACE_NEAR_FENCE, said, place=name, x=x, y=y)
         return ""
 
     def room(self, x: float, y: float) -> float:
         """From a place [m, in `map`] to the fence [m]; negative outside, infinite without one."""
         return float(self._fence.clearance(np.array([[x, y]]))[0])
 
-    def outside(self, pose: Pose2 | None) -> str:
+    def outside(self, pose: Pose2 | None) -> Problem:
         """Why the robot cannot start by itself from where it is, as one sentence; empty when it can."""
         if pose is None or not self._fence or self._fence.allows(np.array([pose[:2]]))[0]:
             return ""
-        return f"{place_sentence('The robot', pose.x, pose.y)} is outside its fence; drive it back by hand first."
+        said = f"{place_sentence('The robot', pose.x, pose.y)} is outside its fence; drive it back by hand first."
+        return Notice(Code.FENCE_LEFT, said, x=pose.x, y=pose.y)
 
     def marked(self, grid: Grid) -> Grid:
         """The map to plan on: where one may not be counts as occupied."""
@@ -171,9 +180,9 @@ class LimitKeeper:
     def _clamped(self, twist: Twist, measured: MeasuredState) -> ClampedTwist:
         self._back = False
         if turned_over(measured, self.info.kind):
-            return ClampedTwist(
-                Twist(), f"{self.info.name or 'The robot'} has turned over; put it upright first."
-            )
+            name = self.info.name or "The robot"
+            said = f"{name} has turned over; put it upright first."
+            return ClampedTwist(Twist(), Notice(Code.ROBOT_OVERTURNED, said, robot=name))
         fitted = self._upright(slower(twist, self.info.max_speed, self.info.max_yaw_rate), measured)
         level = self._level(fitted.twist, measured)
         fenced = self._fenced(level.twist, measured)
@@ -192,10 +201,10 @@ class LimitKeeper:
         else:
             part = allowed / rise if rise else 1.0
             fitted = Vector3(part * v.x, v.y, part * v.z)
-        why = ""
+        why: Problem = ""
         if abs(allowed) < abs(rise) / 2:
             limit = self._height if rise > 0 else self._deepest
-            why = f"The robot goes no {'higher' if rise > 0 else 'deeper'} than {_level_words(limit)}."
+            why = _no_farther(limit, up=rise > 0)
         return ClampedTwist(Twist(fitted, twist.angular), why)
 
     def _speed_within(self, room: float) -> float:
@@ -221,9 +230,11 @@ class LimitKeeper:
         if v.x * self._came[0] + v.y * self._came[1] <= 0:
             return ClampedTwist(_scaled(twist, STEEP_SLOWEST, self._handling))
         said = f"It is steeper here, {math.degrees(tilt):.0f} degrees, than the {math.degrees(self._slope):.0f} allowed"
-        return ClampedTwist(_scaled(twist, 0.0, self._handling), f"{said}; drive back.")
+        return ClampedTwist(
+            _scaled(twist, 0.0, self._handling), Notice(Code.DRIVE_STEEP, f"{said}; drive back.")
+        )
 
-    def adrift(self, measured: MeasuredState) -> str:
+    def adrift(self, measured: MeasuredState) -> Problem:
         """What to say of a robot that is carried over its fence, whether it may go back or STOP is pressed; empty for nothing.
 
         Call it whenever something new is measured.
@@ -283,7 +294,8 @@ class LimitKeeper:
         room = self._fencing.room(pose)
         where = f"is {room:.1f} m away" if room > 0.05 else "is here"
         known = f" and it knows its place to {SURE_ENOUGH * measured.spread:.1f} m only" if doubt else ""
-        return ClampedTwist(kept, f"The robot's fence {where}{known}: it goes no nearer.")
+        said = f"The robot's fence {where}{known}: it goes no nearer."
+        return ClampedTwist(kept, Notice(Code.FENCE_NEAR, said, room=room))
 
     def _drifts_out(self, moving: PlanarVelocity, pose: Pose2, doubt: float, kept: Twist) -> bool:
         """It is carried over the fence, or will be, and what is left of its order does not bring it back."""
@@ -320,13 +332,14 @@ def _scaled(twist: Twist, part: float, handling: Handling) -> Twist:
     return Twist(Vector3(part * v.x, part * v.y, v.z), Vector3(w.x, w.y, turn * w.z))
 
 
-def _unsure(measured: MeasuredState) -> str:
+def _unsure(measured: MeasuredState) -> Problem:
     """Why its place is not sure enough to promise a fence, as one sentence; empty when it is."""
     off = SURE_ENOUGH * measured.spread
     if measured.sure and not off > MOST_DOUBT:
         return ""
     how = f"to {off:.1f} m only" if off > MOST_DOUBT else "for sure"
-    return f"The robot does not know {how} where it is, so its fence is not certain: it goes slowly; place it on the map."
+    said = f"The robot does not know {how} where it is, so its fence is not certain: it goes slowly; place it on the map."
+    return Notice(Code.FENCE_UNSURE, said)
 
 
 def _direction(measured: MeasuredState) -> tuple[float, float]:
@@ -344,11 +357,16 @@ def _highest(settings: LimitSettings) -> float:
     return min(settings.max_height if settings.max_height is not None else math.inf, shallowest)
 
 
-def _level_cut(asked: float, allowed: float) -> str:
+def _level_cut(asked: float, allowed: float) -> Problem:
     """What is to be said of a height that was asked for and of the one that it goes to; empty where that is the same."""
     if math.isnan(asked) or asked == allowed:
         return ""
-    return f"The robot goes no {'higher' if asked > allowed else 'deeper'} than {_level_words(allowed)}."
+    return _no_farther(allowed, up=asked > allowed)
+
+
+def _no_farther(limit: float, *, up: bool) -> Notice:
+    said = f"The robot goes no {'higher' if up else 'deeper'} than {_level_words(limit)}."
+    return Notice(Code.DRIVE_LEVEL, said, height=limit)
 
 
 def _level_words(height: float) -> str:

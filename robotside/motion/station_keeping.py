@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import math
 
+from bridge.core.codes import Code
 from bridge.msgs.geometry_msgs import Twist
+from robotside.core.notice import Notice, Problem
 from robotside.motion.speed_limit import within
 
 __all__ = ["BACK_AT", "BACK_TO", "CREEP", "DRIFTS", "DriftMonitor", "back", "way_back"]
@@ -49,7 +51,7 @@ class DriftMonitor:
     def __init__(self) -> None:
         self._said = False
 
-    def told(self, name: str, room: float, outward: float, *, returns: bool = False) -> str:
+    def told(self, name: str, room: float, outward: float, *, returns: bool = False) -> Problem:
         """What to say of a robot with this `room` [m] that goes `outward` [m/s]; empty for nothing."""
         if room > BACK_TO:
             self._said = False
@@ -57,8 +59,5 @@ class DriftMonitor:
             return ""
         self._said = True
         name = name or "The robot"
-        return (
-            f"{name} drifts towards its fence; it goes back by itself."
-            if returns
-            else f"{name} drifts over its fence."
-        )
+        does = "towards its fence; it goes back by itself" if returns else "over its fence"
+        return Notice(Code.FENCE_DRIFT, f"{name} drifts {does}.", robot=name)

@@ -7,6 +7,8 @@ from collections.abc import Generator
 
 import numpy as np
 
+from bridge.core.codes import Code
+from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Points
 from robotside.core.text import place_sentence
 from robotside.mapping.occupancy_grid import Grid
@@ -55,26 +57,29 @@ class Planner:
         self._reach = radius + REACH
         _ = self.grid.distance  # now, and not while somebody waits for a way
 
-    def fault(self, name: str, x: float, y: float) -> str:
+    def fault(self, name: str, x: float, y: float) -> Problem:
         """Why the robot cannot stand at this place, as one sentence; empty when it can."""
         where = place_sentence(name, x, y)
         if not self.grid.holds(x, y):
-            return f"{where} is off the map."
+            return Notice(Code.PLACE_OFF_MAP, f"{where} is off the map.", place=name, x=x, y=y)
         room = self.grid.clearance(np.array([[x, y]]))[0]
         if room <= 0:
-            return f"{where} is in a wall or another obstacle."
+            said = f"{where} is in a wall or another obstacle."
+            return Notice(Code.PLACE_IN_OBSTACLE, said, place=name, x=x, y=y)
         if room < self._need:
-            return f"{where} is {room:.2f} m from an obstacle; the robot needs {self._need:.2f} m."
+            said = f"{where} is {room:.2f} m from an obstacle; the robot needs {self._need:.2f} m."
+            return Notice(Code.PLACE_NEAR_OBSTACLE, said, place=name, x=x, y=y)
         return ""
 
-    def off_map(self, name: str, x: float, y: float) -> str:
+    def off_map(self, name: str, x: float, y: float) -> Problem:
         """Why this place is none on the map and how far the map reaches, as one sentence; empty when it is one."""
         if self.grid.holds(x, y):
             return ""
         grid, (rows, columns) = self.grid, self.grid.occupied.shape
         right, top = grid.x + columns * grid.resolution, grid.y + rows * grid.resolution
         reach = f"x {grid.x:.1f} to {right:.1f} m, y {grid.y:.1f} to {top:.1f} m"
-        return f"{place_sentence(name, x, y)} is off the map, which is {reach}."
+        said = f"{place_sentence(name, x, y)} is off the map, which is {reach}."
+        return Notice(Code.PLACE_OFF_MAP, said, place=name, x=x, y=y)
 
     def plan(
         self,

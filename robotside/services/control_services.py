@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
+from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Service
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
@@ -16,6 +17,7 @@ from bridge.msgs.pilothouse_msgs import (
 from robotside.control.authority import Operator
 from robotside.control.command_gate import STOP_SENTENCE
 from robotside.control.teleop import FOLLOW_LINK, LOST_LINK_STOPS_TASK
+from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.services.command_service import Answering
 from robotside.services.preconditions import Permits
@@ -74,7 +76,8 @@ class _Steering:
         """MANUAL pauses the task and keeps every other from starting by itself, AUTO goes on with what there is."""
         station = self._station
         if asked.mode not in ("MANUAL", "AUTO"):
-            raise Refusal(f"The mode is MANUAL or AUTO, not {asked.mode!r}.")
+            said = f"The mode is MANUAL or AUTO, not {asked.mode!r}."
+            raise Refusal(Notice(Code.MODE_UNKNOWN, said, mode=asked.mode))
         if station.controls.stopped:
             raise Refusal(STOP_SENTENCE)
         self.acquire(client, asked)
@@ -84,7 +87,8 @@ class _Steering:
                 self._tasks.resume(client, asked)
                 return "The robot drives itself."
             if not agenda.manual.end():
-                raise Refusal("There is no task to go on with; start one.")
+                said = "There is no task to go on with; start one."
+                raise Refusal(Notice(Code.TASK_NONE_LEFT, said))
             return "The robot may start by itself what is scheduled and queued."
         fresh = agenda.stay_manual(station.controls.name(client), station.controls.id(client))
         if not engine.running:
@@ -97,10 +101,13 @@ class _Steering:
         station = self._station
         self._permits.may_change(client)
         said, by = _SAID.get((asked.name, asked.value), ""), station.controls.name(client)
-        station.options.set(
+        name, value, text, who = (
             asked.name,
             asked.value,
-            lambda: station.events.say("control", f"{said[:-1]}, says {by}."),
+            f"{said[:-1]}, says {by}.",
+            station.controls.id(client),
         )
+        changed = Notice(Code.SETTING_CHANGED, text, actor_id=who, name=by, setting=name, value=value)
+        station.options.set(name, value, lambda: station.events.say("control", changed))
         station.controls.look(station.clock())
         return said

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Service
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (
@@ -18,6 +19,7 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from robotside.control.authority import Operator
 from robotside.control.command_gate import STOP_SENTENCE
+from robotside.core.notice import Notice
 from robotside.core.pose2 import Pose2
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
@@ -64,18 +66,21 @@ class _Equipment:
         """End the task and put the robot back to its start, where it stands still and knows where it is."""
         station = self._station
         self._permits.need_control(client)
-        name = station.controls.name(client)
+        name, who = station.controls.name(client), station.controls.id(client)
         try:
             place = station.robot.reset()
         except ValueError as problem:
-            raise Refusal(str(problem)) from problem
+            raise Refusal(Notice(Code.EQUIPMENT_REFUSED, str(problem))) from problem
         station.agenda.hold("the robot was put back")
-        station.autonomy.engine.cancel(f"{name} put the robot back to its start.")
+        ended = f"{name} put the robot back to its start."
+        station.autonomy.engine.cancel(Notice(Code.TASK_RESET, ended, actor_id=who, name=name))
         station.helm.put_back()
         pose = Pose2.from_msg(place)
         station.autonomy.whereabouts.put(pose)
-        said = f"{name} put {station.info.name} back to its start."
-        station.events.say("robot", said, "warn", at=(pose.x, pose.y))
+        robot, x, y = station.info.name, pose.x, pose.y
+        said = f"{name} put {robot} back to its start."
+        reset = Notice(Code.ROBOT_RESET, said, actor_id=who, name=name, robot=robot, x=x, y=y)
+        station.events.say("robot", reset, "warn", at=(x, y))
         return f"{station.info.name} is put back: it stands at ({pose.x:.1f}, {pose.y:.1f})."
 
     def _tell(self, payload: str, order: Msg) -> None:
@@ -85,7 +90,7 @@ class _Equipment:
         try:
             self._station.robot.command(payload, order)
         except ValueError as problem:
-            raise Refusal(str(problem)) from problem
+            raise Refusal(Notice(Code.EQUIPMENT_REFUSED, str(problem))) from problem
 
 
 def _goal(order: ArmOrder) -> str:
@@ -98,4 +103,5 @@ def _goal(order: ArmOrder) -> str:
         return "The arm goes to these angles."
     if not math.isnan(order.gripper):
         return f"The gripper goes to {1000 * order.gripper:.0f} mm."
-    raise Refusal("Say where the arm shall go: a pose, a point, angles, or an opening of its gripper.")
+    said = "Say where the arm shall go: a pose, a point, angles, or an opening of its gripper."
+    raise Refusal(Notice(Code.ARM_GOAL_MISSING, said))

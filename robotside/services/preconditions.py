@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from bridge.core.codes import Code
 from robotside.control.authority import Operator
 from robotside.control.command_gate import STOP_SENTENCE
+from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.station.station import NO_MAP, Station
 from robotside.tasks.autonomy import LOW_BELOW
@@ -56,11 +58,15 @@ class Permits:
         """No task is under way."""
         engine = self._station.autonomy.engine
         if engine.active:
-            raise Refusal(f"A task is {engine.status.state.lower()} already; stop it first.")
+            state = engine.status.state.lower()
+            said = f"A task is {state} already; stop it first."
+            raise Refusal(Notice(Code.TASK_ACTIVE, said, state=state))
 
     def charged(self, task: Task) -> None:
         """There is charge enough for `task`."""
         mind = self._station.autonomy
         if task.moves and mind.low and task.name not in TO_CHARGE:
             words = words_for(task.name)
-            raise Refusal(f"The battery is at {mind.battery:.0%}; {words} needs at least {LOW_BELOW:.0%}.")
+            said = f"The battery is at {mind.battery:.0%}; {words} needs at least {LOW_BELOW:.0%}."
+            code, charge = Code.BATTERY_TOO_LOW, mind.battery
+            raise Refusal(Notice(code, said, task=task.name, charge=charge, needed=LOW_BELOW))

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Service
 from bridge.msgs.pilothouse_msgs import CommandRequest
 from robotside.control.authority import Operator
+from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.services.command_service import Answering
 from robotside.services.preconditions import Permits
@@ -31,7 +33,8 @@ def press_stop(station: Station, name: str, client_id: str = "", given: float = 
     station.press_stop(name, client_id, given)
     doubt = station.stop_doubt
     if doubt:
-        raise Refusal(f"STOP is pressed, but {doubt[0].lower()}{doubt[1:]}")
+        said = f"STOP is pressed, but {doubt[0].lower()}{doubt[1:]}"
+        raise Refusal(Notice(Code.STOP_UNSURE, said))
     return f"Stopped. {station.stop_unkept}".strip()
 
 
@@ -54,6 +57,7 @@ class _StopOrders:
         if not controls.stopped:
             return "STOP was not pressed."
         if asked.stamp < controls.stop_given:
-            raise Refusal("STOP was pressed after that was asked for: it stays.")
-        self._station.release_stop(self._station.controls.name(client))
+            said = "STOP was pressed after that was asked for: it stays."
+            raise Refusal(Notice(Code.STOP_PRESSED_SINCE, said))
+        self._station.release_stop(controls.name(client), controls.id(client))
         return "STOP is released."

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 
 import msgspec
 
+from bridge.core.codes import Code
 from bridge.core.errors import Refused
 from bridge.core.robot_catalogue import Action, Service, Session
 from bridge.msgs import Msg
@@ -18,6 +19,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskProgress,
     TaskStatus,
 )
+from robotside.core.notice import Notice
 from robotside.services.command_service import Answering
 from robotside.services.task_services import TaskOrders
 from robotside.station.station import Station
@@ -53,7 +55,8 @@ class _Goals:
         Raises Refused with the sentence for the client: why it was not begun, or why it did not succeed.
         """
         begun = self._begin(client, goal)
-        task_id, name = self._station.autonomy.engine.status.task_id, self._station.controls.name(client)
+        task_id, controls = self._station.autonomy.engine.status.task_id, self._station.controls
+        who = controls.id(client), controls.name(client)
         end: asyncio.Future[TaskStatus] = asyncio.get_running_loop().create_future()
 
         def watch(_: str, msg: Msg) -> None:
@@ -69,23 +72,27 @@ class _Goals:
                 raise Refused(answer.message if isinstance(answer, CommandResponse) else "It was not begun.")
             return _result(await end)
         except asyncio.CancelledError:
-            self._take_back(client, name, task_id)
+            self._take_back(client, who, task_id)
             raise
         finally:
             for end_of in leave:
                 end_of()
 
-    def _take_back(self, client: Session, name: str, task_id: int) -> None:
-        """End the task of `client`, called `name`, unless it is over or somebody else has taken it over; Refused with that one's name."""
+    def _take_back(self, client: Session, who: tuple[str, str], task_id: int) -> None:
+        """End the task of `client`, by its id and name, unless it is over or somebody else has taken it over.
+
+        Refused with the name of who has.
+        """
         problem = self._station.controls.objection(client)
         if problem:
             raise Refused(problem)
         engine = self._station.autonomy.engine
         if engine.active and engine.status.task_id == task_id:
-            there = self._station.controls.knows(client)
-            engine.cancel(
-                f"Canceled by {name}." if there else f"Canceled: {name}, who asked for it, is gone."
-            )
+            (client_id, name), there = who, self._station.controls.knows(client)
+            code, said = Code.TASK_CANCELED, f"Canceled by {name}."
+            if not there:
+                code, said = Code.TASK_ASKER_GONE, f"Canceled: {name}, who asked for it, is gone."
+            engine.cancel(Notice(code, said, actor_id=client_id, name=name))
 
 
 def _over(status: TaskStatus, task_id: int) -> bool:

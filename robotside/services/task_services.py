@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import msgspec
 
+from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Service
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
@@ -19,6 +20,7 @@ from bridge.msgs.pilothouse_msgs import (
     Waypoint,
 )
 from robotside.control.authority import Operator
+from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.services.command_service import Answering
 from robotside.services.preconditions import Permits
@@ -27,6 +29,8 @@ from robotside.tasks.engine import Task
 from robotside.tasks.task_factory import words_for
 
 __all__ = ["TaskOrders", "task_services"]
+
+NONE_RUNNING = Notice(Code.TASK_NONE_RUNNING, "No task is running.")
 
 
 def task_services(station: Station, answering: Answering) -> Iterable[Service]:
@@ -111,8 +115,9 @@ class TaskOrders:
         if self._engine.paused:
             return "The task is paused already."
         if not self._engine.running:
-            raise Refusal("No task is running.")
-        self._engine.pause(f"Paused by {self._station.controls.name(client)}.")
+            raise Refusal(NONE_RUNNING)
+        name, who = self._station.controls.name(client), self._station.controls.id(client)
+        self._engine.pause(Notice(Code.TASK_PAUSED, f"Paused by {name}.", actor_id=who, name=name))
         return "Paused."
 
     def resume(self, client: Operator, _: CommandRequest) -> str:
@@ -135,18 +140,19 @@ class TaskOrders:
         if station.agenda.release():
             station.agenda.manual.end()
             return "The queue goes on."
-        raise Refusal("No task is paused.")
+        raise Refusal(Notice(Code.TASK_NONE_PAUSED, "No task is paused."))
 
     def cancel(self, client: Operator, _: CommandRequest) -> str:
         """End the task, or discard the one that was cut by a restart; the queue waits then."""
         self._permits.need_control(client)
-        name = self._station.controls.name(client)
+        name, who = self._station.controls.name(client), self._station.controls.id(client)
         if self._engine.interrupted:
-            self._engine.cancel(f"Discarded by {name}.")
+            said = f"Discarded by {name}."
+            self._engine.cancel(Notice(Code.TASK_DISCARDED, said, actor_id=who, name=name))
             return "Discarded."
         if not self._engine.active:
-            raise Refusal("No task is running.")
-        self._engine.cancel(f"Canceled by {name}.")
+            raise Refusal(NONE_RUNNING)
+        self._engine.cancel(Notice(Code.TASK_CANCELED, f"Canceled by {name}.", actor_id=who, name=name))
         self._station.agenda.hold("the task before it was canceled")
         return "Canceled."
 
@@ -154,7 +160,7 @@ class TaskOrders:
         """Answer what the task asks."""
         self._permits.may_change(client)
         if not self._engine.confirm(self._station.controls.name(client)):
-            raise Refusal("The robot asks nothing just now.")
+            raise Refusal(Notice(Code.TASK_ASKS_NOTHING, "The robot asks nothing just now."))
         return "Confirmed."
 
     def set_queue(self, client: Operator, asked: SetQueueRequest) -> str:

@@ -16,6 +16,7 @@ from functools import partial
 
 from msgspec.structs import replace
 
+from bridge.core.codes import Code
 from bridge.msgs import Msg
 from bridge.msgs.diagnostic_msgs import DiagnosticArray, DiagnosticStatus
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
@@ -38,6 +39,7 @@ from robotside.control.stop_latch import Latch
 from robotside.control.teleop import FOLLOW_LINK, LOST_LINK_STOPS_TASK, Helm, Options
 from robotside.core.bus import Bus
 from robotside.core.config import NOTHING_SET, Config
+from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Pose2
 from robotside.core.refusal import Refusal
 from robotside.core.robot import Robot
@@ -60,7 +62,7 @@ __all__ = ["NO_MAP", "Station"]
 
 log = logging.getLogger(__name__)
 
-NO_MAP = "There is no map of where the robot is: it can be driven by hand only."
+NO_MAP = Notice(Code.MAP_MISSING, "There is no map of where the robot is: it can be driven by hand only.")
 
 REMARK_PERIOD = 3.0
 """Bad drive commands of a client, and faults of the program, are told at most this often [s]."""
@@ -170,9 +172,11 @@ class Station:
         self._unheard = ""
         self._press(self.robot.stop if self._ending else self.robot.press_stop)
         if fresh:
-            self.events.say("stop", f"STOP pressed by {name}.", "alarm")
+            pressed = Notice(Code.STOP_PRESSED, f"STOP pressed by {name}.", actor_id=client_id, name=name)
+            self.events.say("stop", pressed, "alarm")
         self.readiness.stop_pressed()
-        self._press(lambda: self.autonomy.engine.pause(f"Stopped by {name}.", "alarm"))
+        held = Notice(Code.TASK_STOPPED, f"Stopped by {name}.", actor_id=client_id, name=name)
+        self._press(lambda: self.autonomy.engine.pause(held, "alarm"))
         self._note()
         moves = still_moves(self.info.name, self.info.kind, self._measured())
         if fresh and moves and not self._ending:
@@ -185,11 +189,12 @@ class Station:
             log.exception("The robot's port failed at STOP")
             self._unheard = f"The robot's port failed: {fault!r}."
 
-    def release_stop(self, name: str) -> None:
-        """Unlatch STOP; the robot stays where it is."""
+    def release_stop(self, name: str, client_id: str = "") -> None:
+        """Unlatch STOP, as `name` of that `client_id` says; the robot stays where it is."""
         self.controls.release_stop()
         self.robot.release_stop()
-        self.events.say("stop", f"STOP released by {name}.", "ok")
+        released = Notice(Code.STOP_RELEASED, f"STOP released by {name}.", actor_id=client_id, name=name)
+        self.events.say("stop", released, "ok")
 
     def keep(self, mission: Mission) -> None:
         """Store `mission`; everyone is told once it is on the disk. NotRecorded when it cannot be kept."""
@@ -197,7 +202,7 @@ class Station:
         said = f"Mission stored: {count} {'point' if count == 1 else 'points'}."
 
         def then() -> None:
-            self.events.say("mission", said, "ok")
+            self.events.say("mission", Notice(Code.MISSION_STORED, said, count=count), "ok")
             self.autonomy.edit_patrol(mission)
 
         self.records.missions.set(mission, then)
@@ -209,8 +214,7 @@ class Station:
         if fresh == self._control:
             return
         if fresh.driver_id != self._control.driver_id:
-            said = f"{fresh.driver} has control." if fresh.driver_id else "Control is free."
-            self.events.say("control", said)
+            self.events.say("control", _who_has_control(fresh))
         self._control = fresh
         self.bus.publish("/control/status", replace(fresh, stamp=Time.at(self.clock())))
 
@@ -220,25 +224,28 @@ class Station:
         return self.records.missions.current
 
     @property
-    def mapless(self) -> str:
+    def mapless(self) -> Problem:
         """Why the robot cannot be placed on a map, as one sentence; empty when it can."""
         return self.robot.trouble or ("" if self.autonomy.has_map else NO_MAP)
 
     @property
-    def unfit(self) -> str:
+    def unfit(self) -> Problem:
         """Why the robot can do nothing by itself whatever is asked, as one sentence; empty when it can."""
         silence = self.autonomy.silence(self.now)
-        return self.mapless or (silence and f"It can be driven by hand only: {silence}.")
+        if self.mapless or not silence:
+            return self.mapless
+        return Notice(Code.SENSORS_SILENT, f"It can be driven by hand only: {silence}.")
 
     @property
-    def lost(self) -> str:
+    def lost(self) -> Problem:
         """Why the robot cannot set out from where it is, as one sentence; empty when it can."""
         pose = self.autonomy.whereabouts.pose
         if pose is None:
-            return "The robot does not know yet where it is; place it on the map."
+            said = "The robot does not know yet where it is; place it on the map."
+            return Notice(Code.POSITION_UNKNOWN, said)
         return self.keeper.outside(pose)
 
-    def fault(self, name: str, x: float, y: float) -> str:
+    def fault(self, name: str, x: float, y: float) -> Problem:
         """Why the robot cannot or may not stand at a place, as one sentence that calls it `name`; empty when it can."""
         return self.keeper.fault(name, x, y) or self.autonomy.guide.planner.fault(name, x, y)
 
@@ -264,7 +271,8 @@ class Station:
 
     def end(self) -> None:
         """Brake, end the task and obey nobody any more: the robot side is about to go."""
-        self.autonomy.engine.cancel("The robot's computer was told to end.")
+        said = "The robot's computer was told to end."
+        self.autonomy.engine.cancel(Notice(Code.TASK_ROBOT_ENDS, said))
         self._note()
         self._ending = True
         self.press_stop("the robot's computer, which ends")
@@ -282,7 +290,8 @@ class Station:
         if by:
             self.controls.stop(by)
             self.robot.press_stop()
-            self.events.say("stop", f"STOP, pressed by {by} before the restart, is still pressed.", "alarm")
+            said = f"STOP, pressed by {by} before the restart, is still pressed."
+            self.events.say("stop", Notice(Code.STOP_STILL_PRESSED, said, name=by), "alarm")
         engine.recall(self.records.runs.last, self.records.runs.newest)
         history = History(self.records.runs, engine, self.clock)
         self.bus.subscribe("/task/progress", history.hear)
@@ -296,7 +305,8 @@ class Station:
         self.bus.publish("/intruders", IntruderArray(Header(Time.at(self.now), "map")))
         self.bus.publish("/control/status", self._control)
         if said := unknown(self.info.kind):
-            self.events.say("robot", said, "warn")
+            kind_unknown = Notice(Code.ROBOT_KIND_UNKNOWN, said, kind=self.info.kind)
+            self.events.say("robot", kind_unknown, "warn")
 
     def _agenda(self, civil: Callable[[], float], zone: tzinfo) -> Agenda:
         return Agenda(
@@ -329,7 +339,7 @@ class Station:
     def _pass_on(self, messages: Iterable[tuple[str, Msg]]) -> None:
         for topic, msg in messages:
             if isinstance(msg, Event):
-                self.events.say(msg.kind, msg.text, msg.level)
+                self.events.say(msg.kind, Notice.of(msg.text, msg), msg.level)
                 continue
             self.bus.publish(topic, msg)
             self.readiness.senses.take(topic, msg, self.now)
@@ -342,13 +352,14 @@ class Station:
         """Hold everything while the robot cannot be reached; on its return nothing moves until somebody says so."""
         trouble = self.robot.trouble
         if bool(trouble) != bool(self._trouble):
-            said = trouble or "The robot can be driven again; it stands still."
+            said = trouble or Notice(Code.ROBOT_BACK, "The robot can be driven again; it stands still.")
             self.events.say("robot", said, "alarm" if trouble else "ok")
             self._turned = self.now
         self._trouble = trouble
         if trouble:
             self.controls.halt()
-            self.autonomy.engine.pause(f"Paused: {trouble[0].lower()}{trouble[1:]}", "alarm")
+            paused = f"Paused: {trouble[0].lower()}{trouble[1:]}"
+            self.autonomy.engine.pause(Notice(Code.TASK_ROBOT_LOST, paused), "alarm")
 
     def _mind(self, think: Callable[[], None]) -> None:
         """Let the robot's mind do something; a fault in it ends the task at rest, and driving by hand goes on."""
@@ -360,23 +371,26 @@ class Station:
             if self.now >= self._next_fault:
                 self._next_fault = self.now + REMARK_PERIOD
                 log.exception("The robot's own mind failed")
-                self.events.say("task", f"The robot's program has a fault: {fault!r}.", "alarm")
+                told = f"The robot's program has a fault: {fault!r}."
+                self.events.say("task", Notice(Code.ROBOT_FAULT, told, fault=type(fault).__name__), "alarm")
             said = f"The task ended: the robot's program has a fault ({type(fault).__name__})."
-            self.autonomy.engine.fail(said)
+            self.autonomy.engine.fail(Notice(Code.TASK_FAULT, said, fault=type(fault).__name__))
 
     def _place(self, client: Operator, pose: Pose2) -> None:
         problem = self.controls.acquire(client, self.clock())  # tasks and the fence go by where it is
         if not all(map(math.isfinite, pose)):
-            problem = "The pose to place the robot at is not all numbers."
+            said = "The pose to place the robot at is not all numbers."
+            problem = Notice(Code.POSITION_INVALID, said)
         problem = problem or self.mapless
         problem = problem or self.autonomy.guide.planner.off_map("The place", pose.x, pose.y)
         if problem:
             self.events.say("command", problem, "warn")
             return
         self.autonomy.place(pose)
-        name = self.controls.name(client)
+        name, who = self.controls.name(client), self.controls.id(client)
         text = f"{name} placed the robot at ({pose.x:.1f}, {pose.y:.1f})."
-        self.events.say("localisation", text, at=(pose.x, pose.y))
+        placed = Notice(Code.POSITION_PLACED, text, actor_id=who, name=name, x=pose.x, y=pose.y)
+        self.events.say("localisation", placed, at=(pose.x, pose.y))
 
     def _clamp(self, order: Order) -> Order:
         measured = self._measured()
@@ -397,7 +411,7 @@ class Station:
         if said:
             self.events.say("command", said, "warn")
 
-    def _remark(self, client: Operator, said: str) -> None:
+    def _remark(self, client: Operator, said: Problem) -> None:
         now = self.clock()
         if said and now >= self._next_remark.get(client.id, -math.inf):
             self._next_remark[client.id] = now + REMARK_PERIOD
@@ -493,6 +507,13 @@ class Station:
             DiagnosticStatus(0, "drive commands", f"{self.controls.dropped} dropped since the start"),
         ]
         return DiagnosticArray(Header(Time.at(self.now)), status)
+
+
+def _who_has_control(status: ControlStatus) -> Notice:
+    if not status.driver_id:
+        return Notice(Code.CONTROL_FREE, "Control is free.")
+    said, who = f"{status.driver} has control.", status.driver_id
+    return Notice(Code.CONTROL_TAKEN, said, actor_id=who, name=status.driver)
 
 
 def _fit_sentence(fit: float) -> str:
