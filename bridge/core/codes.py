@@ -87,7 +87,10 @@ class Code(StrEnum):
     POSITION_PLACED = "position_placed", "The actor placed the robot on the map.", "name", "x", "y"
     POSITION_INVALID = "position_invalid", "The pose to place the robot at is not all numbers."
     POSITION_UNKNOWN = "position_unknown", "The robot does not know yet where it is."
-    POSITION_LOST = "position_lost", "The robot does not find itself on the map."
+    POSITION_LOST = (
+        "position_lost",
+        "There is no fix or compass: the robot supposes to be near the map's origin.",
+    )
     POSITION_UNSURE = "position_unsure", "The robot is not sure where it is."
     POSITION_SURE = "position_sure", "The robot is sure again where it is."
     POSITION_BY_WHEELS = "position_by_wheels", "The robot has no laser and reckons by its wheels."
@@ -208,6 +211,34 @@ class Code(StrEnum):
     PLACES_MISCOUNTED = "places_miscounted", "The task needs another number of places.", "count"
     PLACES_TOO_MANY = "places_too_many", "The task names too many places.", "count", "max"
     PLACE_UNKNOWN = "place_unknown", "There is no such place.", "place"
+
+    # what is kept
+
+    PLACE_UNNAMED = "place_unnamed", "The place has no name."
+    PLACE_NAME_TAKEN = "place_name_taken", "Another place has that name.", "place"
+    PLACE_ID_UNKNOWN = "place_id_unknown", "There is no place with that number.", "id"
+    PLACE_KIND_UNKNOWN = "place_kind_unknown", "There is no such kind of place.", "kind"
+    PLACE_INVALID = "place_invalid", "The place's x and y are not numbers."
+    PLACES_TAKEN_OVER = "places_taken_over", "The places of the world were taken over.", "count"
+    PLACES_LEFT_OUT = "places_left_out", "Not all places of the world could be taken over."
+    EVENT_UNKNOWN = "event_unknown", "There is no event with that number.", "id"
+    EVENTS_TOO_MANY = "events_too_many", "Too many events at once.", "count", "max"
+    HISTORY_RANGE_INVALID = (
+        "history_range_invalid",
+        "The range of the history is not allowed.",
+        "before",
+        "limit",
+    )
+    RECORDS_FULL = "records_full", "No more of them can be kept.", "max"
+    RECORDS_DAMAGED = "records_damaged", "Something is wrong with what was kept."
+    RECORDS_UNWRITTEN = "records_unwritten", "The database cannot be written, or does not answer."
+    RECORDS_WRITTEN = "records_written", "The database can be written again."
+
+    # commands
+
+    COMMAND_LATE = "command_late", "The command came too late.", "age", "allowed"
+    COMMAND_AHEAD = "command_ahead", "The command's stamp is of the future.", "seconds", "allowed"
+    COMMAND_ID_INVALID = "command_id_invalid", "The command_id is too long.", "length", "max"
 
     # the robot itself
 

@@ -10,7 +10,7 @@ __all__ = ["Refusal"]
 class Refusal(Exception):
     """The robot does not do what it was asked, for the reason that its notice gives."""
 
-    def __init__(self, notice: Notice | str) -> None:
+    def __init__(self, notice: Notice) -> None:
         super().__init__(notice)
-        self.notice = notice if isinstance(notice, Notice) else Notice.of(notice)
+        self.notice = notice
         """One sentence for the operator, with its code."""

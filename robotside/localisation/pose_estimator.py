@@ -9,6 +9,7 @@ from collections import deque
 import numpy as np
 from numpy.typing import NDArray
 
+from bridge.core.codes import Code
 from bridge.core.geo import Datum
 from bridge.core.units import wrap
 from bridge.msgs.geometry_msgs import (
@@ -25,6 +26,7 @@ from bridge.msgs.sensor_msgs import Imu, NavSatFix
 from bridge.msgs.std_msgs import Header, Time
 from bridge.msgs.tf2_msgs import TFMessage
 from robotside.core.bus import Publish
+from robotside.core.notice import Notice
 from robotside.core.pose2 import Points, Pose2
 from robotside.kinds.registry import kind_of
 from robotside.localisation.position_uncertainty import PositionUncertainty
@@ -58,19 +60,32 @@ RINGS = 4
 """Of sonars that are laid on the map together."""
 
 
-_NO_IDEA = "There is no fix or compass: the robot supposes to be near the map's origin. Place it on the map."
+_NO_IDEA = Notice(
+    Code.POSITION_LOST,
+    "There is no fix or compass: the robot supposes to be near the map's origin. Place it on the map.",
+)
 
 PUSHED = 0.3
 """So far the wheels may run against something before it is told [m]."""
 
-_PUSHES = "Position unsure: the wheels turn and the bumper is pressed, so that their way is not counted. Drive away from it."
+_PUSHES = Notice(
+    Code.POSITION_UNSURE,
+    "Position unsure: the wheels turn and the bumper is pressed, so that their way is not counted. Drive away from it.",
+)
 
-_UNHEARD = "Position unsure: the sonars do not hear what the map says. Place the robot on the map."
+_UNHEARD = Notice(
+    Code.POSITION_UNSURE,
+    "Position unsure: the sonars do not hear what the map says. Place the robot on the map.",
+)
 
-_UNFITTING = "Position unsure: the laser does not see what the map says. Place the robot on the map."
+_UNFITTING = Notice(
+    Code.POSITION_UNSURE,
+    "Position unsure: the laser does not see what the map says. Place the robot on the map.",
+)
 
-_NO_LASER = (
-    "There is no laser: the position is reckoned, and may drift. Place the robot on the map when it is off."
+_NO_LASER = Notice(
+    Code.POSITION_BY_WHEELS,
+    "There is no laser: the position is reckoned, and may drift. Place the robot on the map when it is off.",
 )
 
 
@@ -300,12 +315,12 @@ class PoseEstimator:
             return Pose2(0.0, 0.0, 0.0), GUESS_REACH, math.pi
         return None
 
-    def _watch(self, localiser: Localiser, unsure: str) -> None:
+    def _watch(self, localiser: Localiser, unsure: Notice) -> None:
         if localiser.pose is None or localiser.sure is self._was_sure:
             return
         self._was_sure = localiser.sure
         if localiser.sure:
-            self._say("localisation", "Position sure again.", "ok")
+            self._say("localisation", Notice(Code.POSITION_SURE, "Position sure again."), "ok")
         else:
             # who drives it against something has to see that at once
             self._say("localisation", unsure, "alarm" if self.pushes else "warn")

@@ -7,8 +7,10 @@ from collections.abc import Callable, Iterable
 
 import msgspec
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
+from robotside.core.notice import Notice
 from robotside.records.database.jobs import NotRecorded
 from robotside.records.ledger import Ledger
 
@@ -88,7 +90,8 @@ class EventLog:
         wanted = list(dict.fromkeys(ids))
         strange = [id for id in wanted if id not in rows]
         if strange:
-            raise NotRecorded(f"There is no event with the number {strange[0]}.")
+            said = f"There is no event with the number {strange[0]}."
+            raise NotRecorded(Notice(Code.EVENT_UNKNOWN, said, id=strange[0]))
         fresh = [
             msgspec.structs.replace(rows[id], acknowledged_by=by, acknowledged=stamp, boot=self.identity)
             for id in wanted

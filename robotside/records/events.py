@@ -9,7 +9,7 @@ from typing import Protocol
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event, GetEventsRequest, GetEventsResponse
 from bridge.msgs.std_msgs import Time
-from robotside.core.notice import coded
+from robotside.core.notice import Notice, coded
 from robotside.core.text import plain
 from robotside.records.eventlog import EventLog
 
@@ -23,9 +23,9 @@ class Say(Protocol):
     """Tells the operator something."""
 
     def __call__(
-        self, kind: str, text: str, level: str = "info", *, at: tuple[float, float] | None = None
+        self, kind: str, notice: Notice, level: str = "info", *, at: tuple[float, float] | None = None
     ) -> object:
-        """One sentence of a kind and level; `at` is where in `map` [m], None when it has no place."""
+        """One notice of a kind and level; `at` is where in `map` [m], None when it has no place."""
 
 
 class Events:
@@ -43,15 +43,15 @@ class Events:
     def say(
         self,
         kind: str,
-        text: str,
+        notice: Notice,
         level: str = "info",
         *,
         at: tuple[float, float] | None = None,
     ) -> Event:
-        """Record one sentence; `at` is where in `map` [m], None when it has no place."""
+        """Record one notice; `at` is where in `map` [m], None when it has no place."""
         position = Point(at[0], at[1], 0.0) if at else Point(math.nan, math.nan, math.nan)
-        said = plain(text, LONGEST)
-        event = Event(0, "", Time.at(self._now()), level, kind, said, position, **coded(text))
+        said = plain(notice, LONGEST)
+        event = Event(0, "", Time.at(self._now()), level, kind, said, position, **coded(notice))
         return self._log.add(event, self._publish)
 
     def since(self, number: int, boot: str) -> list[Event]:

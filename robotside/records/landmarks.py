@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol, runtime_checkable
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Place
+from robotside.core.notice import Notice
 from robotside.records import NotRecorded, Records
 from robotside.records.events import Say
 
@@ -40,6 +42,8 @@ def take_over(robot: object, records: Records, say: Say) -> None:
                 refused = str(problem)
         records.set_setting(_DONE, str(len(places)))
     count = len(records.places.all())
-    say("places", f"{count} {'place' if count == 1 else 'places'} of the world taken over.")
+    said = f"{count} {'place' if count == 1 else 'places'} of the world taken over."
+    say("places", Notice(Code.PLACES_TAKEN_OVER, said, count=count))
     if refused:
-        say("places", f"Not all places of the world could be taken over: {refused}", "warn")
+        said = f"Not all places of the world could be taken over: {refused}"
+        say("places", Notice(Code.PLACES_LEFT_OUT, said), "warn")

@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, Protocol
 
+from bridge.core.codes import Code
+from robotside.core.notice import Notice
 from robotside.records.database.jobs import Job, NotRecorded
 from robotside.records.database.memory import Memory
 from robotside.records.database.rows import Content, Key, Put
@@ -147,4 +149,5 @@ class Ledger:
 def within(number: int, most: int, what: str) -> None:
     """NotRecorded when there are more than `most` of `what`."""
     if number > most:
-        raise NotRecorded(f"At most {most} {what} can be kept; delete one first.")
+        said = f"At most {most} {what} can be kept; delete one first."
+        raise NotRecorded(Notice(Code.RECORDS_FULL, said, max=most))

@@ -7,7 +7,9 @@ from collections.abc import Callable
 
 import msgspec
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import KeptMission, Mission, Waypoint
+from robotside.core.notice import Notice
 from robotside.core.text import plain
 from robotside.records.database.jobs import NotRecorded
 from robotside.records.ledger import Ledger, within
@@ -89,5 +91,7 @@ class Missions:
         found = self.revisions(plain(name, LONGEST))
         if not found or not name:
             names = ", ".join(self.names()) or "none"
-            raise NotRecorded(f"There is no mission {plain(name, LONGEST)!r}; there are: {names}.")
+            asked = plain(name, LONGEST)
+            said = f"There is no mission {asked!r}; there are: {names}."
+            raise NotRecorded(Notice(Code.MISSION_UNKNOWN, said, mission=asked))
         return msgspec.structs.replace(found[-1], home=self.current.home or found[-1].home)

@@ -6,7 +6,9 @@ import math
 
 import msgspec
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import PLACE_KINDS, Place
+from robotside.core.notice import Notice
 from robotside.core.text import plain
 from robotside.records.database.jobs import NotRecorded
 from robotside.records.ledger import Ledger, within
@@ -54,12 +56,13 @@ class Places:
         texts = {field: plain(getattr(place, field), most) for field, most in LONGEST.items()}
         place = msgspec.structs.replace(place, **texts)
         if not place.name:
-            raise NotRecorded("A place needs a name.")
+            raise NotRecorded(Notice(Code.PLACE_UNNAMED, "A place needs a name."))
         other = self.named(place.name)
         if other is not None and other.id != place.id:
-            raise NotRecorded(f"There is a place {other.name!r} already; choose another name.")
+            said = f"There is a place {other.name!r} already; choose another name."
+            raise NotRecorded(Notice(Code.PLACE_NAME_TAKEN, said, place=other.name))
         if place.id and self.get(place.id) is None:
-            raise NotRecorded(f"There is no place with the number {place.id}.")
+            raise _no_place(place.id)
         with self._ledger.together():
             if not place.id:
                 within(len(self._ledger.rows("places")) + 1, MOST, "places")
@@ -71,13 +74,19 @@ class Places:
         """Forget a place; returns what it was. NotRecorded when there is none."""
         place = self.get(id)
         if place is None:
-            raise NotRecorded(f"There is no place with the number {id}.")
+            raise _no_place(id)
         self._ledger.order("places", id, None)
         return place
 
 
 def _check(place: Place) -> None:
     if place.kind not in KINDS:
-        raise NotRecorded(f"There is no kind of place {place.kind!r}; there are {', '.join(KINDS)}.")
+        said = f"There is no kind of place {place.kind!r}; there are {', '.join(KINDS)}."
+        raise NotRecorded(Notice(Code.PLACE_KIND_UNKNOWN, said, kind=place.kind[:20]))
     if not (math.isfinite(place.x) and math.isfinite(place.y)):
-        raise NotRecorded(f"A place's x and y must be numbers, not {place.x} and {place.y}.")
+        said = f"A place's x and y must be numbers, not {place.x} and {place.y}."
+        raise NotRecorded(Notice(Code.PLACE_INVALID, said))
+
+
+def _no_place(id: int) -> NotRecorded:
+    return NotRecorded(Notice(Code.PLACE_ID_UNKNOWN, f"There is no place with the number {id}.", id=id))

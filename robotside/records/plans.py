@@ -7,7 +7,9 @@ from typing import Any
 
 import msgspec
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import ScheduledTask, TaskOrder, TaskQueue
+from robotside.core.notice import Notice
 from robotside.records.database.jobs import NotRecorded
 from robotside.records.database.rows import Key, Queued
 from robotside.records.ledger import Ledger, within
@@ -44,13 +46,15 @@ class Queue:
         ledger, now = self._ledger, self.current
         if revision is not None and revision != now.revision:
             said = f"The queue was changed meanwhile: this is revision {revision}, the robot's is {now.revision}."
-            raise NotRecorded(f"{said} Look at it and try again.")
+            changed = f"{said} Look at it and try again."
+            raise NotRecorded(Notice(Code.QUEUE_CHANGED, changed, revision=now.revision))
         within(len(orders), MOST_QUEUED, "waiting tasks")
         ids = [order.id for order in orders if order.id]
         strange = sorted(set(ids) - {order.id for order in now.orders})
         if strange or len(set(ids)) < len(ids):
             wrong = f"number {strange[0]} waits no more" if strange else "one is in it twice"
-            raise NotRecorded(f"The queue was not changed: of its tasks {wrong}.")
+            said = f"The queue was not changed: of its tasks {wrong}."
+            raise NotRecorded(Notice(Code.QUEUE_WRONG, said))
         self._replace(orders, ledger.order)
         return self.current
 
@@ -101,7 +105,7 @@ class Timetable:
         """
         rows = self._ledger.rows("schedule")
         if task.id and task.id not in rows:
-            raise NotRecorded(f"There is no scheduled task with the number {task.id}.")
+            raise _no_scheduled(task.id)
         with self._ledger.together():
             if not task.id:
                 within(len(rows) + 1, MOST_SCHEDULED, "scheduled tasks")
@@ -118,7 +122,7 @@ class Timetable:
         """Forget a scheduled task; returns what it was. NotRecorded when there is none."""
         task = self._ledger.rows("schedule").get(id)
         if task is None:
-            raise NotRecorded(f"There is no scheduled task with the number {id}.")
+            raise _no_scheduled(id)
         self._ledger.order("schedule", id, None)
         return task  # type: ignore[no-any-return]
 
@@ -126,3 +130,8 @@ class Timetable:
 def _queue(rows: dict[Any, Queued], facts: dict[Any, str]) -> TaskQueue:
     orders = [queued.order for queued in sorted(rows.values(), key=lambda queued: queued.position)]
     return TaskQueue(revision=int(facts.get("queue revision", 0)), orders=orders)
+
+
+def _no_scheduled(id: int) -> NotRecorded:
+    said = f"There is no scheduled task with the number {id}."
+    return NotRecorded(Notice(Code.SCHEDULE_UNKNOWN, said, id=id))

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import PlaceArray
 from bridge.msgs.std_msgs import Time
 from robotside.core.bus import Publish
+from robotside.core.notice import Notice
 from robotside.records import Records
 from robotside.records.events import Say
 
@@ -24,7 +26,7 @@ class Shown:
             show()
         records.on_trouble(self._trouble)
         for problem in records.problems:
-            say("database", problem, "warn")
+            say("database", Notice(Code.RECORDS_DAMAGED, problem), "warn")
 
     def _mission(self) -> None:
         mission = self._records.missions.stored
@@ -39,6 +41,7 @@ class Shown:
 
     def _trouble(self, sentence: str) -> None:
         if sentence:
-            self._say("database", sentence, "alarm")
+            self._say("database", Notice(Code.RECORDS_UNWRITTEN, sentence), "alarm")
         else:
-            self._say("database", "The database can be written again.", "ok")
+            again = Notice(Code.RECORDS_WRITTEN, "The database can be written again.")
+            self._say("database", again, "ok")

@@ -7,9 +7,10 @@ from collections import OrderedDict
 from collections.abc import Callable
 
 from bridge.codec import from_json
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from robotside.control.command_expiry import AHEAD
-from robotside.core.notice import coded
+from robotside.core.notice import Notice, Problem, coded
 from robotside.core.refusal import Refusal
 from robotside.core.text import number, plain
 from robotside.records.answers import KEPT
@@ -51,14 +52,15 @@ class Commands:
         if ageless:
             return _answer(action, response)
         if len(request.command_id) > LONGEST_ID:
-            said = f"A command_id has at most {LONGEST_ID} characters, not {len(request.command_id)}."
-            return response(False, said)
+            count = len(request.command_id)
+            said = f"A command_id has at most {LONGEST_ID} characters, not {count}."
+            return _refused(Notice(Code.COMMAND_ID_INVALID, said, length=count, max=LONGEST_ID), response)
         key, now = (sender, service, request.command_id), self._now()
         given, known = self._answers.get(key, (-math.inf, None))
         if known is not None and abs(now - given) <= KEPT_FOR:
             return from_json(known, response) if isinstance(known, str) else known
         untimely = self._untimely(request)
-        answer = response(False, untimely) if untimely else _answer(action, response)
+        answer = _refused(untimely, response) if untimely else _answer(action, response)
         if request.command_id:
             self._answers[key] = now, answer
             self._answers.move_to_end(key)
@@ -76,22 +78,29 @@ class Commands:
         if key in self._answers:
             self._answers[key] = self._answers[key][0], answer
 
-    def _untimely(self, request: CommandRequest) -> str:
+    def _untimely(self, request: CommandRequest) -> Problem:
         """Why it is not done, empty when it is in time."""
         if math.isnan(request.stamp):
             return ""
         age = self._now() - request.stamp
         if age < -AHEAD:
             ahead, allowed = f"{number(-age)} s ahead of the robot's", f"at most {AHEAD:.0f} s is allowed"
-            return f"The command is not done: its clock is {ahead}; {allowed}."
+            said = f"The command is not done: its clock is {ahead}; {allowed}."
+            return Notice(Code.COMMAND_AHEAD, said, seconds=-age, allowed=AHEAD)
         if age <= request.valid_for:
             return ""
-        return f"The command is too old: given {number(age)} s ago, valid for {number(request.valid_for)} s."
+        valid = request.valid_for
+        said = f"The command is too old: given {number(age)} s ago, valid for {number(valid)} s."
+        return Notice(Code.COMMAND_LATE, said, age=age, allowed=valid)
 
 
 def _answer(action: Callable[[], str | CommandResponse], response: type[CommandResponse]) -> CommandResponse:
     try:
         done = action()
     except Refusal as refusal:
-        return response(False, plain(refusal.notice, LONGEST), **coded(refusal.notice))
+        return _refused(refusal.notice, response)
     return done if isinstance(done, CommandResponse) else response(True, done)
+
+
+def _refused(notice: Notice, response: type[CommandResponse]) -> CommandResponse:
+    return response(False, plain(notice, LONGEST), **coded(notice))

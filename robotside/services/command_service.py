@@ -8,9 +8,11 @@ from typing import Any
 from msgspec.structs import replace
 
 from bridge.codec import to_json
+from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Service, Session
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from robotside.control.authority import Operator
+from robotside.core.notice import Notice, coded
 from robotside.core.refusal import Refusal
 from robotside.records import Job, NotRecorded
 from robotside.records.database.rows import Answered
@@ -102,7 +104,8 @@ class Answering:
         if not (job.trouble and job.binding and answer.success):
             return answer
         if job.orders:
-            judged = type(answer)(False, job.trouble)
+            unwritten = coded(Notice(Code.RECORDS_UNWRITTEN, job.trouble))
+            judged = type(answer)(False, job.trouble, **unwritten)
         else:
             judged = replace(answer, message=f"{answer.message} {UNKEPT} {job.trouble}")
         self._commands.amend(*key, judged)

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 
 import msgspec
 
+from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Service
 from bridge.msgs.pilothouse_msgs import (
     MAX_DWELL,
@@ -22,6 +23,7 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from bridge.msgs.std_msgs import Time
 from robotside.control.authority import Operator
+from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
 from robotside.services.command_service import Answering
@@ -108,13 +110,19 @@ def _named(mission: Mission) -> Mission:
 
 def _check_words(mission: Mission) -> None:
     if mission.motion not in MOTIONS:
-        raise Refusal(f"There is no motion {mission.motion!r}; there are {', '.join(MOTIONS)}.")
+        said = f"There is no motion {mission.motion!r}; there are {', '.join(MOTIONS)}."
+        raise Refusal(Notice(Code.MOTION_UNKNOWN, said, motion=mission.motion[:20]))
     if mission.on_intruder not in ("", *REACTIONS):
-        said = f"There is no reaction {mission.on_intruder!r} to an intruder"
-        raise Refusal(f"{said}; there are {', '.join(REACTIONS)}.")
+        reaction = mission.on_intruder
+        said = f"There is no reaction {reaction!r} to an intruder; there are {', '.join(REACTIONS)}."
+        raise Refusal(Notice(Code.REACTION_UNKNOWN, said, reaction=reaction[:20]))
     if not (math.isfinite(mission.dwell) and 0 <= mission.dwell <= MAX_DWELL):
-        raise Refusal(f"The dwell must be 0 to {MAX_DWELL:.0f} s, not {mission.dwell} s.")
+        said = f"The dwell must be 0 to {MAX_DWELL:.0f} s, not {mission.dwell} s."
+        raise Refusal(Notice(Code.DWELL_INVALID, said, dwell=mission.dwell, max=MAX_DWELL))
     if not 0 <= mission.laps <= MAX_LAPS:
-        raise Refusal(f"The laps must be 0 to {MAX_LAPS}, not {mission.laps}.")
+        said = f"The laps must be 0 to {MAX_LAPS}, not {mission.laps}."
+        raise Refusal(Notice(Code.LAPS_INVALID, said, laps=mission.laps, max=MAX_LAPS))
     if len(mission.waypoints) > MOST_POINTS:
-        raise Refusal(f"A mission has at most {MOST_POINTS} points, not {len(mission.waypoints)}.")
+        count = len(mission.waypoints)
+        said = f"A mission has at most {MOST_POINTS} points, not {count}."
+        raise Refusal(Notice(Code.MISSION_TOO_LONG, said, count=count, max=MOST_POINTS))

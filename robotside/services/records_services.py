@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Service
 from bridge.msgs.pilothouse_msgs import (
     AcknowledgeEventsRequest,
@@ -23,6 +24,7 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from bridge.msgs.std_msgs import Time
 from robotside.control.authority import Operator
+from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
 from robotside.records.places import LONGEST
@@ -95,13 +97,16 @@ class _Kept:
         """What was done, newest first."""
         if asked.before < 0 or not 1 <= asked.limit <= AT_ONCE:
             said = f"before must be 0 or more and limit 1 to {AT_ONCE}, not {asked.before} and {asked.limit}."
-            raise Refusal(said)
+            code = Code.HISTORY_RANGE_INVALID
+            raise Refusal(Notice(code, said, before=asked.before, limit=asked.limit))
         return GetHistoryResponse(True, runs=self._records.runs.before(asked.before, asked.limit))
 
     def acknowledge(self, client: Operator, asked: AcknowledgeEventsRequest) -> str:
         """Note that somebody has seen to events; needs no control."""
         if len(asked.ids) > MOST_ACKNOWLEDGED:
-            raise Refusal(f"At most {MOST_ACKNOWLEDGED} events at once, not {len(asked.ids)}.")
+            count, most = len(asked.ids), MOST_ACKNOWLEDGED
+            said = f"At most {most} events at once, not {count}."
+            raise Refusal(Notice(Code.EVENTS_TOO_MANY, said, count=count, max=most))
         station = self._station
         now, by = Time.at(station.clock()), station.controls.name(client)
         fresh = self._records.events.acknowledge(

@@ -27,7 +27,7 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header, Time
 from robotside.core.bus import Bus
-from robotside.core.notice import Notice
+from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.refusal import Refusal
 from robotside.core.robot import Robot
@@ -84,7 +84,7 @@ class Autonomy:
         clock: Callable[[], float],
         rng: random.Random,
         records: Records,
-        fault: Callable[[str, float, float], str],
+        fault: Callable[[str, float, float], Problem],
         fit: Callable[[Grid], Grid] = lambda grid: grid,
         heights: tuple[float, float] = (-math.inf, math.inf),
     ) -> None:

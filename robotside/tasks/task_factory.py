@@ -12,7 +12,7 @@ from py_trees.composites import Sequence as Chain
 
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import TASKS, Mission, Place, RobotInfo, TaskOrder, Waypoint
-from robotside.core.notice import Notice
+from robotside.core.notice import Notice, Problem
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
 from robotside.kinds.registry import kind_of
@@ -90,7 +90,7 @@ class Assignments:
         say: Say,
         rng: random.Random,
         records: Records,
-        fault: Callable[[str, float, float], str],
+        fault: Callable[[str, float, float], Problem],
         heights: tuple[float, float] = (-math.inf, math.inf),
     ) -> None:
         """`fault` tells why the robot cannot or may not stand at a place that is called so; empty when it can.

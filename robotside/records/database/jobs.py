@@ -15,9 +15,9 @@ __all__ = ["Job", "NotRecorded"]
 class NotRecorded(Exception):
     """It was not recorded and is not remembered either, for the reason that its notice gives."""
 
-    def __init__(self, notice: Notice | str) -> None:
+    def __init__(self, notice: Notice) -> None:
         super().__init__(notice)
-        self.notice = notice if isinstance(notice, Notice) else Notice.of(notice)
+        self.notice = notice
         """One sentence for the operator, with its code."""
 
 

@@ -10,6 +10,7 @@ import pytest
 
 from bridge.msgs import Msg
 from bridge.msgs.arrays import Int32Array
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.pilothouse_msgs import (
     AcknowledgeEventsRequest,
     CommandRequest,
@@ -63,7 +64,7 @@ async def test_what_cannot_be_written_is_refused_and_not_shown(slow: Slow) -> No
     )
     slow.write(FULL)
     assert ((await answer).success, (await answer).message) == (False, FULL)
-    assert await other == SetPlaceResponse(False, FULL)
+    assert await other == SetPlaceResponse(False, FULL, code="records_unwritten")
     assert slow.station.mission == slow.last("/mission") == Mission()
     assert slow.records.places.all() == []
 
@@ -91,7 +92,9 @@ async def test_a_command_that_could_not_be_written_is_told_so_again(slow: Slow) 
     first = await soon(slow.ask("/places/set", place(command_id="c1")))
     slow.write(FULL)
     await first
-    assert slow.ask("/places/set", place(command_id="c1")) == SetPlaceResponse(False, FULL)
+    assert slow.ask("/places/set", place(command_id="c1")) == SetPlaceResponse(
+        False, FULL, code="records_unwritten"
+    )
 
 
 async def test_the_start_of_a_task_is_answered_when_its_run_is_kept_and_stands_if_it_cannot_be(
@@ -179,7 +182,9 @@ async def test_a_command_that_is_sent_again_after_a_crash_is_not_done_again(slow
     )
     assert len(slow.records.places.all()) == 1
     other = slow.ask("/places/set", place(command_id="c2"))
-    assert other == SetPlaceResponse(False, "There is a place 'Office 12' already; choose another name.")
+    said = "There is a place 'Office 12' already; choose another name."
+    taken = [KeyValue("place", "Office 12")]
+    assert other == SetPlaceResponse(False, said, code="place_name_taken", parameters=taken)
 
 
 async def test_a_command_that_was_not_written_is_done_when_it_is_sent_again_after_a_crash(slow: Slow) -> None:
