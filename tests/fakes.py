@@ -57,7 +57,7 @@ class FakeClient:
         self.id = name
         self.address = "192.0.2.1:5000"
         self.last_heard = now
-        self.rtt = math.nan
+        self.rtt = 0.0
         self.asked_time = True
         self.answered = math.inf
 

@@ -13,7 +13,7 @@ from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.control.authority import Authority, Operator
 from robotside.control.command_expiry import HELD, Expiry
-from robotside.control.latency_speed_cap import Pace
+from robotside.control.latency_speed_cap import UNMEASURED_SHARE, Pace
 from robotside.control.neutral_interlock import LET_GO, Sticks
 from robotside.core.notice import Notice, Problem
 from robotside.motion.manoeuvres import Order, at_rest, finite, paced
@@ -43,10 +43,20 @@ class Ruling:
 class Controls(Authority):
     """The one place that decides whether a command may move the robot."""
 
-    def __init__(self, info: RobotInfo | None = None, *, follows: Callable[[], bool] = lambda: True) -> None:
-        """`info` is what the robot may do, `follows` tells whether the speed follows the driver's link."""
+    def __init__(
+        self,
+        info: RobotInfo | None = None,
+        *,
+        follows: Callable[[], bool] = lambda: True,
+        unmeasured_share: float = UNMEASURED_SHARE,
+    ) -> None:
+        """`info` is what the robot may do, `follows` tells whether the speed follows the driver's link.
+
+        A driver whose round trip is not known goes at `unmeasured_share` of the full speed at most, 0 to 1, always.
+        """
         super().__init__()
         self._info, self._follows = info or _FREE, follows
+        self._unmeasured_share = unmeasured_share
         self._expiry = Expiry()
         self._sticks = Sticks()
         self._until = -math.inf
@@ -145,8 +155,11 @@ class Controls(Authority):
 
     def look(self, now: float) -> None:
         """Let the speed follow the link of who has control; to be called often."""
-        if self._follows():
-            self.pace.look(self.driver.client.rtt if self.driver else math.nan, now)
+        driver = self.driver
+        if driver is not None and math.isnan(driver.client.rtt):
+            self.pace.limit(self._unmeasured_share, now)
+        elif self._follows():
+            self.pace.look(driver.client.rtt if driver else math.nan, now)
         else:
             self.pace.free()
 

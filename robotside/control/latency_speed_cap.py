@@ -7,13 +7,16 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["CRAWL", "FULL_TO", "SLOWEST_FROM", "Pace", "share"]
+__all__ = ["CRAWL", "FULL_TO", "SLOWEST_FROM", "UNMEASURED_SHARE", "Pace", "share"]
 
 FULL_TO = 0.2
 """Up to this round trip it goes at full speed [s]."""
 
 SLOWEST_FROM = 0.4
 """From this round trip on it crawls [s]."""
+
+UNMEASURED_SHARE = 0.5
+"""Share of the full speed over a link whose round trip is not known, where the robot's settings say nothing else."""
 
 CRAWL = 0.15
 """Share of the full speed on the worst link."""
@@ -48,7 +51,11 @@ class Pace:
 
     def look(self, rtt: float, now: float) -> None:
         """The driver's round trip is `rtt` [s] now; NaN when it is not known or nobody drives."""
-        allowed, since = share(rtt), max(0.0, now - self._at)
+        self.limit(share(rtt), now)
+
+    def limit(self, allowed: float, now: float) -> None:
+        """The share may be as much as `allowed` now, 0 to 1."""
+        since = max(0.0, now - self._at)
         self._at = now
         self.share = min(allowed, self.share + RISE * min(since, 1.0 / RISE))
 

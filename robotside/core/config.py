@@ -40,6 +40,7 @@ Ring: TypeAlias = tuple[tuple[float, float], ...]
 
 _Above = Annotated[float, msgspec.Meta(gt=0.0)]
 _NotBelow = Annotated[float, msgspec.Meta(ge=0.0)]
+_Share = Annotated[float, msgspec.Meta(gt=0.0, le=1.0)]
 _Degrees = Annotated[float, msgspec.Meta(gt=0.0, le=90.0)]
 _Name = Annotated[str, msgspec.Meta(min_length=1, max_length=40)]
 
@@ -100,6 +101,8 @@ class ControlSettings(_Section, frozen=True):
     """The speed falls with the driver's link."""
     lost_link_stops_task: bool = False
     """A task is paused when the handheld of who has control is lost."""
+    unmeasured_link_speed: _Share = 0.5
+    """Share of the full speed at most for a driver over a link whose round trip is not known; operators cannot change it."""
 
 
 class DatabaseSettings(_Section, frozen=True):

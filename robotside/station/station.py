@@ -105,7 +105,7 @@ class Station:
         self.demand = Demand(robot.want)
         self.options = Options(config.control, records.setting, records.set_setting)
         """What operators may switch."""
-        self.controls = self._controls()
+        self.controls = self._controls(config)
         self.robot = Guarded(robot, lambda: self.controls.stopped, self._clamp, self.keeper.info)
         """The only way to the robot's wheels."""
         self.records = records
@@ -438,9 +438,9 @@ class Station:
             lost_link_stops_task=self.options.on(LOST_LINK_STOPS_TASK),
         )
 
-    def _controls(self) -> Controls:
+    def _controls(self, config: Config) -> Controls:
         follows = partial(self.options.on, FOLLOW_LINK)
-        return Controls(self.info, follows=follows)
+        return Controls(self.info, follows=follows, unmeasured_share=config.control.unmeasured_link_speed)
 
     def _autonomy(self, first: Iterable[tuple[str, Msg]], rng: random.Random) -> Autonomy:
         return Autonomy(

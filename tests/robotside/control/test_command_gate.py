@@ -362,3 +362,35 @@ def test_stop_is_latched_whoever_pressed_it_even_without_a_name() -> None:
     assert controls.stopped_by == "somebody"
     controls.release_stop()
     assert (controls.stopped, controls.stopped_by) == (False, "")
+
+
+FULL = Twist.planar(0.7, 0.0)
+
+
+@pytest.mark.parametrize("follows", [True, False])
+def test_an_operator_whose_link_is_not_measured_never_drives_at_full_speed(
+    anna: FakeClient, follows: bool
+) -> None:
+    anna.rtt = math.nan
+    controls = Controls(RobotInfo(max_speed=0.7, max_yaw_rate=1.9), follows=lambda: follows)
+    assert controls.drive(anna, FULL, 10.0).order == Twist.planar(0.35, 0.0)
+    assert controls.pace.shown == 0.5
+    controls.look(12.0)
+    assert controls.drive(anna, FULL, 12.0).order == Twist.planar(0.35, 0.0), "it does not rise with time"
+
+
+def test_the_cap_of_an_unmeasured_link_is_set_and_ends_with_the_first_measurement(anna: FakeClient) -> None:
+    anna.rtt = math.nan
+    controls = Controls(RobotInfo(max_speed=0.7, max_yaw_rate=1.9), unmeasured_share=0.2)
+    controls.acquire(anna, 10.0)
+    controls.look(10.0)
+    assert controls.pace.share == 0.2
+    anna.rtt = 0.05
+    controls.look(12.0)
+    assert controls.pace.share == 1.0
+    anna.rtt = math.nan
+    controls.look(12.1)
+    assert controls.pace.share == 0.2, "it falls at once"
+    controls.release(anna)
+    controls.look(15.0)
+    assert controls.pace.share == 1.0, "nobody drives"

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bridge.core.toml_files import MAX_BYTES
+from robotside.control.latency_speed_cap import UNMEASURED_SHARE
 from robotside.core.config import MOST_AREAS, MOST_CORNERS, BadConfig, Config, load, parse
 
 EXAMPLE = Path(__file__).parents[3] / "docs" / "robot.toml.example"
@@ -20,6 +21,7 @@ def test_an_empty_file_leaves_everything_to_the_robot() -> None:
     assert Config().limits.max_speed is None
     assert Config().control.follow_link
     assert not Config().control.lost_link_stops_task
+    assert Config().control.unmeasured_link_speed == UNMEASURED_SHARE
 
 
 def test_the_example_in_the_docs_can_be_used_as_it_is_and_shows_every_setting() -> None:
@@ -53,6 +55,14 @@ def test_whole_numbers_do_for_numbers() -> None:
         ("[limits]\nkeep_in = [[[0, 0], [1]]]", "limits.keep_in[0][1] must be a list of 2 numbers, not [1]."),
         ("[limits]\nkeep_in = [[[0, nan]]]", "limits.keep_in[0][0][1] must be a number, not nan."),
         ("[safe_state]\naction = 'fly'", "safe_state.action must be one of brake, brake_straight,"),
+        (
+            "[control]\nunmeasured_link_speed = 1.5",
+            "control.unmeasured_link_speed must be a number at most 1, not 1.5.",
+        ),
+        (
+            "[control]\nunmeasured_link_speed = 0.0",
+            "control.unmeasured_link_speed must be a number above 0, not 0.0.",
+        ),
         ("[control]\nfollow_link = 'yes'", "control.follow_link must be true or false, not 'yes'."),
         ("[database]\nbackups = 1.5", "database.backups must be a whole number, not 1.5."),
         ("[robot]\nname = ''", "robot.name must be a text of at least 1 character, not ''."),
