@@ -15,16 +15,17 @@ if TYPE_CHECKING:
     from widgets.controls.goals.arm_panel import ArmPanel as ArmPanel
     from widgets.controls.goals.goal_pad import GoalPad as GoalPad
     from widgets.controls.heading_dial import HeadingDial as HeadingDial
-    from widgets.controls.joystick import Joystick as Joystick
-    from widgets.controls.lift_lever import LiftLever as LiftLever
     from widgets.controls.motion_selector import MotionSelector as MotionSelector
-    from widgets.controls.rudder_throttle import RudderThrottle as RudderThrottle
     from widgets.controls.slide_confirm import SlideToConfirm as SlideToConfirm
     from widgets.controls.speed_cap import SpeedCap as SpeedCap
+    from widgets.controls.sticks.joystick import Joystick as Joystick
+    from widgets.controls.sticks.lift_lever import LiftLever as LiftLever
+    from widgets.controls.sticks.rudder_throttle import RudderThrottle as RudderThrottle
+    from widgets.controls.sticks.tilt_circle import TiltCircle as TiltCircle
     from widgets.controls.stop.stop_all import StopAll as StopAll
     from widgets.controls.stop.stop_button import StopButton as StopButton
     from widgets.controls.stop.stop_list import StopList as StopList
-    from widgets.controls.tilt_circle import TiltCircle as TiltCircle
+    from widgets.fields.field_view import FieldView as FieldView
     from widgets.inputs.key_help import KeyHelp as KeyHelp
     from widgets.inputs.pad_picture import PadPicture as PadPicture
     from widgets.instruments.ackermann import AckermannView as AckermannView
@@ -44,7 +45,6 @@ if TYPE_CHECKING:
     from widgets.map.grid_map import GridMap as GridMap
     from widgets.parts.option_list import OptionList as OptionList
     from widgets.sensors.encoders import EncodersView as EncodersView
-    from widgets.sensors.field_view import FieldView as FieldView
     from widgets.sensors.intruder_badge import IntruderBadge as IntruderBadge
     from widgets.sensors.laser_scan import LaserScanView as LaserScanView
     from widgets.sensors.line_sensor import LineSensorView as LineSensorView
@@ -87,7 +87,7 @@ CATALOGUE: dict[str, str] = {
     "CourseDial": "widgets.controls.course_dial",
     "EncodersView": "widgets.sensors.encoders",
     "EventLog": "widgets.status.event_log",
-    "FieldView": "widgets.sensors.field_view",
+    "FieldView": "widgets.fields.field_view",
     "GeoMap": "widgets.map.geo_map",
     "GoalPad": "widgets.controls.goals.goal_pad",
     "GridMap": "widgets.map.grid_map",
@@ -97,11 +97,11 @@ CATALOGUE: dict[str, str] = {
     "HeightTape": "widgets.instruments.height_tape",
     "IntentCard": "widgets.status.intent_card",
     "IntruderBadge": "widgets.sensors.intruder_badge",
-    "Joystick": "widgets.controls.joystick",
+    "Joystick": "widgets.controls.sticks.joystick",
     "KeyHelp": "widgets.inputs.key_help",
     "LaserScanView": "widgets.sensors.laser_scan",
     "LegPanel": "widgets.instruments.leg_panel",
-    "LiftLever": "widgets.controls.lift_lever",
+    "LiftLever": "widgets.controls.sticks.lift_lever",
     "LineSensorView": "widgets.sensors.line_sensor",
     "LinkQuality": "widgets.instruments.link_quality",
     "ModeCard": "widgets.status.mode_card",
@@ -118,7 +118,7 @@ CATALOGUE: dict[str, str] = {
     "QuestionCard": "widgets.status.question_card",
     "Readout": "widgets.instruments.readout",
     "RollPitch": "widgets.instruments.roll_pitch",
-    "RudderThrottle": "widgets.controls.rudder_throttle",
+    "RudderThrottle": "widgets.controls.sticks.rudder_throttle",
     "ResetCard": "widgets.status.reset_card",
     "RotorSpeeds": "widgets.instruments.rotor_speeds",
     "RunList": "widgets.tasks.run_list",
@@ -133,7 +133,7 @@ CATALOGUE: dict[str, str] = {
     "TaskButtons": "widgets.tasks.task_buttons",
     "TaskCard": "widgets.tasks.task_card",
     "TaskChooser": "widgets.tasks.task_chooser",
-    "TiltCircle": "widgets.controls.tilt_circle",
+    "TiltCircle": "widgets.controls.sticks.tilt_circle",
     "TlxScales": "widgets.study.tlx_scales",
     "UltrasoundView": "widgets.sensors.ultrasound",
     "Video": "widgets.sensors.video",

@@ -11,9 +11,9 @@ from app.layout.layout_faults import LayoutError
 from bridge.core.toml_files import shown
 from bridge.core.topics import topic
 from bridge.msgs.geometry_msgs import PoseStamped
-from widgets.controls.stick import Stick
+from widgets.controls.finger_grip import Grip
+from widgets.controls.sticks.stick import Stick
 from widgets.core.base import Control
-from widgets.core.finger_grip import Grip
 from widgets.core.icons import ICONS
 
 __all__ = ["check_control", "check_icon", "check_instrument", "confirms", "drives"]

@@ -84,7 +84,7 @@ def test_the_states_of_the_robot_widgets_are_all_shown():
 
 
 def test_a_name_picks_one_widget_or_says_what_there_is():
-    assert modules("joystick") == {"Joystick": "widgets.controls.joystick"}
+    assert modules("joystick") == {"Joystick": "widgets.controls.sticks.joystick"}
     assert modules("stop_button") == {"StopButton": "widgets.controls.stop.stop_button"}
     with pytest.raises(KeyError, match="There is no widget 'wheel'; there are .*Joystick"):
         modules("wheel")
@@ -92,7 +92,7 @@ def test_a_name_picks_one_widget_or_says_what_there_is():
 
 def test_the_wall_hangs_every_sample_of_a_widget(stage):
     wall = stage.show(Gallery("Joystick"), size=(1280, 800))
-    assert len(of(wall, Exhibit)) == len(import_module("widgets.controls.joystick").samples())
+    assert len(of(wall, Exhibit)) == len(import_module("widgets.controls.sticks.joystick").samples())
     wall.set_theme("night")
     assert theme.name == "night"
 

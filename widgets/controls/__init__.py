@@ -1,1 +1,1 @@
-"""What a finger drives and commands with."""
+"""Controls: what a finger drives, commands and stops with."""

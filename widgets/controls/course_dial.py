@@ -22,9 +22,9 @@ from kivy.uix.widget import Widget
 from bridge.core.units import heading_from_yaw, yaw_from_heading
 from bridge.msgs.pilothouse_msgs import Compass, Manoeuvre
 from widgets.controls.course_picture import KNOB, draw_arc, draw_boat, draw_knob
+from widgets.controls.finger_grip import Grip
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word
-from widgets.core.finger_grip import Grip
 from widgets.core.geometry import DASH, dial_point, dial_text, heading_text, shortest_turn
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme

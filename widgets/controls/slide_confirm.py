@@ -17,9 +17,9 @@ from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, ListProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.widget import Widget
 
+from widgets.controls.finger_grip import Grip
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, tint
-from widgets.core.finger_grip import Grip
 from widgets.core.icons import icon
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme

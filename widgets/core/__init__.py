@@ -1,1 +1,1 @@
-"""What every widget stands on: states and ages, themes, shapes, ink on a canvas, arithmetic."""
+"""Core of every widget: states and ages, themes, shapes on a canvas, arithmetic, words of tasks."""

@@ -1,1 +1,1 @@
-"""What a robot's sensors see around it, and any message field by field."""
+"""Sensor views: what a robot sees, hears and touches around it."""

@@ -14,7 +14,7 @@ from app.inputs.base.text_focus import is_typing
 from app.inputs.motion.simulated_tablet import ARROWS, SimulatedTablet
 from app.inputs.motion.tilt_options import TiltOptions
 from app.inputs.motion.tilt_sensor import TiltSensor
-from widgets.controls.tilt_circle import TiltCircle
+from widgets.controls.sticks.tilt_circle import TiltCircle
 
 __all__ = ["TiltInput"]
 

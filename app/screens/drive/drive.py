@@ -16,7 +16,7 @@ from app.screens.drive.driving_base import Driving
 from app.screens.drive.intruder_overlay import Sight
 from app.screens.parts.placing import off, put
 from widgets import SlideToConfirm
-from widgets.controls.stick import Stick
+from widgets.controls.sticks.stick import Stick
 from widgets.parts.choices import Segmented
 from widgets.parts.kit import Card
 

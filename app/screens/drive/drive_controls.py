@@ -26,8 +26,8 @@ from app.session.session import Session
 from bridge.msgs.geometry_msgs import PoseStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import FlightState, TaskOrder, TaskStatus, Waypoint
-from widgets.controls.stick import Stick
-from widgets.controls.tilt_circle import TiltCircle
+from widgets.controls.sticks.stick import Stick
+from widgets.controls.sticks.tilt_circle import TiltCircle
 
 __all__ = ["Hands"]
 

@@ -26,7 +26,7 @@ from app.session.layout_actions import Actions
 from app.session.session import Session
 from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import Video
-from widgets.controls.stick import Stick
+from widgets.controls.sticks.stick import Stick
 
 __all__ = ["Driving"]
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from app.layout.layout import SAYS, Control
 from widgets import TiltCircle
-from widgets.controls.stick import Stick
+from widgets.controls.sticks.stick import Stick
 
 __all__ = ["TILT", "TiltHand"]
 

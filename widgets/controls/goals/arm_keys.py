@@ -10,7 +10,7 @@ from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, BooleanProperty, ListProperty, NumericProperty, StringProperty
 
 from bridge.msgs.pilothouse_msgs import ArmOrder
-from widgets.core.finger_grip import Grip
+from widgets.controls.finger_grip import Grip
 from widgets.core.theme import theme
 from widgets.parts.buttons import QuietButton
 from widgets.parts.sensor_card import Gauge, wide

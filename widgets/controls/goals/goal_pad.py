@@ -23,11 +23,11 @@ from bridge.msgs.geometry_msgs import (
     PoseWithCovarianceStamped,
     Quaternion,
 )
+from widgets.controls.finger_grip import Grip
 from widgets.controls.goals.goal_choice import BUTTONS, STEP, TURN, UNDER_WAY, GoalChoice
 from widgets.controls.goals.goal_picture import Box, draw, ground
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, tint
-from widgets.core.finger_grip import Grip
 from widgets.core.geometry import DASH
 from widgets.core.icons import icon
 from widgets.core.shapes import Shapes

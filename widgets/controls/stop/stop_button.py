@@ -15,8 +15,8 @@ from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, Opt
 from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.widget import Widget
 
+from widgets.controls.hold_progress import HOLD, Hold
 from widgets.core.base import Control
-from widgets.core.hold_progress import HOLD, Hold
 from widgets.core.surfaces import Outlined
 from widgets.parts.labels import spaced
 

@@ -18,8 +18,8 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
+from widgets.controls.hold_progress import Hold
 from widgets.core.base import Control
-from widgets.core.hold_progress import Hold
 from widgets.parts.buttons import QuietButton
 
 __all__ = ["WORDS", "StopList", "StopRow"]

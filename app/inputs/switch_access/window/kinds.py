@@ -11,10 +11,10 @@ from kivy.uix.textinput import TextInput
 from kivy.uix.widget import Widget
 
 from widgets import HeadingDial, StopAll, StopButton
+from widgets.controls.finger_grip import Grip
+from widgets.controls.hold_progress import Hold
 from widgets.controls.slide_confirm import SlideToConfirm
-from widgets.controls.stick import Stick
-from widgets.core.finger_grip import Grip
-from widgets.core.hold_progress import Hold
+from widgets.controls.sticks.stick import Stick
 from widgets.map.map_gestures import MapGestures
 from widgets.parts.cards import Banner, Sheet, SheetGrip
 from widgets.parts.choices import Toggle

@@ -16,8 +16,8 @@ from app.inputs.switch_access.window import finger
 from app.inputs.switch_access.window.area import Area
 from app.inputs.switch_access.window.finding import Box, in_window
 from app.inputs.switch_access.window.placing import beside
+from widgets.controls.hold_progress import HOLD
 from widgets.controls.stop.stop_button import LONG_HOLD
-from widgets.core.hold_progress import HOLD
 from widgets.inputs.scan_keyboard import ScanKeyboard
 from widgets.inputs.scan_pad import PadKey, ScanPad
 

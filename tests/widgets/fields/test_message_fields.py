@@ -15,7 +15,8 @@ from bridge.msgs.geometry_msgs import Point, Pose, Twist, Vector3
 from bridge.msgs.nav_msgs import GridCells
 from bridge.msgs.sensor_msgs import LaserEcho, MultiEchoLaserScan
 from bridge.msgs.std_msgs import Duration, Header, Time
-from widgets.core.message_fields import (
+from widgets.fields.field_samples import battery, cells, diagnostics, imu, log, scan
+from widgets.fields.message_fields import (
     ARRAY,
     BRANCH,
     LEAF,
@@ -28,7 +29,6 @@ from widgets.core.message_fields import (
     spelled,
     unit,
 )
-from widgets.sensors.field_samples import battery, cells, diagnostics, imu, log, scan
 
 
 class Texts(Msg, frozen=True, gc=False):

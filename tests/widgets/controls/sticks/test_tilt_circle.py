@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from widgets.controls.tilt_circle import TiltCircle
-from widgets.controls.tilt_stick import NEUTRAL
+from widgets.controls.sticks.tilt_circle import TiltCircle
+from widgets.controls.sticks.tilt_stick import NEUTRAL
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 

@@ -15,7 +15,7 @@ from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, BooleanProperty, StringProperty
 from kivy.uix.widget import Widget
 
-from widgets.controls.tilt_stick import TiltStick
+from widgets.controls.sticks.tilt_stick import TiltStick
 from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme

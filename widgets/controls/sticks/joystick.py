@@ -16,8 +16,8 @@ from kivy.properties import AliasProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import Twist
-from widgets.controls.stick import DEAD
-from widgets.controls.stick_caption import Captioned
+from widgets.controls.sticks.stick import DEAD
+from widgets.controls.sticks.stick_caption import Captioned
 from widgets.core.canvas_ink import tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme

@@ -11,7 +11,7 @@ from kivy.lang import Builder
 from kivy.metrics import sp
 from kivy.properties import AliasProperty, StringProperty
 
-from widgets.controls.stick import Stick
+from widgets.controls.sticks.stick import Stick
 from widgets.core.base import text_texture
 from widgets.core.theme import theme
 

@@ -14,8 +14,8 @@ from kivy.uix.widget import Widget
 
 import widgets.parts.labels  # noqa: F401 - its rules draw the icon
 from widgets.core.base import text_texture
-from widgets.core.message_fields import ARRAY, LEAF, Path
 from widgets.core.theme import theme
+from widgets.fields.message_fields import ARRAY, LEAF, Path
 
 __all__ = ["FieldRow", "line_width", "text_width", "whole_height"]
 

@@ -8,7 +8,7 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from tests.headless import Stage
-from widgets.controls.lift_lever import LiftLever
+from widgets.controls.sticks.lift_lever import LiftLever
 
 
 @pytest.fixture

@@ -30,9 +30,9 @@ from kivy.uix.widget import Widget
 import widgets.parts.labels  # noqa: F401 - its rules draw the rows
 from bridge.msgs import Msg
 from widgets.core.base import RobotWidget, age_text
-from widgets.core.message_fields import ARRAY, BRANCH, DASH, LEAF, Path, Row, describe, rows, unit
 from widgets.core.theme import theme
-from widgets.sensors.field_row import FieldRow, line_width, text_width, whole_height
+from widgets.fields.field_row import FieldRow, line_width, text_width, whole_height
+from widgets.fields.message_fields import ARRAY, BRANCH, DASH, LEAF, Path, Row, describe, rows, unit
 
 __all__ = ["FieldView"]
 
@@ -94,7 +94,7 @@ class FieldView(RobotWidget, FloatLayout):
     folds = DictProperty()
     """Paths that a finger has opened (True) or folded (False)."""
     lines: ListProperty[Row] = ListProperty()
-    """Rows of the tree, as `widgets.core.message_fields.rows` gives them."""
+    """Rows of the tree, as `widgets.fields.message_fields.rows` gives them."""
     edges: ListProperty[float] = ListProperty([0.0])
     """Where each row begins from the top, and where the last one ends [px]."""
 
@@ -254,7 +254,7 @@ class FieldView(RobotWidget, FloatLayout):
 
 def samples() -> dict[str, Callable[[], Widget]]:
     """Small and large messages, a type made at run time, every state."""
-    from widgets.sensors.field_samples import battery, cells, diagnostics, imu, log, nothing, picture, scan
+    from widgets.fields.field_samples import battery, cells, diagnostics, imu, log, nothing, picture, scan
 
     def make(message: Msg | None = None, size: tuple[str, str] = ("388dp", "560dp"), **kwargs: Any) -> Any:
         def build() -> Widget:

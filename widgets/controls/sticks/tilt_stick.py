@@ -11,7 +11,7 @@ from typing import Any
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from widgets.controls.stick import Stick
+from widgets.controls.sticks.stick import Stick
 
 __all__ = ["NEUTRAL", "TiltStick"]
 

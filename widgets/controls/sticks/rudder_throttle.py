@@ -17,7 +17,7 @@ from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RudderState
-from widgets.controls.stick import DEAD, Stick
+from widgets.controls.sticks.stick import DEAD, Stick
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import HULL, Points, rounded
 from widgets.core.shapes import Shapes

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from widgets.controls.joystick import DEAD, Joystick
+from widgets.controls.sticks.joystick import DEAD, Joystick
 
 SIZE = 240
 MIDDLE = SIZE / 2

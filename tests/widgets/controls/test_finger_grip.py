@@ -4,7 +4,7 @@ import pytest
 from kivy.properties import NumericProperty
 from kivy.uix.widget import Widget
 
-from widgets.core.finger_grip import Grip
+from widgets.controls.finger_grip import Grip
 
 
 class Handle(Grip, Widget):

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from bridge.msgs.pilothouse_msgs import RudderState
-from widgets.controls.rudder_throttle import RudderThrottle
+from widgets.controls.sticks.rudder_throttle import RudderThrottle
 
 SIDE = 242
 

@@ -15,9 +15,9 @@ from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, NumericProperty, OptionProperty
 
 from bridge.msgs import Msg
+from widgets.controls.finger_grip import Grip
 from widgets.core.base import text_texture
 from widgets.core.canvas_ink import Drawing, Ink
-from widgets.core.finger_grip import Grip
 from widgets.core.icons import icon
 from widgets.core.theme import theme
 

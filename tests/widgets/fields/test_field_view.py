@@ -8,15 +8,15 @@ from typing import ClassVar
 import pytest
 from msgspec.structs import replace
 
-import widgets.core.message_fields
-import widgets.sensors.field_view
+import widgets.fields.field_view
+import widgets.fields.message_fields
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import Imu
 from bridge.msgs.std_msgs import String
 from widgets.core.theme import theme
+from widgets.fields.field_samples import battery, cells, diagnostics, imu, log, scan
+from widgets.fields.field_view import FieldView
 from widgets.parts.labels import Icon
-from widgets.sensors.field_samples import battery, cells, diagnostics, imu, log, scan
-from widgets.sensors.field_view import FieldView
 
 
 class Texts(Msg, frozen=True, gc=False):
@@ -126,8 +126,8 @@ def test_fifty_messages_a_second_are_written_ten_times(stage, view, monkeypatch)
     view.show(scan())
     stage.run_for(0.5)
     written = []
-    tree = widgets.sensors.field_view.rows
-    monkeypatch.setattr(widgets.sensors.field_view, "rows", lambda *args: written.append(1) or tree(*args))
+    tree = widgets.fields.field_view.rows
+    monkeypatch.setattr(widgets.fields.field_view, "rows", lambda *args: written.append(1) or tree(*args))
     for _ in range(50):
         view.show(scan())
         stage.frames(1, 0.02)

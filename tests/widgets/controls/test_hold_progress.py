@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 from kivy.uix.widget import Widget
 
-from widgets.core.hold_progress import FRAME, HOLD, Hold
+from widgets.controls.hold_progress import FRAME, HOLD, Hold
 
 
 class Held(Hold, Widget):

@@ -1,0 +1,1 @@
+"""Fields of any message, as a tree that a finger folds."""
