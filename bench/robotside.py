@@ -22,7 +22,7 @@ from bench.support.planning import DEEP, LAKE, SHALLOW, lake, longest, trap
 from bench.support.station import ROUND, Serving, patrol, serving
 from bridge.core.camera_frames import Frame
 from bridge.core.network_thread import NetworkThread
-from bridge.core.robot_catalogue import Session
+from bridge.core.robot_catalogue import Operator
 from bridge.msgs.pilothouse_msgs import Mission, SetMissionRequest, StartTaskRequest, TaskProgress
 from robotside.door.station_door import StationDoor
 from robotside.records import Records
@@ -176,7 +176,7 @@ def run(station: Station, clock: Clock, seconds: float) -> None:
 
 def begin(station: Station) -> None:
     """Start patrolling `ROUND`, as a client would."""
-    session = Session("1", "bench", 0.0)
+    session = Operator("1", "bench", 0.0)
     door = StationDoor(station)
     for name, request in (
         ("/mission/set", SetMissionRequest(mission=Mission(waypoints=ROUND))),

@@ -26,7 +26,7 @@ from websockets.exceptions import ConnectionClosed
 
 from bench.support.traffic import MESSAGES
 from bridge.codec import to_json
-from bridge.core.robot_catalogue import Service, Session
+from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from bridge.server.server import BridgeServer
 from robotside.door.door import Door
@@ -96,7 +96,7 @@ class Naive:
 class Commands(list[tuple[float, float]]):
     """When which drive command came."""
 
-    def hear(self, session: Session, topic: str, msg: Any, stamp: float | None) -> None:
+    def hear(self, session: Operator, topic: str, msg: Any, stamp: float | None) -> None:
         """Note it."""
         if topic == "/cmd_vel":
             self.append((time.monotonic(), msg.linear.x))

@@ -1,4 +1,4 @@
-"""What a robot has for its clients: services, actions, and who they are to it."""
+"""The services and actions that a robot offers, and its operators, the clients that may use them."""
 
 from __future__ import annotations
 
@@ -9,50 +9,51 @@ from typing import Any
 
 from bridge.msgs import Msg
 
-__all__ = ["Action", "Service", "Session"]
+__all__ = ["Action", "Service", "Operator"]
 
 MsgClass = type[Msg]
 
 
-class Session:
-    """One connected client."""
+class Operator:
+    """A client that may command the robot, over one connection of any gateway."""
 
     def __init__(self, id: str, address: str, opened: float) -> None:
         self.id = id
-        """Unique in this run of the server."""
+        """Unique in this run of the robot side."""
         self.address = address
         """`HOST:PORT` of the client."""
         self.opened = opened
-        """When it connected [s], operators' clock."""
+        """Time of connection [s], operators' clock."""
         self.last_heard = opened
-        """When anything came from it [s], operators' clock; answers to pings do not count."""
+        """Time of the last message from it [s], operators' clock; answers to pings do not count."""
         self.rtt = math.nan
-        """How long the way to it and back takes, by the server's own pings [s]; NaN until known."""
+        """Round-trip time to it [s], measured by the robot side's own pings; NaN until known."""
         self.answered = opened
-        """What comes from it now was sent after this [s], operators' clock."""
+        """Earliest time [s], operators' clock, at which the message that comes next can have been sent."""
         self.asked_time = False
-        """It has asked for the operators' clock, by `/rosapi/get_time`."""
+        """Whether it asked for the operators' clock, by `/rosapi/get_time`, so that its stamps have a meaning."""
 
     def __repr__(self) -> str:
-        return f"Session({self.id!r}, {self.address!r})"
+        return f"Operator({self.id!r}, {self.address!r})"
 
 
 @dataclass(frozen=True, slots=True)
 class Service:
-    """Something a client may ask for once and be answered."""
+    """A service of the robot: a request with one response."""
 
     name: str
     type: str
     """ROS type, as in `std_srvs/Trigger`."""
     request: MsgClass
     response: MsgClass
-    call: Callable[[Session, Any], Msg | Awaitable[Msg]]
-    """Does it. Raises Refused with the sentence for the caller, who gets `result: false`."""
+    call: Callable[[Operator, Any], Msg | Awaitable[Msg]]
+    """Carries the request out and returns the response. Raises Refused with the sentence for the caller, who gets
+    `result: false`."""
 
 
 @dataclass(frozen=True, slots=True)
 class Action:
-    """Something that takes a while: a client sets a goal, hears how it goes, and may take it back."""
+    """An action of the robot: a goal with feedback on its way and a result, that the client may cancel."""
 
     name: str
     type: str
@@ -60,6 +61,6 @@ class Action:
     goal: MsgClass
     result: MsgClass
     feedback: MsgClass
-    start: Callable[[Session, Any, Callable[[Msg], None]], Awaitable[Msg]]
-    """Does it: takes the goal and where to tell how it goes, gives the result. Raises Refused with the sentence for the
-    client. It is cancelled, as tasks of asyncio are, when the client takes the goal back or is gone."""
+    start: Callable[[Operator, Any, Callable[[Msg], None]], Awaitable[Msg]]
+    """Carries a goal out: takes the operator, the goal and a function for feedback, returns the result. Raises Refused with
+    the sentence for the client. It is cancelled, as an asyncio task, when the client cancels the goal or is gone."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable, Hashable, Mapping
 from typing import Protocol
 
-from bridge.core.robot_catalogue import Action, Service, Session
+from bridge.core.robot_catalogue import Action, Operator, Service
 from bridge.core.topics import Topic
 from bridge.msgs import Msg
 
@@ -36,7 +36,7 @@ class RobotDoor(Protocol):
     def action(self, name: str) -> Action:
         """The action of that name; raises Refused when there is none."""
 
-    def join(self, address: str) -> Session:
+    def join(self, address: str) -> Operator:
         """A client came from `address`; the operator that it is from now on, with an id of its own."""
 
     def leave(self, asker: Hashable) -> None:
@@ -54,7 +54,7 @@ class RobotDoor(Protocol):
     def check_listens(self, topic: str) -> None:
         """Raises Refused when no message of a client is taken on `topic`."""
 
-    def publish(self, operator: Session, topic: str, msg: Msg, stamp: float | None) -> None:
+    def publish(self, operator: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
         """Give a message of `operator` to the robot and to the subscribers of `topic`.
 
         `stamp` is when the operator meant it [s, operators' clock], None when that is not known. Raises Refused as
@@ -65,7 +65,7 @@ class RobotDoor(Protocol):
         """Calls of `service` are always taken and their answers go before everything else: STOP and control."""
 
     def call(
-        self, operator: Session, service: str, request: Msg, timeout: float | None = None
+        self, operator: Operator, service: str, request: Msg, timeout: float | None = None
     ) -> Msg | Awaitable[Msg]:
         """Have a service done; its answer, at once where it can be had at once.
 
@@ -73,5 +73,7 @@ class RobotDoor(Protocol):
         the sentence for the caller, now or when awaited.
         """
 
-    async def run(self, operator: Session, action: str, goal: Msg, on_feedback: Callable[[Msg], None]) -> Msg:
+    async def run(
+        self, operator: Operator, action: str, goal: Msg, on_feedback: Callable[[Msg], None]
+    ) -> Msg:
         """Carry a goal out and give its result; cancelled, the goal is taken back. Raises Refused."""

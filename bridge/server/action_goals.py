@@ -11,7 +11,7 @@ from msgspec import Raw
 from bridge.codec import to_json
 from bridge.core.async_tasks import cancel_all
 from bridge.core.errors import BridgeError
-from bridge.core.robot_catalogue import Action, Session
+from bridge.core.robot_catalogue import Action, Operator
 from bridge.core.robot_door import RobotDoor
 from bridge.msgs import Msg
 from bridge.msgs.action_msgs import GoalStatus
@@ -42,7 +42,7 @@ class ActionGoals:
     def __init__(
         self,
         client: Peer,
-        session: Session,
+        session: Operator,
         queue: SendQueue,
         door: RobotDoor,
         client_services: ClientServices,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from bridge.core.robot_catalogue import Action, Service, Session
+from bridge.core.robot_catalogue import Action, Operator, Service
 from bridge.server.client_services import ClientServices, Peer
 from bridge.server.rosapi.services import NODE, Graph, Node
 from bridge.server.switchboard import Switchboard
@@ -21,7 +21,7 @@ class NodeGraph:
         services: Mapping[str, Service],
         actions: Mapping[str, Action],
         client_services: ClientServices,
-        clients: Mapping[Session, Peer],
+        clients: Mapping[Operator, Peer],
         offers: Callable[[str], bool],
     ) -> None:
         """All are looked at again for every answer; of the table's topics only those are told that the robot `offers`."""

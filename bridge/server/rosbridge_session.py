@@ -11,7 +11,7 @@ from typing import Any
 from msgspec import UNSET
 
 from bridge.core.errors import ProtocolError
-from bridge.core.robot_catalogue import Session
+from bridge.core.robot_catalogue import Operator
 from bridge.protocol import (
     ActionFeedback,
     ActionResult,
@@ -55,7 +55,7 @@ class RosbridgeSession:
     """One client of the rosbridge protocol; a `MessageHandler` of its connection."""
 
     def __init__(
-        self, writer: FrameWriter, batch: WriteBatch, session: Session, context: ServerContext
+        self, writer: FrameWriter, batch: WriteBatch, session: Operator, context: ServerContext
     ) -> None:
         """`writer` is the connection, `batch` gathers what leaves in this step of the loop."""
         self.protocol = ServerSession(context.compat)

@@ -26,7 +26,7 @@ from websockets.http11 import Request, Response
 from bridge.core.async_tasks import cancel_all
 from bridge.core.compat import Compat
 from bridge.core.errors import BridgeError
-from bridge.core.robot_catalogue import Session
+from bridge.core.robot_catalogue import Operator
 from bridge.core.robot_door import RobotDoor
 from bridge.msgs import Msg
 from bridge.protocol import MAX_SERVER_FRAME
@@ -94,7 +94,7 @@ class BridgeServer:
         """
         self.port = 0
         """Where it listens; 0 until started."""
-        self.sessions: set[Session] = set()
+        self.sessions: set[Operator] = set()
         """The clients connected now; who only watches a camera is none."""
         cameras = None if cameras is None else list(cameras)
         self._door = door
@@ -104,7 +104,7 @@ class BridgeServer:
             door.topics.values(), self._want, reduce=reduce, now=now, cameras=cameras or ()
         )
         client_services = ClientServices(door.services, door.actions)
-        self._clients: dict[Session, RosbridgeSession] = {}
+        self._clients: dict[Operator, RosbridgeSession] = {}
         nodes = NodeGraph(
             self._switchboard, door.services, door.actions, client_services, self._clients, offers
         )

@@ -13,7 +13,7 @@ from msgspec import Raw
 from bridge.codec import to_json
 from bridge.core.async_tasks import cancel_all
 from bridge.core.errors import BridgeError
-from bridge.core.robot_catalogue import Session
+from bridge.core.robot_catalogue import Operator
 from bridge.msgs import Msg
 from bridge.protocol import MISSING, CallService, Id, ServiceResponse, arguments, service_and_id
 from bridge.server.client_services import Peer
@@ -31,7 +31,7 @@ TIME_SERVICE = "/rosapi/get_time"
 class ServiceOperations:
     """The calls that one client has made."""
 
-    def __init__(self, client: Peer, session: Session, context: ServerContext) -> None:
+    def __init__(self, client: Peer, session: Operator, context: ServerContext) -> None:
         """Responses are sent by `client.send`."""
         self._client = client
         self._session = session

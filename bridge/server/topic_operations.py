@@ -8,7 +8,7 @@ from msgspec import Raw
 
 from bridge.codec import Unread, from_builtins, from_json, shown, unread
 from bridge.core.errors import ProtocolError, Refused
-from bridge.core.robot_catalogue import Session
+from bridge.core.robot_catalogue import Operator
 from bridge.msgs import Msg
 from bridge.protocol import (
     Advertise,
@@ -42,7 +42,7 @@ class TopicOperations:
     """The topics that one client publishes and subscribes."""
 
     def __init__(
-        self, client: Subscriber, session: Session, queue: SendQueue, context: ServerContext
+        self, client: Subscriber, session: Operator, queue: SendQueue, context: ServerContext
     ) -> None:
         """`queue` holds what waits to be sent to the client."""
         self._client = client

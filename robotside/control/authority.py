@@ -6,10 +6,10 @@ Pure: every call is told the time. Times are seconds of the operators' clock.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 from bridge.core.codes import Code
 from bridge.core.link_state import CONTROL_TIMEOUT
+from bridge.core.robot_catalogue import Operator
 from robotside.core.notice import Notice, Problem
 from robotside.core.text import number, plain
 
@@ -22,7 +22,6 @@ __all__ = [
     "Asker",
     "Authority",
     "Driver",
-    "Operator",
 ]
 
 SILENT = 1.0
@@ -47,21 +46,6 @@ _CALLED = 256
 
 REMEMBERED = 64
 """As many objections are remembered."""
-
-
-class Operator(Protocol):
-    """Who commands over one connection: a session of the bridge server."""
-
-    id: str
-    address: str
-    last_heard: float
-    """When anything last came from it [s]."""
-    rtt: float
-    """How long the way to it and back takes [s]; NaN until that is known."""
-    asked_time: bool
-    """It has asked for the operators' clock, so that its stamps mean something."""
-    answered: float
-    """Whatever comes from it now was sent after this [s]."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 
 from bridge.core.codes import Code
-from robotside.control.authority import Operator
+from bridge.core.robot_catalogue import Operator
 from robotside.core.notice import Notice, Problem
 from robotside.core.text import number
 

@@ -10,8 +10,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from bridge.core.codes import Code
+from bridge.core.robot_catalogue import Operator
 from bridge.msgs.pilothouse_msgs import RobotInfo
-from robotside.control.authority import Authority, Operator
+from robotside.control.authority import Authority
 from robotside.control.command_expiry import HELD, Expiry
 from robotside.control.latency_speed_cap import UNMEASURED_SHARE, Pace
 from robotside.control.neutral_interlock import LET_GO, Sticks

@@ -8,9 +8,10 @@ from typing import Protocol
 
 from bridge.core.codes import Code
 from bridge.core.link_state import CONTROL_TIMEOUT
+from bridge.core.robot_catalogue import Operator
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from robotside.control.authority import NOT_ASKED, TO_OBJECT, Asker, Driver, Operator
+from robotside.control.authority import NOT_ASKED, TO_OBJECT, Asker, Driver
 from robotside.control.command_gate import Controls
 from robotside.control.guarded_robot import Guarded
 from robotside.control.limit_violations import Excesses

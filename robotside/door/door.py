@@ -10,7 +10,7 @@ from typing import Any
 
 from bridge.codec import shown
 from bridge.core.errors import BridgeError, Refused
-from bridge.core.robot_catalogue import Action, Service, Session
+from bridge.core.robot_catalogue import Action, Operator, Service
 from bridge.core.robot_door import Callback
 from bridge.core.topics import TOPICS, Topic
 from bridge.msgs import Msg
@@ -67,7 +67,7 @@ class Door:
         self._bus = bus or Bus()
         self._demand = Demand(on_demand)
         self._numbers = itertools.count(1)
-        self._operators: set[Session] = set()
+        self._operators: set[Operator] = set()
         self._calls = CallsInProgress()
         self._subscriptions: dict[Hashable, dict[object, tuple[str, Callable[[], object]]]] = {}
         """By asker, its subscriptions: the topic and the call that ends the messages."""
@@ -90,9 +90,9 @@ class Door:
             raise Refused(f"This robot has no action {shown(name)}.")
         return known
 
-    def join(self, address: str) -> Session:
+    def join(self, address: str) -> Operator:
         """A client came from `address`; the operator that it is from now on, with an id that no other has."""
-        operator = Session(str(next(self._numbers)), address, self.now())
+        operator = Operator(str(next(self._numbers)), address, self.now())
         self._operators.add(operator)
         return operator
 
@@ -100,7 +100,7 @@ class Door:
         """An operator or another asker is gone: end its subscriptions and, if it drove, the driving."""
         for token in list(self._subscriptions.get(asker, ())):
             self._unsubscribe(asker, token)
-        if isinstance(asker, Session) and asker in self._operators:
+        if isinstance(asker, Operator) and asker in self._operators:
             self._operators.discard(asker)
             self._calls.forget(asker.id)
             self._on_gone(asker)
@@ -144,7 +144,7 @@ class Door:
             why = ", it speaks there" if topic in self.topics else ""
             raise Refused(f"This robot does not listen to {shown(topic)}{why}.")
 
-    def publish(self, operator: Session, topic: str, msg: Msg, stamp: float | None) -> None:
+    def publish(self, operator: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
         """Give a message of `operator` to the robot and to the subscribers of `topic`.
 
         `stamp` is when the operator meant it [s, operators' clock], None when that is not known. Raises Refused as
@@ -166,7 +166,7 @@ class Door:
         return service in URGENT
 
     def call(
-        self, operator: Session, service: str, request: Msg, timeout: float | None = None
+        self, operator: Operator, service: str, request: Msg, timeout: float | None = None
     ) -> Msg | Awaitable[Msg]:
         """Have a service done; its answer, at once where it can be had at once.
 
@@ -186,14 +186,16 @@ class Door:
         return self._answer(operator, service, answer, timeout)
 
     async def _answer(
-        self, operator: Session, service: str, answer: Awaitable[Msg], timeout: float | None
+        self, operator: Operator, service: str, answer: Awaitable[Msg], timeout: float | None
     ) -> Msg:
         try:
             return await self._calls.answer(operator.id, service, answer, timeout)
         except Exception as error:
             raise _refused(service, operator, error) from error
 
-    async def run(self, operator: Session, action: str, goal: Msg, on_feedback: Callable[[Msg], None]) -> Msg:
+    async def run(
+        self, operator: Operator, action: str, goal: Msg, on_feedback: Callable[[Msg], None]
+    ) -> Msg:
         """Carry a goal out and give its result; cancelled, the goal is taken back. Raises Refused."""
         known = self.action(action)
         try:
@@ -202,7 +204,7 @@ class Door:
             raise _refused(action, operator, error) from error
 
 
-def _refused(name: str, operator: Session, error: Exception) -> BridgeError:
+def _refused(name: str, operator: Operator, error: Exception) -> BridgeError:
     """What the caller is answered when a service or an action fails; a fault of the program goes to the log."""
     if isinstance(error, BridgeError):
         return error

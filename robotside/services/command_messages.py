@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from bridge.core.robot_catalogue import Operator
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseStamped
 from bridge.msgs.pilothouse_msgs import Waypoint
-from robotside.control.authority import Operator
 from robotside.core.pose2 import Pose2
 from robotside.core.refusal import Refusal
 from robotside.records import NotRecorded

@@ -9,9 +9,8 @@ from msgspec.structs import replace
 
 from bridge.codec import to_json
 from bridge.core.codes import Code
-from bridge.core.robot_catalogue import Service, Session
+from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
-from robotside.control.authority import Operator
 from robotside.core.notice import Notice, coded
 from robotside.core.refusal import Refusal
 from robotside.records import Job, NotRecorded
@@ -56,7 +55,7 @@ class Answering:
     ) -> Service:
         """A service that runs `action` as a command. One that is `ageless` never waits for the disk."""
 
-        def call(client: Session, asked: CommandRequest) -> CommandResponse | Awaitable[CommandResponse]:
+        def call(client: Operator, asked: CommandRequest) -> CommandResponse | Awaitable[CommandResponse]:
             station = self._station
             station.controls.introduce(client, asked.client_id, asked.client_name)
             sender = station.controls.id(client)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from bridge.core.codes import Code
-from bridge.core.robot_catalogue import Service
+from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
     CommandResponse,
@@ -14,7 +14,6 @@ from bridge.msgs.pilothouse_msgs import (
     SetOptionRequest,
     SetOptionResponse,
 )
-from robotside.control.authority import Operator
 from robotside.control.command_gate import STOP_SENTENCE
 from robotside.control.teleop import FOLLOW_LINK, LOST_LINK_STOPS_TASK
 from robotside.core.notice import Notice

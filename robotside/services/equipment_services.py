@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 
 from bridge.core.codes import Code
-from bridge.core.robot_catalogue import Service
+from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (
     ArmOrder,
@@ -17,7 +17,6 @@ from bridge.msgs.pilothouse_msgs import (
     SetLightsRequest,
     SetLightsResponse,
 )
-from robotside.control.authority import Operator
 from robotside.control.command_gate import STOP_SENTENCE
 from robotside.core.notice import Notice
 from robotside.core.pose2 import Pose2

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import msgspec
 
 from bridge.core.codes import Code
-from bridge.core.robot_catalogue import Service
+from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs.pilothouse_msgs import (
     MAX_DWELL,
     MAX_LAPS,
@@ -22,7 +22,6 @@ from bridge.msgs.pilothouse_msgs import (
     SetMissionRequest,
 )
 from bridge.msgs.std_msgs import Time
-from robotside.control.authority import Operator
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bridge.core.codes import Code
-from robotside.control.authority import Operator
+from bridge.core.robot_catalogue import Operator
 from robotside.control.command_gate import STOP_SENTENCE
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 
 from bridge.core.codes import Code
-from bridge.core.robot_catalogue import Service
+from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs.pilothouse_msgs import (
     AcknowledgeEventsRequest,
     AcknowledgeEventsResponse,
@@ -23,7 +23,6 @@ from bridge.msgs.pilothouse_msgs import (
     SetPlaceResponse,
 )
 from bridge.msgs.std_msgs import Time
-from robotside.control.authority import Operator
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain

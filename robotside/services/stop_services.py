@@ -6,9 +6,8 @@ import math
 from collections.abc import Iterable
 
 from bridge.core.codes import Code
-from bridge.core.robot_catalogue import Service
+from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs.pilothouse_msgs import CommandRequest
-from robotside.control.authority import Operator
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.services.command_service import Answering

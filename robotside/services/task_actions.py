@@ -9,7 +9,7 @@ import msgspec
 
 from bridge.core.codes import Code
 from bridge.core.errors import Refused
-from bridge.core.robot_catalogue import Action, Service, Session
+from bridge.core.robot_catalogue import Action, Operator, Service
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (
     CommandResponse,
@@ -49,7 +49,7 @@ class _Goals:
         self._station = station
         self._begin = beginning(station, answering).call
 
-    async def run(self, client: Session, goal: RunTaskGoal, tell: Callable[[Msg], None]) -> RunTaskResult:
+    async def run(self, client: Operator, goal: RunTaskGoal, tell: Callable[[Msg], None]) -> RunTaskResult:
         """Begin a task as `/task/start` does and wait for its end; cancelled, it ends the task.
 
         Raises Refused with the sentence for the client: why it was not begun, or why it did not succeed.
@@ -78,7 +78,7 @@ class _Goals:
             for end_of in leave:
                 end_of()
 
-    def _take_back(self, client: Session, who: tuple[str, str], task_id: int) -> None:
+    def _take_back(self, client: Operator, who: tuple[str, str], task_id: int) -> None:
         """End the task of `client`, by its id and name, unless it is over or somebody else has taken it over.
 
         Refused with the name of who has.

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import msgspec
 
 from bridge.core.codes import Code
-from bridge.core.robot_catalogue import Service
+from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
     DeleteScheduleRequest,
@@ -19,7 +19,6 @@ from bridge.msgs.pilothouse_msgs import (
     TaskOrder,
     Waypoint,
 )
-from robotside.control.authority import Operator
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.services.command_service import Answering

@@ -17,6 +17,7 @@ from functools import partial
 from msgspec.structs import replace
 
 from bridge.core.codes import Code
+from bridge.core.robot_catalogue import Operator
 from bridge.msgs import Msg
 from bridge.msgs.diagnostic_msgs import DiagnosticArray, DiagnosticStatus
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
@@ -30,7 +31,6 @@ from bridge.msgs.pilothouse_msgs import (
     TaskOrder,
 )
 from bridge.msgs.std_msgs import Header, Time
-from robotside.control.authority import Operator
 from robotside.control.command_gate import Controls
 from robotside.control.guarded_robot import Guarded, port_info
 from robotside.control.safe_state import SafeState

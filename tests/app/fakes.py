@@ -13,7 +13,7 @@ from typing import Any
 import msgspec
 
 from bridge.core.network_thread import NetworkThread
-from bridge.core.robot_catalogue import Service, Session
+from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
@@ -224,15 +224,15 @@ class FakeRobot:
     def _now(self) -> float:
         return self.clock()
 
-    def _hear(self, session: Session, topic: str, message: Msg, stamp: float | None) -> None:
+    def _hear(self, session: Operator, topic: str, message: Msg, stamp: float | None) -> None:
         with self.changed:
             self.heard.append((topic, message))
             if isinstance(message, Twist):
                 self.stamps.append((message, stamp, self.clock()))
             self.changed.notify_all()
 
-    def _answer(self, name: str) -> Callable[[Session, Any], Any]:
-        async def call(session: Session, request: CommandRequest) -> CommandResponse:
+    def _answer(self, name: str) -> Callable[[Operator, Any], Any]:
+        async def call(session: Operator, request: CommandRequest) -> CommandResponse:
             with self.changed:
                 self.asked.append((name, request))
                 self.changed.notify_all()
@@ -348,7 +348,7 @@ class FakeRobot:
         self._server.publish("/task/queue", self.queue)
         self._server.publish("/schedule", Schedule(tasks=self.schedule))
 
-    def _tell_events(self, session: Session, request: GetEventsRequest) -> GetEventsResponse:
+    def _tell_events(self, session: Operator, request: GetEventsRequest) -> GetEventsResponse:
         same = any(event.boot == request.boot for event in self.events)
         known = request.since if same else 0
         later = [event for event in self.events if event.id > known]

@@ -8,7 +8,7 @@ import json
 import pytest
 
 from bridge.core.compat import Compat
-from bridge.core.robot_catalogue import Session
+from bridge.core.robot_catalogue import Operator
 from bridge.core.topics import TOPICS
 from bridge.msgs.nav_msgs import Odometry
 from bridge.protocol import ServerSession, split
@@ -54,7 +54,7 @@ class House:
     def join(self):
         writer = FrameWriter()
         batch = WriteBatch(lambda call: self.soon.append(call))  # noqa: PLW0108 -- `soon` is another list after each step
-        client = RosbridgeSession(writer, batch, Session("1", "somebody", 0.0), self.context)
+        client = RosbridgeSession(writer, batch, Operator("1", "somebody", 0.0), self.context)
         client._clock = self.clock
         return client, writer
 
