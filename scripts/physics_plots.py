@@ -95,7 +95,7 @@ def boat() -> list[Plot]:
         for t in times
     ]
     with running(MINNOW, WATER) as simulation:
-        simulation.backend.throw(simulation.vehicle.body, (0.0, 0.0, 0.0), (0.3, 0.0, 0.0))
+        simulation.backend.set_velocity(simulation.vehicle.body, (0.0, 0.0, 0.0), (0.3, 0.0, 0.0))
         roll = follow(simulation, 3.0, lambda state: math.degrees(tilt(state)), 0.0125)
     sliding, height = hull.mass + hull.added_mass[1], hull.centre_of_mass[2]
     about = hull.inertia[0] + hull.added_inertia[0] + hull.mass * height**2

@@ -1,4 +1,4 @@
-"""`python -m sim`: look at a simulated world without the rest of the system."""
+"""Command line of the simulator, `python -m sim`: views a simulated world without the rest of the system."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ except FileFault as wrong:  # in the file of a vehicle, which is read with its m
 
 MARGIN = 3.0
 """Shown round the ground [m]."""
-PIXELS = 1600
+PICTURE_WIDTH = 1600
 """Breadth of the picture."""
-FRAME = 1 / 60
-"""Between two looks at the clock while the window is open [s]."""
-LATE = 0.1
-"""The most that is made good between two looks [s]: a window that is drawn slowly shows slow motion and no jumps."""
+FRAME_PERIOD = 1 / 60
+"""Between two readings of the clock while the window is open [s]."""
+MAX_CATCH_UP = 0.1
+"""Longest time simulated between two readings of the clock [s]: a window that is drawn slowly shows slow motion and no jumps."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -65,7 +65,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one sentence."""
+    """Reports a mistake in one sentence."""
 
     def error(self, message: str) -> NoReturn:
         raise ValueError(f"{message[:1].upper()}{message[1:]}.")
@@ -100,7 +100,7 @@ _NAMES = {
 
 
 def summary(world: World) -> str:
-    """What stands in the world, in one sentence."""
+    """Things that stand in the world, in one sentence."""
     ground, counts = world.ground, Counter(prop.kind for prop in world.props)
     things = ", ".join(f"{counts[kind]} {name}" for kind, name in _NAMES.items() if counts[kind])
     water = f"{world.water.depth:g} m of water; " if world.water else ""
@@ -112,7 +112,7 @@ def picture(world: World, models: Sequence[Model], path: Path) -> str:
     if path.suffix.lower() not in Image.registered_extensions():
         raise ValueError(f"{path.name} has no ending of a picture; use .png or .jpg.")
     length, width = world.ground.length + 2 * MARGIN, world.ground.width + 2 * MARGIN
-    view = View.from_above(length, width, PIXELS)
+    view = View.from_above(length, width, PICTURE_WIDTH)
     robots: list[Shape] = []
     for model, start in zip(models, starts(world, models, [None] * len(models)), strict=True):
         depth = start.z if model.element == "water" else 0.0
@@ -122,7 +122,7 @@ def picture(world: World, models: Sequence[Model], path: Path) -> str:
         Image.fromarray(renderer.render(view, tuple(robots))).save(path)
     finally:
         renderer.close()
-    return f"{path}: {world.name} from above, {PIXELS / length:.1f} pixels a metre, north up."
+    return f"{path}: {world.name} from above, {PICTURE_WIDTH / length:.1f} pixels a metre, north up."
 
 
 def show(
@@ -137,10 +137,10 @@ def show(
         now, last = 0.0, clock()
         while True:
             before, last = last, clock()
-            now += min(last - before, LATE)
+            now += min(last - before, MAX_CATCH_UP)
             for robot in simulated:
                 robot.read(now)
-            wait(FRAME)
+            wait(FRAME_PERIOD)
     finally:
         for robot in simulated:
             robot.close()

@@ -1,4 +1,4 @@
-"""What can be simulated, for people and programs that are to choose."""
+"""Catalogue of the robots and worlds that can be simulated, for people and programs to choose from."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["catalogue"]
 
 
 def catalogue() -> dict[str, list[dict[str, Any]]]:
-    """What can be simulated, in plain values: `robots` and `worlds`, each world with the robots that can be in it."""
+    """The catalogue in plain values: `robots` and `worlds`, each world with the robots that can be in it."""
     worlds = {name: load(name) for name in WORLDS}
     return {
         "robots": [

@@ -57,12 +57,12 @@ ROBOTS: dict[str, Model] = {
 """The robots that can be simulated, by name."""
 
 TRUTH_TOPIC = "/sim/ground_truth"
-UNREAD = 50_000
-"""Messages that are kept of a robot that nobody reads while others in its world are read; the oldest go first."""
+MAX_UNREAD = 50_000
+"""Messages that are kept of a robot that is not read while others in its world are; the oldest go first."""
 
 
-_ASIDE = 0.1
-"""Farther than this from its start it does not stand there [m]."""
+_START_TOLERANCE = 0.1
+"""Distance from its start within which it counts as standing there [m]."""
 
 
 class SimRobot:
@@ -92,13 +92,13 @@ class SimRobot:
         self._vehicle = self.simulation.vehicles[number]
         self._wanted: set[str] = set()
         self._met = False
-        self._unread: deque[tuple[str, Msg]] = deque(maxlen=UNREAD)
+        self._unread: deque[tuple[str, Msg]] = deque(maxlen=MAX_UNREAD)
         self._excess = ""
         self.payloads = mount(self._vehicle, payloads) if payloads else {}
-        """What is mounted on it, by name."""
+        """Its payloads, by name."""
         self.info = info_of(self._vehicle, self.simulation.world, camera=camera)
         self.info = msgspec.structs.replace(self.info, payloads=list(payloads))
-        """Who it is."""
+        """Its description."""
         self._mishaps = Mishaps(self._vehicle.parameters.info, self._vehicle.scene)
         self._cameras = Cameras(self.simulation, number) if camera else None
         self._run.join(self._collect)
@@ -130,10 +130,10 @@ class SimRobot:
         self.manoeuvre(Manoeuvre(kind="twist", twist=twist))
 
     def manoeuvre(self, order: Manoeuvre) -> None:
-        """Move by `order`, within its limits, until told otherwise; `info.manoeuvres` names the kinds that it knows.
+        """Move by `order`, within its limits, until the next order; `info.manoeuvres` names the kinds that it knows.
 
-        What is beyond its limits is cut to them, which is said on `/events`. ValueError with one sentence for what it
-        cannot do or what is no number; it then goes on as before.
+        A value beyond its limits is cut to them, with an event on `/events`. ValueError with one sentence for an order that it
+        cannot follow or that has a value that is no number; it then goes on as before.
         """
         check(order, self.info)
         order, excess = cut(order, self.info, self.heights)
@@ -147,7 +147,7 @@ class SimRobot:
         self._vehicle.stop()
 
     def command(self, payload: str, order: Msg) -> None:
-        """Tell a mounted payload what to do; ValueError with one sentence when it is not there or cannot."""
+        """Give an order to a mounted payload; ValueError with one sentence when it is not there or cannot follow it."""
         if payload not in self.payloads:
             raise ValueError(f"{self.info.name} has no {payload.replace('_', ' ')}.")
         self.payloads[payload].command(order)
@@ -160,16 +160,16 @@ class SimRobot:
     def reset(self) -> Pose:
         """Put it back to where it started, at rest, with fresh odometry: for one that turned over, sank or went astray.
 
-        Where somebody else stands there by now it stands beside that, which is said on `/events`. Gives where it stands,
+        When another robot stands there by now, it stands beside it, with an event on `/events`. Returns where it stands,
         in `map`. ValueError with one sentence when there is no room.
         """
         self._vehicle.reset()
-        self._mishaps.end()
+        self._mishaps.clear()
         self._excess = ""
-        self._unread = deque((entry for entry in self._unread if entry[0] == "/events"), maxlen=UNREAD)
+        self._unread = deque((entry for entry in self._unread if entry[0] == "/events"), maxlen=MAX_UNREAD)
         state, start = self._vehicle.state(), self._vehicle.scene.start
         aside = math.dist(state.position[:2], (start.x, start.y))
-        if aside > _ASIDE:
+        if aside > _START_TOLERANCE:
             said = f"There is no room at the start of {self.info.name}: it stands {aside:.1f} m beside it."
             self._unread.append(("/events", Event(level="warn", kind="robot", text=said)))
         return Pose(Point(*state.position), Quaternion(*state.rotation))
@@ -212,15 +212,15 @@ class SimRobot:
     def _measure(self) -> Iterator[tuple[str, Msg]]:
         simulation, vehicle, stamp = self.simulation, self._vehicle, self._run.now
         yield from vehicle.measure(stamp, truth=TRUTH_TOPIC in self._wanted)
-        if self._mishaps.due(simulation.steps):
-            for event in self._mishaps.look(vehicle.state()):
+        if self._mishaps.is_due(simulation.steps):
+            for event in self._mishaps.update(vehicle.state()):
                 yield "/events", event
         if self._cameras is not None:
             yield from self._cameras.shoot(self._wanted, stamp)
 
 
 def info_of(vehicle: Vehicle, world: World, *, camera: bool) -> RobotInfo:
-    """Who the simulated robot is, as it tells the handheld."""
+    """Description of the simulated robot for the handheld."""
     parameters = vehicle.parameters
     return RobotInfo(
         name=parameters.info.name,
@@ -245,7 +245,7 @@ def info_of(vehicle: Vehicle, world: World, *, camera: bool) -> RobotInfo:
 
 
 def model_of(robot: str) -> Model:
-    """What makes the `robot` of this name; ValueError with one sentence when there is none."""
+    """The model that makes the `robot` of this name; ValueError with one sentence when there is none."""
     if robot not in ROBOTS:
         raise ValueError(f"There is no simulated robot {robot!r}; there is {', '.join(ROBOTS)}.")
     return ROBOTS[robot]
@@ -314,7 +314,7 @@ def make_several(
 
 
 def home_of(robots: Sequence[str]) -> str:
-    """The world that suits the `robots` of these names best when nobody names one: the home of one of them.
+    """The world that suits the `robots` of these names best: the home of one of them.
 
     ValueError with one sentence when there is none in which all of them can be.
     """

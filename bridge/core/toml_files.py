@@ -123,7 +123,10 @@ _KINDS = {
     "object": "a table",
     "array": "a list",
 }
-_LISTS = {msgspec.inspect.StructType: " of [[{}]] tables", msgspec.inspect.StrType: " of texts in quotes"}
+_LISTS: dict[Any, str] = {
+    msgspec.inspect.StructType: " of [[{}]] tables",
+    msgspec.inspect.StrType: " of texts in quotes",
+}
 _BOUNDS = {"<=": "at most", ">=": "at least", "<": "below", ">": "above"}
 
 

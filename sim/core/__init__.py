@@ -1,1 +1,1 @@
-"""What all rooms of the simulator share: tables of figures, noise, the schedule of sensors, limits of orders."""
+"""Shapes, noise, constants, parameter tables, sensor schedule and order limits that the whole simulator shares."""

@@ -1,4 +1,4 @@
-"""What a vehicle carries besides itself: things of a mass at a place, small beside the vehicle."""
+"""Loads that a vehicle carries: point masses at a place, small beside the vehicle."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class Load(NamedTuple):
     mass: float
     """[kg]"""
     at: Vec3
-    """Where its mass is, in `base_link` [m]."""
+    """Place of its mass, in `base_link` [m]."""
 
 
 class Heavy(NamedTuple):

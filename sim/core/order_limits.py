@@ -1,4 +1,4 @@
-"""What may be asked of a robot: faulty orders are refused, excessive ones are cut and that is said."""
+"""Limits of the orders to a robot: a faulty order is refused, an excessive one is cut and reported."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def cut(
 ) -> tuple[Manoeuvre, str]:
     """`order` as the robot follows it, within all its limits, and one sentence where something was too much.
 
-    `heights` are the lowest and the highest to which it can be told to go [m]; a height that is left out, NaN, stays so.
+    `heights` are the lowest and the highest that it can go to [m]; a height that is left out, NaN, stays so.
     """
     linear, angular = order.twist.linear, order.twist.angular
     asked = math.hypot(linear.x, linear.y)
@@ -60,8 +60,8 @@ def cut(
 
 
 def _excess(order: Manoeuvre, speed: float, info: RobotInfo) -> str:
-    """What is too much of an `order` for that `speed` over ground [m/s]; empty when nothing is."""
-    for says, asked, most, unit in (
+    """The part of an `order` that exceeds a limit, in one sentence, for that `speed` over ground [m/s]; empty when none does."""
+    for says, asked, limit, unit in (
         ("goes", speed, info.max_speed, " m/s"),
         ("goes", order.speed, info.max_speed, " m/s"),
         ("climbs and sinks", order.twist.linear.z, info.max_climb or math.inf, " m/s"),
@@ -70,25 +70,25 @@ def _excess(order: Manoeuvre, speed: float, info: RobotInfo) -> str:
         ("steers", order.steering, info.max_steering or math.inf, " rad"),
         ("leans", max(order.roll, order.pitch, key=abs), info.max_tilt or math.inf, " rad"),
     ):
-        if abs(asked) > most * _EXACT:
-            return f"{info.name} {says} at most {most:.3g}{unit}; {abs(asked):.3g}{unit} was asked for."
+        if abs(asked) > limit * _ROUNDING:
+            return f"{info.name} {says} at most {limit:.3g}{unit}; {abs(asked):.3g}{unit} was asked for."
     return ""
 
 
 def _beyond(order: Manoeuvre, info: RobotInfo, heights: tuple[float, float]) -> str:
-    """What is too high or too low of an `order` that goes to a height; empty when nothing is."""
+    """The height of an `order` that is too high or too low, in one sentence; empty when it is neither."""
     lowest, highest = heights
     if order.kind not in _TO_HEIGHTS or not (order.height < lowest or order.height > highest):
         return ""
-    way, most = ("higher", highest) if order.height > highest else ("lower", lowest)
-    return f"{info.name} goes no {way} than {most:.3g} m; {order.height:.3g} m was asked for."
+    way, limit = ("higher", highest) if order.height > highest else ("lower", lowest)
+    return f"{info.name} goes no {way} than {limit:.3g} m; {order.height:.3g} m was asked for."
 
 
-def _within(value: float, most: float) -> float:
+def _within(value: float, limit: float) -> float:
     """NaN for NaN."""
-    return value if math.isnan(value) else max(-most, min(most, value))
+    return value if math.isnan(value) else max(-limit, min(limit, value))
 
 
 _TO_HEIGHTS = ("course", "hover", "take_off")
-_EXACT = 1 + 1e-9
-"""What is above a limit by rounding is not."""
+_ROUNDING = 1 + 1e-9
+"""An amount that exceeds a limit only by rounding does not exceed it."""

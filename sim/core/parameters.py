@@ -18,7 +18,7 @@ class Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
 
 
 class Info(Table, frozen=True, kw_only=True):
-    """What people and programs call it."""
+    """Names and description of a vehicle."""
 
     name: str
     model: str
@@ -33,7 +33,7 @@ class Info(Table, frozen=True, kw_only=True):
 
 
 class Limits(Table, frozen=True, kw_only=True):
-    """What the drive does at most."""
+    """Limits of the drive."""
 
     speed: Positive
     """[m/s]"""
@@ -63,6 +63,6 @@ class CameraParameters(Table, frozen=True, kw_only=True):
     position: tuple[float, float, float]
     """In `base_link` [m]."""
     yaw: float = 0.0
-    """Where it looks, from straight ahead to the left [rad]."""
+    """Direction of view, from straight ahead to the left [rad]."""
     pitch: float = 0.0
-    """How far it looks down [rad]."""
+    """Direction of view below the horizontal [rad]."""

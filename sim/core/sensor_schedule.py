@@ -1,4 +1,4 @@
-"""When sensors measure: each at its own rate, on the grid of the physics steps."""
+"""Schedule of the sensors: each measures at its own rate, on the grid of the physics steps."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ class Schedule:
         self._next = dict.fromkeys(rates, 0)
         self._soonest = 0
 
-    def falls(self, name: str, step: int) -> bool:
-        """Whether `name` will be among those due at `step`, which was not asked for yet."""
+    def is_due(self, name: str, step: int) -> bool:
+        """Whether `name` will be among the names that `due` returns for `step`, which has not been asked for yet."""
         return self._next[name] <= step
 
     def due(self, step: int) -> tuple[str, ...]:

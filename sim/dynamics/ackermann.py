@@ -58,7 +58,7 @@ class Axles(Table, frozen=True, kw_only=True):
 
 
 class AckermannLimits(Limits, frozen=True, kw_only=True):
-    """What the drive does at most."""
+    """Limits of the drive."""
 
     steering: Positive
     """Angle of a wheel in the middle of the front axle [rad]."""
@@ -67,11 +67,11 @@ class AckermannLimits(Limits, frozen=True, kw_only=True):
     acceleration: Positive
     """[m/s2]"""
     braking: Positive
-    """How fast it loses speed when it is told to stop [m/s2]."""
+    """Deceleration when it stops [m/s2]."""
 
 
-_CREEP = 0.5
-"""At less speed than this the steering of a twist is reckoned as for this one [m/s]."""
+_MIN_STEERING_SPEED = 0.5
+"""Below this speed, the steering of a twist is computed as for this speed [m/s]."""
 
 
 class AckermannDrive:
@@ -88,20 +88,20 @@ class AckermannDrive:
 
     @property
     def steering(self) -> float:
-        """Where a wheel in the middle of the front axle is told to stand now [rad]."""
+        """Commanded angle of a wheel in the middle of the front axle [rad]."""
         return self._now[1]
 
-    def want(self, speed: float, steering: float) -> None:
+    def set_target(self, speed: float, steering: float) -> None:
         """Go for `speed` [m/s] and `steering` [rad], both cut to the limits; for rest with the brakes of all four wheels."""
         limits = self._limits
         self._goal = (within(speed, limits.speed), within(steering, limits.steering))
         self._brakes = self._goal[0] == 0.0
         self._rate = limits.braking if self._brakes else limits.acceleration
 
-    def want_turn(self, speed: float, yaw_rate: float) -> None:
+    def set_turn(self, speed: float, yaw_rate: float) -> None:
         """Go for `speed` [m/s] and the steering that turns by `yaw_rate` [rad/s]; slow, it turns less than that."""
-        reckoned = math.copysign(max(abs(speed), _CREEP), speed)
-        self.want(speed, math.atan(self._axles.base * yaw_rate / reckoned))
+        reckoned = math.copysign(max(abs(speed), _MIN_STEERING_SPEED), speed)
+        self.set_target(speed, math.atan(self._axles.base * yaw_rate / reckoned))
 
     def brake(self) -> None:
         """Go for rest as hard as the brakes of all four wheels allow; the steering stays as it is."""
@@ -114,7 +114,7 @@ class AckermannDrive:
         self._apply()
 
     def step(self) -> None:
-        """Come one physics step nearer to what is wanted."""
+        """Come one physics step nearer to the target."""
         if self._now == self._goal:
             return
         (speed, steering), (wanted, turned) = self._now, self._goal

@@ -48,7 +48,7 @@ class Rudder(Table, frozen=True, kw_only=True):
 
 
 class Drive:
-    """Propeller and rudder, which follow what they are told as fast as they can."""
+    """Propeller and rudder, which follow their commands as fast as they can."""
 
     def __init__(self, propeller: Propeller, rudder: Rudder, length: float, density: float) -> None:
         """At rest, rudder amidships, on a hull of this `length` [m] in water of this `density` [kg/m3]."""
@@ -58,9 +58,9 @@ class Drive:
         self._density = density
         self._disc = density * math.pi * self._propeller.diameter**2 / 4
         self.throttle = 0.0
-        """Told to the propeller, -1 to 1; may be set."""
+        """Command to the propeller, -1 to 1; may be set."""
         self.wanted = 0.0
-        """Told to the rudder [rad], positive turns to the left; may be set."""
+        """Command to the rudder [rad], positive turns to the left; may be set."""
         self.angle = 0.0
         """Of the rudder [rad]."""
         self.thrust = 0.0
@@ -116,7 +116,7 @@ class Helmsman:
         self._sum = 0.0
 
     def throttle_for(self, wanted: float, speed: float) -> float:
-        """What holds the `wanted` speed [m/s] at `speed` through the water."""
+        """Throttle that holds the `wanted` speed [m/s] at `speed` through the water."""
         return min(max(self._drag * wanted + self.SPEED_GAIN * (wanted - speed), -1.0), 1.0)
 
     def course(self, yaw: float, wanted: float, turning: float, speed: float) -> None:

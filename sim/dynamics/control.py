@@ -11,14 +11,14 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre
 __all__ = ["filled", "given", "towards", "within"]
 
 
-def towards(now: float, goal: float, most: float) -> float:
-    """`goal`, or as far towards it from `now` as `most` allows."""
-    return min(max(goal, now - most), now + most)
+def towards(now: float, goal: float, limit: float) -> float:
+    """`goal`, or as far towards it from `now` as `limit` allows."""
+    return min(max(goal, now - limit), now + limit)
 
 
-def within(value: float, most: float) -> float:
-    """`value`, cut to what lies between -`most` and `most`."""
-    return min(max(value, -most), most)
+def within(value: float, limit: float) -> float:
+    """`value`, cut to what lies between -`limit` and `limit`."""
+    return min(max(value, -limit), limit)
 
 
 def given(value: float, otherwise: float) -> float:
@@ -27,5 +27,5 @@ def given(value: float, otherwise: float) -> float:
 
 
 def filled(order: Manoeuvre, yaw: float, height: float = math.nan) -> Manoeuvre:
-    """`order` with the heading [rad] and the height [m] that are kept where it names none; NaN for what is not kept."""
+    """`order` with the heading [rad] and the height [m] that are kept where it names none; NaN for one that is not kept."""
     return replace(order, yaw=given(order.yaw, yaw), height=given(order.height, height))

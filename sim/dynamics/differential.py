@@ -60,21 +60,21 @@ class Casters(Table, frozen=True, kw_only=True):
 
 
 class Rolling(Table, frozen=True, kw_only=True):
-    """What tyres and gears take."""
+    """Losses in tyres and gears."""
 
     resistance: Positive
     """As a part of the weight."""
 
 
 class DifferentialLimits(Limits, frozen=True, kw_only=True):
-    """What the drive does at most."""
+    """Limits of the drive."""
 
     acceleration: Positive
     """[m/s2]"""
     yaw_acceleration: Positive
     """[rad/s2]"""
     braking: Positive
-    """How fast it loses speed when it is told to stop [m/s2]."""
+    """Deceleration when it stops [m/s2]."""
     yaw_braking: Positive
     """The same for turning [rad/s2]."""
 
@@ -90,7 +90,7 @@ class DifferentialDrive:
         self._rates = (limits.acceleration, limits.yaw_acceleration)
         self._apply()
 
-    def want(self, twist: Twist) -> None:
+    def set_target(self, twist: Twist) -> None:
         """Go for `twist`, cut to the limits; only its forward and yaw parts matter."""
         limits = self._limits
         self._rates = (limits.acceleration, limits.yaw_acceleration)
@@ -110,7 +110,7 @@ class DifferentialDrive:
         self._apply()
 
     def step(self) -> None:
-        """Come one physics step nearer to what is wanted."""
+        """Come one physics step nearer to the target."""
         if self._now == self._goal:
             return
         speed, turn = (

@@ -41,7 +41,7 @@ class FinParameters(Table, frozen=True, kw_only=True):
 
 
 class Fins:
-    """Where the six fins point and how far they swing, and what they are told to."""
+    """The six fins: direction and swing of each, and the commanded ones."""
 
     def __init__(self, parameters: FinParameters, density: float) -> None:
         """Still, pointing back, in water of this `density` [kg/m3]."""
@@ -53,10 +53,10 @@ class Fins:
         self._along = 2 * sum(x * x for x in own.places)
         self._across = 6 * own.aside**2
         self.offsets = [0.0] * 6
-        """Where each pushes to [rad]: 0 ahead, a right angle up."""
+        """Direction of the thrust of each [rad]: 0 ahead, a right angle up."""
         self.amplitudes = [0.0] * 6
         """[rad]"""
-        self._told = [(0.0, 0.0)] * 6
+        self._targets = [(0.0, 0.0)] * 6
         self._phase = 0.0
 
     @property
@@ -77,23 +77,23 @@ class Fins:
         """Mean at each hip [N m]."""
         return [self._per_swing * amplitude * self._parameters.length for amplitude in self.amplitudes]
 
-    def tell(self, force: tuple[float, float], torque: Vec3) -> None:
+    def command(self, force: tuple[float, float], torque: Vec3) -> None:
         """Share out a `force` ahead and up [N] and a `torque` [N m] among the fins: the least that does it.
 
-        What is too much for a fin is cut.
+        The share of a fin is cut to its greatest swing.
         """
         ahead, up = force[0] / 6, force[1] / 6
         roll, pitch, yaw = torque[0] / self._across, torque[1] / self._along, torque[2] / self._across
-        most = self._parameters.amplitude
+        limit = self._parameters.amplitude
         for number, (x, y) in enumerate(self._hips):
             fx, fz = ahead - yaw * y, up + roll * y - pitch * x
             strength = math.hypot(fx, fz)
             direction = math.atan2(fz, fx) if strength > 1e-6 else self.offsets[number]
-            self._told[number] = (direction, min(strength / self._per_swing, most))
+            self._targets[number] = (direction, min(strength / self._per_swing, limit))
 
     def rest(self) -> None:
         """Hold still."""
-        self._told = [(offset, 0.0) for offset in self.offsets]
+        self._targets = [(offset, 0.0) for offset in self.offsets]
 
     def step(self) -> tuple[tuple[float, float], Vec3]:
         """One step later: force ahead and up [N], torque [N m]."""
@@ -102,7 +102,7 @@ class Fins:
         self._phase = (self._phase + math.tau * own.frequency / STEPS_PER_SECOND) % math.tau
         ahead = up = roll = pitch = yaw = 0.0
         for number, (x, y) in enumerate(self._hips):
-            direction, amplitude = self._told[number]
+            direction, amplitude = self._targets[number]
             offset = self.offsets[number]
             offset = wrap(offset + within(wrap(direction - offset), turn))
             amplitude = towards(self.amplitudes[number], amplitude, swing)

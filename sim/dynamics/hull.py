@@ -1,4 +1,4 @@
-"""What water and wind do to a hull that floats: buoyancy on waves, damping, drag across, windage."""
+"""Forces of water and wind on a hull that floats: buoyancy on waves, damping, drag across, windage."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class HullParameters(Table, frozen=True, kw_only=True):
     load: float = 0.0
     """Of that, what it carries: its draft, stability and damping are those without [kg]."""
     load_at: Vec3 = (0.0, 0.0, 0.0)
-    """Where that is [m]."""
+    """Its place [m]."""
     length: Positive
     """[m]"""
     beam: Positive
@@ -48,7 +48,7 @@ class HullParameters(Table, frozen=True, kw_only=True):
     waterplane: Positive
     """Area at the waterline [m2]."""
     flotation: float = 0.0
-    """Where its middle lies, ahead of the origin [m]."""
+    """Its middle, ahead of the origin [m]."""
     metacentric: tuple[Positive, Positive]
     """Heights across and along [m]."""
     damping: tuple[float, float, float]
@@ -62,13 +62,13 @@ class HullParameters(Table, frozen=True, kw_only=True):
     friction: Positive
     """Against what it bumps into."""
     windage: tuple[Positive, Positive]
-    """Area of what is above the water, seen from ahead and from the side [m2]."""
+    """Area above the water, seen from ahead and from the side [m2]."""
     wind_drag: Positive
     """Its coefficient."""
 
 
 def inertia_of(hull: HullParameters) -> Inertia:
-    """What the hull sets against being moved."""
+    """Inertia of the hull."""
     return Inertia(
         hull.mass, hull.centre_of_mass, hull.inertia, hull.product, hull.added_mass, hull.added_inertia
     )
@@ -99,7 +99,7 @@ class Hull:
         deeper = self._load / self._stiffness
         self._drag = parameters.damping[0] * (1 + deeper / parameters.draft)
         self.wet = 1.0
-        """How far it lies in the water, 0 out of it to 1 as it floats."""
+        """Part of it in the water, from 0 out of it to 1 as it floats."""
 
     def forces(self, body: SixDof) -> tuple[Vec3, Vec3]:
         """Force [N] and torque [N m] about the origin along the body's axes, weight and buoyancy included."""
@@ -150,7 +150,7 @@ class Hull:
         return self._stiffness * (under - self._sink), -roll * ny * self.wet, pitch * nx * self.wet
 
     def _wind(self, body: SixDof) -> tuple[float, float]:
-        """Of the air on what is above the water, ahead and to the left [N]."""
+        """Force of the air on the part above the water, ahead and to the left [N]."""
         wx, wy, _ = self._weather.wind
         cx, cy, _ = self._weather.current
         a, b, _, d, e, _, _, _, _ = body.axes

@@ -49,7 +49,7 @@ class RotorParameters(Table, frozen=True, kw_only=True):
 
 
 class QuadrotorLimits(Limits, frozen=True, kw_only=True):
-    """What it does at most."""
+    """Limits of the vehicle."""
 
     climb: Positive
     """Upward and downward [m/s]."""
@@ -60,7 +60,7 @@ class QuadrotorLimits(Limits, frozen=True, kw_only=True):
 
 
 class Rotors:
-    """The four rotors, which follow what they are told a little late."""
+    """The four rotors, which follow their commands with a lag."""
 
     def __init__(self, parameters: RotorParameters) -> None:
         """At rest."""
@@ -70,7 +70,7 @@ class Rotors:
         self._yaw = parameters.torque / parameters.lift
         self.speeds = [0.0] * 4
         """[rad/s]"""
-        self.told = [0.0] * 4
+        self.targets = [0.0] * 4
         """[rad/s]"""
 
     @property
@@ -78,28 +78,28 @@ class Rotors:
         """Drag of each [N m]."""
         return [self._parameters.torque * speed * speed for speed in self.speeds]
 
-    def tell(self, thrust: float, torque: Vec3) -> None:
+    def command(self, thrust: float, torque: Vec3) -> None:
         """Give `thrust` upward [N] and `torque` [N m] as far as the rotors can; the thrust goes before the yaw."""
         roll, pitch, yaw = torque[0] / 4 / self._reach, torque[1] / 4 / self._reach, torque[2] / 4 / self._yaw
-        most = self._parameters.lift * self._parameters.speed**2
+        limit = self._parameters.lift * self._parameters.speed**2
         tilting = [thrust / 4 + y * roll - x * pitch for x, y, _ in _PLACES]
-        spare = max(0.0, min(*tilting, most - max(tilting)))
+        spare = max(0.0, min(*tilting, limit - max(tilting)))
         yaw = min(max(yaw, -spare), spare)
         for number, (lift, (_, _, turns)) in enumerate(zip(tilting, _PLACES, strict=True)):
-            wanted = min(max(lift + turns * yaw, 0.0), most)
-            self.told[number] = math.sqrt(wanted / self._parameters.lift)
+            wanted = min(max(lift + turns * yaw, 0.0), limit)
+            self.targets[number] = math.sqrt(wanted / self._parameters.lift)
 
     def stop(self) -> None:
         """Turn no more."""
-        self.told = [0.0] * 4
+        self.targets = [0.0] * 4
 
     def step(self) -> tuple[float, Vec3]:
         """One step later: thrust upward [N] and torque [N m] on the body."""
         keep, lift = self._keep, self._parameters.lift
         thrust = roll = pitch = yaw = 0.0
         for number, (x, y, turns) in enumerate(_PLACES):
-            told = self.told[number]
-            speed = told + keep * (self.speeds[number] - told)
+            target = self.targets[number]
+            speed = target + keep * (self.speeds[number] - target)
             self.speeds[number] = speed
             force = lift * speed * speed
             thrust += force

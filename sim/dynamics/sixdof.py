@@ -27,7 +27,7 @@ Block = tuple[float, float, float, float, float, float, float, float, float]
 
 
 class Inertia(NamedTuple):
-    """What a body sets against being moved."""
+    """Inertia of a body, with the added mass of the medium."""
 
     mass: float
     """[kg]"""
@@ -44,17 +44,17 @@ class Inertia(NamedTuple):
 
 
 class SixDof:
-    """One body that is moved by the forces that its model reckons, step by step: `look`, reckon, `push`."""
+    """One body that is moved by the forces that its model reckons, step by step: `update`, compute, `apply`."""
 
     def __init__(self, backend: Bullet, body: int, inertia: Inertia, *, munk: bool = False) -> None:
         """`munk` keeps the moment that turns a slender body athwart its way, which a skeg or fins would balance."""
         self._backend, self._body, self._inertia, self._munk = backend, body, inertia, munk
         self._even, self._odd = (_inverse(inertia, axes) for axes in ((0, 2, 4), (1, 3, 5)))
-        self.look((0.0, 0.0, 0.0))
+        self.update((0.0, 0.0, 0.0))
 
-    def look(self, flow: Vec3) -> None:
+    def update(self, flow: Vec3) -> None:
         """Take in how the body lies and moves now, in a medium that moves with `flow` in the world [m/s]."""
-        self._at, (x, y, z, w), (vx, vy, vz), (wx, wy, wz) = self._backend.moving(self._body)
+        self._at, (x, y, z, w), (vx, vy, vz), (wx, wy, wz) = self._backend.motion(self._body)
         self.rotation = (x, y, z, w)
         xx, yy, zz, xy, xz, yz = 2 * x * x, 2 * y * y, 2 * z * z, 2 * x * y, 2 * x * z, 2 * y * z
         wx2, wy2, wz2 = 2 * w * x, 2 * w * y, 2 * w * z
@@ -84,7 +84,7 @@ class SixDof:
         )
         """Of the origin in the world [m]."""
 
-    def push(self, force: Vec3, torque: Vec3) -> None:
+    def apply(self, force: Vec3, torque: Vec3) -> None:
         """Let `force` [N] and `torque` about the origin [N m], along the body's axes, move it in the next step.
 
         They are all that acts on it: weight and buoyancy are among them, or cancel each other.
@@ -123,13 +123,13 @@ class SixDof:
         mx = ix * dp + (iz - iy) * q * r
         my = iy * dq + (ix - iz) * r * p
         mz = iz * dr + (iy - ix) * p * q
-        self._apply((sx, sy, sz), (mx, my, mz))
+        self._apply_bare((sx, sy, sz), (mx, my, mz))
 
-    def _apply(self, force: Vec3, torque: Vec3) -> None:
+    def _apply_bare(self, force: Vec3, torque: Vec3) -> None:
         (fx, fy, fz), (mx, my, mz) = force, torque
         a, b, c, d, e, f, g, h, i = self.axes
         weight = self._inertia.mass * GRAVITY
-        self._backend.push(
+        self._backend.apply(
             self._body,
             self._at,
             (a * fx + b * fy + c * fz, d * fx + e * fy + f * fz, g * fx + h * fy + i * fz + weight),

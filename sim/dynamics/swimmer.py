@@ -33,14 +33,14 @@ class SwimmerBody(Table, frozen=True, kw_only=True):
     buoyancy: Positive
     """Under water, as a part of the weight."""
     lift_arm: float
-    """How far the centre of buoyancy is above the centre of mass [m]."""
+    """Height of the centre of buoyancy above the centre of mass [m]."""
     friction: Positive
     rated_depth: Positive
     """[m]"""
 
 
 class SwimmerLimits(Limits, frozen=True, kw_only=True):
-    """What it does at most."""
+    """Limits of the vehicle."""
 
     climb: Positive
     """Upward and downward [m/s]."""
@@ -49,7 +49,7 @@ class SwimmerLimits(Limits, frozen=True, kw_only=True):
 
 
 def inertia_of(body: SwimmerBody) -> Inertia:
-    """What the body sets against being moved."""
+    """Inertia of the body."""
     return Inertia(body.mass, (0.0, 0.0, 0.0), body.inertia, 0.0, body.added_mass, body.added_inertia)
 
 

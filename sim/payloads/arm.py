@@ -24,11 +24,11 @@ from sim.vehicles.model import Vehicle
 __all__ = ["JOINTS", "ArmParameters", "MountedArm"]
 
 JOINTS = ["joint1", "joint2", "joint3", "joint4"]
-RATE = 20.0
-"""Of its motion and of what it tells [Hz]."""
-FINGER = 0.03
-"""Radius of what the hand touches, round its tip [m]."""
-NEAR = 1e-3
+ARM_RATE = 20.0
+"""Of its motion and of its messages [Hz]."""
+HAND_RADIUS = 0.03
+"""Radius round its tip within which the hand touches things [m]."""
+ANGLE_TOLERANCE = 1e-3
 """Angles nearer than this are the same [rad]."""
 _STEEL, _BLACK = (0.30, 0.32, 0.35), (0.09, 0.09, 0.10)
 
@@ -71,11 +71,11 @@ class MountedArm:
         self._wanted = self.angles
         self._gripper = self._opening = figures.gripper[1]
         self._backend, self._body = vehicle.scene.backend, vehicle.body
-        vehicle.suite.add("arm", RATE, self._move)
+        vehicle.suite.add("arm", ARM_RATE, self._move)
 
     @property
     def power(self) -> float:
-        """What it takes now [W]: a third for holding still."""
+        """Power that it takes now [W]: a third for holding still."""
         return self._figures.power * (1.0 if self._moves else 1 / 3)
 
     @property
@@ -99,7 +99,7 @@ class MountedArm:
         self._wanted, self._opening = self.angles, self._gripper
 
     def shapes(self) -> tuple[Shape, ...]:
-        """What is seen of it."""
+        """Its visible shapes, in `base_link`."""
         joints = [self._placed(point) for point in self.arm.points(self.angles)]
         x, y, z = self._at
         foot = Shape(
@@ -144,10 +144,10 @@ class MountedArm:
     def _move(self, _: State, stamp: float) -> Iterator[Measurement]:
         """One period later; all joints arrive together."""
         most = max(abs(goal - now) for goal, now in zip(self._wanted, self.angles, strict=True))
-        share = min(1.0, self._figures.speed / RATE / most) if most else 1.0
+        share = min(1.0, self._figures.speed / ARM_RATE / most) if most else 1.0
         a, b, c, d = (now + share * (goal - now) for goal, now in zip(self._wanted, self.angles, strict=True))
         self.angles = self._wanted if share == 1.0 else (a, b, c, d)
-        self._gripper = towards(self._gripper, self._opening, self._figures.gripper_speed / RATE)
+        self._gripper = towards(self._gripper, self._opening, self._figures.gripper_speed / ARM_RATE)
         yield "/arm", self._state(stamp)
 
     def _state(self, stamp: float) -> ArmState:
@@ -156,7 +156,7 @@ class MountedArm:
         here = (
             name
             for name, angles in poses.items()
-            if all(abs(a - b) < NEAR for a, b in zip(angles, self.angles, strict=True))
+            if all(abs(a - b) < ANGLE_TOLERANCE for a, b in zip(angles, self.angles, strict=True))
         )
         return ArmState(
             Header(Time.at(stamp), "base_link"),
@@ -176,7 +176,7 @@ class MountedArm:
         ends = []
         for axis in range(3):
             near, far = list(tip), list(tip)
-            near[axis], far[axis] = near[axis] - FINGER, far[axis] + FINGER
+            near[axis], far[axis] = near[axis] - HAND_RADIUS, far[axis] + HAND_RADIUS
             ends += [
                 ((near[0], near[1], near[2]), (far[0], far[1], far[2])),
                 ((far[0], far[1], far[2]), (near[0], near[1], near[2])),

@@ -1,4 +1,4 @@
-"""Where the joints of a four-joint arm put its hand, and the joints that put the hand somewhere: both in closed form.
+"""Forward and inverse kinematics of an arm with four joints, both in closed form.
 
 The first joint turns about z, the other three about y, positive downward. Lengths in [m], angles in [rad].
 """
@@ -16,7 +16,7 @@ Angles = tuple[float, float, float, float]
 
 
 class Reach(NamedTuple):
-    """Where the hand is."""
+    """Pose of the hand."""
 
     tip: Vec3
     """In the frame of the foot."""
@@ -54,7 +54,7 @@ class Arm(NamedTuple):
             (self.fore, -bends[0] - bends[1]),
             (self.hand, -sum(bends)),
         ):
-            # only what is beyond the first joint turns with it
+            # only the part beyond the first joint turns with it
             out, up = out + reach * math.cos(angle), up + reach * math.sin(angle)
             places.append((out, up))
         axis = self.foot[0]
@@ -65,7 +65,7 @@ class Arm(NamedTuple):
         return first, second, third, tip
 
     def forward(self, angles: Angles) -> Reach:
-        """Where these angles put the hand."""
+        """Pose of the hand at these angles."""
         return Reach(self.points(angles)[3], sum(angles[1:]))
 
     def allowed(self, angles: Angles) -> bool:

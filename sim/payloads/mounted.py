@@ -1,4 +1,4 @@
-"""What a payload is to the vehicle that carries it, and the figures of the simple ones."""
+"""The interface of a payload to the vehicle that carries it, and the parameters of the simple payloads."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ class Mounted(Protocol):
     """A payload on its vehicle; it has put its sensors into the vehicle's suite."""
 
     accepts: type[Msg] | None
-    """What it may be told; None for one that takes no orders."""
+    """Type of the orders that it takes; None for one that takes none."""
 
     @property
     def power(self) -> float:
-        """What it takes now [W]."""
+        """Power that it takes now [W]."""
 
     def command(self, order: Msg) -> None:
         """Do it; ValueError with one sentence when it cannot, which changes nothing."""
@@ -40,11 +40,11 @@ class Mounted(Protocol):
         """Move no more, if it moves."""
 
     def shapes(self) -> tuple[Shape, ...]:
-        """What is seen of it, in `base_link`."""
+        """Its visible shapes, in `base_link`."""
 
 
 class Mount(Table, frozen=True, kw_only=True):
-    """What all payloads have."""
+    """Parameters of every payload."""
 
     at: tuple[float, float, float]
     """On its vehicle's deck [m]."""
@@ -56,7 +56,7 @@ class Mount(Table, frozen=True, kw_only=True):
     """[W]"""
 
     def load(self, parameters: Parameters) -> Load:
-        """What a vehicle of these numbers carries with it."""
+        """Its load on a vehicle of these parameters."""
         x, y, z = (sum(parts) for parts in zip(parameters.deck, self.at, self.centre, strict=True))
         return Load(self.mass, (x, y, z))
 

@@ -1,4 +1,4 @@
-"""What can be mounted on a vehicle besides what it has: rangers, a line sensor, a camera, lights, a tag reader, an arm.
+"""Mounting of payloads on a vehicle, beside its own sensors.
 
 mount(vehicle, ["arm", "lights"])
 
@@ -56,7 +56,7 @@ PAYLOADS: tuple[str, ...] = Figures.__struct_fields__
 
 
 def load(path: Path = Path(__file__).parent / "payloads.toml") -> Figures:
-    """The figures in a file; ValueError names the file, the line, the key and what is wrong."""
+    """The figures in a file; ValueError names the file, the line, the key and the reason."""
     return read(text_of(path), Figures, path.name)
 
 

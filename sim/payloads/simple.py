@@ -66,7 +66,7 @@ class _Plain:
         """It does not move."""
 
     def shapes(self) -> tuple[Shape, ...]:
-        """What is seen of it."""
+        """Its visible shapes, in `base_link`."""
         return self._shapes
 
 
@@ -200,7 +200,7 @@ class MountedCamera(_Plain):
 
 
 class MountedLights:
-    """Two lamps; how bright they are is told under `/lights`."""
+    """Two lamps, which publish their brightness under `/lights`."""
 
     accepts: type[Msg] | None = LightState
 
@@ -209,15 +209,15 @@ class MountedLights:
         self._full = figures.power
         self._at = on_deck(vehicle, figures.at)
         self._brightness = 0.0
-        vehicle.suite.add("lights", LIGHTS_RATE, self._tell)
+        vehicle.suite.add("lights", LIGHTS_RATE, self._measure)
 
     @property
     def power(self) -> float:
-        """What they take now [W]."""
+        """Power that they take now [W]."""
         return self._full * self._brightness
 
     def command(self, order: Msg) -> None:
-        """As bright as a LightState says, 0 to 1; ValueError for what is no such number."""
+        """Set the brightness of a LightState, 0 to 1; ValueError for anything else."""
         if not isinstance(order, LightState) or not 0.0 <= order.brightness <= 1.0:
             raise ValueError("The brightness of the lights must be a number from 0 to 1.")
         self._brightness = order.brightness
@@ -226,7 +226,7 @@ class MountedLights:
         """It does not move."""
 
     def shapes(self) -> tuple[Shape, ...]:
-        """What is seen of them."""
+        """Their visible shapes, in `base_link`."""
         x, y, z = self._at
         colour = _LIT if self._brightness else _DARK
         return tuple(
@@ -234,12 +234,12 @@ class MountedLights:
             for side in (-0.06, 0.06)
         )
 
-    def _tell(self, _: State, stamp: float) -> Iterator[Measurement]:
+    def _measure(self, _: State, stamp: float) -> Iterator[Measurement]:
         yield "/lights", LightState(Header(Time.at(stamp), "base_link"), self._brightness)
 
 
 class MountedTagReader(_Plain):
-    """Reads the nearest tag of the world in reach; told under `/tag` when that changes."""
+    """Reader of the nearest tag of the world in reach, which it publishes under `/tag` when it changes."""
 
     def __init__(self, vehicle: Vehicle, figures: TagReaderMount) -> None:
         """On the deck of `vehicle`."""

@@ -1,1 +1,1 @@
-"""The physics engine and what pushes bodies: motors, wind, waves."""
+"""The physics engine, the rigid bodies in it, and motors."""

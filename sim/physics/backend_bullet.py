@@ -21,19 +21,19 @@ from sim.physics.zero_pages import given_back
 __all__ = ["Bullet", "Contact", "Joint", "State", "WheeledBody"]
 
 SKY = (160, 200, 238)
-"""What `Bullet.picture` shows where there is nothing: red, green, blue, 0 to 255."""
+"""Colour of `Bullet.picture` where there is nothing: red, green, blue, 0 to 255."""
 
 Picture = NDArray[np.uint8]
 
-_NOTHING = 0.99999
+_SKY_DEPTH = 0.99999
 """Depth, 0 near to 1 far, from which on a pixel shows nothing."""
-_EVERYTHING = -1
+_ALL_GROUPS = -1
 _FIRST_GROUP, _GROUPS = 64, 24
 """Collision groups of vehicles, one each, so that a vehicle's own rays look through it; the 25th shares the first's."""
-_WINDOW_AWAY = 7.0
-"""From which the window looks at the robots at first [m]."""
-_GOOD_ENOUGH = 1e-6
-"""What may be left of the contacts' error, squared; pybullet's own 1e-7 costs a tenth more and moves nobody elsewhere."""
+_WINDOW_DISTANCE = 7.0
+"""Distance from which the window shows the robots at first [m]."""
+_SOLVER_RESIDUAL = 1e-6
+"""Square of the contacts' error at which the solver stops; pybullet's own 1e-7 costs a tenth more time and changes no path."""
 
 
 class Bullet:
@@ -50,7 +50,7 @@ class Bullet:
         p.setPhysicsEngineParameter(
             fixedTimeStep=1 / STEPS_PER_SECOND,
             deterministicOverlappingPairs=1,
-            solverResidualThreshold=_GOOD_ENOUGH,
+            solverResidualThreshold=_SOLVER_RESIDUAL,
             physicsClientId=self._client,
         )
         if gui:
@@ -101,7 +101,7 @@ class Bullet:
         """Put a vehicle into a collision group of its own, and keep where its centre of mass is."""
         self._groups[body] = group = _FIRST_GROUP << (len(self._groups) % _GROUPS)
         for link in range(-1, p.getNumJoints(body, physicsClientId=self._client)):
-            p.setCollisionFilterGroupMask(body, link, group, _EVERYTHING, physicsClientId=self._client)
+            p.setCollisionFilterGroupMask(body, link, group, _ALL_GROUPS, physicsClientId=self._client)
         self._below[body] = (-com[0], -com[1], -com[2])
         return body
 
@@ -110,8 +110,8 @@ class Bullet:
         p.stepSimulation(physicsClientId=self._client)
 
     def state(self, body: int) -> State:
-        """Where `body` is and how it moves."""
-        position, rotation, velocity, turning = self.moving(body)
+        """Pose and motion of `body`."""
+        position, rotation, velocity, turning = self.motion(body)
         return State(place(self._below[body], position, rotation), rotation, velocity, turning)
 
     def place(self, body: int, position: Vec3, rotation: Quat) -> None:
@@ -130,35 +130,35 @@ class Bullet:
         return [Joint(angle, speed, torque) for angle, speed, _, torque in states]
 
     def spin(self, body: int, joint: int, speed: float, torque: float) -> None:
-        """Let the motor of `joint` hold `speed` [rad/s] with at most `torque` [N m], until told otherwise."""
+        """Let the motor of `joint` hold `speed` [rad/s] with at most `torque` [N m], until the next order."""
         p.setJointMotorControl2(
             body, joint, p.VELOCITY_CONTROL, targetVelocity=speed, force=torque, physicsClientId=self._client
         )
 
     def steer(self, body: int, joint: int, angle: float, torque: float) -> None:
-        """Let the motor of `joint` hold `angle` [rad] with at most `torque` [N m], until told otherwise."""
+        """Let the motor of `joint` hold `angle` [rad] with at most `torque` [N m], until the next order."""
         p.setJointMotorControl2(
             body, joint, p.POSITION_CONTROL, targetPosition=angle, force=torque, physicsClientId=self._client
         )
 
-    def push(self, body: int, at: Vec3, force: Vec3, torque: Vec3) -> None:
+    def apply(self, body: int, at: Vec3, force: Vec3, torque: Vec3) -> None:
         """Let `force` [N] act on `body` `at` a point [m], and `torque` [N m], for one step; all in the world's frame."""
         client = self._client
         p.applyExternalForce(body, -1, force, at, p.WORLD_FRAME, physicsClientId=client)
         p.applyExternalTorque(body, -1, torque, p.WORLD_FRAME, physicsClientId=client)
 
-    def moving(self, body: int) -> tuple[Vec3, Quat, Vec3, Vec3]:
+    def motion(self, body: int) -> tuple[Vec3, Quat, Vec3, Vec3]:
         """Position [m], rotation, velocity [m/s] and turning [rad/s] of the centre of mass of `body`."""
         position, rotation = p.getBasePositionAndOrientation(body, physicsClientId=self._client)
         velocity, turning = p.getBaseVelocity(body, physicsClientId=self._client)
         return position, rotation, velocity, turning
 
-    def throw(self, body: int, velocity: Vec3, turning: Vec3) -> None:
+    def set_velocity(self, body: int, velocity: Vec3, turning: Vec3) -> None:
         """Let the centre of mass of `body` move with `velocity` [m/s] and turn with `turning` [rad/s] from now on."""
         p.resetBaseVelocity(body, velocity, turning, physicsClientId=self._client)
 
     def rays(self, body: int, start: Sequence[Vec3], end: Sequence[Vec3]) -> NDArray[np.float64]:
-        """How far each ray gets, as a part of its length: 1 when it hits nothing.
+        """Reach of each ray, as a part of its length: 1 when it hits nothing.
 
         `start` and `end` are in the frame of the body's centre of mass, see `ray_points`; the body itself is not hit.
         """
@@ -168,7 +168,7 @@ class Bullet:
             numThreads=1,
             parentObjectUniqueId=body,
             parentLinkIndex=-1,
-            collisionFilterMask=_EVERYTHING ^ self._groups.get(body, 0),
+            collisionFilterMask=_ALL_GROUPS ^ self._groups.get(body, 0),
             physicsClientId=self._client,
         )
         return np.fromiter((hit[2] for hit in hits), dtype=np.float64, count=len(hits))
@@ -179,11 +179,11 @@ class Bullet:
         return [(x + below[0], y + below[1], z + below[2]) for x, y, z in points]
 
     def touching(self, body: int) -> list[Contact]:
-        """Where the shell of a vehicle touches something; its wheels and casters do not count."""
+        """Contacts of the shell of a vehicle; its wheels and casters do not count."""
         points = p.getContactPoints(bodyA=body, linkIndexA=-1, physicsClientId=self._client)
         return [Contact(point[2], point[6]) for point in points or () if point[8] <= 0.0]
 
-    def crowded(self, body: int, distance: float, *, but: int = -1) -> bool:
+    def is_crowded(self, body: int, distance: float, *, but: int = -1) -> bool:
         """Whether anything is nearer to `body` than `distance` [m], apart from the ground and one other body."""
         client = self._client
         others = {p.getBodyUniqueId(number, client) for number in range(p.getNumBodies(client))}
@@ -195,7 +195,7 @@ class Bullet:
     def picture(
         self, eye: Vec3, target: Vec3, up: Vec3, field_of_view: float, size: tuple[int, int]
     ) -> Picture:
-        """What a camera sees, drawn by pybullet's own slow software renderer: (height, width, 3) RGB.
+        """The view of a camera, drawn by pybullet's own slow software renderer: (height, width, 3) RGB.
 
         `field_of_view` is the vertical one [rad]; only bodies made by `add_looks` have looks. Where there is nothing,
         the picture is `SKY`.
@@ -217,14 +217,14 @@ class Bullet:
             physicsClientId=self._client,
         )
         picture: Picture = np.array(np.reshape(colours, (height, width, 4))[:, :, :3], dtype=np.uint8)
-        picture[np.reshape(depths, (height, width)) >= _NOTHING] = SKY
+        picture[np.reshape(depths, (height, width)) >= _SKY_DEPTH] = SKY
         return picture
 
     def show(self, at: Vec3) -> None:
-        """Show in the window, if there is one, what was made so far, from behind and above the place `at` [m]."""
+        """Show all bodies in the window, if there is one, from behind and above the place `at` [m]."""
         if self._gui:
             client = self._client
-            p.resetDebugVisualizerCamera(_WINDOW_AWAY, 0, -30, at, physicsClientId=client)
+            p.resetDebugVisualizerCamera(_WINDOW_DISTANCE, 0, -30, at, physicsClientId=client)
             p.configureDebugVisualizer(p.COV_ENABLE_RENDERING, 1, physicsClientId=client)
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
-"""Rigid bodies as the physics engine is told of them, and what it tells of them."""
+"""Specifications of rigid bodies for the physics engine, and the states that it gives back."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ __all__ = ["Contact", "Floating", "Joint", "State", "WheeledBody"]
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """Where a body is and how it moves, in the world's frame."""
+    """Pose and motion of a body, in the world's frame."""
 
     position: Vec3
     """Of its frame's origin [m]."""
@@ -39,7 +39,7 @@ class Contact:
     """A place where a vehicle's shell touches something."""
 
     body: int
-    """What it touches."""
+    """Number of the body that it touches."""
     position: Vec3
     """In the world's frame [m]."""
 

@@ -14,10 +14,10 @@ __all__ = ["BodyMaker"]
 
 _MAX_SOLIDS = 16
 """Of a thing; pybullet leaves out any more without a warning."""
-_PLAIN = 1
-"""What nothing moves has no joints; pybullet would take it for a robot without any and reckon with it in every step."""
-_KNUCKLE = 0.5
-"""Mass of what a steered wheel hangs on [kg], and its moments of inertia [kg m2]."""
+_NO_JOINTS = 1
+"""Of a fixed thing; pybullet would else take it for a robot without joints and include it in every step."""
+_KNUCKLE_MASS = 0.5
+"""Mass of the knuckle of a steered wheel [kg], and its moments of inertia [kg m2]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ class BodyMaker:
                 shape,
                 looks,
                 basePosition=(0, 0, height),
-                useMaximalCoordinates=_PLAIN,
+                useMaximalCoordinates=_NO_JOINTS,
                 physicsClientId=self._client,
             )
         )
@@ -71,7 +71,7 @@ class BodyMaker:
         else:
             number, pose = compound(self._client, shapes), ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
         body = p.createMultiBody(
-            0, number, -1, *pose, useMaximalCoordinates=_PLAIN, physicsClientId=self._client
+            0, number, -1, *pose, useMaximalCoordinates=_NO_JOINTS, physicsClientId=self._client
         )
         if self._visible:
             for shape in shapes:
@@ -106,7 +106,7 @@ class BodyMaker:
         wheel = collision(self._client, Shape("sphere", (2 * spec.wheel_radius,) * 3))
         links = [_Link(_less(centre, com), spec.wheel_mass, wheel) for centre in spec.wheels]
         for centre in spec.steered:
-            links.append(_Link(_less(centre, com), _KNUCKLE, axis=(0, 0, 1)))
+            links.append(_Link(_less(centre, com), _KNUCKLE_MASS, axis=(0, 0, 1)))
             links.append(_Link((0.0, 0.0, 0.0), spec.wheel_mass, wheel, parent=len(links)))
         if spec.casters:
             caster = collision(self._client, Shape("sphere", (2 * spec.caster_radius,) * 3))
@@ -182,7 +182,11 @@ class BodyMaker:
             )
         for link in knuckles:
             p.changeDynamics(
-                body, link, localInertiaDiagonal=(_KNUCKLE,) * 3, jointDamping=0, physicsClientId=self._client
+                body,
+                link,
+                localInertiaDiagonal=(_KNUCKLE_MASS,) * 3,
+                jointDamping=0,
+                physicsClientId=self._client,
             )
         for link in rolling[wheels:]:
             p.setJointMotorControl2(body, link, p.VELOCITY_CONTROL, force=0, physicsClientId=self._client)

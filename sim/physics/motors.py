@@ -11,7 +11,7 @@ from sim.core.parameters import Part, Positive, Table
 
 __all__ = ["MotorParameters", "Motors"]
 
-SURROUNDINGS = 20.0
+AMBIENT_TEMPERATURE = 20.0
 """Temperature of air and water [degC]."""
 
 
@@ -21,7 +21,7 @@ class MotorParameters(Table, frozen=True, kw_only=True):
     efficiency: Part
     """Of motor and gear, without the losses in the winding."""
     copper: Positive
-    """What the winding loses at 1 N m of what the motor turns, growing with the torque's square [W/(N m)2]."""
+    """Loss in the winding at 1 N m of output torque, growing with the torque's square [W/(N m)2]."""
     heat_capacity: Positive
     """[J/K]"""
     cooling: Positive
@@ -34,7 +34,7 @@ class Motors:
     def __init__(self, parameters: MotorParameters, names: Sequence[str]) -> None:
         """As warm as the surroundings, at rest."""
         self._parameters, self.names = parameters, list(names)
-        self.temperatures = [SURROUNDINGS] * len(names)
+        self.temperatures = [AMBIENT_TEMPERATURE] * len(names)
         """Of each [degC]; may be set."""
         self.speeds = [0.0] * len(names)
         self.torques = [0.0] * len(names)
@@ -51,7 +51,7 @@ class Motors:
             shaft = max(0.0, speed * torque)
             copper = parameters.copper * torque * torque
             lost = copper + shaft * (1 / parameters.efficiency - 1)
-            warmer = self.temperatures[number] - SURROUNDINGS
+            warmer = self.temperatures[number] - AMBIENT_TEMPERATURE
             self.temperatures[number] += (
                 (lost - parameters.cooling * warmer) * period / parameters.heat_capacity
             )

@@ -1,4 +1,4 @@
-"""pybullet, imported and called without the prints of its C code; the only file that imports it."""
+"""The library pybullet, without the prints of its C code; only this file imports it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Memory that a library took and filled with zeros: the system has it back until something is written there.
+"""Memory that a library filled with zeros, given back to the system until something is written there.
 
 Bullet's client writes zeros over 20 MB of buffers when it connects, for messages and pictures that never come.
 """
@@ -17,7 +17,7 @@ import numpy as np
 __all__ = ["given_back"]
 
 _MAPS = Path("/proc/self/maps")
-_LEAST = 1 << 20
+_MIN_BLOCK = 1 << 20
 """Smaller blocks are left alone [bytes]."""
 _DONTNEED = 4
 """As Linux has it: such pages are gone, and zeros when they are read."""
@@ -27,7 +27,7 @@ _DONTNEED = 4
 def given_back() -> Iterator[None]:
     """Give back the pages of zeros in large blocks that are allocated while this is open.
 
-    Whoever allocated them must not write into them from another thread meanwhile. Does nothing where the system is not
+    No other thread may write into them meanwhile. Does nothing where the system is not
     Linux or the C library is not glibc.
     """
     before = _mapped()
@@ -65,7 +65,7 @@ def _blocks(before: Sequence[tuple[int, int]], after: Sequence[tuple[int, int]])
                 continue
             zero, marked = (ctypes.c_size_t * 2).from_address(place)
             size = marked - 2
-            if zero == 0 and size % page == 0 and _LEAST <= size <= end - place:
+            if zero == 0 and size % page == 0 and _MIN_BLOCK <= size <= end - place:
                 yield place, size
                 place += size
             else:

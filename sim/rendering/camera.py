@@ -1,4 +1,4 @@
-"""A camera on a vehicle: from what is drawn to JPEG pictures with the stamp of their moment."""
+"""A camera on a vehicle, which gives JPEG pictures with the stamp of their moment."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class _Quick:
 
 
 class Studio:
-    """What the cameras of one world draw with: made when the first of them is, for it takes 100 MB, and theirs together."""
+    """The renderer that the cameras of one world share, made with the first of them because it takes 100 MB."""
 
     def __init__(self, world: World) -> None:
         """Of `world`; nothing is made yet."""
@@ -93,7 +93,7 @@ class Studio:
 
 
 class Camera:
-    """Looks out from its place on the vehicle."""
+    """The view from its place on the vehicle."""
 
     def __init__(self, eye: Eye, parameters: CameraParameters, *, first: int = 0) -> None:
         """A camera that sees by `eye`, which it closes, from the `first` step on."""
@@ -103,14 +103,14 @@ class Camera:
         down = (0.0, math.sin(parameters.pitch / 2), 0.0, math.cos(parameters.pitch / 2))
         self._turned = compose(from_yaw(parameters.yaw), down)
 
-    def due(self, step: int) -> bool:
+    def is_due(self, step: int) -> bool:
         """It is time for a picture after physics step `step`; to be asked after every step."""
         return bool(self._schedule.due(step - self._first))
 
     def shoot(self, state: State, stamp: float, moving: Sequence[Shape] = ()) -> list[CompressedImage]:
         """Take a picture from a vehicle in `state` at `stamp` [s]; gives those that are ready, oldest first.
 
-        `moving` is what is seen of other robots.
+        `moving` are the visible shapes of other robots.
         """
         parameters = self._parameters
         eye = place(parameters.position, state.position, state.rotation)

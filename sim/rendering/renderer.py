@@ -24,9 +24,9 @@ __all__ = ["NoRendererError", "Renderer", "paint"]
 
 HAZE: Colour = (0.72, 0.78, 0.80)
 DEEP: Colour = (0.09, 0.33, 0.38)
-"""What everything fades to under water."""
+"""Colour that everything fades to under water."""
 MURK = 0.16
-"""How much of it a metre of water brings."""
+"""Part of it that a metre of water brings."""
 GRAIN = 0.43
 """Of the ground, how often it is repeated in a metre; `ground.frag.glsl` has it, too."""
 LOOKS = ("asphalt", "water", "floor", "grass", "sand")
@@ -35,8 +35,8 @@ LOOKS = ("asphalt", "water", "floor", "grass", "sand")
 _SHADERS = Path(__file__).parent / "shaders"
 _LAYOUT = "3f 4f 3f 2f 3f 2f/i"
 _FIELDS = ("position", "rotation", "size", "taper", "tint", "finish")
-_SMALLEST = 0.0032
-"""Radius over distance below which a shape is left out: less than a pixel or so."""
+_MIN_APPARENT_RADIUS = 0.0032
+"""Smallest radius over distance of a shape that is drawn: a pixel or so."""
 
 
 class NoRendererError(RuntimeError):
@@ -110,11 +110,11 @@ def _visible(table: NDArray[np.float32], reach: NDArray[Any], view: View) -> NDA
     inside = (sideways < ahead * half_x + reach * np.hypot(1, half_x)) & (
         high < ahead * half_y + reach * np.hypot(1, half_y)
     )
-    return np.asarray(inside & (ahead > -reach) & (reach > ahead * _SMALLEST))
+    return np.asarray(inside & (ahead > -reach) & (reach > ahead * _MIN_APPARENT_RADIUS))
 
 
 def _nearest_first(table: NDArray[np.float32], view: View) -> NDArray[np.float32]:
-    """What hides other things is drawn before them, so that nothing is coloured that cannot be seen."""
+    """Shapes in drawing order: those that hide others come first, so that no hidden pixel is coloured."""
     offset = table[:, :3] - np.array(view.eye, dtype=np.float32)
     return np.asarray(table[np.argsort((offset * offset).sum(axis=1), kind="stable")])
 
@@ -135,7 +135,7 @@ class Renderer:
             self._prepare(world)
 
     def render(self, view: View, moving: Sequence[Shape] = ()) -> NDArray[np.uint8]:
-        """What `view` sees of the world and of the `moving` shapes: (height, width, 3) RGB, top row first."""
+        """Picture of the world and of the `moving` shapes from `view`: (height, width, 3) RGB, top row first."""
         return self.draw(view, moving)[:, :, :3].copy()
 
     def draw(self, view: View, moving: Sequence[Shape] = ()) -> NDArray[np.uint8]:
@@ -193,7 +193,7 @@ class Renderer:
         return self._made[key]
 
     def _set_constants(self, program: moderngl.Program) -> None:
-        """What does not change while this world is drawn."""
+        """Set the uniforms that stay the same for this world."""
         world = self._world
         length = float(np.linalg.norm(SUN))
         for name, value in {
@@ -228,7 +228,7 @@ class Renderer:
         self._panorama.use(2)
 
     def _ground(self, view: View) -> moderngl.Program:
-        """Draws what is seen of the ground: from under water its bottom."""
+        """Draws the visible ground: from under water its bottom."""
         world = self._world
         marked = bool(world.bays or world.lines)
         program = self._program(

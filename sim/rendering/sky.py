@@ -36,7 +36,7 @@ def panorama() -> bytes:
 
 @lru_cache(maxsize=1)
 def _painted() -> bytes:
-    """The same packed: it is kept for as long as nobody looks, and a twentieth is enough for that."""
+    """The same, compressed to a twentieth, to be kept while no camera needs it."""
     picture = _column(lambda rise: _between(HORIZON, ZENITH, 1 - math.exp(-2.6 * rise)))
     picture.paste(_rgb((0.97, 0.98, 0.99)), mask=_clouds())
     for hills in (_FAR, _NEAR):
@@ -122,7 +122,7 @@ class _Hills:
         return _between(self.foot, self.top, rise / (self.height + self.spread))
 
     def mask(self) -> Image.Image:
-        """Where they hide the sky."""
+        """Mask of the pixels in which they hide the sky."""
         width, height = SIZE[0] * 2, SIZE[1] * 2  # twice as large, for smooth edges
         heights = np.random.default_rng(self.peaks).random(self.peaks)
         tops = [self.height + self.spread * float(top) for top in (*heights, heights[0])]
@@ -137,7 +137,7 @@ _NEAR = _Hills(0.020, 0.075, 29, (0.38, 0.50, 0.33), (0.30, 0.44, 0.29))
 
 
 def _clouds() -> Image.Image:
-    """How much cloud there is: the pattern seen from below, farther away towards the horizon."""
+    """Density of the clouds: the pattern seen from below, farther away towards the horizon."""
     width, height = SIZE[0] // 4, SIZE[1] // 2
     angle = ((np.arange(width) + 0.5) / width - 0.5)[None, :] * math.tau
     level = ((np.arange(height) + 0.5) / height)[:, None]

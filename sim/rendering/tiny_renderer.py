@@ -23,14 +23,14 @@ __all__ = ["SIZE", "TinyRenderer"]
 
 SIZE = (320, 240)
 """Of its pictures [px]."""
-PATIENCE = 5.0
-"""How long to wait for one picture before giving up on the process [s]."""
+PICTURE_TIMEOUT = 5.0
+"""Time to wait for one picture before giving up on the process [s]."""
 
-START = 30.0
-"""How long the process may take to start [s]."""
+START_TIMEOUT = 30.0
+"""Longest time that the process may take to start [s]."""
 
-_SMALLEST = 0.11
-"""What fits into a ball of this radius is not drawn [m]."""
+_MIN_RADIUS = 0.11
+"""Smallest radius of a thing that is drawn [m]."""
 
 _log = logging.getLogger(__name__)
 
@@ -48,14 +48,14 @@ class TinyRenderer:
         self._process.start()
         theirs.close()
         self._stamp: float | None = None
-        self._receive(START)
+        self._receive(START_TIMEOUT)
 
     def show(self, view: View, stamp: float, moving: Sequence[Shape] = ()) -> list[tuple[float, Picture]]:
         """Ask for `view` as of `stamp`; gives the picture asked for before, waiting for it if need be.
 
-        What is `moving` is left out.
+        The `moving` shapes are left out.
         """
-        pictures = self._take(PATIENCE)
+        pictures = self._take(PICTURE_TIMEOUT)
         if self._process is not None:
             self._stamp = stamp
             self._send(view)
@@ -70,7 +70,7 @@ class TinyRenderer:
         if self._process is not None:
             process, self._process = self._process, None
             self._pipe.close()
-            process.join(PATIENCE)
+            process.join(PICTURE_TIMEOUT)
             if process.is_alive():
                 process.kill()
                 process.join()
@@ -86,7 +86,7 @@ class TinyRenderer:
         return [(stamp, picture)]
 
     def _receive(self, wait: float) -> Picture | None:
-        """What the process sends within `wait` [s]; None when it does not, which is its end unless `wait` is 0."""
+        """The next message of the process within `wait` [s]; None when there is none, which ends it unless `wait` is 0."""
         try:
             if self._pipe.poll(wait):
                 picture: Picture = self._pipe.recv()
@@ -130,7 +130,7 @@ def _picture(backend: Bullet, view: View) -> Picture:
 
 
 def scene(world: World) -> Iterator[Shape]:
-    """What is drawn: lawn, asphalt, paint, and the things without their details."""
+    """The shapes to draw: lawn, asphalt, paint, and the things without their details."""
     length, width = world.ground.length, world.ground.width
     yield Shape("box", (200.0, 200.0, 0.02), (0.0, 0.0, -0.05), colour=(0.40, 0.50, 0.27))
     yield Shape("box", (length, width, 0.02), (0.0, 0.0, -0.015), colour=(0.44, 0.45, 0.47))
@@ -145,5 +145,5 @@ def scene(world: World) -> Iterator[Shape]:
         yield Shape("box", size, ((ax + bx) / 2, (ay + by) / 2, 0.0), turn, colour=(0.92, 0.92, 0.92))
     for prop in world.props:
         for shape in prop.visuals:
-            if prop.kind == "cone" or np.linalg.norm(shape.size) / 2 > _SMALLEST:
+            if prop.kind == "cone" or np.linalg.norm(shape.size) / 2 > _MIN_RADIUS:
                 yield shape

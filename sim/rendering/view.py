@@ -1,4 +1,4 @@
-"""Where a camera is and how it looks: the matrices between the world and its picture."""
+"""The view of a camera: the matrices between the world and its picture."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class View:
     size: tuple[int, int]
     """Width and height of the picture [px]."""
     field_of_view: float
-    """Horizontal [rad]; of a map, the breadth of what is seen [m]."""
+    """Horizontal [rad]; of a map, the breadth of the view [m]."""
     flat: bool = False
     """Draw a map, by parallel rays, instead of a perspective."""
 
@@ -41,7 +41,7 @@ class View:
 
     @property
     def half_extent(self) -> tuple[float, float]:
-        """Half of what is seen, along x and y: tangents, or [m] on a map."""
+        """Half of the view, along x and y: tangents, or [m] on a map."""
         width, height = self.size
         half = self.field_of_view / 2 if self.flat else math.tan(self.field_of_view / 2)
         return half, half * height / width
@@ -62,13 +62,13 @@ class View:
         ahead = -axes[:, 2]
         corner = math.hypot(half_x, half_y)
         if math.hypot(ahead[0], ahead[1]) <= corner / math.hypot(1.0, corner):
-            return 0.0, math.pi  # what is right above or below it may be in the picture
+            return 0.0, math.pi  # things right above or below it may be in the picture
         yaw = math.atan2(ahead[1], ahead[0])
         rays = [axes @ (x, y, -1.0) for x in (-half_x, half_x) for y in (-half_y, half_y)]
         return yaw, max(abs(math.remainder(math.atan2(y, x) - yaw, math.tau)) for x, y, _ in rays)
 
     def matrix(self) -> Matrix:
-        """From the world to OpenGL's clip space, upside down: row 0 of what is drawn is the picture's top."""
+        """From the world to OpenGL's clip space, upside down: row 0 of the drawing is the picture's top."""
         view = np.eye(4)
         view[:3, :3] = self.axes.T
         view[:3, 3] = -self.axes.T @ np.array(self.eye)

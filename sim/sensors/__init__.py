@@ -1,1 +1,1 @@
-"""What the simulated robots measure with; one file a sensor, its parameters and its noise beside it."""
+"""Sensors of the simulated robots; one file a sensor, with its parameters and its noise."""

@@ -15,7 +15,7 @@ __all__ = ["Battery", "BatteryParameters"]
 _DISCHARGING = 2
 _LITHIUM_ION = 2
 _SWING = 0.11
-"""How far the open voltage is above the nominal when full, and below when empty, as a part of it."""
+"""Open voltage above the nominal when full, and below it when empty, as a part of it."""
 
 Positive = Annotated[float, msgspec.Meta(gt=0)]
 Part = Annotated[float, msgspec.Meta(ge=0, le=1)]
@@ -31,7 +31,7 @@ class BatteryParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True,
     voltage: Positive
     """Nominal [V]."""
     idle: Positive
-    """What computer and sensors take [W]."""
+    """Power of computer and sensors [W]."""
     resistance: Positive
     """[ohm]"""
     charge: Part
@@ -49,7 +49,7 @@ class Battery:
         self.power = parameters.idle
         """That it gives [W]."""
         self.others: Callable[[], float] = lambda: 0.0
-        """What takes power besides computer and motors [W]; may be set."""
+        """Power of other consumers than computer and motors [W]; may be set."""
 
     @property
     def empty(self) -> bool:

@@ -23,7 +23,7 @@ class CompassParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True,
     rate: float
     """[Hz]"""
     dip: float
-    """How far the magnetic field points down [rad]."""
+    """Dip of the magnetic field below the horizontal [rad]."""
     noise: float
     """Standard deviation of each part of the field, as a part of its strength."""
     hard_iron: float
@@ -58,7 +58,7 @@ class Compass:
         self._last: tuple[Vec3, float] | None = None
 
     def measure(self, state: State, stamp: float) -> Told:
-        """What it says at `stamp` [s]; the acceleration is the mean since the last call."""
+        """Measurement at `stamp` [s]; the acceleration is the mean since the last call."""
         parameters, noise = self._parameters, self._noise
         mx, my, mz = (
             part + iron + noise.normal(parameters.noise)

@@ -1,4 +1,4 @@
-"""A pressure gauge, which tells how deep a vehicle is."""
+"""A pressure gauge, which measures the depth of a vehicle."""
 
 from __future__ import annotations
 

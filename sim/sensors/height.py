@@ -1,4 +1,4 @@
-"""An ultrasound that looks down and tells the height above what is there."""
+"""An ultrasonic ranger that points down and measures the height above the surface."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class Height:
         self._from = backend.ray_points(body, [(0.0, 0.0, 0.0)] * len(ends))
         self._to = backend.ray_points(body, ends)
         self.last = math.nan
-        """What it measured last [m]; NaN when nothing was in reach."""
+        """Last measurement [m]; NaN when nothing was in reach."""
 
     def measure(self, state: State, stamp: float) -> Range:
         """The distance at `stamp` [s]; +inf nothing in range, -inf too close (REP-117)."""

@@ -48,7 +48,7 @@ class InertialUnit:
         self._last: tuple[Vec3, float] | None = None
 
     def measure(self, state: State, stamp: float) -> Imu:
-        """What it says at `stamp` [s] of a body in `state`; acceleration is the mean since the last call."""
+        """Measurement at `stamp` [s] of a body in `state`; acceleration is the mean since the last call."""
         parameters = self._parameters
         gyro, accelerometer = parameters.gyro_noise, parameters.accelerometer_noise
         return Imu(

@@ -43,7 +43,7 @@ class LineCells:
         self._strengths = 1 + noise.normals(parameters.mismatch, parameters.cells)
 
     def measure(self, state: State, stamp: float) -> LineSensor:
-        """What the cells of a body in `state` see at `stamp` [s]."""
+        """Measurement of the cells of a body in `state` at `stamp` [s]."""
         parameters = self._parameters
         centre = place((parameters.ahead, 0.0, 0.0), state.position, state.rotation)
         left = rotate(state.rotation, (0.0, 1.0, 0.0))

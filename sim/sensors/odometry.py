@@ -28,7 +28,7 @@ class OdometryParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True
 
 
 class WheelOdometry:
-    """Integrates two encoders by the mid-point rule, starting from the pose it is told.
+    """Integrates two encoders by the mid-point rule, starting from a given pose.
 
     It believes slightly wrong sizes of its wheels, one draw a run, and its wheels slip a little.
     """

@@ -1,4 +1,4 @@
-"""Dead reckoning of what has no wheels: a speed log and a gyro, with the errors that they add up."""
+"""Dead reckoning of a vehicle without wheels: a speed log and a gyro, with the errors that they add up."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class ReckoningParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=Tru
 
 
 class Reckoning:
-    """Adds up measured velocities from the pose that it is told; height, roll and pitch it measures anew each time."""
+    """Integrates measured velocities from a given pose; height, roll and pitch are measured anew each time."""
 
     def __init__(
         self, parameters: ReckoningParameters, pose: tuple[float, float, float], noise: Noise

@@ -23,13 +23,13 @@ from sim.physics.backend_bullet import State
 __all__ = ["Measure", "Measurement", "Suite", "as_odometry"]
 
 Measurement = tuple[str, Msg]
-"""A topic and what is said on it."""
+"""A topic and its message."""
 Measure = Callable[[State, float], Iterable[Measurement]]
-"""What one sensor says of a body in a state, with a stamp [s]."""
+"""Messages of one sensor on a body in a state, with a stamp [s]."""
 
 
 class Suite:
-    """Asks every sensor when it is due, in the order in which they were added."""
+    """Reads every sensor when it is due, in the order in which they were added."""
 
     def __init__(self) -> None:
         """No sensors yet."""
@@ -45,12 +45,12 @@ class Suite:
             raise ValueError(f"There is a sensor {name!r} already.")
         self._sensors[name] = (rate, measure)
 
-    def due(self, name: str, step: int) -> bool:
-        """Whether the sensor of this name measures after `step`, which was not asked for yet."""
-        return name in self._sensors and self._planned().falls(name, step)
+    def is_due(self, name: str, step: int) -> bool:
+        """Whether the sensor of this name measures after `step`, which has not been measured yet."""
+        return name in self._sensors and self._planned().is_due(name, step)
 
     def measure(self, step: int, state: Callable[[], State], stamp: float) -> Iterator[Measurement]:
-        """What is due after `step`; the `state` is asked for only if something is."""
+        """Measurements that are due after `step`; `state` is called only if there is one."""
         due = self._planned().due(step)
         if not due:
             return

@@ -17,7 +17,7 @@ CAMERA_TOPIC = "/camera/image/compressed"
 
 
 class Cameras:
-    """Each is made when somebody first wants its pictures, and kept."""
+    """Each is made when its pictures are first wanted, and kept."""
 
     def __init__(self, simulation: Simulation, number: int) -> None:
         """Of the vehicle of this number."""
@@ -29,7 +29,7 @@ class Cameras:
         if every:
             paint(
                 simulation.world
-            )  # now, for whoever first wants a picture would hold up a robot that is driven
+            )  # now, because the first picture would otherwise hold up a robot that is being driven
 
     def shoot(self, wanted: AbstractSet[str], stamp: float) -> Iterator[tuple[str, Msg]]:
         """Pictures that are due after this step of those that are `wanted`, taken at `stamp` [s]."""
@@ -38,7 +38,7 @@ class Cameras:
             if topic in wanted and topic not in self._made:
                 self._made[topic] = Camera(simulation.studio.eye(), parameters, first=simulation.steps)
         for topic, camera in self._made.items():
-            if camera.due(simulation.steps) and topic in wanted:
+            if camera.is_due(simulation.steps) and topic in wanted:
                 others = simulation.looks(but=self._number)
                 state = simulation.vehicles[self._number].state()
                 for image in camera.shoot(state, stamp, others):

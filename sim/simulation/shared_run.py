@@ -1,4 +1,4 @@
-"""A simulation that one or several robots share: whoever asks first moves it on, and nobody misses anything."""
+"""A simulation that one or several robots share: the first one read moves it on, and none misses a message."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from sim.simulation.simulation import Simulation
 
 __all__ = ["Run"]
 
-_SLACK = 1e-3
-"""Part of a step by which `now` may fall short of it: the clock's own rounding is no reason to wait."""
+_STEP_TOLERANCE = 1e-3
+"""Part of a step by which `now` may fall short of it: so that the clock's rounding causes no wait."""
 
 
 class Run:
@@ -20,7 +20,7 @@ class Run:
         """Nothing has moved yet."""
         self.simulation = simulation
         self.origin: float | None = None
-        """Time of the first step [s, robots' clock]; None until somebody asks."""
+        """Time of the first step [s, robots' clock]; None until a robot is first read."""
         self._listeners: list[Callable[[], None]] = []
 
     def join(self, collect: Callable[[], None]) -> None:
@@ -28,7 +28,7 @@ class Run:
         self._listeners.append(collect)
 
     def leave(self, collect: Callable[[], None]) -> None:
-        """No longer; frees the simulation when nobody is left. Leaving twice does nothing."""
+        """No longer call it; frees the simulation when no robot is left. Leaving twice does nothing."""
         if collect in self._listeners:
             self._listeners.remove(collect)
             if not self._listeners:
@@ -43,7 +43,7 @@ class Run:
         """Simulate up to `now` [s]; the first call sets the origin and simulates nothing."""
         if self.origin is None:
             self.origin = now
-        goal = int((now - self.origin) * STEPS_PER_SECOND + _SLACK)
+        goal = int((now - self.origin) * STEPS_PER_SECOND + _STEP_TOLERANCE)
         while self.simulation.steps < goal:
             self.simulation.advance()
             for collect in tuple(self._listeners):

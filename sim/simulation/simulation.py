@@ -17,15 +17,15 @@ from sim.world.world import World
 
 __all__ = ["Simulation"]
 
-SETTLING = STEPS_PER_SECOND // 2
+SETTLING_STEPS = STEPS_PER_SECOND // 2
 """Steps after which everything stands still on its wheels."""
 
-OVERLAP = 0.01
+MAX_OVERLAP = 0.01
 """Robots may start so far within something: shells are not exact [m]."""
 
 
 class Simulation:
-    """The truth: what really is where. Sensors tell robots about it, tests look at it directly."""
+    """The true state of a world and its robots. Robots know it by their sensors only, tests read it directly."""
 
     def __init__(
         self,
@@ -48,7 +48,7 @@ class Simulation:
         for prop in world.props:
             self.backend.add_static(prop.solids)
         self.studio = Studio(world)
-        """What the robots' cameras draw with."""
+        """The renderer of the robots' cameras."""
         self.weather = Weather(world, Noise(seed, "gusts", on=noise))
         self.vehicles: list[Vehicle] = [
             model.build(
@@ -61,8 +61,8 @@ class Simulation:
         self.backend.show((world.start.x, world.start.y, world.start.z))
         self.steps = 0
         """Physics steps done."""
-        for _ in range(SETTLING):
-            self._push()
+        for _ in range(SETTLING_STEPS):
+            self._step()
 
     @property
     def vehicle(self) -> Vehicle:
@@ -80,12 +80,12 @@ class Simulation:
         return self.vehicle.bumper.bumps
 
     def pose(self, number: int = 0) -> tuple[float, float, float]:
-        """Where a robot really is: x, y [m] and yaw [rad] in `map`."""
+        """True pose of a robot: x, y [m] and yaw [rad] in `map`."""
         state = self.vehicles[number].state()
         return state.position[0], state.position[1], yaw_of(state.rotation)
 
     def looks(self, *, but: int) -> tuple[Shape, ...]:
-        """What is seen of all robots and their payloads `but` of one, of which only the payloads are seen."""
+        """Visible shapes of all robots and their payloads `but` one, of which only the payloads are visible."""
         shapes: list[Shape] = []
         for number, (vehicle, looks) in enumerate(zip(self.vehicles, self._looks, strict=True)):
             if number == but and not vehicle.attached:
@@ -100,9 +100,9 @@ class Simulation:
     def advance(self) -> None:
         """One physics step."""
         self.weather.step()
-        self._push()
+        self._step()
         for vehicle in self.vehicles:
-            vehicle.feel()
+            vehicle.after_step()
         self.steps += 1
 
     def close(self) -> None:
@@ -113,16 +113,16 @@ class Simulation:
     def _refuse_overlaps(self, placed: Sequence[tuple[Model, Start]]) -> None:
         """ValueError when a robot is put into something: the physics would fling it out."""
         for vehicle, (model, start) in zip(self.vehicles, placed, strict=True):
-            if self.backend.crowded(vehicle.body, -OVERLAP, but=vehicle.raft):
+            if self.backend.is_crowded(vehicle.body, -MAX_OVERLAP, but=vehicle.raft):
                 self.close()
                 name, place = model.parameters.info.name, f"({start.x:g}, {start.y:g})"
                 raise ValueError(
                     f"{name} has no room at {place} in {self.world.name}: something stands there."
                 )
 
-    def _push(self) -> None:
+    def _step(self) -> None:
         for vehicle in self.vehicles:
-            vehicle.push()
+            vehicle.before_step()
         self.backend.step()
 
 

@@ -1,4 +1,4 @@
-"""What all vehicles have in common: a body, its sensors, its bumper, and the orders that it may be given."""
+"""The common part of all vehicles: a body, its sensors, its bumper, and the orders that it takes."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ from sim.world.tables import Start
 __all__ = ["Chassis"]
 
 MANOEUVRE_RATE, MOTORS_RATE = 10.0, 5.0
-CLEAR = 0.05
-"""Kept free round one that is put back [m]."""
+RESET_CLEARANCE = 0.05
+"""Kept free round a robot that is put back [m]."""
 
 
 class Odometer(Protocol):
-    """Something that adds up a way."""
+    """An estimate of a vehicle's own motion."""
 
     def restart(self, pose: tuple[float, float, float]) -> None:
         """Believe to be at x, y [m], yaw [rad] in `odom`."""
@@ -54,18 +54,18 @@ class Chassis(Generic[P]):
         self.suite = Suite()
         self.cameras = list(parameters.cameras)
         self.laser_x = 0.0
-        """How far its laser is ahead of `base_link` [m]."""
+        """Distance of its laser ahead of `base_link` [m]."""
         self.attached: list[Callable[[], tuple[Shape, ...]]] = []
         self.battery = Battery(parameters.battery)
         self.motors: Motors
         self.order = Manoeuvre(kind="rest")
-        """What it moves by."""
+        """The order that it follows."""
         self.odometer: Odometer | None = None
-        """What tells how far it has come."""
+        """Its estimate of its own motion; None for a vehicle without one."""
         home = scene.backend.state(body)
         self._home = home.position, home.rotation
         self.raft = -1
-        """Number of what it stands on where there is no ground, and which is no obstacle; -1 for nothing."""
+        """Number of the raft that it stands on where there is no ground, and which is no obstacle; -1 for none."""
         self.grounded = False
         """Its shell touches the ground or something else."""
         self._step = 0
@@ -76,7 +76,7 @@ class Chassis(Generic[P]):
         return -math.inf, math.inf
 
     def drive(self, twist: Twist) -> None:
-        """Go for `twist` until told otherwise."""
+        """Go for `twist` until the next order."""
         self.manoeuvre(Manoeuvre(kind="twist", twist=twist))
 
     def stop(self) -> None:
@@ -84,7 +84,7 @@ class Chassis(Generic[P]):
         self.manoeuvre(Manoeuvre(kind="rest"))
 
     def manoeuvre(self, order: Manoeuvre) -> None:
-        """Move by `order` until told otherwise; ValueError with one sentence when it cannot, which changes nothing."""
+        """Move by `order` until the next order; ValueError with one sentence when it cannot, which changes nothing."""
         known = self.MANOEUVRES
         if order.kind not in known:
             name = self.parameters.info.name
@@ -93,7 +93,7 @@ class Chassis(Generic[P]):
         self.order = order
 
     def reset(self) -> None:
-        """Go back to the start, at rest, and believe to be there; beside it when somebody else stands there by now.
+        """Go back to the start, at rest, and believe to be there; beside it when another robot stands there by now.
 
         ValueError with one sentence when there is no room, which changes no more than that it stands still.
         """
@@ -102,7 +102,7 @@ class Chassis(Generic[P]):
         for place in self._starts(z):
             aside = place.x - start.x, place.y - start.y
             backend.place(self.body, (x + aside[0], y + aside[1], z), rotation)
-            if not backend.crowded(self.body, CLEAR, but=self.raft):
+            if not backend.is_crowded(self.body, RESET_CLEARANCE, but=self.raft):
                 break
         else:
             backend.place(self.body, was.position, was.rotation)
@@ -120,12 +120,12 @@ class Chassis(Generic[P]):
         return places(scene.world, scene.start, radius, height)
 
     def held(self) -> Manoeuvre:
-        """What it moves by, with the heading and the height that it keeps where the order names none."""
+        """The order that it follows, with the heading and the height that it keeps where the order names none."""
         return self.order
 
     @property
     def stands(self) -> bool:
-        """It knows that it stands on the ground, motors off: whatever its log of speed says is nothing."""
+        """It knows that it stands on the ground, motors off, so that its speed log is ignored."""
         return False
 
     def halt(self) -> None:
@@ -136,12 +136,12 @@ class Chassis(Generic[P]):
         """Take up an order of a known kind."""
         raise NotImplementedError
 
-    def push(self) -> None:
+    def before_step(self) -> None:
         """Act on the body for the physics step that follows."""
         raise NotImplementedError
 
-    def feel(self) -> None:
-        """Take in what the physics step did."""
+    def after_step(self) -> None:
+        """Update with the result of the physics step."""
         self._step += 1
         backend = self.scene.backend
         touched = backend.touching(self.body)
@@ -150,26 +150,26 @@ class Chassis(Generic[P]):
         self.bumper.update(self._step, contacts, self.state() if contacts else None)
 
     def state(self) -> State:
-        """Where it really is and how it moves, in `map`."""
+        """True pose and motion, in `map`."""
         return self.scene.backend.state(self.body)
 
     def measure(self, stamp: float, *, truth: bool) -> Iterator[Measurement]:
-        """What is due after this step, with `stamp` [s]; ground truth only when `truth` asks for it."""
-        if self.bumper.changed and not self.suite.due("bumper", self._step):
+        """Measurements that are due after this step, with `stamp` [s]; ground truth only when `truth` asks for it."""
+        if self.bumper.changed and not self.suite.is_due("bumper", self._step):
             yield "/bumper", self.bumper.message(stamp)
         for topic, message in self.suite.measure(self._step, self.state, stamp):
             if truth or topic != "/sim/ground_truth":
                 yield topic, message
 
     def add_bumper_and_imu(self) -> None:
-        """What it runs into, how it is turned and how it is moved, as sensors."""
+        """Add the bumper and the inertial unit."""
         parameters = self.parameters
         imu = InertialUnit(parameters.imu, self.scene.generator("imu"))
-        self.suite.add("bumper", parameters.bumper.rate, self._tell_bumper)
+        self.suite.add("bumper", parameters.bumper.rate, self._measure_bumper)
         self.suite.add("imu", parameters.imu.rate, lambda state, at: [("/imu/data", imu.measure(state, at))])
 
     def add_reckoning(self, figures: ReckoningParameters) -> None:
-        """Where it believes to be, of what has no wheels, as a sensor."""
+        """Add the odometry of a vehicle without wheels."""
         start = self.scene.start
         self.odometer = reckoning = Reckoning(
             figures, (start.x, start.y, start.angle), self.scene.generator("reckoning")
@@ -180,13 +180,13 @@ class Chassis(Generic[P]):
         return lambda state, at: [("/odom", reckoning.measure(state, at, stands=self.stands))]
 
     def add_power(self) -> None:
-        """Motors and battery, as sensors."""
+        """Add the messages of motors and battery."""
         rate = self.parameters.battery.rate
         self.suite.add("motors", MOTORS_RATE, lambda _, at: [("/motors", self.motors.message(at))])
         self.suite.add("battery", rate, lambda _, at: [("/battery_state", self.battery.message(at))])
 
     def add_truth(self) -> None:
-        """Where it really is, as a sensor."""
+        """Add the ground truth."""
         self.suite.add(
             "truth",
             self.parameters.truth.rate,
@@ -194,12 +194,12 @@ class Chassis(Generic[P]):
         )
 
     def add_order(self) -> None:
-        """The order that it moves by, as a sensor."""
-        self.suite.add("manoeuvre", MANOEUVRE_RATE, self._tell_order)
+        """Add the message of the order that it follows."""
+        self.suite.add("manoeuvre", MANOEUVRE_RATE, self._measure_order)
 
-    def _tell_bumper(self, _: State, stamp: float) -> Iterator[Measurement]:
-        """What has just changed is told anyway."""
+    def _measure_bumper(self, _: State, stamp: float) -> Iterator[Measurement]:
+        """A change is also published at once, by `measure`."""
         yield "/bumper", self.bumper.message(stamp)
 
-    def _tell_order(self, state: State, stamp: float) -> Iterator[Measurement]:
+    def _measure_order(self, state: State, stamp: float) -> Iterator[Measurement]:
         yield "/manoeuvre", msgspec.structs.replace(self.held(), header=Header(Time.at(stamp), "map"))

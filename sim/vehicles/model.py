@@ -1,4 +1,4 @@
-"""What a vehicle is to the simulation, and all that is needed to make one."""
+"""The interface of a vehicle to the simulation, and the model that makes one."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Vehicle(Protocol):
     MANOEUVRES: ClassVar[tuple[str, ...]]
     """The orders that it knows."""
     scene: Scene
-    """What it is in."""
+    """Its surroundings."""
     suite: Suite
     """Its sensors."""
     battery: Battery
@@ -39,15 +39,15 @@ class Vehicle(Protocol):
     cameras: list[CameraParameters]
     """Its cameras, the first one is the main one."""
     laser_x: float
-    """How far its laser is ahead of `base_link` [m]."""
+    """Distance of its laser ahead of `base_link` [m]."""
     attached: list[Callable[[], tuple[Shape, ...]]]
-    """What is seen of its payloads, in `base_link`."""
+    """Visible shapes of its payloads, in `base_link`."""
     body: int
     """Its number in the physics."""
     bumper: BumperRing
     """Counts its bumps."""
     raft: int
-    """Number of what it stands on where there is no ground; -1 for nothing."""
+    """Number of the raft that it stands on where there is no ground; -1 for none."""
 
     @property
     def parameters(self) -> Parameters:
@@ -58,28 +58,28 @@ class Vehicle(Protocol):
         """The lowest and the highest at which it can be, above the map's origin [m]."""
 
     def drive(self, twist: Twist) -> None:
-        """Go for `twist` in `base_link` until told otherwise."""
+        """Go for `twist` in `base_link` until the next order."""
 
     def stop(self) -> None:
         """Brake to rest."""
 
     def manoeuvre(self, order: Manoeuvre) -> None:
-        """Move by `order` until told otherwise; ValueError with one sentence when it cannot."""
+        """Move by `order` until the next order; ValueError with one sentence when it cannot."""
 
     def reset(self) -> None:
         """Go back to the start, at rest, and believe to be there."""
 
-    def push(self) -> None:
+    def before_step(self) -> None:
         """Act on the body for the physics step that follows."""
 
-    def feel(self) -> None:
-        """Take in what the physics step did."""
+    def after_step(self) -> None:
+        """Update with the result of the physics step."""
 
     def state(self) -> State:
-        """Where it really is and how it moves, in `map`."""
+        """True pose and motion, in `map`."""
 
     def measure(self, stamp: float, *, truth: bool) -> Iterator[tuple[str, Msg]]:
-        """Topic and message of what is due after this step, with `stamp` [s]; ground truth only with `truth`."""
+        """Topics and messages that are due after this step, with `stamp` [s]; ground truth only with `truth`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,9 +93,9 @@ class Model:
     looks: Callable[[Any, tuple[float, float, float], tuple[float, float, float, float]], tuple[Shape, ...]]
     """The shapes to draw of one with its parameters, at a position [m], turned by a rotation."""
     element: Literal["land", "water", "air"] = "land"
-    """Where it moves."""
+    """Element in which it moves."""
     home: str = "parking_lot"
-    """The world that it is put into when nobody names another."""
+    """The world that it is put into when none is named."""
 
 
 def suits(model: Model, world: World) -> bool:
@@ -104,7 +104,7 @@ def suits(model: Model, world: World) -> bool:
 
 
 def numbered(models: Sequence[Model]) -> list[Model]:
-    """The same with names that tell them apart: the second one of a kind is `Patrol-2`, and so on."""
+    """The same, with distinct names: the second one of a kind is `Patrol-2`, and so on."""
     met: Counter[str] = Counter()
     return [_called(model, met) for model in models]
 

@@ -17,7 +17,7 @@ __all__ = ["Parameters", "load"]
 
 
 class Parameters(Table, frozen=True, kw_only=True):
-    """What the file of every vehicle says; each kind has a class with more."""
+    """Tables that the file of every vehicle has; each kind has a class with more."""
 
     info: Info
     limits: Limits
@@ -34,7 +34,7 @@ class Parameters(Table, frozen=True, kw_only=True):
 
     @property
     def deck(self) -> tuple[float, float, float]:
-        """Where payloads are mounted, in `base_link` [m]."""
+        """Mounting place of payloads, in `base_link` [m]."""
         raise NotImplementedError
 
     def laden(self, loads: Sequence[Load]) -> Self:
@@ -71,5 +71,5 @@ P = TypeVar("P", bound=Parameters)
 
 
 def load(path: Path, kind: type[P]) -> P:
-    """The numbers of a `kind` of vehicle in the file at `path`; ValueError names the file, the line, the key and what is wrong."""
+    """The numbers of a `kind` of vehicle in the file at `path`; ValueError names the file, the line, the key and the reason."""
     return read(text_of(path), kind, path.name)

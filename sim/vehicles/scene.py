@@ -1,4 +1,4 @@
-"""What a vehicle is put into: the physics, the world with its weather, and what decides the random errors."""
+"""The surroundings of a vehicle: the physics, the world with its weather, and the seed of the random errors."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Scene:
     world: World
     weather: Weather
     start: Start
-    """Where it stands, floats or lies at first."""
+    """Start place, on the ground, afloat or under water."""
     seed: int = 0
     noise: bool = True
     """With False every sensor is exact."""

@@ -1,4 +1,4 @@
-"""Where robots start that nobody placed: beside the world's own start, with room round each."""
+"""Start places of robots without a place of their own: beside the world's start, with room round each."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from sim.world.world import World
 
 __all__ = ["places", "starts"]
 
-APART = 2.0
+SPACING = 2.0
 """From one to the next [m]."""
 MARGIN = 0.25
 """Kept free round each [m]."""
-REACH = 12.0
-"""How far from the start a place is looked for, along and across [m]."""
-TALL = 1.0
-"""What is so far above or below a robot is not in its way [m]."""
-STEP = 0.2
-"""By which the way from the start to a place is felt [m]."""
+SEARCH_RADIUS = 12.0
+"""Distance from the start within which a place is searched, along and across [m]."""
+HEIGHT_RANGE = 1.0
+"""Things farther above or below a robot than this are not in its way [m]."""
+PATH_STEP = 0.2
+"""Step by which the path from the start to a place is checked [m]."""
 
 
 def starts(world: World, models: Sequence[Model], given: Sequence[Start | None]) -> list[Start]:
@@ -43,9 +43,9 @@ def starts(world: World, models: Sequence[Model], given: Sequence[Start | None])
 
 
 def places(world: World, start: Start, radius: float, height: float) -> Iterator[Start]:
-    """Where a robot of this `radius` [m] at this `height` [m] may stand instead of at its `start`, which is the first of them.
+    """Places for a robot of this `radius` [m] at this `height` [m] instead of its `start`, which is the first of them.
 
-    Only what belongs to the world is looked at, not who else is in it.
+    Only the things of the world are considered, not other robots.
     """
     around = [solid for solid in world.solids if _height(solid, height)]
     for place in _candidates(start):
@@ -69,10 +69,10 @@ def _candidates(start: Start) -> Iterator[Start]:
     """The start itself, then to its right and left by turns, then the same behind it and ahead of it; closer at last."""
     yield start
     cosine, sine = math.cos(start.angle), math.sin(start.angle)
-    for apart in (APART, APART / 2):
-        for row in range(2 * round(REACH / apart) + 1):
+    for apart in (SPACING, SPACING / 2):
+        for row in range(2 * round(SEARCH_RADIUS / apart) + 1):
             back = (row + 1) // 2 * apart * (1 if row % 2 else -1)
-            for number in range(2 * round(REACH / apart) + 1):
+            for number in range(2 * round(SEARCH_RADIUS / apart) + 1):
                 aside = (number + 1) // 2 * apart * (-1 if number % 2 else 1)
                 x, y = start.x - back * cosine - aside * sine, start.y - back * sine + aside * cosine
                 if row or number:
@@ -88,11 +88,11 @@ def _open(solids: Sequence[Shape], home: Start, start: Start, radius: float) -> 
     """There is room at `start`, and no wall between it and `home`."""
     if any(beside(solid, start.x, start.y) < radius + MARGIN for solid in solids):
         return False
-    count = math.ceil(math.dist((home.x, home.y), (start.x, start.y)) / STEP)
+    count = math.ceil(math.dist((home.x, home.y), (start.x, start.y)) / PATH_STEP)
     parts = [number / count for number in range(1, count)]
     way = [(home.x + (start.x - home.x) * part, home.y + (start.y - home.y) * part) for part in parts]
     return all(beside(solid, x, y) > 0.0 for solid in solids for x, y in way)
 
 
 def _height(solid: Shape, height: float) -> bool:
-    return abs(solid.position[2] - height) < solid.size[2] / 2 + TALL
+    return abs(solid.position[2] - height) < solid.size[2] / 2 + HEIGHT_RANGE

@@ -1,4 +1,4 @@
-"""A robot on two driven wheels: what all of the kind share besides figures and sensors of their own."""
+"""The common part of all robots on two driven wheels, beside their own parameters and sensors."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ __all__ = ["TwoWheeled", "TwoWheeledParameters"]
 
 
 class TwoWheeledParameters(Parameters, frozen=True, kw_only=True):
-    """What all robots with two driven wheels have."""
+    """Parameters of all robots with two driven wheels."""
 
     body: Body
     wheels: Wheels
@@ -51,7 +51,7 @@ class TwoWheeledParameters(Parameters, frozen=True, kw_only=True):
 
     @property
     def deck(self) -> tuple[float, float, float]:
-        """Where payloads are mounted, in `base_link` [m]."""
+        """Mounting place of payloads, in `base_link` [m]."""
         return (0.0, 0.0, self.body.height)
 
     def laden(self, loads: Sequence[Load]) -> Self:
@@ -110,7 +110,7 @@ class TwoWheeled(Wheeled[D]):
     def begin(self, order: Manoeuvre) -> None:
         """Take up a twist, or brake."""
         if order.kind == "twist":
-            self._drive.want(order.twist)
+            self._drive.set_target(order.twist)
         else:
             self._drive.brake()
 

@@ -1,4 +1,4 @@
-"""What stands on driven wheels: all of them follow their drive, until the battery is empty."""
+"""Vehicles on driven wheels, which follow their drive until the battery is empty."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ P = TypeVar("P", bound=Parameters)
 
 
 class Drive(Protocol):
-    """What turns the wheels."""
+    """The drive of the wheels."""
 
     def brake(self) -> None:
         """Come to rest."""
@@ -22,7 +22,7 @@ class Drive(Protocol):
         """Stand still at once."""
 
     def step(self) -> None:
-        """Come one physics step nearer to what is wanted."""
+        """Come one physics step nearer to the target."""
 
 
 class Wheeled(Chassis[P]):
@@ -34,8 +34,8 @@ class Wheeled(Chassis[P]):
         """Let the wheels stand still at once."""
         self._drive.halt()
 
-    def push(self) -> None:
-        """Let the drive come a step nearer to what is wanted."""
+    def before_step(self) -> None:
+        """Let the drive come a step nearer to its target."""
         if self.battery.empty:
             self._drive.brake()
         self._drive.step()

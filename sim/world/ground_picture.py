@@ -58,7 +58,7 @@ def markings(world: World) -> tuple[tuple[int, int], bytes]:
 
 @lru_cache(maxsize=4)
 def _painted(world: World) -> tuple[tuple[int, int], bytes]:
-    """The same packed: it is kept for as long as nobody looks, and a twentieth is enough for that."""
+    """The same, compressed to a twentieth, to be kept while no camera needs it."""
     if world.water:
         return (1, 1), zlib.compress(bytes((0, 255)))  # nothing is painted on it, and no shadow falls
     paint = _signs(world).blurred(0.012)
@@ -88,7 +88,7 @@ def _from_spot(spot: Spot, point: Point) -> Point:
 
 
 def _shadows(world: World, shapes: Iterable[Shape]) -> _Sheet:
-    """Where no sun comes: the outline of each shape, seen from the sun, laid on the ground."""
+    """Shadows: the outline of each shape, seen from the sun, laid on the ground."""
     sheet = _Sheet(world)
     for shape in shapes:
         falls = [(x - SUN[0] / SUN[2] * z, y - SUN[1] / SUN[2] * z) for x, y, z in shape.corners()]

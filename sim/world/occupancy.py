@@ -1,4 +1,4 @@
-"""The robot's own map: which cells of the ground stand full, drawn from the world without what does not belong there."""
+"""The robot's own map: the occupied cells of the ground, drawn from the world without the things that move."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ RESOLUTION = 0.1
 MARGIN = 1.0
 """Of unknown round the ground [m]."""
 CLEARANCE = 0.45
-"""What hangs higher than this is no obstacle for a ground robot [m]."""
+"""Things that hang higher than this are no obstacle for a ground robot [m]."""
 
 
 def occupancy(world: World, stamp: float) -> OccupancyGrid:

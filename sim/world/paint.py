@@ -1,4 +1,4 @@
-"""What is painted on a world's ground, point by point: for sensors that look down.
+"""Paint on a world's ground, point by point, for sensors that look down.
 
 paint = Paint(world)
 paint.share(np.array([[1.0, 0.5]]), 0.005)  # how much of a spot of 5 mm round (1.0, 0.5) is paint
@@ -24,7 +24,7 @@ Points = NDArray[np.float64]
 """Shape (n, 2): x, y in `map` [m]."""
 
 _CROSS = np.array([(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)]) * 0.7
-"""Where in a spot of radius 1 a polygon is looked for."""
+"""Points of a spot of radius 1 at which polygons are tested."""
 
 _REACH = 1.5
 """No part of an arrow is farther from the middle of its corners [m]."""

@@ -1,4 +1,4 @@
-"""The things that stand in a world: what the physics feels of each, and what the camera sees of it."""
+"""Things that stand in a world, each with its solid shapes for the physics and its visible shapes for the camera."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ class Prop:
     kind: str
     """`car`, `cone`, `lamp`, `wall`, `block`, `tree`, `buoy`, `coral` or `diver`."""
     solids: tuple[Shape, ...]
-    """What bodies bump into and lasers hit."""
+    """Shapes that bodies and lasers hit."""
     visuals: tuple[Shape, ...]
-    """What cameras see."""
+    """Shapes that cameras see."""
     position: Vec3 = (0.0, 0.0, 0.0)
 
     def at(self, x: float, y: float, yaw: float, z: float = 0.0) -> Prop:

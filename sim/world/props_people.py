@@ -1,4 +1,4 @@
-"""People, fruit trees and what else stands in offices and orchards."""
+"""People, fruit trees and other things that stand in offices and orchards."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ ORANGE_RADIUS = 0.035
 
 
 def person(colour: Colour) -> Prop:
-    """Somebody who stands and looks along x, in a shirt of this colour, 1.75 m tall."""
+    """A person who stands and looks along x, in a shirt of this colour, 1.75 m tall."""
     legs = tuple(
         Shape("cylinder", (0.15, 0.15, 0.82), (0.0, side * 0.09, 0.41), colour=TROUSERS) for side in (-1, 1)
     )

@@ -45,7 +45,7 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Datum(Entry, frozen=True):
-    """Where the map's origin lies on earth, WGS 84."""
+    """Place of the map's origin on earth, WGS 84."""
 
     latitude: Annotated[float, msgspec.Meta(gt=-90, lt=90)]
     """[deg]"""
@@ -63,7 +63,7 @@ class Ground(Entry, frozen=True):
     width: Positive
     """Along y [m]."""
     look: Literal["asphalt", "water", "floor", "grass"] = "asphalt"
-    """Of what one sees at z = 0, for pictures."""
+    """Appearance of the surface at z = 0, for pictures."""
 
 
 class Wall(Entry, frozen=True):
@@ -92,7 +92,7 @@ class Spot(Entry, frozen=True):
 
 
 class Start(Spot, frozen=True):
-    """Where a robot is at first."""
+    """Start of a robot."""
 
     z: Finite = 0.0
     """Of one that swims, its depth below 0 [m]; others stand on the ground or float."""
@@ -189,7 +189,7 @@ class Coral(Tall, frozen=True):
 
 
 class Person(Tinted, frozen=True):
-    """Somebody who looks towards `yaw`, in a shirt of the colour: not on the robot's map."""
+    """A person who looks towards `yaw`, in a shirt of the colour: not on the robot's map."""
 
     colour: tuple[Part, Part, Part] = (0.24, 0.42, 0.66)
 
@@ -229,9 +229,9 @@ class Place(Spot, frozen=True, kw_only=True):
     """As in `bridge.msgs.additions.PLACE_KINDS`."""
     floor: str = "0"
     tag: str = ""
-    """Of the card of who belongs here; empty when nobody has one."""
+    """Of the card of the person who belongs here; empty when there is none."""
     note: str = ""
-    """What to tell people who are led here."""
+    """Message to the people who are led here."""
 
 
 class Tag(Entry, frozen=True):
@@ -254,7 +254,7 @@ class Wave(Entry, frozen=True):
     period: Annotated[float, msgspec.Meta(ge=0.5, le=30)]
     """[s]"""
     direction: Finite = 0.0
-    """Where it runs to [deg] from east, anticlockwise."""
+    """Direction in which it runs [deg] from east, anticlockwise."""
     phase: Finite = 0.0
     """At the map's origin at the beginning [deg]."""
 
@@ -277,7 +277,7 @@ class Wind(Entry, frozen=True):
     speed: Annotated[float, msgspec.Meta(ge=0, le=60)]
     """[m/s]"""
     direction: Finite = 0.0
-    """Where it blows to [deg] from east, anticlockwise."""
+    """Direction in which it blows [deg] from east, anticlockwise."""
     gusts: Annotated[float, msgspec.Meta(ge=0, le=20)] = 0.0
     """Standard deviation of what comes and goes, along x and y; half of it upward [m/s]."""
     gust_time: Positive = 2.0

@@ -59,7 +59,7 @@ class Weather:
         """Of the water, everywhere [m/s]."""
         self.waves = [_Airy(wave) for wave in water.waves] if water else []
         self.wind: Vec3 = (0.0, 0.0, 0.0)
-        """Where the air moves to, now and everywhere [m/s]."""
+        """Velocity of the air, now and everywhere [m/s]."""
         self.time = 0.0
         """Since the start [s]."""
         self._steps = 0

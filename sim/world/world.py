@@ -45,7 +45,7 @@ __all__ = ["World"]
 Name = Annotated[str, msgspec.Meta(min_length=1, max_length=60)]
 
 _LOOSE = ("cone", "person", "diver")
-"""Kinds that are not always where they are."""
+"""Kinds of things that move about."""
 
 
 class World(Entry, frozen=True, dict=True):
@@ -56,7 +56,7 @@ class World(Entry, frozen=True, dict=True):
     datum: Datum
     ground: Ground
     start: Start
-    """Where the robot starts."""
+    """Start of the robot."""
     wall: Wall | None = None
     bays: tuple[Bays, ...] = ()
     lines: tuple[Line, ...] = ()
@@ -118,7 +118,7 @@ class World(Entry, frozen=True, dict=True):
 
     @property
     def solids(self) -> tuple[Shape, ...]:
-        """What bodies bump into and lasers hit, apart from the ground."""
+        """Shapes that bodies and lasers hit, apart from the ground."""
         return tuple(shape for prop in self.props for shape in prop.solids)
 
     @property
@@ -128,7 +128,7 @@ class World(Entry, frozen=True, dict=True):
 
     @property
     def visuals(self) -> tuple[Shape, ...]:
-        """What cameras see, apart from ground and sky."""
+        """Shapes that cameras see, apart from ground and sky."""
         return tuple(shape for prop in self.props for shape in prop.visuals)
 
     def _walls(self) -> tuple[Prop, ...]:

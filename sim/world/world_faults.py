@@ -1,4 +1,4 @@
-"""What can be wrong in a world's file though every key is of its kind: names, places and things that do not go together."""
+"""Faults of a world's file whose keys are all of their kind: names, places and things that do not go together."""
 
 from __future__ import annotations
 
@@ -11,33 +11,33 @@ from sim.core.shapes import Shape, beside
 from sim.world.props import CAR_MODELS
 from sim.world.world import World
 
-__all__ = ["LONGEST_NAME", "faults"]
+__all__ = ["MAX_NAME_LENGTH", "faults"]
 
 Fault = tuple[str, str]
 """Key and reason."""
 
-LONGEST_NAME = 60
+MAX_NAME_LENGTH = 60
 """Characters of a place's name."""
-LARGEST = 20_000.0
-"""Ground [m2]: more of it would take a robot too long, and too much memory, to get to know its map at the start."""
-TALL = 0.3
-"""The lowest robots reach so high, and things that hang higher are in nobody's way [m]."""
-LOW = 0.02
-"""What is lower can be driven over [m]."""
-SCENERY = 30.0
-"""So far beyond the ground trees may stand, to be seen [m]."""
-BREAKING = 1 / 7
+MAX_AREA = 20_000.0
+"""Greatest ground [m2]: a larger one takes a robot too much time and memory for its map at the start."""
+ROBOT_HEIGHT = 0.3
+"""Height of the lowest robots: things that hang higher are in no robot's way [m]."""
+MAX_STEP_HEIGHT = 0.02
+"""Things that are lower can be driven over [m]."""
+SCENERY_MARGIN = 30.0
+"""Distance beyond the ground within which trees may stand [m]."""
+MAX_STEEPNESS = 1 / 7
 """A wave in deep water that is higher than this part of its length breaks."""
-_EXACT = 1e-6
+_TOLERANCE = 1e-6
 
 
 def faults(world: World) -> Iterator[Fault]:
-    """What types alone cannot say: key and reason of each."""
+    """Key and reason of each fault that the types alone cannot find."""
     area = world.ground.length * world.ground.width
-    if area > LARGEST:
+    if area > MAX_AREA:
         yield (
             "ground",
-            f"{area:g} m2 are too many, at most {LARGEST:g} can be: its map has a cell for each 10 cm",
+            f"{area:g} m2 are too many, at most {MAX_AREA:g} can be: its map has a cell for each 10 cm",
         )
     yield from _places(world)
     for number, entry in enumerate(world.cars):
@@ -47,9 +47,9 @@ def faults(world: World) -> Iterator[Fault]:
         if wall.start == wall.end:
             yield f"partitions[{number}]", "begins where it ends"
     for number, wave in enumerate(world.water.waves if world.water else ()):
-        most = BREAKING * GRAVITY * wave.period**2 / (2 * math.pi)
-        if wave.height > most:
-            said = f"must be at most {most:.2g} m where the period is {wave.period:g} s, or it breaks, not {wave.height:g}"
+        highest = MAX_STEEPNESS * GRAVITY * wave.period**2 / (2 * math.pi)
+        if wave.height > highest:
+            said = f"must be at most {highest:.2g} m where the period is {wave.period:g} s, or it breaks, not {wave.height:g}"
             yield f"water.waves[{number}].height", said
     yield from _off_the_ground(world)
     yield from _start(world)
@@ -60,10 +60,10 @@ def _places(world: World) -> Iterator[Fault]:
     for number, place in enumerate(world.places):
         if place.kind not in PLACE_KINDS:
             yield f"places[{number}].kind", f"{place.kind!r} is not one of {', '.join(PLACE_KINDS)}"
-        if not place.name.strip() or len(place.name) > LONGEST_NAME:
+        if not place.name.strip() or len(place.name) > MAX_NAME_LENGTH:
             yield (
                 f"places[{number}].name",
-                f"must have 1 to {LONGEST_NAME} characters, not {place.name[:80]!r}",
+                f"must have 1 to {MAX_NAME_LENGTH} characters, not {place.name[:80]!r}",
             )
         if place.name.casefold() in names:
             yield f"places[{number}].name", f"there is a place {place.name!r} already"
@@ -76,13 +76,13 @@ def _off_the_ground(world: World) -> Iterator[Fault]:
     for key, x, y in _points(world):
         beyond = max(abs(x) - half_length, abs(y) - half_width)
         scenery = key.startswith("trees")
-        if beyond > (SCENERY if scenery else _EXACT):
-            more = f"; trees may stand up to {SCENERY:g} m beyond it" if scenery else ""
+        if beyond > (SCENERY_MARGIN if scenery else _TOLERANCE):
+            more = f"; trees may stand up to {SCENERY_MARGIN:g} m beyond it" if scenery else ""
             yield key, f"({x:g}, {y:g}) is off the ground, {ends}{more}"
 
 
 def _points(world: World) -> Iterator[tuple[str, float, float]]:
-    """Where the things of the file are, each with its key; several of what has ends."""
+    """Places of the things of the file, each with its key; the ends of a line are two."""
     yield "start", world.start.x, world.start.y
     for key in (
         *("cars", "lamps", "trees", "cones", "blocks", "tables", "people", "fruit_trees"),
@@ -117,4 +117,4 @@ def _start(world: World) -> Iterator[Fault]:
 def _holds(solid: Shape, x: float, y: float, z: float) -> bool:
     """Whether the middle of a robot that stands or swims there would be within `solid`."""
     bottom, top = (solid.position[2] + side * solid.size[2] / 2 for side in (-1, 1))
-    return bottom < z + TALL and top > z + LOW and beside(solid, x, y) == 0.0
+    return bottom < z + ROBOT_HEIGHT and top > z + MAX_STEP_HEIGHT and beside(solid, x, y) == 0.0

@@ -282,7 +282,7 @@ def test_one_whose_start_is_taken_is_put_beside_it_and_says_so():
     ]
     state = scout.simulation.vehicles[1].state()
     assert state.position[:2] == pytest.approx((at.x, at.y), abs=0.02)
-    assert not backend.crowded(scout.simulation.vehicles[1].body, 0.04)
+    assert not backend.is_crowded(scout.simulation.vehicles[1].body, 0.04)
     assert 1.0 < math.dist((at.x, at.y), (3.0, 0.0)) < 5.0
     odom = [m for name, m in until(truck, 0.5) if name == "/odom"][-1].pose.pose.position
     assert (odom.x, odom.y) == pytest.approx((at.x, at.y), abs=0.02)

@@ -1,4 +1,4 @@
-"""What the aqua looks like: a flat hull with a window in front and three fins on each side."""
+"""Visible shapes of the aqua: a flat hull with a window in front and three fins on each side."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ class AquaParameters(Parameters, frozen=True, kw_only=True):
 
     @property
     def deck(self) -> tuple[float, float, float]:
-        """Where payloads are mounted, in `base_link` [m]."""
+        """Mounting place of payloads, in `base_link` [m]."""
         return (0.0, 0.0, self.body.height / 2)
 
     def laden(self, loads: Sequence[Load]) -> Self:

@@ -1,4 +1,4 @@
-"""Keeps the swimmer's attitude, depth and speed: from an order to a force and a torque."""
+"""Control of the swimmer's attitude, depth and speed: from an order to a force and a torque."""
 
 from __future__ import annotations
 
@@ -14,28 +14,28 @@ from sim.vehicles.aqua.parameters import AquaParameters
 
 __all__ = ["Pilot"]
 
-STEP = 1 / STEPS_PER_SECOND
-ROLL, PITCH, YAW = (1.6, 0.8), (3.0, 2.6), (2.0, 2.2)
-"""Torque for an angle that is off [N m] and for a turn rate [N m s]."""
-SURGE = 16.0
-"""Force for a speed that lacks [N s/m]."""
-HEAVE, HEAVE_RATE, HEAVE_SUM, HEAVE_MOST = 55.0, 90.0, 8.0, 6.0
-"""Force for a height that is off [N/m], for its rate [N s/m], for what was off so far [N/(m s)], and at most [N]."""
-BRAKING = 2.5
-"""Its fins take its way off it for so long, and are still then: somebody may be near them [s]."""
-STILL = 0.04
-"""Slower ahead, and turning slower than this, it lies still [m/s, rad/s]."""
-_NEAR = 0.1
-"""Only nearer than this does what was off add up [m]."""
-LEAD, LEAD_RATE, FARTHEST = 0.05, 2.0, 1.0
-"""How far the height that is held may be ahead of the body [m], and how much farther for a climb [s]: no farther than the
-fins need it, so that it goes no farther when told to climb no more; and how far when it is pushed away from it [m]."""
-DIVING = 0.1
-"""From this pitch on it goes up and down by swimming, not by holding its height [rad]."""
+STEP_PERIOD = 1 / STEPS_PER_SECOND
+ROLL_GAINS, PITCH_GAINS, YAW_GAINS = (1.6, 0.8), (3.0, 2.6), (2.0, 2.2)
+"""Torque for an error of the angle [N m/rad] and for a turn rate [N m s]."""
+SURGE_GAIN = 16.0
+"""Force for an error of the speed [N s/m]."""
+HEAVE_GAIN, HEAVE_RATE_GAIN, HEAVE_INTEGRAL_GAIN, MAX_HEAVE = 55.0, 90.0, 8.0, 6.0
+"""Force for an error of the height [N/m], for its rate [N s/m], for its integral [N/(m s)], and at most [N]."""
+BRAKING_TIME = 2.5
+"""Its fins brake for at most this time and are still then, because people may be near them [s]."""
+STILL_SPEED = 0.04
+"""It lies still when it moves ahead and turns slower than this [m/s, rad/s]."""
+_INTEGRAL_RANGE = 0.1
+"""The error of the height is integrated only within this range [m]."""
+HEIGHT_LEAD, HEIGHT_LEAD_TIME, MAX_HEIGHT_LEAD = 0.05, 2.0, 1.0
+"""The held height may be this far ahead of the body [m], and farther for a climb [s]: no farther than the fins need, so that
+the body does not overshoot when the climb ends; and this far when the body is pushed away from it [m]."""
+DIVING_PITCH = 0.1
+"""Smallest pitch at which it goes up and down by swimming, not by holding its height [rad]."""
 
 
 class Pilot:
-    """Holds roll, pitch, yaw and height; a twist moves what is held, at its rates."""
+    """Holds roll, pitch, yaw and height; a twist moves the held values at its rates."""
 
     def __init__(self, parameters: AquaParameters, drag: float) -> None:
         """`drag` ahead at 1 m/s [N]."""
@@ -57,7 +57,7 @@ class Pilot:
             self._roll, self._pitch = within(roll, limit), within(pitch, limit)
             self._yaw, self._height = yaw, body.position[2]
             self._sum = 0.0
-            self._braking = BRAKING
+            self._braking = BRAKING_TIME
         if order.kind in ("course", "hover", "surface"):
             self._roll = self._pitch = 0.0
             self._yaw = given(order.yaw, self._yaw) if order.kind != "surface" else self._yaw
@@ -68,17 +68,17 @@ class Pilot:
 
     @property
     def held(self) -> Manoeuvre:
-        """The order, with what it took for the heading and the height that are not named in it."""
+        """The order, with the heading and the height that it keeps where the order names none."""
         order = self._order
         return filled(order, self._yaw, self._height) if order.kind in ("course", "hover") else order
 
-    def wants(self, body: SixDof, wet: float) -> tuple[tuple[float, float], Vec3]:
+    def wrench(self, body: SixDof, wet: float) -> tuple[tuple[float, float], Vec3]:
         """Force ahead and up [N] and torque [N m] that the fins should give."""
         self._move(body)
         ux, _, uz = body.axes[6:]
         u, v, w = body.through
         speed = self._speed()
-        surge = self._drag * abs(speed) * speed + SURGE * (speed - u)
+        surge = self._drag * abs(speed) * speed + SURGE_GAIN * (speed - u)
         if self._diving(speed):
             self._height, self._sum, heave = body.position[2], 0.0, -self._spare * wet
         else:
@@ -87,53 +87,53 @@ class Pilot:
         roll, pitch, yaw = angles(body)
         p, q, r = body.turning
         torque = (
-            ROLL[0] * wrap(self._roll - roll) - ROLL[1] * p + self._upright * body.axes[7],
-            PITCH[0] * wrap(self._pitch - pitch) - PITCH[1] * q - self._upright * ux,
-            YAW[0] * wrap(self._yaw - yaw) - YAW[1] * r,
+            ROLL_GAINS[0] * wrap(self._roll - roll) - ROLL_GAINS[1] * p + self._upright * body.axes[7],
+            PITCH_GAINS[0] * wrap(self._pitch - pitch) - PITCH_GAINS[1] * q - self._upright * ux,
+            YAW_GAINS[0] * wrap(self._yaw - yaw) - YAW_GAINS[1] * r,
         )
         return (surge + heave * ux, heave * uz), torque
 
-    def brakes(self, body: SixDof) -> tuple[tuple[float, float], Vec3] | None:
-        """What takes its way off it; None when it hardly makes any, or did not lose it in time: it glides as it rises."""
-        self._braking -= STEP
+    def braking(self, body: SixDof) -> tuple[tuple[float, float], Vec3] | None:
+        """Force [N] and torque [N m] that brake it; None when it hardly moves, or has not stopped in time: it glides as it rises."""
+        self._braking -= STEP_PERIOD
         u = body.through[0]
         p, q, r = body.turning
-        if self._braking < 0 or (abs(u) < STILL and abs(r) < STILL):
+        if self._braking < 0 or (abs(u) < STILL_SPEED and abs(r) < STILL_SPEED):
             return None
-        return (-2 * SURGE * u, 0.0), (-ROLL[1] * p, -PITCH[1] * q, -YAW[1] * r)
+        return (-2 * SURGE_GAIN * u, 0.0), (-ROLL_GAINS[1] * p, -PITCH_GAINS[1] * q, -YAW_GAINS[1] * r)
 
     def _move(self, body: SixDof) -> None:
-        """Move what is held by the rates of a twist or a tilt."""
+        """Move the held attitude and height by the rates of a twist or a tilt."""
         order, limits = self._order, self._limits
         if order.kind not in ("twist", "tilt"):
             return
         turn = order.twist.angular
         if order.kind == "twist":
-            self._roll = within(self._roll + STEP * turn.x, limits.tilt)
-            self._pitch = within(self._pitch + STEP * turn.y, limits.tilt)
-        self._yaw = wrap(self._yaw + STEP * within(turn.z, limits.yaw_rate))
+            self._roll = within(self._roll + STEP_PERIOD * turn.x, limits.tilt)
+            self._pitch = within(self._pitch + STEP_PERIOD * turn.y, limits.tilt)
+        self._yaw = wrap(self._yaw + STEP_PERIOD * within(turn.z, limits.yaw_rate))
         climb = within(order.twist.linear.z, limits.climb)
-        lead = LEAD + LEAD_RATE * abs(climb) if climb or self._climbs else FARTHEST
+        lead = HEIGHT_LEAD + HEIGHT_LEAD_TIME * abs(climb) if climb or self._climbs else MAX_HEIGHT_LEAD
         self._climbs = climb != 0.0
-        ahead_of = within(self._height + STEP * climb - body.position[2], lead)
+        ahead_of = within(self._height + STEP_PERIOD * climb - body.position[2], lead)
         self._height = min(self._afloat, body.position[2] + ahead_of)
 
     def _speed(self) -> float:
-        order, most = self._order, self._limits.speed
+        order, limit = self._order, self._limits.speed
         if order.kind == "twist":
-            return within(order.twist.linear.x, most)
+            return within(order.twist.linear.x, limit)
         if order.kind in ("course", "tilt"):
-            return within(given(order.speed, given(order.throttle, 0.0) * most), most)
+            return within(given(order.speed, given(order.throttle, 0.0) * limit), limit)
         return 0.0
 
     def _diving(self, speed: float) -> bool:
-        return abs(self._pitch) > DIVING and speed != 0.0 and self._order.kind in ("twist", "tilt")
+        return abs(self._pitch) > DIVING_PITCH and speed != 0.0 and self._order.kind in ("twist", "tilt")
 
     def _heave(self, off: float, rising: float, wet: float) -> float:
-        if abs(off) < _NEAR and wet >= 1.0:
-            self._sum = within(self._sum + HEAVE_SUM * off * STEP, 2.0)
-        wanted = within(HEAVE * off, HEAVE_RATE * self._limits.climb)
-        return within(wanted - HEAVE_RATE * rising + self._sum - self._spare * wet, HEAVE_MOST)
+        if abs(off) < _INTEGRAL_RANGE and wet >= 1.0:
+            self._sum = within(self._sum + HEAVE_INTEGRAL_GAIN * off * STEP_PERIOD, 2.0)
+        wanted = within(HEAVE_GAIN * off, HEAVE_RATE_GAIN * self._limits.climb)
+        return within(wanted - HEAVE_RATE_GAIN * rising + self._sum - self._spare * wet, MAX_HEAVE)
 
 
 def angles(body: SixDof) -> Vec3:

@@ -69,7 +69,7 @@ class Aqua(Chassis[AquaParameters]):
             "compass", parameters.compass.rate, lambda state, at: [("/compass", compass.measure(state, at))]
         )
         suite.add("depth", parameters.depth.rate, lambda state, at: [("/depth", depth.measure(state, at))])
-        suite.add("legs", LEGS_RATE, self._tell_legs)
+        suite.add("legs", LEGS_RATE, self._measure_legs)
         self.add_power()
         self.add_order()
         self.add_truth()
@@ -82,11 +82,11 @@ class Aqua(Chassis[AquaParameters]):
 
     def begin(self, order: Manoeuvre) -> None:
         """Take up a twist, a course, a tilt, holding depth and heading, surfacing, or lying still."""
-        self.dynamics.look(self.scene.weather.current)
+        self.dynamics.update(self.scene.weather.current)
         self._pilot.begin(order, self.dynamics, fresh=order.kind != self.order.kind)
 
     def held(self) -> Manoeuvre:
-        """What it moves by, with the heading and the depth that it took when it was told to keep them."""
+        """The order that it follows, with the heading and the depth that it keeps where the order names none."""
         return self._pilot.held
 
     def halt(self) -> None:
@@ -94,31 +94,31 @@ class Aqua(Chassis[AquaParameters]):
         self.fins.amplitudes = [0.0] * len(LEGS)
         self.fins.rest()
 
-    def push(self) -> None:
+    def before_step(self) -> None:
         """Let the fins follow the order, and the water act on the body."""
         body, fins = self.dynamics, self.fins
-        body.look(self.scene.weather.current)
+        body.update(self.scene.weather.current)
         wanted = None
         if not self.battery.empty:
             resting = self.order.kind == "rest"
-            wanted = self._pilot.brakes(body) if resting else self._pilot.wants(body, self.float.wet)
+            wanted = self._pilot.braking(body) if resting else self._pilot.wrench(body, self.float.wet)
         if wanted is None:
             fins.rest()
         else:
-            fins.tell(*wanted)
+            fins.command(*wanted)
         (fx, fy, fz), (mx, my, mz) = self.float.forces(body)
         (ahead, up), (roll, pitch, yaw) = fins.step()
         wet = self.float.wet
-        body.push((fx + wet * ahead, fy, fz + wet * up), (mx + wet * roll, my + wet * pitch, mz + wet * yaw))
+        body.apply((fx + wet * ahead, fy, fz + wet * up), (mx + wet * roll, my + wet * pitch, mz + wet * yaw))
 
-    def feel(self) -> None:
-        """Take in what the physics step did, and pay for it."""
-        super().feel()
+    def after_step(self) -> None:
+        """Update with the result of the physics step, and feed the motors."""
+        super().after_step()
         if self._step % WORK_STEPS == 0:
             period = WORK_STEPS / STEPS_PER_SECOND
             self.battery.feed(self.motors.work(self.fins.speeds, self.fins.torques, period), period)
 
-    def _tell_legs(self, _: State, stamp: float) -> Iterator[Measurement]:
+    def _measure_legs(self, _: State, stamp: float) -> Iterator[Measurement]:
         names = [f"{leg}_leg_joint" for leg in LEGS]
         header = Header(Time.at(stamp), "base_link")
         yield (

@@ -1,4 +1,4 @@
-"""What the ardrone looks like: a hull, a cross of arms, four rotors in their guards."""
+"""Visible shapes of the ardrone: a hull, a cross of arms, four rotors in their guards."""
 
 from __future__ import annotations
 

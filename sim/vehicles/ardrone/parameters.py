@@ -20,8 +20,8 @@ from sim.vehicles.parameters import Parameters, load
 __all__ = ["ArdroneParameters", "PARAMETERS"]
 
 
-MOST_LOADED = 0.8
-"""It carries a weight of so much of its greatest thrust: it steers and climbs by the rest."""
+MAX_LOAD_FACTOR = 0.8
+"""Greatest weight as a part of its greatest thrust: it steers and climbs by the rest."""
 
 
 class ArdroneParameters(Parameters, frozen=True, kw_only=True):
@@ -42,16 +42,16 @@ class ArdroneParameters(Parameters, frozen=True, kw_only=True):
 
     @property
     def deck(self) -> tuple[float, float, float]:
-        """Where payloads are mounted, in `base_link` [m]."""
+        """Mounting place of payloads, in `base_link` [m]."""
         return (0.0, 0.0, self.body.height / 2)
 
     def laden(self, loads: Sequence[Load]) -> Self:
         """Heavier: its rotors turn faster to carry it, and it turns more slowly; what it carries hangs in balance."""
         body, rotors = self.body, self.rotors
         mass = body.mass + mass_of(loads)
-        most = MOST_LOADED * 4 * rotors.lift * rotors.speed**2 / GRAVITY
-        if mass > most:
-            name, spare = self.info.name, most - body.mass
+        limit = MAX_LOAD_FACTOR * 4 * rotors.lift * rotors.speed**2 / GRAVITY
+        if mass > limit:
+            name, spare = self.info.name, limit - body.mass
             raise ValueError(
                 f"{name} carries {spare:.2f} kg at most; what is to be mounted weighs {mass_of(loads):.2f} kg."
             )

@@ -20,7 +20,7 @@ from sim.sensors.height import Height
 from sim.sensors.suite import Measurement
 from sim.vehicles.ardrone.looks import looks
 from sim.vehicles.ardrone.parameters import PARAMETERS, ArdroneParameters
-from sim.vehicles.ardrone.pilot import LOWEST, TUMBLED, Motion, Pilot
+from sim.vehicles.ardrone.pilot import MIN_HEIGHT, MIN_UPRIGHT, Motion, Pilot
 from sim.vehicles.chassis import Chassis
 from sim.vehicles.model import Model
 from sim.vehicles.scene import Scene
@@ -30,10 +30,10 @@ __all__ = ["ARDRONE", "Ardrone"]
 
 WORK_STEPS = STEPS_PER_SECOND // 20
 FLIGHT_RATE = 10.0
-STANDS = 0.02
-"""Carried faster than this its inertial unit tells that it does not stand [m/s]."""
-LAST = 0.05
-"""With less charge than this it lands by itself."""
+MAX_STANDING_SPEED = 0.02
+"""Carried faster than this, it does not count as standing [m/s]."""
+LANDING_CHARGE = 0.05
+"""Below this charge it lands by itself."""
 
 
 def body_of(body: QuadrotorBody) -> Floating:
@@ -74,7 +74,7 @@ class Ardrone(Chassis[ArdroneParameters]):
             parameters.range.rate,
             lambda state, at: [("/range/down", self._height.measure(state, at))],
         )
-        suite.add("flight", FLIGHT_RATE, self._tell_flight)
+        suite.add("flight", FLIGHT_RATE, self._measure_flight)
         self.add_power()
         self.add_order()
         self.add_truth()
@@ -83,27 +83,31 @@ class Ardrone(Chassis[ArdroneParameters]):
     def heights(self) -> tuple[float, float]:
         """From just over where it stood to its ceiling above that [m]."""
         floor = self._home[0][2]
-        return floor + LOWEST, floor + self.parameters.limits.height
+        return floor + MIN_HEIGHT, floor + self.parameters.limits.height
 
     def begin(self, order: Manoeuvre) -> None:
         """Take up a twist, a course, a tilt; hover, take off or land. At rest in the air it hovers."""
-        self.dynamics.look((0.0, 0.0, 0.0))
+        self.dynamics.update((0.0, 0.0, 0.0))
         motion = self.motion()
-        if order.kind == "take_off" and motion.upright < TUMBLED:
+        if order.kind == "take_off" and motion.upright < MIN_UPRIGHT:
             name = self.parameters.info.name
             raise ValueError(f"{name} has turned over: its rotors do not start; put it upright first.")
-        if self.battery.charge < LAST and self.pilot.phase == "landing":
-            order = Manoeuvre(kind="land")  # nobody keeps it in the air until it falls
+        if self.battery.charge < LANDING_CHARGE and self.pilot.phase == "landing":
+            order = Manoeuvre(kind="land")  # no order keeps it in the air until it falls
         self.pilot.begin(order, motion)
 
     def held(self) -> Manoeuvre:
-        """What it moves by, with the heading and the height that it keeps where the order names none."""
+        """The order that it follows, with the heading and the height that it keeps where the order names none."""
         return self.pilot.held
 
     @property
     def stands(self) -> bool:
-        """It stands on the ground, rotors off, and nobody carries it."""
-        return self.pilot.phase == "landed" and self.grounded and math.hypot(*self.state().velocity) < STANDS
+        """It stands on the ground, rotors off, and is not carried."""
+        return (
+            self.pilot.phase == "landed"
+            and self.grounded
+            and math.hypot(*self.state().velocity) < MAX_STANDING_SPEED
+        )
 
     def reset(self) -> None:
         """Stand where it started."""
@@ -116,44 +120,44 @@ class Ardrone(Chassis[ArdroneParameters]):
         self.rotors.speeds = [0.0] * len(ROTORS)
 
     def motion(self) -> Motion:
-        """How it flies, as it was last looked at."""
+        """Its motion at the last update."""
         body = self.dynamics
         a, _, _, d, _, _, ux, uy, uz = body.axes
         angles = (math.atan2(uy, uz), -math.asin(within(ux, 1.0)), math.atan2(d, a))
         return Motion(body.position, body.velocity, angles, body.turning, uz)
 
-    def push(self) -> None:
+    def before_step(self) -> None:
         """Let the rotors follow the order, and the air act on the body."""
         body, rotors = self.dynamics, self.rotors
-        body.look(self.scene.weather.wind)
-        told = None if self.battery.empty else self.pilot.fly(self.motion())
-        if told is None:
+        body.update(self.scene.weather.wind)
+        wanted = None if self.battery.empty else self.pilot.fly(self.motion())
+        if wanted is None:
             rotors.stop()
         else:
-            rotors.tell(*told)
+            rotors.command(*wanted)
         thrust, torque = rotors.step()
         weight = self.parameters.body.mass * GRAVITY
         dx, dy, dz = self.parameters.body.drag
         u, v, w = body.through
         ux, uy, uz = body.axes[6:]
         force = (-weight * ux - dx * u, -weight * uy - dy * v, thrust - weight * uz - dz * w)
-        body.push(force, torque)
+        body.apply(force, torque)
 
-    def feel(self) -> None:
-        """Take in what the physics step did, and pay for it."""
-        super().feel()
+    def after_step(self) -> None:
+        """Update with the result of the physics step, and feed the motors."""
+        super().after_step()
         if self.grounded:
-            self.dynamics.look((0.0, 0.0, 0.0))
+            self.dynamics.update((0.0, 0.0, 0.0))
             self.pilot.touched(self.motion())
         if self._step % WORK_STEPS == 0:
             period = WORK_STEPS / STEPS_PER_SECOND
             self.battery.feed(self.motors.work(self.rotors.speeds, self.rotors.torques, period), period)
-            if self.battery.charge < LAST and self.pilot.phase == "flying":
+            if self.battery.charge < LANDING_CHARGE and self.pilot.phase == "flying":
                 self.manoeuvre(Manoeuvre(kind="land"))
 
-    def _tell_flight(self, state: State, stamp: float) -> Iterator[Measurement]:
+    def _measure_flight(self, state: State, stamp: float) -> Iterator[Measurement]:
         header, phase = Header(Time.at(stamp), "map"), self.pilot.phase
-        if phase == "landed" and rotate(state.rotation, (0.0, 0.0, 1.0))[2] < TUMBLED:
+        if phase == "landed" and rotate(state.rotation, (0.0, 0.0, 1.0))[2] < MIN_UPRIGHT:
             phase = "turned_over"
         yield "/flight", FlightState(header, phase, self._height.last, state.velocity[2])
 

@@ -1,4 +1,4 @@
-"""What the commander looks like: bonnet, cabin, load bed, four wheels, laser and cameras."""
+"""Visible shapes of the commander: bonnet, cabin, load bed, four wheels, laser and cameras."""
 
 from __future__ import annotations
 

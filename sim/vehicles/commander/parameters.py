@@ -44,7 +44,7 @@ class CommanderParameters(Parameters, frozen=True, kw_only=True):
 
     @property
     def deck(self) -> tuple[float, float, float]:
-        """Where payloads are mounted, in `base_link` [m]."""
+        """Mounting place of payloads, in `base_link` [m]."""
         return (self.body.ahead - self.body.length * 0.33, 0.0, self.body.height)
 
     def laden(self, loads: Sequence[Load]) -> Self:

@@ -29,8 +29,8 @@ from sim.vehicles.wheeled import Wheeled
 __all__ = ["COMMANDER", "Commander"]
 
 WHEELS = ["rear_left", "rear_right", "front_left", "front_right"]
-_STRAIGHT = 1e-4
-"""Steered by less than this it drives straight ahead [rad]."""
+_MIN_STEERING = 1e-4
+"""Smallest steering angle that is not straight ahead [rad]."""
 
 
 class Commander(Wheeled[CommanderParameters]):
@@ -78,10 +78,10 @@ class Commander(Wheeled[CommanderParameters]):
     def begin(self, order: Manoeuvre) -> None:
         """Take up a twist, speed and steering, or brake."""
         if order.kind == "twist":
-            self._drive.want_turn(order.twist.linear.x, order.twist.angular.z)
+            self._drive.set_turn(order.twist.linear.x, order.twist.angular.z)
         elif order.kind == "steer":
             throttle = given(order.throttle, 0.0) * self.parameters.limits.speed
-            self._drive.want(given(order.speed, throttle), order.steering)
+            self._drive.set_target(given(order.speed, throttle), order.steering)
         else:
             self._drive.brake()
 
@@ -94,7 +94,7 @@ class Commander(Wheeled[CommanderParameters]):
         yield "/ackermann", self._ackermann(stamp)
 
     def _work(self, joints: list[Joint], period: float) -> None:
-        """What the physics asked of the motors, and what tyres and gears take of it besides."""
+        """Let the motors do the work that the physics asked for, with the losses in tyres and gears."""
         parameters = self.parameters
         rolling = parameters.axles.rolling * parameters.mass * GRAVITY * parameters.axles.radius / 2
         speeds = [joint.speed for joint in joints[:2]]
@@ -117,7 +117,7 @@ class Commander(Wheeled[CommanderParameters]):
         left, right = joints[2].angle, joints[4].angle
         inner, outer = math.tan(left), math.tan(right)
         middle = 2 * inner * outer / (inner + outer) if inner * outer > 0 else 0.0
-        radius = axles.base / middle if abs(middle) > _STRAIGHT else math.inf
+        radius = axles.base / middle if abs(middle) > _MIN_STEERING else math.inf
         rims = [joints[number].speed * axles.radius for number in (0, 1, 3, 5)]
         return AckermannState(
             Header(Time.at(stamp), "base_link"),

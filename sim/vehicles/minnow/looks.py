@@ -1,4 +1,4 @@
-"""What the minnow looks like: two floats, a deck between them, a mast with camera and antenna, the rudder."""
+"""Visible shapes of the minnow: two floats, a deck between them, a mast with camera and antenna, the rudder."""
 
 from __future__ import annotations
 

@@ -32,8 +32,8 @@ __all__ = ["MINNOW", "Minnow"]
 
 WORK_STEPS = STEPS_PER_SECOND // 20
 RUDDER_RATE = 10.0
-_STILL = 0.03
-"""Slower than this it lies still [m/s]."""
+_STILL_SPEED = 0.03
+"""It lies still when it is slower than this [m/s]."""
 
 
 def body_of(hull: HullParameters) -> Floating:
@@ -74,7 +74,7 @@ class Minnow(Chassis[MinnowParameters]):
         suite.add(
             "compass", parameters.compass.rate, lambda state, at: [("/compass", compass.measure(state, at))]
         )
-        suite.add("rudder", RUDDER_RATE, self._tell_rudder)
+        suite.add("rudder", RUDDER_RATE, self._measure_rudder)
         self.add_power()
         self.add_order()
         self.add_truth()
@@ -89,7 +89,7 @@ class Minnow(Chassis[MinnowParameters]):
             self._course = given(order.yaw, self._course)
 
     def held(self) -> Manoeuvre:
-        """What it moves by, with the course that it took when it was told to keep it."""
+        """The order that it follows, with the course that it keeps where the order names none."""
         order = self.order
         return filled(order, self._course) if order.kind in ("course", "hover") else order
 
@@ -98,10 +98,10 @@ class Minnow(Chassis[MinnowParameters]):
         works = self.works
         works.throttle = works.thrust = works.wanted = works.angle = 0.0
 
-    def push(self) -> None:
+    def before_step(self) -> None:
         """Let rudder and propeller follow the order, and water and wind act on the hull."""
         body, works = self.dynamics, self.works
-        body.look(self.scene.weather.current)
+        body.update(self.scene.weather.current)
         if self.battery.empty:
             works.throttle = 0.0
         else:
@@ -109,11 +109,11 @@ class Minnow(Chassis[MinnowParameters]):
         (fx, fy, fz), (mx, my, mz) = self.hull.forces(body)
         (thrust, side, _), moment = works.step(body.through[0])
         wet = self.hull.wet
-        body.push((fx + wet * thrust, fy + wet * side, fz), (mx, my, mz + wet * moment))
+        body.apply((fx + wet * thrust, fy + wet * side, fz), (mx, my, mz + wet * moment))
 
-    def feel(self) -> None:
-        """Take in what the physics step did, and pay for it."""
-        super().feel()
+    def after_step(self) -> None:
+        """Update with the result of the physics step, and feed the motors."""
+        super().after_step()
         if self._step % WORK_STEPS == 0:
             speed, torque = self.works.turning
             power = self.motors.work([speed], [torque], WORK_STEPS / STEPS_PER_SECOND)
@@ -137,14 +137,14 @@ class Minnow(Chassis[MinnowParameters]):
             helmsman.course(yaw_of(body.rotation), self._course, turning, speed)
         else:
             works.wanted = 0.0
-            works.throttle = helmsman.throttle_for(0.0, speed) if abs(speed) > _STILL else 0.0
+            works.throttle = helmsman.throttle_for(0.0, speed) if abs(speed) > _STILL_SPEED else 0.0
 
     def _throttle(self, order: Manoeuvre, speed: float) -> float:
         if math.isnan(order.speed):
             return given(order.throttle, 0.0)
         return self._helmsman.throttle_for(order.speed, speed)
 
-    def _tell_rudder(self, _: State, stamp: float) -> Iterator[Measurement]:
+    def _measure_rudder(self, _: State, stamp: float) -> Iterator[Measurement]:
         works = self.works
         yield (
             "/rudder",

@@ -1,4 +1,4 @@
-"""What the patrol robot looks like from outside: a round base, three plates on poles, laser and camera on top."""
+"""Visible shapes of the patrol robot: a round base, three plates on poles, laser and camera on top."""
 
 from __future__ import annotations
 

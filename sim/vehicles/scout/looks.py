@@ -1,4 +1,4 @@
-"""What the scout looks like: a drum with a ring of sonars, a bumper round its foot, a camera on top."""
+"""Visible shapes of the scout: a drum with a ring of sonars, a bumper round its foot, a camera on top."""
 
 from __future__ import annotations
 

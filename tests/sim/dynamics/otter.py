@@ -77,10 +77,10 @@ def sail(revolutions: Callable[[float], tuple[float, float]], seconds: float) ->
     hull = Hull(OTTER, Weather(plain(WATER), Noise(0, "gusts", on=False)), STATIONS)
     turning, yaw, rows = (0.0, 0.0), 0.0, []
     for step in range(round(seconds * STEPS_PER_SECOND)):
-        body.look((0.0, 0.0, 0.0))
+        body.update((0.0, 0.0, 0.0))
         force, torque = _payload(body, *hull.forces(body))
         left, right = (THRUST * n * abs(n) for n in turning)
-        body.push(
+        body.apply(
             (force[0] + left + right, force[1], force[2]),
             (torque[0], torque[1], torque[2] + ARM * (right - left)),
         )
@@ -89,7 +89,7 @@ def sail(revolutions: Callable[[float], tuple[float, float]], seconds: float) ->
         turning = tuple(
             now + (goal - now) / 0.1 / STEPS_PER_SECOND for now, goal in zip(turning, told, strict=True)
         )
-        body.look((0.0, 0.0, 0.0))
+        body.update((0.0, 0.0, 0.0))
         yaw += body.turning[2] / STEPS_PER_SECOND
         rows.append((*body.position[:2], yaw, *body.through[:2], body.turning[2]))
     backend.close()

@@ -47,12 +47,12 @@ def ellipsoid(munk, centre=(0.0, 0.0, 0.0)):
 
 def drift(munk, seconds, velocity, turning=(0.0, 0.0, 0.0), force=(0.0, 0.0, 0.0), centre=(0.0, 0.0, 0.0)):
     backend, number, body = ellipsoid(munk, centre)
-    backend.throw(number, velocity, turning)
+    backend.set_velocity(number, velocity, turning)
     for _ in range(round(seconds * STEPS_PER_SECOND)):
-        body.look((0.0, 0.0, 0.0))
-        body.push(force, (0.0, 0.0, 0.0))
+        body.update((0.0, 0.0, 0.0))
+        body.apply(force, (0.0, 0.0, 0.0))
         backend.step()
-    body.look((0.0, 0.0, 0.0))
+    body.update((0.0, 0.0, 0.0))
     backend.close()
     return body
 
@@ -84,12 +84,12 @@ def test_a_weight_off_the_origin_swings_round_as_newton_says():
     spec = Floating(Shape("box", (1.0, 0.2, 0.2)), 10.0, (0.1, 0.6, 0.6), (0.3, 0.0, 0.1), 0.4)
     number = backend.add_floating(spec, (0.0, 0.0, 5.0), (0.0, 0.0, 0.0, 1.0))
     body = SixDof(backend, number, Inertia(10.0, (0.3, 0.0, 0.1), (0.1, 0.6, 0.6)))
-    backend.throw(number, (0.5, 0.0, 0.0), (0.0, 0.0, 1.0))
+    backend.set_velocity(number, (0.5, 0.0, 0.0), (0.0, 0.0, 1.0))
     for _ in range(2 * STEPS_PER_SECOND):
-        body.look((0.0, 0.0, 0.0))
-        body.push((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+        body.update((0.0, 0.0, 0.0))
+        body.apply((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
         backend.step()
-    at, _, velocity, turning = backend.moving(number)
+    at, _, velocity, turning = backend.motion(number)
     backend.close()
     assert velocity == pytest.approx((0.5, 0.0, 0.0), abs=2e-3)
     assert at == pytest.approx((1.3, 0.0, 5.1), abs=2e-3)

@@ -94,7 +94,7 @@ def test_a_boat_that_lies_deeper_is_slower():
         robot.manoeuvre(Manoeuvre(kind="steer", throttle=1.0))
         until(robot, 10.0)
         vehicle = robot.simulation.vehicle
-        vehicle.dynamics.look((0.0, 0.0, 0.0))
+        vehicle.dynamics.update((0.0, 0.0, 0.0))
         speeds.append(vehicle.dynamics.through[0])
         robot.close()
     hull = ROBOTS["minnow"].parameters.hull

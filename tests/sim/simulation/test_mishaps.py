@@ -9,7 +9,7 @@ import pytest
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Event
 from sim.core.shapes import from_yaw
-from sim.simulation.mishaps import DROWNING, LOOKS, OVER, PATIENCE, Mishaps
+from sim.simulation.mishaps import CHECK_RATE, CLEAR_CHECKS, CONFIRM_CHECKS, SINKING_CHECKS, Mishaps
 from sim.vehicles.minnow import MINNOW
 from tests.sim.rooms import alone, plain, robot_in, until
 
@@ -37,7 +37,7 @@ def looks():
 
     def look(times, position=(0.0, 0.0, 0.0), rotation=(0.0, 0.0, 0.0, 1.0)):
         vehicle.scene.backend.place(vehicle.body, position, rotation)
-        return [event.text for _ in range(times) for event in mishaps.look(vehicle.state())]
+        return [event.text for _ in range(times) for event in mishaps.update(vehicle.state())]
 
     yield look
     robot.close()
@@ -56,11 +56,11 @@ def test_a_boat_under_water_has_sunk_and_that_is_said_once_wherever_the_surface_
     vehicle = afloat.simulation.vehicle
     mishaps = Mishaps(vehicle.parameters.info, vehicle.scene)
     said = []
-    for _ in range(3 * DROWNING):
+    for _ in range(3 * SINKING_CHECKS):
         afloat.simulation.weather.step()
         level = afloat.simulation.weather.surface(0.0, 0.0)
         vehicle.scene.backend.place(vehicle.body, (0.0, 0.0, level - 0.6), from_yaw(0.0))
-        said += [event.text for event in mishaps.look(vehicle.state())]
+        said += [event.text for event in mishaps.update(vehicle.state())]
     assert said == ["Minnow-1 has sunk."]
 
 
@@ -71,29 +71,29 @@ def test_a_sea_that_breaks_over_a_boat_passes_and_what_stays_under_water_for_fou
     def under(seconds):
         level = afloat.simulation.weather.surface(0.0, 0.0)
         vehicle.scene.backend.place(vehicle.body, (0.0, 0.0, level - 0.6), from_yaw(0.0))
-        times = round(seconds * LOOKS)
-        return [event.text for _ in range(times) for event in mishaps.look(vehicle.state())]
+        times = round(seconds * CHECK_RATE)
+        return [event.text for _ in range(times) for event in mishaps.update(vehicle.state())]
 
     assert under(3.9) == []
     assert under(0.1) == ["Minnow-1 has sunk."]
 
 
 def test_what_passes_is_not_told(looks):
-    assert looks(PATIENCE - 1, rotation=ON_ITS_BACK) == []
+    assert looks(CONFIRM_CHECKS - 1, rotation=ON_ITS_BACK) == []
     assert looks(1) == []
 
 
 def test_what_lasts_is_told_once_and_a_moment_without_it_is_no_end(looks):
-    assert looks(10 * LOOKS, rotation=ON_ITS_BACK) == ["Patrol-1 has turned over."]
+    assert looks(10 * CHECK_RATE, rotation=ON_ITS_BACK) == ["Patrol-1 has turned over."]
     for _ in range(5):
-        assert looks(OVER - 1) == []
-        assert looks(LOOKS, rotation=ON_ITS_BACK) == []
+        assert looks(CLEAR_CHECKS - 1) == []
+        assert looks(CHECK_RATE, rotation=ON_ITS_BACK) == []
 
 
 def test_what_ended_is_told_when_it_comes_again(looks):
     for _ in range(2):
-        assert looks(LOOKS, (30.0, 0.0, 0.0)) == ["Patrol-1 has left room."]
-        looks(OVER)
+        assert looks(CHECK_RATE, (30.0, 0.0, 0.0)) == ["Patrol-1 has left room."]
+        looks(CLEAR_CHECKS)
 
 
 def test_one_that_was_put_back_is_told_of_at_once_when_it_falls_again():

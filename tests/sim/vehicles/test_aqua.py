@@ -44,7 +44,7 @@ def aqua():
 
 def body(robot):
     vehicle = robot.simulation.vehicle
-    vehicle.dynamics.look(robot.simulation.weather.current)
+    vehicle.dynamics.update(robot.simulation.weather.current)
     return vehicle.dynamics
 
 
@@ -82,7 +82,7 @@ def test_at_the_surface_it_draws_what_archimedes_says(buoyancy):
 def test_it_swings_like_the_pendulum_that_its_buoyancy_makes_of_it():
     robot = swimmer(body={"buoyancy": 1.0})
     simulation, vehicle = robot.simulation, robot.simulation.vehicle
-    simulation.backend.throw(vehicle.body, (0.0, 0.0, 0.0), (0.02, 0.0, 0.0))
+    simulation.backend.set_velocity(vehicle.body, (0.0, 0.0, 0.0), (0.02, 0.0, 0.0))
     before, crossings = 0.0, []
     while len(crossings) < 3:
         simulation.advance()

@@ -28,7 +28,7 @@ def drone():
 
 def motion(robot):
     vehicle = robot.simulation.vehicle
-    vehicle.dynamics.look((0.0, 0.0, 0.0))
+    vehicle.dynamics.update((0.0, 0.0, 0.0))
     return vehicle.motion()
 
 
@@ -345,7 +345,7 @@ def test_landed_it_has_no_speed_whatever_its_log_says_and_carried_it_has():
     assert all(message.twist.twist.linear.x for message in told)
     robot.manoeuvre(Manoeuvre(kind="land"))
     until(robot, 10.0)
-    vehicle.scene.backend.throw(vehicle.body, (0.3, 0.0, 0.0), (0.0, 0.0, 0.0))
+    vehicle.scene.backend.set_velocity(vehicle.body, (0.3, 0.0, 0.0), (0.0, 0.0, 0.0))
     told = [message for topic, message in until(robot, 0.1) if topic == "/odom"]
     robot.close()
     assert told[0].twist.twist.linear.x > 0.05

@@ -57,7 +57,7 @@ def free(**changes):
 
 def motion(robot):
     vehicle = robot.simulation.vehicle
-    vehicle.dynamics.look(robot.simulation.weather.current)
+    vehicle.dynamics.update(robot.simulation.weather.current)
     return vehicle.dynamics
 
 
@@ -106,7 +106,7 @@ def test_it_swings_with_the_period_of_its_stiffness_and_its_mass_with_the_waters
     kick = {"heave": ((0.0, 0.0, 0.02), (0.0, 0.0, 0.0))}
     turn = {"roll": (0.05, 0.0, 0.0), "pitch": (0.0, 0.05, 0.0)}
     velocity, turning = kick.get(axis, ((0.0, 0.0, 0.0), turn.get(axis, (0.0, 0.0, 0.0))))
-    simulation.backend.throw(vehicle.body, velocity, turning)
+    simulation.backend.set_velocity(vehicle.body, velocity, turning)
     before, crossings = 0.0, []
     while len(crossings) < 9:
         simulation.advance()
