@@ -33,11 +33,11 @@ from widgets.parts.sensor_card import wide
 
 __all__ = ["Action", "ActionColumn"]
 
-TALLEST = 104.0
+MAX_BUTTON_HEIGHT = 104.0
 """Higher ones say nothing more [dp]."""
-LEAST = 11.0
+MIN_FONT_SIZE = 11.0
 """How things stand is said behind the words where both can be as large as this [sp]."""
-NARROW = 176.0
+MIN_ROW_WIDTH = 176.0
 """A narrower button has its icon above its words, which say all [dp]."""
 
 Builder.load_string("""
@@ -203,7 +203,7 @@ class ActionColumn(Outlined, Control, BoxLayout):
             button.end = button.said
             both = f"{button.name} · {button.said}"
             beside = button.flow == "horizontal" or not button.said
-            cut = wide(both, sp(LEAST), bold=True) > room
+            cut = wide(both, sp(MIN_FONT_SIZE), bold=True) > room
             button.text = button.name if beside or cut else both
 
     def _fit(self, *_: object) -> None:
@@ -214,10 +214,10 @@ class ActionColumn(Outlined, Control, BoxLayout):
         across = max(1, round(self.across))
         rows, between = -(-count // across), self.grid.spacing[1]
         room = self.roll.height - self.grid.padding[1] - self.grid.padding[3] - between * (rows - 1)
-        high = max(theme.target, min(room / rows, dp(TALLEST)))
+        high = max(theme.target, min(room / rows, dp(MAX_BUTTON_HEIGHT)))
         wide = (self.roll.width - (across - 1) * between) / across
         for button in self._buttons.values():
-            button.high, button.flow = high, "vertical" if wide < dp(NARROW) else "horizontal"
+            button.high, button.flow = high, "vertical" if wide < dp(MIN_ROW_WIDTH) else "horizontal"
         self._say()
 
 

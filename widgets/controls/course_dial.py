@@ -32,15 +32,15 @@ from widgets.parts.sensor_card import Gauge
 
 __all__ = ["CourseDial", "samples"]
 
-HOLD = 0.6
+HOLD_DURATION = 0.6
 """A finger that rests on the rim for so long sets a course [s]; on the mark of one it does at once."""
-SLIP = 14
+MAX_SLIP = 14
 """One that moves farther before that was only passing [dp]."""
 STEP = 5.0
 """A finger sets courses in steps of this [deg]."""
 INNER = 0.42
 """Nearer to the middle than this part of the radius a finger sets nothing: there it can let go without a new course."""
-COVERED = 13.0
+KNOB_SPAN = 13.0
 """What is written nearer to a knob would be covered by it [deg]."""
 WIDE = 1.25
 """A card this many times broader than high has its figures beside the dial."""
@@ -81,7 +81,7 @@ class CourseDial(Grip, Gauge):
     def __init__(self, **kwargs: Any) -> None:
         self._came: tuple[float, float] | None = None
         self._followed = False
-        self._catch = Clock.create_trigger(lambda _: self._caught(), HOLD)
+        self._catch = Clock.create_trigger(lambda _: self._caught(), HOLD_DURATION)
         super().__init__(**{"title": "Course", **kwargs})
         self.veil_radius = theme.radius
 
@@ -160,7 +160,7 @@ class CourseDial(Grip, Gauge):
             else:
                 self._catch()
         elif self.resting:
-            if math.dist(touch.pos, self._came) > dp(SLIP):
+            if math.dist(touch.pos, self._came) > dp(MAX_SLIP):
                 self.rest()
         else:
             self._point(*touch.pos)
@@ -237,7 +237,7 @@ class CourseDial(Grip, Gauge):
         every = 30 if radius > dp(95) else 90
         knobs = [one for one in (self.wanted, self.asked, self.aim) if math.isfinite(one)]
         for bearing in range(0, 360, every):
-            if any(abs(shortest_turn(one, bearing)) < COVERED for one in knobs):
+            if any(abs(shortest_turn(one, bearing)) < KNOB_SPAN for one in knobs):
                 continue
             main = bearing % 90 == 0
             across, up = dial_point(bearing, radius * 0.76)

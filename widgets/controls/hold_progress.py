@@ -12,11 +12,11 @@ from kivy.clock import Clock
 from kivy.event import EventDispatcher
 from kivy.properties import NumericProperty
 
-__all__ = ["HOLD", "Hold"]
+__all__ = ["HOLD_DURATION", "Hold"]
 
-HOLD = 1.0
+HOLD_DURATION = 1.0
 """How long the finger must stay, unless told otherwise [s]."""
-FRAME = 0.1
+MAX_FRAME = 0.1
 """A frame counts for no more of a hold [s]: a finger that left while it was drawn is only heard of after it."""
 
 
@@ -29,11 +29,11 @@ class Hold(EventDispatcher):
     """How much of the hold is over, 0 to 1."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self._takes = HOLD
+        self._takes = HOLD_DURATION
         self._counting = Clock.create_trigger(self._count, 0, interval=True)
         super().__init__(**kwargs)
 
-    def hold(self, takes: float = HOLD) -> None:
+    def hold(self, takes: float = HOLD_DURATION) -> None:
         """A finger is there; it must stay for `takes` [s]."""
         self._takes = takes
         self._counting()
@@ -44,7 +44,7 @@ class Hold(EventDispatcher):
         self.held = 0.0
 
     def _count(self, elapsed: float) -> None:
-        self.held = min(1.0, self.held + min(elapsed, FRAME) / self._takes)
+        self.held = min(1.0, self.held + min(elapsed, MAX_FRAME) / self._takes)
         if self.held >= 1.0 - 1e-9:
             self.rest()
             self.dispatch("on_held_long")

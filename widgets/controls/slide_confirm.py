@@ -27,11 +27,11 @@ from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["OUTCOMES", "SlideToConfirm", "samples"]
 
-ENOUGH = 0.98
+CONFIRM_SHARE = 0.98
 """Of the way; from there on it is confirmed."""
-BACK = 0.15
+RETURN_DURATION = 0.15
 """How long it takes to slide back [s]."""
-TOLD = 3.0
+OUTCOME_TIMEOUT = 3.0
 """How long an outcome is told [s]."""
 
 OUTCOMES = {
@@ -109,7 +109,7 @@ class SlideToConfirm(Grip, Gauge):
     def __init__(self, **kwargs: Any) -> None:
         self._offset: float | None = None
         self._confirmed = False
-        self._forget = Clock.create_trigger(lambda _: self.answer("ready"), TOLD)
+        self._forget = Clock.create_trigger(lambda _: self.answer("ready"), OUTCOME_TIMEOUT)
         super().__init__(**{"card": False, **kwargs})
         self.fbind("track", self._round_veil)
         self._round_veil()
@@ -139,7 +139,7 @@ class SlideToConfirm(Grip, Gauge):
             self._offset = touch.x - self.knob[0]
         left, _, width, high = self.track
         self.share = min(max((touch.x - self._offset - left - high / 2) / max(width - high, 1.0), 0.0), 1.0)
-        if self.share >= ENOUGH:
+        if self.share >= CONFIRM_SHARE:
             self.share, self._confirmed = 1.0, True
             self.dispatch("on_confirm")
 
@@ -148,7 +148,7 @@ class SlideToConfirm(Grip, Gauge):
         self._offset, self._confirmed = None, False
         Animation.cancel_all(self, "share")
         if self.share:
-            Animation(share=0.0, duration=BACK, transition="out_quad").start(self)
+            Animation(share=0.0, duration=RETURN_DURATION, transition="out_quad").start(self)
 
     def on_confirm(self) -> None:
         """It was slid to the end: the operator means it."""

@@ -17,13 +17,13 @@ from kivy.uix.widget import Widget
 from bridge.msgs.pilothouse_msgs import ControlStatus
 from widgets.status.notice_card import NoticeCard
 
-__all__ = ["SLOW", "SpeedCap"]
+__all__ = ["SLOW_RTT", "SpeedCap"]
 
-SLOW = 0.2
+SLOW_RTT = 0.2
 """From this round trip on the robot goes slower [s]."""
-NOTICED = 0.99
+MAX_SHOWN_CAP = 0.99
 """A cap above this share is nothing that anybody would notice, and would be told as `100 %`."""
-SLOWEST, CRAWL = 0.4, 0.15
+CRAWL_RTT, CRAWL_SHARE = 0.4, 0.15
 """From this round trip on it goes no slower [s], at this share of its speed; as docs/bridge.md has it."""
 
 
@@ -51,7 +51,7 @@ class SpeedCap(NoticeCard):
         figure = f"{self.rtt * 1000:.0f} ms"
         return (
             f"Slow link, {figure}"
-            if self.rtt >= SLOW
+            if self.rtt >= SLOW_RTT
             else f"The robot itself measured {self.measured} a moment ago"
         )
 
@@ -61,8 +61,8 @@ class SpeedCap(NoticeCard):
     @property
     def measured(self) -> str:
         """The round trip that such a share comes from, as in `320 ms`."""
-        part = 1.0 - (self.share - CRAWL) / (1.0 - CRAWL)
-        figure = f"{(SLOW + min(1.0, max(0.0, part)) * (SLOWEST - SLOW)) * 1000:.0f} ms"
+        part = 1.0 - (self.share - CRAWL_SHARE) / (1.0 - CRAWL_SHARE)
+        figure = f"{(SLOW_RTT + min(1.0, max(0.0, part)) * (CRAWL_RTT - SLOW_RTT)) * 1000:.0f} ms"
         return f"{figure} or more" if part >= 1.0 else figure
 
     def __init__(self, **kwargs: Any) -> None:
@@ -78,7 +78,7 @@ class SpeedCap(NoticeCard):
         if msg.follows_link != self.follows:
             self.sent = False
         self.share, self.follows = msg.speed_cap, msg.follows_link
-        self.open = self.share < NOTICED or not self.follows
+        self.open = self.share < MAX_SHOWN_CAP or not self.follows
 
     def press(self) -> None:
         """Switch it as a finger would; shown as switched when the robot says so."""
@@ -90,13 +90,15 @@ class SpeedCap(NoticeCard):
         self.sent = outcome == "sent"
 
     def _write(self, *_: object) -> None:
-        if self.follows and self.share >= NOTICED:
+        if self.follows and self.share >= MAX_SHOWN_CAP:
             return  # it is about to go, and goes as it was
         if self.follows:
             self.headline, self.said = f"{self.share * 100:.0f} % speed", f"{self.why}."
         else:
             self.headline = "Full speed always"
-            self.said = f"{self.why}." if self.rtt >= SLOW and not self.driver else "On a slow link as well."
+            self.said = (
+                f"{self.why}." if self.rtt >= SLOW_RTT and not self.driver else "On a slow link as well."
+            )
         self.relabel(*(("Full speed", "link_off") if self.follows else ("Follow link", "link")))
         self.switch.meaning = self.switch.text
         self.switch.disabled = self.blocked or self.sent

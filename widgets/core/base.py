@@ -28,9 +28,9 @@ STATES = ("never", "live", "stale", "alarm", "disabled")
 VEIL = {"stale": 0.55, "disabled": 0.62}
 """State to how much of a widget is hidden in it, 0 to 1; in the others nothing is."""
 
-BIG = 240.0
+MIN_ROOMY_HEIGHT = 240.0
 """What is higher has room in itself for its age [dp]."""
-SMALLEST = 10.0
+MIN_FONT_SIZE = 10.0
 """No type is made smaller than this to fit [sp]."""
 
 Builder.load_string("""
@@ -100,7 +100,7 @@ def text_texture(text: str, size: float, font: str = "B612", *, bold: bool = Fal
 def fitting_size(texts: Iterable[str], size: float, room: float, *, bold: bool = False) -> float:
     """Size of type [px] at which the widest of `texts` fits into `room` [px]: `size`, or as much less as it takes."""
     widest = max((text_texture(text, size, theme.font, bold=bold).width for text in texts), default=0)
-    return size if widest <= room else max(math.floor(size * room / widest * 2) / 2, sp(SMALLEST))
+    return size if widest <= room else max(math.floor(size * room / widest * 2) / 2, sp(MIN_FONT_SIZE))
 
 
 class RobotWidget(Widget):
@@ -162,7 +162,7 @@ class RobotWidget(Widget):
 
     def _badge_pos(self) -> tuple[float, float]:
         width, height = self.badge_size
-        low = self.y + dp(8) if self.height > dp(BIG) else self.y - height / 2
+        low = self.y + dp(8) if self.height > dp(MIN_ROOMY_HEIGHT) else self.y - height / 2
         return self.center_x - width / 2, low
 
     badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "pos", "size"], cache=True)

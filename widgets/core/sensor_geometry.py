@@ -9,7 +9,7 @@ import numpy as np
 
 __all__ = ["aim", "ago_text", "away_text", "contrast_of", "line_offset", "side_text", "wheel_name"]
 
-LEAST_CONTRAST = 0.25
+MIN_CONTRAST = 0.25
 """Between the brightest and the darkest cell; less is one ground with dirt on it."""
 
 _AIMS = {"rear": math.pi, "back": math.pi, "aft": math.pi, "left": math.pi / 2, "right": -math.pi / 2}
@@ -32,7 +32,7 @@ def line_offset(values: Iterable[float], spacing: float) -> float:
     """
     light = np.asarray(list(values), dtype=np.float64)
     known = np.isfinite(light)
-    if not contrast_of(light) >= LEAST_CONTRAST:
+    if not contrast_of(light) >= MIN_CONTRAST:
         return math.nan
     middle = (light[known].max() + light[known].min()) / 2
     bright = np.where(known, light - middle, 0.0)

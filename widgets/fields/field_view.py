@@ -36,7 +36,7 @@ from widgets.fields.message_fields import ARRAY, BRANCH, DASH, LEAF, Path, Row, 
 
 __all__ = ["FieldView"]
 
-PERIOD = 0.1
+WRITE_PERIOD = 0.1
 """Between two looks at the newest message [s]: figures that change faster cannot be read."""
 NARROW = 560.0
 """A tree narrower than this leaves a little less room before each level [dp]."""
@@ -142,10 +142,10 @@ class FieldView(RobotWidget, FloatLayout):
 
     def __init__(self, **kwargs: Any) -> None:
         self._pool: list[FieldRow] = []
-        self._soon = Clock.create_trigger(self._renew, PERIOD)
+        self._soon = Clock.create_trigger(self._renew, WRITE_PERIOD)
         self._at_once = Clock.create_trigger(self._renew, -1)
         self._place_soon = Clock.create_trigger(self._place, -1)
-        self._write_soon = Clock.create_trigger(self._place, PERIOD)
+        self._write_soon = Clock.create_trigger(self._place, WRITE_PERIOD)
         super().__init__(**kwargs)
         self.fbind("message", self._on_news)
         for name in ("type", "folds", "size"):

@@ -38,17 +38,17 @@ Path = tuple[str | int, ...]
 LEAF, ARRAY, BRANCH, MORE = "leaf", "array", "branch", "more"
 """Kinds of rows: a value, an array or a long text on two lines, something to fold, and what a list holds beyond the bound."""
 DASH, MINUS = "—", "−"
-MOST_ITEMS = 50
+MAX_ITEMS = 50
 """So many parts of a list have rows of their own."""
-FEW = 40
+MAX_UNFOLDED_ROWS = 40
 """A message of at most so many rows is shown unfolded."""
-FIRST = 6
+MAX_VALUES = 6
 """Values of an array that are written out."""
-ROOMY = 22
+MAX_SHORT_TEXT = 22
 """A text of more letters has a line of its own."""
-LONGEST = 400
+MAX_TEXT_LENGTH = 400
 """Letters of a text that are shown on its line."""
-MOST_LETTERS, MOST_LINES = 1000, 40
+MAX_LETTERS, MAX_LINES = 1000, 40
 """Letters and lines of a text that are shown when it is opened: no picture for a graphics card may be too high."""
 NUMBER = re.compile(r"(?:u?int(?:8|16|32|64)|float(?:32|64)|byte|char)(?:\[.*)?")
 """ROS types of numbers."""
@@ -57,9 +57,9 @@ SMALL, LARGE = 0.5 * 10**-DECIMALS, 1e7
 """Between these a number is written plainly, beyond them with an exponent."""
 EPOCH = 1e8
 """A time below this [s] counts from the start of a simulation, not from 1970."""
-UNSURE = 0.3
+CLOCK_UNCERTAINTY = 0.3
 """The robot's clock is known to about this [s]: what is less ahead of it is from now."""
-RECENT = 86400.0
+MAX_AGE = 86400.0
 """An age is told up to this [s]; beyond it the clocks are different ones."""
 
 
@@ -116,7 +116,7 @@ def rows(message: Msg, folds: Mapping[Path, bool]) -> list[Row]:
 
     Of a list the first 50 parts have rows, so that no message makes the tree endless.
     """
-    few = _count(message, FEW) <= FEW
+    few = _count(message, MAX_UNFOLDED_ROWS) <= MAX_UNFOLDED_ROWS
     return list(_fields(message, (), 0, folds, few))
 
 
@@ -148,10 +148,10 @@ def _row(
         yield from _fields(value, path, depth + 1, folds, few, unit)
         return
     inner = kind.partition("[")[0]
-    for index, part in enumerate(value[:MOST_ITEMS]):
+    for index, part in enumerate(value[:MAX_ITEMS]):
         yield from _row(part, (*path, index), depth + 1, (f"[{index}]", inner, unit), folds, few=False)
-    if len(value) > MOST_ITEMS:
-        yield Row(MORE, (*path, -1), depth + 1, f"and {len(value) - MOST_ITEMS} more", "", None)
+    if len(value) > MAX_ITEMS:
+        yield Row(MORE, (*path, -1), depth + 1, f"and {len(value) - MAX_ITEMS} more", "", None)
 
 
 def _count(msg: Msg, most: int) -> int:
@@ -186,7 +186,7 @@ def _is_parts(value: object) -> bool:
 
 def _needs_line(value: object) -> bool:
     if isinstance(value, str):
-        return len(value) > ROOMY
+        return len(value) > MAX_SHORT_TEXT
     return isinstance(value, list | tuple | array | np.ndarray) and len(value) > 0
 
 
@@ -233,9 +233,13 @@ def clock(stamp: float, now: float = math.nan) -> str:
         text = time.strftime("%H:%M:%S", time.localtime(whole))
     text = f"{text}.{thousandths:03d}"
     age = now - stamp
-    if not abs(age) < RECENT:
+    if not abs(age) < MAX_AGE:
         return text
-    return f"{text} · {abs(age):.1f} s ahead" if age < -UNSURE else f"{text} · {max(0.0, age):.1f} s ago"
+    return (
+        f"{text} · {abs(age):.1f} s ahead"
+        if age < -CLOCK_UNCERTAINTY
+        else f"{text} · {max(0.0, age):.1f} s ago"
+    )
 
 
 def describe(row: Row, now: float = math.nan) -> tuple[str, str]:
@@ -294,12 +298,12 @@ def _moment(value: Any, now: float) -> str:
 
 
 def _one_line(text: str) -> str:
-    return " ".join(text[:LONGEST].split())
+    return " ".join(text[:MAX_TEXT_LENGTH].split())
 
 
 def _whole(text: str) -> str:
     """A text with its lines, as many as fit on the glass, and how much more there is."""
-    shown = "".join(text[:MOST_LETTERS].splitlines(keepends=True)[:MOST_LINES])
+    shown = "".join(text[:MAX_LETTERS].splitlines(keepends=True)[:MAX_LINES])
     rest = len(text) - len(shown)
     lines = shown.expandtabs(4).splitlines()
     return "\n".join([*lines, f"… and {number(rest)} more letters"] if rest else lines)
@@ -337,8 +341,8 @@ def _array(value: Any, unit: str) -> tuple[str, str]:
         return count, ""
     finite = numbers[np.isfinite(numbers)] if numbers.dtype.kind == "f" else numbers
     exponent, decimals = _manner(finite)
-    first = "  ".join(_short(one, exponent, decimals) for one in numbers[:FIRST].tolist())
-    if len(numbers) > FIRST:
+    first = "  ".join(_short(one, exponent, decimals) for one in numbers[:MAX_VALUES].tolist())
+    if len(numbers) > MAX_VALUES:
         first += " …"
     if not len(finite):
         return count, first

@@ -24,11 +24,11 @@ from widgets.parts.rows import group_label
 
 __all__ = ["KeyCap", "KeyHelp"]
 
-NARROWEST = 260.0
+MIN_COLUMN_WIDTH = 260.0
 """A column of it is no narrower [dp]."""
-MOST = 4
+MAX_COLUMNS = 4
 """Columns."""
-PART = 2
+MIN_ROWS_TOGETHER = 2
 """So many rows of a group stand together at least."""
 Group = tuple[str, list[tuple[list[str], str]]]
 """Title, and rows: caps, and what they do."""
@@ -79,7 +79,7 @@ Builder.load_string("""
 def flow(groups: Sequence[Group], columns: int) -> list[list[Group]]:
     """`groups` in their order in so many columns, as low as can be; a long group goes on, by its name, in the next column."""
     most = sum(len(rows) + 1 for _, rows in groups)
-    for high in range(max(2 * PART, most // columns), max(2 * PART, most) + 1):
+    for high in range(max(2 * MIN_ROWS_TOGETHER, most // columns), max(2 * MIN_ROWS_TOGETHER, most) + 1):
         made = _pour(groups, high)
         if len(made) <= columns:
             return made
@@ -93,8 +93,8 @@ def _pour(groups: Sequence[Group], high: int) -> list[list[Group]]:
     for title, rows in groups:
         rest = list(rows)
         while rest:
-            fits = len(rest) if left > len(rest) else min(left - 1, len(rest) - PART)
-            if fits < min(PART, len(rest)) and left < high:
+            fits = len(rest) if left > len(rest) else min(left - 1, len(rest) - MIN_ROWS_TOGETHER)
+            if fits < min(MIN_ROWS_TOGETHER, len(rest)) and left < high:
                 made.append([])
                 left = high
                 continue
@@ -140,7 +140,7 @@ class KeyHelp(Control, BoxLayout):
         self._build()
 
     def _columns(self) -> int:
-        return max(1, min(MOST, int((self.width + dp(24)) // dp(NARROWEST + 24))))
+        return max(1, min(MAX_COLUMNS, int((self.width + dp(24)) // dp(MIN_COLUMN_WIDTH + 24))))
 
     def _fit(self, *_: object) -> None:
         if self._columns() != self._count:

@@ -24,7 +24,7 @@ CURSOR = "|"
 NAMED = {" ": "Space", ".": "Dot", ":": "Colon", "-": "Hyphen", "/": "Slash", ",": "Comma", "'": "Apostrophe"}
 """Letters that are said by a name."""
 SHOWN = {" ": "space"}
-LOW, LEAST = 40.0, 26.0
+MIN_ROOMY_KEY_HEIGHT, MIN_KEY_HEIGHT = 40.0, 26.0
 """A key is no higher where there are many, and never lower [dp]."""
 
 
@@ -62,7 +62,7 @@ class ScanKeyboard(ScanPad):
         rows += [[self._letter(letter) for letter in line] for line in letters]
         spare = self.room - sp(15) * 3 - dp(40)
         high = theme.target if not self.room else min(theme.target, spare / len(rows) - dp(6))
-        self.high = max(dp(LEAST), min(high, max(dp(LOW), high)))
+        self.high = max(dp(MIN_KEY_HEIGHT), min(high, max(dp(MIN_ROOMY_KEY_HEIGHT), high)))
         self.rows = rows
 
     @staticmethod

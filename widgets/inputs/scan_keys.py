@@ -17,7 +17,7 @@ SIGNS = ".-:/,"
 """What names and addresses need besides."""
 ADDRESS = "1.029:345678-/" + LETTERS.strip()
 """For addresses: digits and what stands between them first."""
-MOST = 3
+MAX_WORDS = 3
 """Words offered at once."""
 
 
@@ -38,7 +38,7 @@ def laid_out(kind: str = "text", columns: int = COLUMNS) -> list[str]:
     return ["".join(line[column] for column in sorted(line)) for line in rows]
 
 
-def guesses(text: str, words: Iterable[str], most: int = MOST) -> list[str]:
+def guesses(text: str, words: Iterable[str], most: int = MAX_WORDS) -> list[str]:
     """Of `words`, most wanted first, those that `text` or its last word begins; the shortest way to say each once."""
     known = list(dict.fromkeys(word.strip() for word in words if word.strip()))
     whole = [word for word in known if word.casefold().startswith(text.casefold()) and word != text]

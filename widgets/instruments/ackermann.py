@@ -38,9 +38,9 @@ TRACK, WHEEL, AHEAD, BEHIND = 0.62, 0.3, 0.3, 0.26
 """Between the wheels, a wheel's length, and how far the body goes beyond its axles, in wheelbases."""
 LONG, ROOM = 1.25, 0.2
 """How far the way is drawn beyond an axle, and what is kept free for it before and behind the body, in wheelbases."""
-LEAST_BASE = 44
+MIN_WHEELBASE = 44
 """The speeds of the wheels give way before the truck gets smaller [dp]."""
-MOST = 8
+MAX_WHEELS = 8
 """Wheels that are drawn."""
 WHEELS = ("rear_left", "rear_right", "front_left", "front_right")
 UNKNOWN = tuple((name, math.nan, math.nan) for name in WHEELS)
@@ -81,7 +81,7 @@ class AckermannView(Gauge):
         self.radius = round(msg.turning_radius, 1)
         self.wheels = [
             (name, round(_at(msg.wheel_angles, number), 3), round(_at(msg.wheel_speeds, number), 1))
-            for number, name in enumerate(msg.wheels[:MOST])
+            for number, name in enumerate(msg.wheels[:MAX_WHEELS])
         ]
 
     @property
@@ -159,7 +159,7 @@ class AckermannView(Gauge):
         left, low, width, height = box
         high, across = 1 + AHEAD + BEHIND + 2 * ROOM, TRACK + WHEEL * 0.6
         base = min(height / high, (width - 2 * (sp(30) + dp(6))) / across, dp(190))
-        told = bool(self.wheels) and base >= dp(LEAST_BASE)
+        told = bool(self.wheels) and base >= dp(MIN_WHEELBASE)
         if not told:
             base = max(min(height / high, width / across, dp(190)), dp(12))
         x = left + width / 2

@@ -39,9 +39,9 @@ KINDS = {
     "rest": "At rest",
 }
 """Kind of manoeuvre to what people say of it."""
-NARROW, LEAST_ROW, GAP = 68, 40, 12
+NARROW, MIN_ROW_HEIGHT, GAP = 68, 40, 12
 """Least width of a column, height of a row, and room between columns [dp, sp, dp]."""
-SLIGHT = 1e-3
+MIN_SPEED = 1e-3
 """A speed below this is none [m/s, rad/s]."""
 
 
@@ -114,7 +114,7 @@ class CommandedMotion(Gauge):
         """Ahead, up and round always; aside, roll and pitch from when they were first asked for."""
         linear, angular = order.twist.linear, order.twist.angular
         more = {"Sway": linear.y, "Roll": angular.x, "Pitch": angular.y}
-        self._aside |= {name for name, value in more.items() if abs(value) > SLIGHT}
+        self._aside |= {name for name, value in more.items() if abs(value) > MIN_SPEED}
         yield _speed("Surge", linear.x)
         if "Sway" in self._aside:
             yield _speed("Sway", linear.y)
@@ -176,7 +176,7 @@ class CommandedMotion(Gauge):
         """Columns, rows and size of the type [px]: those with which it is largest; what has no room is left out, but for the last."""
         room, count = self.width - 2 * self.edge, len(self.figures)
         most = max(1, min(count, int(room // dp(NARROW))))
-        fits = max(1, int(high // sp(LEAST_ROW)))
+        fits = max(1, int(high // sp(MIN_ROW_HEIGHT)))
         tried = [(columns, min(math.ceil(count / columns), fits)) for columns in range(1, most + 1)]
         whole = [grid for grid in tried if grid[0] * grid[1] >= count] or [(most, fits)]
         sized = [

@@ -70,7 +70,7 @@ void main() {
 
 RUNG = 0.21
 """From rung to rung of ten degrees, as a share of the radius."""
-LAST = 0.8
+MAX_HORIZON_OFFSET = 0.8
 """How far from the middle the horizon may be drawn, as a share of the radius."""
 BANKS = (10, 20, 30, 45, 60)
 """Ticks of the bank scale to both sides [deg]."""
@@ -102,7 +102,7 @@ class ArtificialHorizon(Glass, Drawing):
     """How far a level view is above the middle, as the robot sees it [px]; a nose that is down raises it."""
 
     def _horizon(self) -> float:
-        limit = LAST * self.radius
+        limit = MAX_HORIZON_OFFSET * self.radius
         return min(max(self.rise, -limit), limit)
 
     horizon = AliasProperty(_horizon, bind=["rise", "radius"], cache=True)

@@ -35,7 +35,7 @@ USUAL = ("L1", "L2", "L3", "R1", "R2", "R3")
 """Legs that are drawn before any has told something."""
 GAP = 0.3
 """Between the figures of a leg, of the height of their type."""
-MOST = 8
+MAX_LEGS = 8
 """Legs that have room."""
 
 
@@ -63,7 +63,7 @@ class LegPanel(Gauge):
     """From here on it must rest [degC]."""
 
     def _legs(self) -> list[str]:
-        return sorted({*self.angles, *self.temperatures} or set(USUAL))[:MOST]
+        return sorted({*self.angles, *self.temperatures} or set(USUAL))[:MAX_LEGS]
 
     legs = AliasProperty(_legs, bind=["angles", "temperatures"])
     """Their names, `L1` to `R3`."""

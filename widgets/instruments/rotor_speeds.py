@@ -34,7 +34,7 @@ STOPPED, TURNING = 20.0, 100.0
 """A rotor slower than the first stands, when others are faster than the second [rad/s]."""
 USUAL = ("front_left", "front_right", "rear_left", "rear_right")
 """Rotors that are drawn before any has told something."""
-MOST = 8
+MAX_ROTORS = 8
 """Rotors that have room."""
 SWEEP = math.radians(270)
 """Of the scale round each rotor, from lower left clockwise to lower right."""
@@ -62,7 +62,7 @@ class RotorSpeeds(Gauge):
         """Show the newest speeds and temperatures."""
         told = [
             (name, _at(msg.speeds, number), _at(msg.temperatures, number))
-            for number, name in enumerate(msg.names[:MOST])
+            for number, name in enumerate(msg.names[:MAX_ROTORS])
         ]
         fastest = max((abs(speed) for _, speed, _ in told if math.isfinite(speed)), default=0.0)
         self.full = max(self.full, fastest)

@@ -26,7 +26,7 @@ Box = tuple[float, float, float, float]
 
 BETWEEN, TOOTH, APART = 9, 7, 14
 """Between two lines of the hatching; length of a tooth, and from one to the next [dp]."""
-MOST = 3000
+MAX_LINES = 3000
 """Lines of a hatching or teeth of an edge; of more every other one is left out."""
 LEGEND_ROW = 20
 """Height of a line of the legend [dp]."""
@@ -48,7 +48,7 @@ def fence_lines(shapes: Shapes, view: View, fence: Fence, box: Box) -> None:
 def _hatched(shapes: Shapes, view: View, areas: list[Points], box: Box) -> None:
     lines = [hatching(view.many_to_screen(area), view.to_screen(0.0, 0.0), box) for area in areas]
     starts, ends = (np.concatenate([line[side] for line in lines] or [np.zeros((0, 2))]) for side in (0, 1))
-    step = len(starts) // MOST + 1
+    step = len(starts) // MAX_LINES + 1
     shapes.segments(starts[::step], ends[::step], dp(5), tint(theme.bg, 0.35))
     shapes.segments(starts[::step], ends[::step], dp(1.7), tint(theme.warn, 0.85))
 
@@ -88,7 +88,7 @@ def teeth(view: View, border: Border, box: Box) -> tuple[Points, Points]:
     middle = np.array([box[0] + box[2] / 2, box[1] + box[3] / 2])
     reach, at = math.hypot(box[2], box[3]) / 2, ((middle - starts) * ahead).sum(axis=1)
     low, high = np.clip(at - reach, 0.0, length), np.clip(at + reach, 0.0, length)
-    gap = max(float(dp(APART)), float((high - low).sum()) / MOST)
+    gap = max(float(dp(APART)), float((high - low).sum()) / MAX_LINES)
     first = np.ceil(low / gap)
     count = np.maximum(np.floor(high / gap) - first + 1, 0).astype(np.int64)
     which = np.repeat(np.arange(len(starts)), count)

@@ -31,11 +31,11 @@ from widgets.map.mbtiles import MBTiles
 
 __all__ = ["GeoMap", "samples"]
 
-PROBE = 100.0
+PROBE_LENGTH = 100.0
 """Length of the ways by which the scale of the pictures is measured [m]."""
 NARROW = 520
 """Where there is less room, the word about the pictures' origin and the legend stand one above the other [dp]."""
-OVER = 8.0
+MAX_ENLARGEMENT = 8.0
 """How far the sharpest pictures may be enlarged."""
 HAZE = {"dark": 0.24, "sunlight": 0.52, "night": 0.70}
 """How much of the window's colour lies over the pictures, so that marks stand out, 0 to 1."""
@@ -85,7 +85,7 @@ class GeoMap(MapOverlay):
         source, datum, middle = self._pictures.map_source, self.datum, self._free_middle()
         least, most = (
             _scale_at(source, datum, source.min_zoom),
-            _scale_at(source, datum, source.max_zoom) * OVER,
+            _scale_at(source, datum, source.max_zoom) * MAX_ENLARGEMENT,
         )
         upright = View.centred(*view.to_world(*middle), at=middle, scale=view.scale)
         return upright.within(least, most, *middle)
@@ -119,10 +119,12 @@ class GeoMap(MapOverlay):
 
 def _scale_at(source: MBTiles, datum: Datum, zoom: float) -> float:
     """Pixels to a metre at a zoom level of the pictures: the mean of east and north, which differ a little."""
-    near, east, north = (datum.to_geographic(*place) for place in ((0, 0), (PROBE, 0), (0, PROBE)))
+    near, east, north = (
+        datum.to_geographic(*place) for place in ((0, 0), (PROBE_LENGTH, 0), (0, PROBE_LENGTH))
+    )
     wide = source.get_x(zoom, east[1]) - source.get_x(zoom, near[1])
     high = source.get_y(zoom, north[0]) - source.get_y(zoom, near[0])
-    return math.sqrt(wide * high) / PROBE
+    return math.sqrt(wide * high) / PROBE_LENGTH
 
 
 class _Pictures(MapView):
@@ -132,7 +134,7 @@ class _Pictures(MapView):
         super().__init__(size_hint=(None, None), animation_duration=0, **kwargs)
         # it would look for tiles to fade in sixty times a second for ever
         Clock.unschedule(self._animate_color)
-        self._scatter.scale_max = 2 * OVER
+        self._scatter.scale_max = 2 * MAX_ENLARGEMENT
         self.background_color = tint(theme.bg, 0.0)
         for child in self.children[:]:
             if child is not self._scatter:

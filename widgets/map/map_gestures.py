@@ -21,11 +21,11 @@ from widgets.map.map_marks import handle_reach
 
 __all__ = ["Grip", "MapGestures"]
 
-SLOP = 8
+MAX_SLIP = 8
 """How far a finger may slip and still tap [dp]."""
-HELD = 0.6
+HOLD_DURATION = 0.6
 """A finger that stays so long [s] asks for a new place."""
-WHEEL = 1.2
+WHEEL_STEP = 1.2
 """Zoom of one step of the wheel."""
 
 
@@ -84,7 +84,7 @@ class MapGestures(Widget):
         self._fingers: dict[int, complex] = {}
         self._start = 0j
         self._tapping = False
-        self._held = Clock.create_trigger(lambda _: self._hold(), HELD)
+        self._held = Clock.create_trigger(lambda _: self._hold(), HOLD_DURATION)
         super().__init__(**kwargs)
 
     def on_add(self, x: float, y: float) -> None:
@@ -125,7 +125,7 @@ class MapGestures(Widget):
         if super().on_touch_down(touch):
             return True
         if touch.is_mouse_scrolling:
-            step = WHEEL if touch.button == "scrolldown" else 1 / WHEEL
+            step = WHEEL_STEP if touch.button == "scrolldown" else 1 / WHEEL_STEP
             self.set_view(self.view.zoomed(step, *touch.pos))
             return True
         touch.grab(self)
@@ -153,7 +153,7 @@ class MapGestures(Widget):
         self._fingers[touch.uid] = complex(*touch.pos)
         if len(before) > 1:
             self._pinch(before)
-        elif not self._tapping or abs(self._fingers[touch.uid] - self._start) > dp(SLOP):
+        elif not self._tapping or abs(self._fingers[touch.uid] - self._start) > dp(MAX_SLIP):
             self._drag(before[touch.uid], self._fingers[touch.uid])
         else:
             self._fingers[touch.uid] = before[touch.uid]

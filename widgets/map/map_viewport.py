@@ -17,11 +17,11 @@ from widgets.map.map_gestures import MapGestures
 
 __all__ = ["MapViewport"]
 
-ZOOM = 1.5
+ZOOM_STEP = 1.5
 """Of one press of a zoom button."""
-LEAST, MOST = 0.5, 400.0
+MIN_SCALE, MAX_SCALE = 0.5, 400.0
 """Limits of the scale [dp/m]."""
-FITTED_MOST = 60.0
+MAX_FITTED_SCALE = 60.0
 """Greatest scale that `fit` chooses [dp/m]."""
 
 
@@ -68,15 +68,15 @@ class MapViewport(MapGestures):
 
     def limited(self, view: View) -> View:
         """The view with its scale within what this map can show."""
-        return view.within(dp(LEAST), dp(MOST), *self._free_middle())
+        return view.within(dp(MIN_SCALE), dp(MAX_SCALE), *self._free_middle())
 
     def zoom_in(self) -> None:
         """Enlarge about the middle of what is free."""
-        self._zoom(ZOOM)
+        self._zoom(ZOOM_STEP)
 
     def zoom_out(self) -> None:
         """Make smaller about the middle of what is free."""
-        self._zoom(1 / ZOOM)
+        self._zoom(1 / ZOOM_STEP)
 
     def _zoom(self, factor: float) -> None:
         self._touched = True
@@ -97,7 +97,7 @@ class MapViewport(MapGestures):
             edge = min(2.2 * self.mark_radius, wide / 4, high / 4)
             box = (x + edge, y + edge, wide - 2 * edge, high - 2 * edge)
             turn = self.view.turn if self.may_turn else 0.0
-            self.view = self.limited(View.fitting(points, box=box, turn=turn, most=dp(FITTED_MOST)))
+            self.view = self.limited(View.fitting(points, box=box, turn=turn, most=dp(MAX_FITTED_SCALE)))
 
     def extent(self) -> Points:
         """Everything worth seeing, shape (n, 2) [m]."""

@@ -20,9 +20,9 @@ from kivy_garden.mapview.source import MapSource
 
 __all__ = ["MBTiles"]
 
-A_FRAME = 6
+MAX_TILES_PER_FRAME = 6
 """Tiles read in one frame."""
-KEPT = 96
+MAX_TEXTURES = 96
 """Textures kept."""
 
 
@@ -59,7 +59,7 @@ class MBTiles(MapSource):
             self._read_some()
 
     def _read_waiting(self, *_: object) -> None:
-        batch, self._waiting = self._waiting[:A_FRAME], self._waiting[A_FRAME:]
+        batch, self._waiting = self._waiting[:MAX_TILES_PER_FRAME], self._waiting[MAX_TILES_PER_FRAME:]
         with closing(self._connect()) as file:
             for tile in batch:
                 if tile.state != "done":
@@ -81,7 +81,7 @@ class MBTiles(MapSource):
             if found is None and zoom > self.min_zoom:
                 found = _quarter(self._texture(file, zoom - 1, x // 2, y // 2), x % 2, y % 2)
             self._textures[key] = found
-            while len(self._textures) > KEPT:
+            while len(self._textures) > MAX_TEXTURES:
                 self._textures.popitem(last=False)
         return self._textures.get(key)
 

@@ -22,7 +22,7 @@ from widgets.core.theme import theme
 
 __all__ = ["IconButton", "NavButton", "PrimaryButton", "PushButton", "QuietButton"]
 
-SETTLES = 0.5
+SETTLE_DURATION = 0.5
 """A button whose meaning has changed takes no finger for so long [s]: that finger meant what it did before."""
 
 Builder.load_string("""
@@ -151,7 +151,7 @@ class PushButton(Pressable, AnchorLayout):
 
     def __init__(self, **kwargs: Any) -> None:
         self._meant = ""
-        self._settling = Clock.create_trigger(lambda _: None, SETTLES)
+        self._settling = Clock.create_trigger(lambda _: None, SETTLE_DURATION)
         super().__init__(**kwargs)
 
     def on_meaning(self, *_: object) -> None:

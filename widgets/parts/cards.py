@@ -19,7 +19,7 @@ from widgets.parts.labels import SectionLabel, Text, ValueUnit
 
 __all__ = ["ActionToast", "Banner", "Card", "Sheet", "Toast"]
 
-MOTION = 0.15
+MOTION_DURATION = 0.15
 """Time of a movement on the glass [s]."""
 
 LEVELS = {
@@ -222,7 +222,7 @@ class Sheet(BoxLayout):
 
     def _settle(self, *_: object) -> None:
         Animation.cancel_all(self, "height")
-        Animation(height=self.detents[int(self.detent)], d=MOTION, t="out_cubic").start(self)
+        Animation(height=self.detents[int(self.detent)], d=MOTION_DURATION, t="out_cubic").start(self)
 
     def on_touch_down(self, touch: Any) -> bool:
         """Take the finger that comes down on the upper edge; nothing under the sheet gets any."""

@@ -27,9 +27,9 @@ from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["EncodersView", "samples"]
 
-MOST = 4
+MAX_WHEELS = 4
 """Wheels that have room."""
-LEAST_FULL = 5.0
+MIN_FULL_SPEED = 5.0
 """Speed that a bar is at least made for [rad/s]: a creep is not drawn as full speed."""
 
 
@@ -41,7 +41,7 @@ class EncodersView(Gauge):
 
     wheels: ListProperty[tuple[str, float, float]] = ListProperty()
     """Name, speed [rad/s] and angle [rad] of each; NaN for what is not measured. Empty before the first."""
-    full = NumericProperty(LEAST_FULL)
+    full = NumericProperty(MIN_FULL_SPEED)
     """Speed of a full bar [rad/s]: the fastest that was seen."""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -58,7 +58,7 @@ class EncodersView(Gauge):
 
     def marks(self, shapes: Shapes) -> Iterator[Word]:
         """A row for each wheel."""
-        edge, shown = self.edge, self.wheels[:MOST]
+        edge, shown = self.edge, self.wheels[:MAX_WHEELS]
         top = self.top - edge
         more = len(self.wheels) - len(shown)
         figures = (f"rad/s · {more} more", f"{more} more", f"+{more}") if more else ("rad/s",)

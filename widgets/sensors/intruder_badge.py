@@ -30,7 +30,7 @@ from widgets.parts.sensor_card import first_fitting, wide
 
 __all__ = ["IntruderBadge", "samples"]
 
-FRESH = 30.0
+FRESH_DURATION = 30.0
 """An intruder found within this is news [s]."""
 AHEAD = math.pi / 2
 """Where straight ahead is on the screen [rad]."""
@@ -56,7 +56,9 @@ class IntruderBadge(Drawing):
     to_right = BooleanProperty(False)
 
     def _fresh(self) -> bool:
-        return self.state != "stale" and self.count > 0 and (math.isnan(self.ago) or self.ago < FRESH)
+        return (
+            self.state != "stale" and self.count > 0 and (math.isnan(self.ago) or self.ago < FRESH_DURATION)
+        )
 
     fresh = AliasProperty(_fresh, bind=["state", "count", "ago"], cache=True)
     """The last one was found just now, as far as is known now."""

@@ -19,7 +19,7 @@ from bridge.msgs.arrays import Float32Array
 from bridge.msgs.pilothouse_msgs import LineSensor
 from widgets.core.canvas_ink import Word
 from widgets.core.geometry import DASH, tween
-from widgets.core.sensor_geometry import LEAST_CONTRAST, contrast_of, line_offset
+from widgets.core.sensor_geometry import MIN_CONTRAST, contrast_of, line_offset
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.map.map_marks import arrow
@@ -29,7 +29,7 @@ __all__ = ["LineSensorView", "samples"]
 
 CENTRED = 0.5
 """A line within this part of a cell's spacing from the middle is under the middle."""
-SEEN = 0.05
+RESOLUTION = 0.05
 """Difference of brightness that is seen: the cells are not drawn anew for their noise."""
 DARK, BRIGHT = 0.05, 0.95
 """Share of white that the darkest and the brightest cell are drawn with."""
@@ -67,7 +67,7 @@ class LineSensorView(Gauge):
         contrast = contrast_of(self.values)
         if math.isnan(contrast):
             return (DASH,)
-        if contrast < LEAST_CONTRAST:
+        if contrast < MIN_CONTRAST:
             bright = sum(value for value in self.values if value >= 0) > len(self.values) / 2
             return ("all bright", "bright") if bright else ("no line", "none")
         metric = math.isfinite(self.spacing)
@@ -126,7 +126,7 @@ class LineSensorView(Gauge):
 
 def _differ(one: float, other: float) -> bool:
     """Whether two readings of a cell look different; both NaN do not."""
-    return abs(one - other) > SEEN or math.isnan(one) != math.isnan(other)
+    return abs(one - other) > RESOLUTION or math.isnan(one) != math.isnan(other)
 
 
 def _message(*values: float, spacing: float = 0.02) -> LineSensor:

@@ -33,14 +33,14 @@ __all__ = ["SonarRingView", "samples"]
 
 AHEAD = math.pi / 2
 """Where straight ahead is on the screen [rad]."""
-MOST = 64
+MAX_SONARS = 64
 """Sonars that are drawn."""
 RINGS = 3
 WIDE = 1.3
 """A card this many times broader than high has its figures beside the ring."""
 CONTACT = math.radians(38)
 """How far the mark of a contact goes to both sides [rad]."""
-LEAST_BODY = 11
+MIN_BODY_RADIUS = 11
 """The robot is drawn no smaller than with this radius [dp]."""
 
 
@@ -81,7 +81,7 @@ class SonarRingView(Gauge):
         """Bearings [rad] and ranges [m] of the newest ring, as many as there are of both."""
         if self.ring is None:
             return np.zeros(0), np.zeros(0)
-        count = min(len(self.ring.bearings), len(self.ring.ranges), MOST)
+        count = min(len(self.ring.bearings), len(self.ring.ranges), MAX_SONARS)
         bearings = np.asarray(self.ring.bearings[:count], dtype=np.float64)
         ranges = np.asarray(self.ring.ranges[:count], dtype=np.float64)
         return bearings, np.where(np.isfinite(bearings), ranges, math.nan)
@@ -191,11 +191,11 @@ class SonarRingView(Gauge):
         strength = 0.16 if self.role(away) == "accent" else 0.34
         shapes.sector(x, y, length, yaw=yaw, half_angle=half * 0.92, colour=tint(colour, strength))
         if body + max(away, 0.0) * scale <= radius:
-            shapes.line(_arc(x, y, max(length, dp(LEAST_BODY + 4)), yaw, half * 0.86), dp(3.2), colour)
+            shapes.line(_arc(x, y, max(length, dp(MIN_BODY_RADIUS + 4)), yaw, half * 0.86), dp(3.2), colour)
 
     def _robot(self, shapes: Shapes, place: _Place) -> None:
         x, y, radius, _, body = place
-        size = max(body, min(dp(LEAST_BODY), radius * 0.2))
+        size = max(body, min(dp(MIN_BODY_RADIUS), radius * 0.2))
         shapes.disc(x, y, size + dp(1), theme.surface)
         shapes.disc(x, y, size, theme.raised)
         known = not math.isnan(self.pressed)

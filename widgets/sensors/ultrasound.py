@@ -31,13 +31,13 @@ AHEAD = math.pi / 2
 """Where straight ahead is on the screen [rad]."""
 NARROW = 60
 """With less to both sides of the robot the figures are brief [dp]."""
-SEEN = 0.01
+RESOLUTION = 0.01
 """Difference of distance that is read [m]."""
-SILENT = 1.0
+ECHO_TIMEOUT = 1.0
 """An echo older than this against the newest one is not shown any more [s]."""
-LEAST_HALF = math.radians(16)
+MIN_HALF_ANGLE = math.radians(16)
 """A cone is drawn no narrower than this to both sides [rad]."""
-MOST, WRITTEN = 12, 4
+MAX_RANGERS, MAX_FIGURES = 12, 4
 """Rangers that are drawn, and up to how many each has its figure; of more only what is near has one."""
 
 
@@ -75,7 +75,7 @@ class UltrasoundView(Gauge):
         """Take the newest echo of one ranger; the others' stay."""
         frame = msg.header.frame_id
         before = self.echoes.get(frame)
-        if before is None and len(self.echoes) >= MOST:
+        if before is None and len(self.echoes) >= MAX_RANGERS:
             return
         stamp = msg.header.stamp.seconds
         if stamp < self._stamps.get(frame, stamp):
@@ -93,7 +93,7 @@ class UltrasoundView(Gauge):
 
     def _silent(self) -> list[str]:
         newest = max(self._stamps.values())
-        return [frame for frame, stamp in self._stamps.items() if newest - stamp > SILENT]
+        return [frame for frame, stamp in self._stamps.items() if newest - stamp > ECHO_TIMEOUT]
 
     def figure(self, frame: str, *, brief: bool = False) -> str:
         """A ranger's distance in words; `brief` in metres without saying so, as far as it reaches where it is clear."""
@@ -135,7 +135,7 @@ class UltrasoundView(Gauge):
     def _cone(self, shapes: Shapes, frame: str, place: tuple[float, float, float, float]) -> Word:
         x, y, longest, across = place
         yaw, told, echo = aim(frame) + AHEAD, self._told(frame), self.echoes[frame]
-        half = max(echo.field_of_view / 2, LEAST_HALF)
+        half = max(echo.field_of_view / 2, MIN_HALF_ANGLE)
         inner, role = dp(9), self.role(frame)
         colour = theme.roles[role]
         share = 0.0 if math.isnan(told) else min(max(told, 0.0), self.reach) / self.reach
@@ -147,7 +147,7 @@ class UltrasoundView(Gauge):
             rim = np.stack([np.cos(angles), np.sin(angles)], axis=1) * length + (x, y)
             if told < self.reach:
                 shapes.line(rim, dp(3), colour)
-        written = len(self.echoes) <= WRITTEN or role in ("warn", "danger")
+        written = len(self.echoes) <= MAX_FIGURES or role in ("warn", "danger")
         text = self.figure(frame, brief=across < dp(NARROW)) if written else ""
         words = theme.text if role == "accent" else theme.muted if role == "faint" else colour
         end_x, end_y = math.cos(yaw), math.sin(yaw)
@@ -187,7 +187,7 @@ class UltrasoundView(Gauge):
 def _differ(one: float, other: float) -> bool:
     """Whether two distances are read as different: a thing that stands still is not drawn anew for its noise."""
     if math.isfinite(one) and math.isfinite(other):
-        return abs(one - other) > SEEN
+        return abs(one - other) > RESOLUTION
     return one != other and not (math.isnan(one) and math.isnan(other))
 
 

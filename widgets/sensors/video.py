@@ -29,9 +29,9 @@ from widgets.sensors.video_marks import draw_box, draw_pointer
 
 __all__ = ["Video", "samples"]
 
-LATE = 0.5
+MAX_LATENCY = 0.5
 """A picture that comes to the glass later than this is said to be late [s]."""
-FADED = 0.45
+FADED_OPACITY = 0.45
 """Opacity of a picture that is old, 0 to 1."""
 
 
@@ -183,7 +183,7 @@ class Video(Drawing):
     def _place_picture(self) -> None:
         wide, high = self.picture_size
         seen = min(wide, self.width), min(high, self.height)
-        light = 0.0 if self._texture is None else FADED if self.state in ("stale", "never") else 1.0
+        light = 0.0 if self._texture is None else FADED_OPACITY if self.state in ("stale", "never") else 1.0
         place = self.center_x - seen[0] / 2, self.center_y - seen[1] / 2
         self._picture.pos = self._plain.pos = place
         self._picture.size, self._plain.size = ((0, 0), seen) if self._fills() else (seen, (0, 0))
@@ -252,7 +252,7 @@ class Video(Drawing):
     @property
     def late(self) -> bool:
         """The picture is too old to drive by."""
-        return self.latency > LATE
+        return self.latency > MAX_LATENCY
 
     def chip_text(self) -> str:
         """Size, rate and latency of the picture in words; what is not known is left out, and what there is no room for."""

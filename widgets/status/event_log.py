@@ -24,11 +24,11 @@ from kivy.uix.widget import Widget
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
 from widgets.core.base import RobotWidget
-from widgets.status.event_row import ago, is_open, look, note, row_height
+from widgets.status.event_row import ago, appearance, is_open, note, row_height
 
-__all__ = ["EventLog", "ago", "look"]
+__all__ = ["EventLog", "ago", "appearance"]
 
-MOST = 200
+MAX_EVENTS = 200
 """Events that are kept, where nothing else is said."""
 
 Builder.load_string("""
@@ -77,7 +77,7 @@ class EventLog(RobotWidget, FloatLayout):
 
     __events__ = ("on_command",)
 
-    most = NumericProperty(MOST)
+    most = NumericProperty(MAX_EVENTS)
     """Events that are kept."""
     now = NumericProperty(math.nan)
     """The robot's clock [s]; NaN leaves the times away."""
@@ -164,7 +164,7 @@ class EventLog(RobotWidget, FloatLayout):
 
     def _row(self, event: Event, asked: set[tuple[str, int]], missed: set[tuple[str, int]]) -> dict[str, Any]:
         key, open = (event.boot, event.id), is_open(event)
-        name, role = look(event)
+        name, role = appearance(event)
         says, acts = note(event, asked=key in asked), self.acts and open and key not in asked
         high = row_height(event, self.width - 2 * self.margin, says=says, acts=acts)
         return {

@@ -23,7 +23,7 @@ from bridge.msgs.pilothouse_msgs import Event
 from widgets.core.theme import theme
 from widgets.parts.labels import Text
 
-__all__ = ["EventHead", "EventRow", "ago", "is_open", "look", "note", "row_height", "when_words"]
+__all__ = ["EventHead", "EventRow", "ago", "is_open", "appearance", "note", "row_height", "when_words"]
 
 KINDS = {
     "waypoint": ("flag", "plan"),
@@ -128,7 +128,7 @@ def is_open(event: Event) -> bool:
     return event.level in LEVELS and not event.acknowledged_by
 
 
-def look(event: Event) -> tuple[str, str]:
+def appearance(event: Event) -> tuple[str, str]:
     """Icon and role of an event: by its kind and its words, the role by its level where that is grave."""
     name, role = KINDS.get(event.kind, ("info", "muted"))
     if event.kind in ("task", "stop"):

@@ -25,11 +25,11 @@ __all__ = ["Bar", "BarRows", "Group", "nice_step"]
 
 ROW, HEAD, FOOT, TITLE = 30, 26, 24, 24
 """Heights of a row, of a group's name, of the scale below and of the title above [dp]."""
-MANY = 6
+MAX_ROWS_WITHOUT_HEAD = 6
 """More rows than these have the scale above them as well, as one end of a chart may be off a phone's glass."""
 STEPS = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0)
-MOST_STEPS = 5
-LEAST_WITH_NAMES = 330
+MAX_STEPS = 5
+MIN_WIDTH_WITH_NAMES = 330
 """Narrower ones have the icons alone [dp]."""
 
 
@@ -61,7 +61,7 @@ class Group:
 
 def nice_step(full: float) -> float:
     """Between two lines of a scale that goes to `full`: of at most five, at round figures."""
-    return next((step for step in STEPS if full / step <= MOST_STEPS), STEPS[-1])
+    return next((step for step in STEPS if full / step <= MAX_STEPS), STEPS[-1])
 
 
 class BarRows(Gauge):
@@ -100,7 +100,7 @@ class BarRows(Gauge):
         groups = self.groups()
         rows = sum(len(group.bars) for group in groups)
         heads = sum(bool(group.name) for group in groups)
-        scales = FOOT * (2 if rows > MANY else 1)
+        scales = FOOT * (2 if rows > MAX_ROWS_WITHOUT_HEAD else 1)
         inner = rows * dp(ROW) + heads * dp(HEAD) + dp(scales if rows else 44)
         self.wanted = self.height = 2 * dp(12) + dp(TITLE) + inner
         self.redraw()
@@ -117,7 +117,7 @@ class BarRows(Gauge):
             yield Word(said, self.center_x, (self.y + top) / 2, size, theme.muted)
             return
         span = self._span(bars)
-        twice = len(bars) > MANY
+        twice = len(bars) > MAX_ROWS_WITHOUT_HEAD
         top -= dp(FOOT) if twice else 0
         yield from self._lines(shapes, span, top, twice=twice)
         for group in groups:
@@ -155,7 +155,7 @@ class BarRows(Gauge):
 
     @property
     def _names(self) -> bool:
-        return bool(self.width >= dp(LEAST_WITH_NAMES))
+        return bool(self.width >= dp(MIN_WIDTH_WITH_NAMES))
 
     def _lines(self, shapes: Shapes, span: tuple[float, float], top: float, *, twice: bool) -> Iterator[Word]:
         (left, right), (full, step) = span, self.scale()

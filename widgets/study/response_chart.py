@@ -18,7 +18,7 @@ from widgets.study.bar_rows import Bar, BarRows, Group, nice_step
 
 __all__ = ["ResponseChart", "samples"]
 
-LEAST = 0.5
+MIN_SCALE = 0.5
 """The scale goes at least so far [s]: a quick answer is not drawn as a slow one."""
 
 
@@ -55,7 +55,7 @@ class ResponseChart(BarRows):
 
     def scale(self) -> tuple[float, float]:
         """A little farther than the slowest quarter begins."""
-        full = max([LEAST, *(one[5] for one in self.times), *(one[3] for one in self.times)]) * 1.02
+        full = max([MIN_SCALE, *(one[5] for one in self.times), *(one[3] for one in self.times)]) * 1.02
         step = nice_step(full)
         return max(full, step), step
 

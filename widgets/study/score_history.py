@@ -22,7 +22,7 @@ from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["ScoreHistory", "samples"]
 
-MOST = 100.0
+MAX_SCORE = 100.0
 
 
 class ScoreHistory(Gauge):
@@ -48,7 +48,7 @@ class ScoreHistory(Gauge):
         )
 
         def at(score: float) -> float:
-            return float(low + (top - low) * score / MOST)
+            return float(low + (top - low) * score / MAX_SCORE)
 
         for value in (0, 25, 50, 75, 100):
             shapes.segments(

@@ -35,7 +35,7 @@ SCALES: dict[str, tuple[str, str, str, str]] = {
     "frustration": ("Frustration", "How insecure, annoyed or stressed were you?", "Low", "High"),
 }
 """Scale to its name, its question, and the words at its ends."""
-STEP, MOST, MIDDLE = 5, 100, 50
+STEP, MAX_RATING, MIDDLE = 5, 100, 50
 
 Builder.load_string("""
 <TlxScale>:
@@ -102,19 +102,19 @@ class Ticks(Drawing, Widget):
         """Value of the tick nearest to a place [px]."""
         left, right = self.span
         share = (x - left) / max(right - left, 1.0)
-        return round(max(0.0, min(share, 1.0)) * MOST / STEP) * STEP
+        return round(max(0.0, min(share, 1.0)) * MAX_RATING / STEP) * STEP
 
     def draw(self) -> None:
         """Ticks, words, knob."""
         shapes, (left, right), y = Shapes(), self.span, self.center_y + dp(7)
-        xs = np.linspace(left, right, MOST // STEP + 1)
+        xs = np.linspace(left, right, MAX_RATING // STEP + 1)
         tall = np.where(
             np.arange(len(xs)) % 10 == 0, dp(11), np.where(np.arange(len(xs)) % 2 == 0, dp(7), dp(4))
         )
         shapes.segments(np.array([[left, y]]), np.array([[right, y]]), dp(2), theme.muted)
         shapes.segments(np.stack([xs, y - tall], 1), np.stack([xs, y + tall], 1), dp(1.6), theme.muted)
         if math.isfinite(self.value):
-            x = left + (right - left) * self.value / MOST
+            x = left + (right - left) * self.value / MAX_RATING
             shapes.disc(x, y, dp(12), theme.accent)
             shapes.ring(x, y, dp(8), dp(2), theme.ink_accent)
         self._ink.fill(shapes)
@@ -178,7 +178,7 @@ class TlxScale(AnswerRow):
 
     def step(self, by: int) -> None:
         """One tick on; the first step of all goes to the middle, from where either end is as far."""
-        self.answer(MIDDLE if math.isnan(self.value) else int(max(0, min(self.value + by, MOST))))
+        self.answer(MIDDLE if math.isnan(self.value) else int(max(0, min(self.value + by, MAX_RATING))))
 
 
 class TlxScales(AnswerSheet):

@@ -47,11 +47,11 @@ SLOTS = {"from": 0, "to": 1, "then": 2, "dock": 0}
 """Field to its place in `TaskOrder.places`; `to` is the first where there is no `from`."""
 OPTIONAL = {"then": "Stay there", "dock": "Its own dock"}
 """Field that may be left open to what that means."""
-LONGEST_TEXT = 200
+MAX_TEXT_LENGTH = 200
 """Characters of a message."""
-USUAL_SPEED = 1.0
+DEFAULT_MAX_SPEED = 1.0
 """Of a robot that does not tell how fast it can go [m/s]."""
-HIGHEST = 30.0
+MAX_HEIGHT = 30.0
 """Height and depth that can be asked for [m]; what the robot itself allows it says."""
 
 Builder.load_string("""
@@ -277,14 +277,14 @@ class OrderForm(OrderDraft, BoxLayout):
 
     def _typed(self, field: TextField, text: str) -> None:
         name = next(name for name, one in self._texts.items() if one is field)
-        if len(text) > LONGEST_TEXT:
-            field.text = text[:LONGEST_TEXT]
+        if len(text) > MAX_TEXT_LENGTH:
+            field.text = text[:MAX_TEXT_LENGTH]
         elif text != getattr(self, name):
             self.set(**{name: text})
 
     def _speed(self) -> list[Widget]:
         tenths = 0 if math.isnan(self.speed) else round(self.speed * 10)
-        most = max(1, math.floor((self.robot.max_speed or USUAL_SPEED) * 10 + 1e-6)) / 10
+        most = max(1, math.floor((self.robot.max_speed or DEFAULT_MAX_SPEED) * 10 + 1e-6)) / 10
         speed = Stepper(value=tenths / 10, step=0.1, maximum=most, unit="m/s", zero="as usual")
         speed.bind(on_change=self._sped)
         return [self._row("Speed", speed)]
@@ -303,7 +303,7 @@ class OrderForm(OrderDraft, BoxLayout):
         deep = self.robot.dives
         value = 0 if math.isnan(self.at_height) else abs(self.at_height)
         usual = "as usual" if self.task == "take_off" else "as now"
-        height = Stepper(value=value, step=0.5, maximum=HIGHEST, unit="m", zero=usual)
+        height = Stepper(value=value, step=0.5, maximum=MAX_HEIGHT, unit="m", zero=usual)
         sign = -1.0 if deep else 1.0
         height.bind(on_change=lambda _, value: self.set(at_height=sign * value if value else math.nan))
         return [self._row("Depth" if deep else "Height", height)]

@@ -28,7 +28,7 @@ from widgets.tasks.task_chooser import TaskTile
 
 __all__ = ["PlaceForm"]
 
-LONGEST = {"name": 60, "floor": 20, "tag": 100, "note": 200}
+MAX_LENGTHS = {"name": 60, "floor": 20, "tag": 100, "note": 200}
 """Characters of what is typed."""
 
 Builder.load_string("""
@@ -147,7 +147,7 @@ class PlaceForm(Control, BoxLayout):
         self.shown = msg
         for name in ("name", "kind", "floor", "tag", "note", "yaw"):
             setattr(self, name, getattr(msg, name))
-        for name in LONGEST:
+        for name in MAX_LENGTHS:
             self.ids[name].text = getattr(msg, name)
         self.dial.value = msg.yaw
 
@@ -159,8 +159,8 @@ class PlaceForm(Control, BoxLayout):
 
     def type(self, name: str, text: str) -> None:
         """Take what was typed; what the robot would cut off cannot be typed."""
-        if len(text) > LONGEST[name]:
-            self.ids[name].text = text[: LONGEST[name]]
+        if len(text) > MAX_LENGTHS[name]:
+            self.ids[name].text = text[: MAX_LENGTHS[name]]
         elif text != getattr(self, name):
             self.set(**{name: text})
 
@@ -173,7 +173,7 @@ class PlaceForm(Control, BoxLayout):
     def rest(self) -> None:
         """Let the dial go, and the keyboard."""
         self.dial.rest()
-        for name in LONGEST:
+        for name in MAX_LENGTHS:
             self.ids[name].focus = False
 
     def _mark(self, *_: object) -> None:

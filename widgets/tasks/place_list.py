@@ -28,9 +28,9 @@ from widgets.parts.rows import ListRow, group_label
 
 __all__ = ["PlaceList", "found", "grouped"]
 
-MOST = 60
+MAX_ROWS = 60
 """Rows shown at once; a search finds the others."""
-MOVED = 1.0
+MIN_MOVE = 1.0
 """Distances are told anew when the robot went farther [m]."""
 
 Builder.load_string("""
@@ -125,7 +125,7 @@ class PlaceList(Control, BoxLayout):
         self.robot = [msg.pose.pose.position.x, msg.pose.pose.position.y]
         if not math.isfinite(self._measured[0]):
             self.refresh()
-        elif math.dist(self._measured, self.robot) > MOVED:
+        elif math.dist(self._measured, self.robot) > MIN_MOVE:
             self._measured = list(self.robot)
             for place in self.places:
                 if place.id in self._rows:
@@ -134,7 +134,7 @@ class PlaceList(Control, BoxLayout):
     def refresh(self, *_: object) -> None:
         """Make the rows anew, in the order of where the robot is now."""
         self._measured, self._rows = list(self.robot), {}
-        column, left = self.ids.column, MOST
+        column, left = self.ids.column, MAX_ROWS
         column.clear_widgets()
         hits = found(self.places, self.search)
         for title, places in grouped(hits, self.robot):

@@ -24,7 +24,7 @@ from widgets.status.event_row import when_words
 
 __all__ = ["RunList", "run_words"]
 
-MOST = 300
+MAX_RUNS = 300
 """Runs kept here; the oldest are let go [rows]."""
 
 
@@ -59,7 +59,7 @@ class RunList(Listing):
     def show(self, msg: GetHistoryResponse) -> None:
         """Take over an answer: what is known already is brought up to date, the rest is added in its order."""
         known = {run.id: run for run in self.runs} | {run.id: run for run in msg.runs}
-        self.runs = sorted(known.values(), key=lambda run: -run.id)[:MOST]
+        self.runs = sorted(known.values(), key=lambda run: -run.id)[:MAX_RUNS]
 
     def clear(self) -> None:
         """Forget all."""

@@ -45,7 +45,7 @@ OUTCOMES = {
 }
 """What became of a command, to its sentence, icon and role."""
 
-STAYS = {"accepted": 6.0, "refused": 15.0, "no_reply": 15.0}
+OUTCOME_TIMEOUTS = {"accepted": 6.0, "refused": 15.0, "no_reply": 15.0}
 """How long an outcome is told before the robot's own sentence comes back [s]."""
 
 LEADS_TO = {"start": "RUNNING", "resume": "RUNNING", "home": "RUNNING", "pause": "PAUSED", "stop": "CANCELED"}
@@ -235,8 +235,8 @@ class TaskButtons(Control, Column):
         """
         self.command, self.why, self.took, self.what, self.outcome = name, why, took, what, outcome
         self._told.cancel()
-        if outcome in STAYS:
-            self._told = Clock.schedule_once(lambda _: self._forget(), STAYS[outcome])
+        if outcome in OUTCOME_TIMEOUTS:
+            self._told = Clock.schedule_once(lambda _: self._forget(), OUTCOME_TIMEOUTS[outcome])
 
     def _forget(self) -> None:
         self._told.cancel()

@@ -24,9 +24,9 @@ from widgets.parts.column import Grid
 
 __all__ = ["TaskChooser"]
 
-MOST = 4
+MAX_COLUMNS = 4
 """Tiles side by side where there is no room for all."""
-LEAST = 68.0
+MIN_TILE_WIDTH = 68.0
 """A tile needs so much for its word [dp]."""
 
 Builder.load_string("""
@@ -93,9 +93,9 @@ class TaskChooser(Control, Grid):
 
     def _across(self) -> int:
         count = max(1, len(self.tasks))
-        if not self.told and self.width >= count * dp(LEAST):
+        if not self.told and self.width >= count * dp(MIN_TILE_WIDTH):
             return count
-        return math.ceil(count / math.ceil(count / MOST))
+        return math.ceil(count / math.ceil(count / MAX_COLUMNS))
 
     across = AliasProperty(_across, bind=["width", "told", "tasks"], cache=True)
     """How many tiles stand side by side: all where there is room, else the same number in each row as far as it goes."""

@@ -19,7 +19,7 @@ from bridge.msgs.pilothouse_msgs import TaskProgress, TaskStatus
 from widgets import EventLog, MotionSelector, Readout, TaskButtons
 from widgets.parts.column import Column
 from widgets.parts.kit import Card
-from widgets.status.event_log import ago, look
+from widgets.status.event_log import ago, appearance
 from widgets.tasks.task_card import figures_words
 
 __all__ = ["MissionPanel"]
@@ -163,7 +163,7 @@ class LatestEvent(BoxLayout):
         event = log.events[0] if log.events else None
         self.opacity = 1 if event else 0
         if event:
-            self.icon, self.role = look(event)
+            self.icon, self.role = appearance(event)
             self.text, self.when = event.text, ago(log.now - event.stamp.seconds)
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from bridge.core.units import yaw_from_heading
 from bridge.msgs.pilothouse_msgs import Compass, Manoeuvre
-from widgets.controls.course_dial import HOLD, INNER, CourseDial
+from widgets.controls.course_dial import HOLD_DURATION, INNER, CourseDial
 from widgets.controls.course_picture import KNOB
 from widgets.core.geometry import dial_point
 
@@ -30,7 +30,7 @@ def set_course(stage, dial, heading):
     """Rest on the rim until the dial takes the finger, and lift it."""
     finger = stage.touch(*at(dial, heading))
     finger.touch_down()
-    stage.run_for(HOLD + 0.1)
+    stage.run_for(HOLD_DURATION + 0.1)
     finger.touch_up()
 
 
@@ -45,13 +45,13 @@ def test_a_tap_or_a_brush_sets_nothing(stage, dial, followed, way):
         dial.show(course(followed))
     finger = stage.touch(*at(dial, 10))
     finger.touch_down()
-    stage.run_for(HOLD / 3)
+    stage.run_for(HOLD_DURATION / 3)
     assert dial.course[1] == "keep holding"
     for heading in way:
         finger.touch_move(*at(dial, heading))
-        stage.run_for(HOLD / 4)
+        stage.run_for(HOLD_DURATION / 4)
     finger.touch_up()
-    stage.run_for(2 * HOLD)
+    stage.run_for(2 * HOLD_DURATION)
     assert (dial.courses, dial.dragged, dial.resting) == ([], False, False)
     assert math.isnan(dial.asked)
 
@@ -59,7 +59,7 @@ def test_a_tap_or_a_brush_sets_nothing(stage, dial, followed, way):
 def test_a_finger_that_rests_sets_a_course_when_it_is_lifted_and_not_before(stage, dial):
     finger = stage.touch(*at(dial, 10))
     finger.touch_down()
-    stage.run_for(HOLD + 0.1)
+    stage.run_for(HOLD_DURATION + 0.1)
     assert dial.course == (10.0, "let go to set")
     finger.touch_move(*at(dial, 88))
     assert (dial.aim, dial.courses) == (90.0, [])
@@ -98,7 +98,7 @@ def test_a_finger_in_the_middle_does_not_take_hold(stage, dial):
 def test_a_drag_that_is_broken_off_sets_no_course(stage, dial, how):
     finger = stage.touch(*at(dial, 90))
     finger.touch_down()
-    stage.run_for(HOLD + 0.1)
+    stage.run_for(HOLD_DURATION + 0.1)
     assert dial.dragged
     if how == "rest":
         dial.rest()

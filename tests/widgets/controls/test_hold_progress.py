@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 from kivy.uix.widget import Widget
 
-from widgets.controls.hold_progress import FRAME, HOLD, Hold
+from widgets.controls.hold_progress import HOLD_DURATION, MAX_FRAME, Hold
 
 
 class Held(Hold, Widget):
@@ -20,18 +20,18 @@ def held(stage):
 
 def test_a_hold_that_ends_early_does_nothing_and_counts_for_nothing(stage, held):
     held.hold()
-    stage.run_for(0.9 * HOLD)
+    stage.run_for(0.9 * HOLD_DURATION)
     held.rest()
     assert held.held == 0
     held.hold()
-    stage.run_for(0.9 * HOLD)
+    stage.run_for(0.9 * HOLD_DURATION)
     assert not held.heard
     assert held.held == pytest.approx(0.9, abs=0.03)
 
 
 def test_it_is_told_once_and_begins_anew(stage, held):
     held.hold()
-    stage.run_for(1.5 * HOLD)
+    stage.run_for(1.5 * HOLD_DURATION)
     assert held.heard == ["held"]
     assert held.held == 0
 
@@ -40,7 +40,7 @@ def test_a_frame_that_took_long_does_not_count_for_a_finger_that_may_have_left(s
     held.hold()
     stage.frames(3, period=2.0)
     assert not held.heard
-    assert held.held <= 3 * FRAME / HOLD
+    assert held.held <= 3 * MAX_FRAME / HOLD_DURATION
 
 
 def test_it_may_take_longer(stage, held):

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from widgets.controls.slide_confirm import BACK, OUTCOMES, TOLD, SlideToConfirm
+from widgets.controls.slide_confirm import OUTCOME_TIMEOUT, OUTCOMES, RETURN_DURATION, SlideToConfirm
 from widgets.core.theme import theme
 
 
@@ -35,7 +35,7 @@ def test_let_go_early_it_slides_back_and_nothing_is_done(stage, slide):
     finger.touch_move(250, 30)
     assert 0.5 < slide.share < 0.98
     finger.touch_up()
-    stage.run_for(2 * BACK)
+    stage.run_for(2 * RETURN_DURATION)
     assert (slide.times, slide.share) == ([], 0.0)
 
 
@@ -60,11 +60,11 @@ def test_caught_while_it_slides_back_it_goes_on_from_there(stage, slide):
     finger = take(stage, slide)
     finger.touch_move(250, 30)
     finger.touch_up()
-    stage.run_for(BACK / 3)
+    stage.run_for(RETURN_DURATION / 3)
     caught = slide.share
     assert caught > 0.05
     take(stage, slide)
-    stage.run_for(BACK)
+    stage.run_for(RETURN_DURATION)
     assert slide.share == pytest.approx(caught, abs=0.02)
 
 
@@ -75,7 +75,7 @@ def test_disabled_or_moved_under_the_finger_it_slides_back(stage, slide, change)
     for name, value in change.items():
         setattr(slide, name, value)
     finger.touch_move(325, 30)
-    stage.run_for(2 * BACK)
+    stage.run_for(2 * RETURN_DURATION)
     assert (slide.times, slide.share) == ([], 0.0)
 
 
@@ -84,7 +84,7 @@ def test_confirmed_and_let_go_it_can_be_slid_again(stage, slide):
         finger = take(stage, slide)
         finger.touch_move(330, 30)
         finger.touch_up()
-        stage.run_for(2 * BACK)
+        stage.run_for(2 * RETURN_DURATION)
     assert slide.times == [1, 1]
 
 
@@ -100,7 +100,7 @@ def test_an_outcome_is_told_for_a_while(stage, slide, outcome):
     slide.answer(outcome)
     stage.frames(2)
     assert f"take off: {OUTCOMES[outcome][0]}" in slide.texts
-    stage.run_for(TOLD + 0.1)
+    stage.run_for(OUTCOME_TIMEOUT + 0.1)
     assert slide.outcome == "ready"
     assert "slide to take off" in slide.texts
 
@@ -108,7 +108,7 @@ def test_an_outcome_is_told_for_a_while(stage, slide, outcome):
 def test_what_was_sent_is_told_until_there_is_an_answer(stage, slide):
     slide.answer("refused")
     slide.answer("sent")
-    stage.run_for(TOLD + 0.1)
+    stage.run_for(OUTCOME_TIMEOUT + 0.1)
     assert slide.outcome == "sent"
 
 

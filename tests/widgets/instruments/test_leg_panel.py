@@ -8,7 +8,7 @@ from bridge.msgs.arrays import Float64Array
 from bridge.msgs.pilothouse_msgs import MotorArray
 from bridge.msgs.sensor_msgs import JointState
 from widgets.core.shapes import Shapes
-from widgets.instruments.leg_panel import MOST, LegPanel, leg_of
+from widgets.instruments.leg_panel import MAX_LEGS, LegPanel, leg_of
 from widgets.parts.sensor_card import wide
 
 
@@ -102,7 +102,7 @@ def test_noise_below_what_is_read_is_not_drawn_anew(panel):
 
 def test_no_more_legs_are_drawn_than_have_room(panel):
     panel.angles = {f"L{number}": 0.0 for number in range(40)}
-    assert len(panel.legs) == MOST
+    assert len(panel.legs) == MAX_LEGS
 
 
 @pytest.mark.parametrize("size", [(176, 176), (190, 132), (150, 300), (420, 110), (480, 330)])

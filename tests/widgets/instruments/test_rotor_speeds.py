@@ -6,7 +6,7 @@ import pytest
 
 from bridge.msgs.arrays import Float64Array
 from bridge.msgs.pilothouse_msgs import MotorArray
-from widgets.instruments.rotor_speeds import MOST, RotorSpeeds
+from widgets.instruments.rotor_speeds import MAX_ROTORS, RotorSpeeds
 
 NAMES = ["front_left", "front_right", "rear_right", "rear_left"]
 
@@ -76,7 +76,7 @@ def test_what_is_not_measured_is_a_dash_and_is_not_drawn_anew(stage, view):
 
 def test_motors_without_end_do_not_fill_the_card(stage, view):
     turn(view, stage, *[300.0] * 40, names=[f"motor{number}" for number in range(40)])
-    assert len(view.rotors) == MOST
+    assert len(view.rotors) == MAX_ROTORS
 
 
 @pytest.mark.parametrize(

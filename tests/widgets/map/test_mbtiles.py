@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import pytest
 from PIL import Image
 
-from widgets.map.mbtiles import A_FRAME, MBTiles
+from widgets.map.mbtiles import MAX_TILES_PER_FRAME, MBTiles
 
 SHIPPED = Path(__file__).parents[3] / "widgets/data/parking_lot.mbtiles"
 PLAIN = {"format": "png", "minzoom": "3", "maxzoom": "5"}
@@ -95,7 +95,7 @@ def test_many_tiles_are_read_over_several_frames(tmp_path, stage):
     for each in asked:
         source.fill_tile(each)
     stage.frames(1)
-    assert sum(each.texture is not None for each in asked) == A_FRAME
+    assert sum(each.texture is not None for each in asked) == MAX_TILES_PER_FRAME
     stage.frames(1)
     assert all(each.texture is not None for each in asked)
 

@@ -7,7 +7,7 @@ import pytest
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
 from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray
 from bridge.msgs.std_msgs import Header, Time
-from widgets.sensors.intruder_badge import FRESH, IntruderBadge
+from widgets.sensors.intruder_badge import FRESH_DURATION, IntruderBadge
 
 
 @pytest.fixture
@@ -69,9 +69,9 @@ def test_a_robot_that_does_not_know_where_it_is_tells_the_count_alone(stage, bad
 
 def test_news_grows_old(badge):
     badge.show(found((4.0, 0.0, 100.0)))
-    badge.show_pose(pose(100.0 + FRESH - 1))
+    badge.show_pose(pose(100.0 + FRESH_DURATION - 1))
     assert badge.fresh
-    badge.show_pose(pose(100.0 + FRESH + 1))
+    badge.show_pose(pose(100.0 + FRESH_DURATION + 1))
     assert not badge.fresh
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.pilothouse_msgs import Bumper, SonarRing
-from widgets.sensors.sonar_ring import MOST, SonarRingView
+from widgets.sensors.sonar_ring import MAX_SONARS, SonarRingView
 
 BEARINGS = [0.0, math.pi / 2, math.pi, -math.pi / 2]
 
@@ -101,11 +101,11 @@ def test_the_same_ring_again_is_not_drawn_anew(view):
     assert len(drawn) == 2
 
 
-@pytest.mark.parametrize("count", [0, 1, 3, MOST + 40])
+@pytest.mark.parametrize("count", [0, 1, 3, MAX_SONARS + 40])
 def test_a_ring_of_any_number_of_sonars_is_drawn(stage, view, count):
     view.show(ring(*[1.0] * count, bearings=[0.1 * i for i in range(count + 2)]))
     stage.frames(2)
-    assert len(view.told[0]) == min(count, MOST)
+    assert len(view.told[0]) == min(count, MAX_SONARS)
 
 
 def test_a_sonar_without_a_bearing_is_left_out(stage, view):

@@ -6,7 +6,7 @@ import pytest
 
 from bridge.msgs.sensor_msgs import Range
 from bridge.msgs.std_msgs import Header, Time
-from widgets.sensors.ultrasound import MOST, SILENT, UltrasoundView
+from widgets.sensors.ultrasound import ECHO_TIMEOUT, MAX_RANGERS, UltrasoundView
 
 
 @pytest.fixture
@@ -43,7 +43,7 @@ def test_what_is_near_has_a_warning_colour(view, away, role):
 
 def test_one_that_fell_silent_shows_no_distance_while_the_others_do(stage, view):
     view.show(echo("left", 0.3))
-    view.show(echo("front", 1.0, 10.0 + SILENT + 0.1))
+    view.show(echo("front", 1.0, 10.0 + ECHO_TIMEOUT + 0.1))
     stage.frames(2)
     assert view.texts == ["ULTRASOUND", "–", "1.0 m"]
     assert view.nearest == "ultrasound_front"
@@ -87,6 +87,6 @@ def test_all_clear_is_said_in_a_word(stage):
 
 
 def test_names_without_end_do_not_fill_the_memory(view):
-    for number in range(MOST + 20):
+    for number in range(MAX_RANGERS + 20):
         view.show(echo(f"{number}", 1.0))
-    assert len(view.echoes) == MOST
+    assert len(view.echoes) == MAX_RANGERS

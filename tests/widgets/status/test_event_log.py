@@ -9,7 +9,7 @@ from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
 from widgets.core.icons import ICONS
 from widgets.core.theme import theme
-from widgets.status.event_log import MOST, EventLog, ago, look
+from widgets.status.event_log import MAX_EVENTS, EventLog, ago, appearance
 from widgets.status.event_row import KINDS, WORDS, is_open, note, row_height
 
 
@@ -62,9 +62,9 @@ def test_the_same_event_is_shown_once(log):
 
 
 def test_it_keeps_the_newest_200(log):
-    for number in range(MOST + 20):
+    for number in range(MAX_EVENTS + 20):
         log.show(event(number, number))
-    assert log.count == MOST == len(texts(log))
+    assert log.count == MAX_EVENTS == len(texts(log))
     assert texts(log)[0] == "event 219"
     assert log.events[-1].id == 20
 
@@ -109,7 +109,7 @@ def test_ages_are_short(seconds, text):
     ],
 )
 def test_what_happened_to_a_task_has_an_icon_of_its_own(kind, text, name):
-    assert look(event(1, kind=kind, text=text))[0] == name
+    assert appearance(event(1, kind=kind, text=text))[0] == name
 
 
 @pytest.mark.parametrize("state", ["stale", "alarm"])
@@ -125,10 +125,10 @@ def test_signs_of_the_state_hide_no_row(stage, log, state):
 
 
 def test_a_grave_level_colours_any_kind():
-    assert look(event(1, kind="waypoint")) == ("flag", "plan")
-    assert look(event(1, kind="waypoint", level="alarm")) == ("flag", "danger")
-    assert look(event(1, kind="command", level="warn")) == ("block", "warn")
-    assert look(event(1, kind="no such kind")) == ("info", "muted")
+    assert appearance(event(1, kind="waypoint")) == ("flag", "plan")
+    assert appearance(event(1, kind="waypoint", level="alarm")) == ("flag", "danger")
+    assert appearance(event(1, kind="command", level="warn")) == ("block", "warn")
+    assert appearance(event(1, kind="no such kind")) == ("info", "muted")
 
 
 def test_every_kind_has_an_icon_that_the_font_has():

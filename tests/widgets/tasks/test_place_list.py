@@ -5,7 +5,7 @@ import pytest
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
 from bridge.msgs.pilothouse_msgs import Place, PlaceArray
 from widgets.parts.rows import ListRow
-from widgets.tasks.place_list import MOST, SOME, PlaceList, found, grouped
+from widgets.tasks.place_list import MAX_ROWS, SOME, PlaceList, found, grouped
 
 
 def at(x, y):
@@ -80,10 +80,10 @@ def test_what_is_not_found_is_said(stage, places):
 
 def test_a_great_many_are_cut_and_the_rest_is_counted(stage, places):
     places.show(
-        PlaceArray(places=[Place(id=n, name=f"Office {n}", kind="office") for n in range(1, MOST + 24)])
+        PlaceArray(places=[Place(id=n, name=f"Office {n}", kind="office") for n in range(1, MAX_ROWS + 24)])
     )
     stage.frames(3)
-    assert len(names(places)) == MOST
+    assert len(names(places)) == MAX_ROWS
     assert any(getattr(part, "text", "") == "23 more: search for them." for part in places.walk())
 
 

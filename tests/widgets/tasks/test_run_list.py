@@ -6,7 +6,7 @@ from bridge.msgs.pilothouse_msgs import GetHistoryResponse, TaskOrder, TaskRun
 from bridge.msgs.std_msgs import Time
 from widgets.parts.buttons import QuietButton
 from widgets.parts.rows import ListRow
-from widgets.tasks.run_list import MOST, NOON, SOME, RunList, run_words
+from widgets.tasks.run_list import MAX_RUNS, NOON, SOME, RunList, run_words
 
 
 @pytest.fixture
@@ -64,9 +64,11 @@ def test_older_ones_are_asked_for_by_number(stage, history):
 
 
 def test_it_does_not_grow_for_ever(history):
-    history.show(GetHistoryResponse(runs=[TaskRun(n, TaskOrder(task="hold")) for n in range(1, MOST + 50)]))
-    assert len(history.runs) == MOST
-    assert history.runs[0].id == MOST + 49
+    history.show(
+        GetHistoryResponse(runs=[TaskRun(n, TaskOrder(task="hold")) for n in range(1, MAX_RUNS + 50)])
+    )
+    assert len(history.runs) == MAX_RUNS
+    assert history.runs[0].id == MAX_RUNS + 49
 
 
 def test_a_run_that_never_began_has_no_length():

@@ -15,9 +15,9 @@ from widgets.core.theme import theme
 from widgets.parts.buttons import QuietButton
 from widgets.parts.sensor_card import Gauge, wide
 
-__all__ = ["CHOICE", "ArmKeys", "PoseKey", "said"]
+__all__ = ["CHOICE_TIMEOUT", "ArmKeys", "PoseKey", "pose_words"]
 
-CHOICE = 8.0
+CHOICE_TIMEOUT = 8.0
 """How long the poses stay open without a finger [s]."""
 WIDE = 1.25
 """From this share of its height on the buttons stand beside the picture."""
@@ -60,7 +60,7 @@ class ArmKeys(Grip, Gauge):
 
     def __init__(self, **kwargs: Any) -> None:
         self._keys: list[PoseKey] = []
-        self._close = Clock.create_trigger(lambda _: self.rest(), CHOICE)
+        self._close = Clock.create_trigger(lambda _: self.rest(), CHOICE_TIMEOUT)
         self.arrange = Clock.create_trigger(self._arrange, -1)
         super().__init__(**kwargs)
         self.chooser = PoseKey(text="Poses", icon="precision_manufacturing", size_hint=(None, None))
@@ -186,7 +186,7 @@ class ArmKeys(Grip, Gauge):
             key.bind(on_release=self._pressed)
             self._keys.append(key)
         key, here = self._keys[number], bool(name) and name == self.pose
-        key.name, key.text = name, said(name) if name else "More"
+        key.name, key.text = name, pose_words(name) if name else "More"
         key.meaning = name or "more"
         key.icon = "check" if here else "" if name else "more_horiz"
         key.ink, key.border = ("accent", "accent") if here else ("text", "line")
@@ -213,6 +213,6 @@ class ArmKeys(Grip, Gauge):
         self.grip.disabled = math.isnan(self.gripper)
 
 
-def said(name: str) -> str:
+def pose_words(name: str) -> str:
     """A name as people write it."""
     return name.replace("_", " ").capitalize()

@@ -25,7 +25,7 @@ from kivy.uix.widget import Widget
 from bridge.msgs.arrays import Float64Array
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import ArmOrder, ArmState
-from widgets.controls.goals.arm_keys import ArmKeys, said
+from widgets.controls.goals.arm_keys import ArmKeys, pose_words
 from widgets.controls.goals.arm_picture import (
     Links,
     Side,
@@ -46,17 +46,17 @@ from widgets.parts.sensor_card import first_fitting, wide
 
 __all__ = ["ArmPanel", "samples"]
 
-TOLD = 3.0
+OUTCOME_TIMEOUT = 3.0
 """How long an outcome is told [s]."""
-SEEN = (-0.20, 0.42, -0.12, 0.44)
+EXTENT = (-0.20, 0.42, -0.12, 0.44)
 """What the picture shows: behind and ahead of, below and above the foot [m]."""
-STILL = 0.02
+MOVING_THRESHOLD = 0.02
 """Joints nearer than this to where they go are there [rad]."""
-MOST = 32
+MAX_POSES = 32
 """Poses that are taken from a message."""
-LEAST = 6
+MIN_DRAG = 6
 """A finger that went no further meant nothing [dp]."""
-THERE = 0.015
+ARRIVAL_TOLERANCE = 0.015
 """A tip nearer than this to where it was sent is there [m]."""
 
 
@@ -96,7 +96,7 @@ class ArmPanel(ArmKeys):
         self._start = (0.0, 0.0)
         self._joints: list[float] = []
         """Where they go, or are while that is not known, unrounded [rad]."""
-        self._forget = Clock.create_trigger(lambda _: self.answer("ready"), TOLD)
+        self._forget = Clock.create_trigger(lambda _: self.answer("ready"), OUTCOME_TIMEOUT)
         super().__init__(**{"title": "Arm", **kwargs})
 
     def show(self, msg: ArmState) -> None:
@@ -105,7 +105,7 @@ class ArmPanel(ArmKeys):
         self.gripper = round(msg.gripper, 3) if math.isfinite(msg.gripper) else math.nan
         tip = [round(value, 3) for value in (msg.tip.x, msg.tip.y, msg.tip.z)]
         self.tip = tip if all(map(math.isfinite, tip)) else []
-        self.poses, self.pose, self.touching = [*msg.poses[:MOST]], msg.pose, msg.touching
+        self.poses, self.pose, self.touching = [*msg.poses[:MAX_POSES]], msg.pose, msg.touching
         self._joints = [*(msg.wanted if self.wanted else msg.angles)]
         if self.aim and not self.held and self._arrived():
             self.aim = []
@@ -115,14 +115,14 @@ class ArmPanel(ArmKeys):
         if len(self.angles) != 4:
             return False
         tip = side_points(tuple(self.angles), self.links)[-1]
-        near = math.hypot(tip[0] - self.aim[0], tip[1] - self.aim[1]) < THERE
+        near = math.hypot(tip[0] - self.aim[0], tip[1] - self.aim[1]) < ARRIVAL_TOLERANCE
         return near or (self.outcome == "ready" and not self.moving)
 
     @property
     def moving(self) -> bool:
         """It is on its way."""
         pairs = zip(self.angles, self.wanted, strict=False)
-        return any(abs(now - goal) > STILL for now, goal in pairs)
+        return any(abs(now - goal) > MOVING_THRESHOLD for now, goal in pairs)
 
     def press(self, pose: str) -> None:
         """Go to a pose as a finger would say it, and no longer to a point."""
@@ -169,7 +169,7 @@ class ArmPanel(ArmKeys):
         """Move what is dragged as far as the finger went, so that it is seen beside it."""
         if not self.held:
             self.held, self._start = self._handle(*touch.pos), touch.pos
-        if math.dist(touch.pos, self._start) < dp(LEAST) and not self.aim and math.isnan(self.bearing):
+        if math.dist(touch.pos, self._start) < dp(MIN_DRAG) and not self.aim and math.isnan(self.bearing):
             return
         if self.held == "tip":
             tip = self.tip_on_glass
@@ -217,11 +217,14 @@ class ArmPanel(ArmKeys):
         left, low, width, height = self.view
         roomy = height >= dp(118)
         foot = sp(18) if roomy else 0.0
-        scale = min(width / (SEEN[1] - SEEN[0]), (height - foot) / (SEEN[3] - SEEN[2]))
-        x = left + (width - (SEEN[1] - SEEN[0]) * scale) / 2 - SEEN[0] * scale
+        scale = min(
+            width / (EXTENT[1] - EXTENT[0]),
+            (height - foot) / (EXTENT[3] - EXTENT[2]),
+        )
+        x = left + (width - (EXTENT[1] - EXTENT[0]) * scale) / 2 - EXTENT[0] * scale
         if not roomy:
-            x = left + width - dp(6) - SEEN[1] * scale
-        y = low + foot - SEEN[2] * scale + max(0.0, height - foot - (SEEN[3] - SEEN[2]) * scale) / 2
+            x = left + width - dp(6) - EXTENT[1] * scale
+        y = low + foot - EXTENT[2] * scale + max(0.0, height - foot - (EXTENT[3] - EXTENT[2]) * scale) / 2
         return Side(x, y, scale, (left, low + foot, left + width, low + height))
 
     def _dial(self) -> tuple[float, float, float]:
@@ -299,7 +302,7 @@ class ArmPanel(ArmKeys):
             return ("touches something", "touches"), "warn"
         if self.moving:
             return ("moving",), "plan"
-        return (said(self.pose),) if self.pose else ("at rest",), "text"
+        return (pose_words(self.pose),) if self.pose else ("at rest",), "text"
 
 
 def _whole(values: Float64Array) -> list[float]:

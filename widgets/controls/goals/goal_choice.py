@@ -26,13 +26,13 @@ from widgets.controls.goals.goal_status import Errand
 from widgets.core.base import Control
 from widgets.core.geometry import Points
 
-__all__ = ["BUTTONS", "FARTHEST", "OUTCOMES", "STEP", "TURN", "UNDER_WAY", "GoalChoice"]
+__all__ = ["BUTTONS", "MAX_COORDINATE", "OUTCOMES", "STEP", "TURN", "UNDER_WAY", "GoalChoice"]
 
 STEP, TURN = 0.25, math.radians(15)
 """By which a press moves the goal [m] and turns it [rad]."""
-FARTHEST = 1000.0
+MAX_COORDINATE = 1000.0
 """From the map's origin, along x and y, that a goal may be [m]."""
-THERE = 0.3, math.radians(20)
+ARRIVAL_TOLERANCE = 0.3, math.radians(20)
 """A robot that is no farther from its goal has reached it [m], [rad]."""
 BUTTONS: dict[str, tuple[int, int, str, tuple[int, int, int]]] = {
     "turn left": (0, 0, "rotate_left", (0, 0, 1)),
@@ -159,7 +159,7 @@ class GoalChoice(Control):
             return False
         (x, y, yaw), (goal_x, goal_y, goal_yaw) = self.actual, self.wanted
         turn = abs(math.remainder(goal_yaw - yaw, math.tau))
-        return math.hypot(goal_x - x, goal_y - y) <= THERE[0] and turn <= THERE[1]
+        return math.hypot(goal_x - x, goal_y - y) <= ARRIVAL_TOLERANCE[0] and turn <= ARRIVAL_TOLERANCE[1]
 
     @property
     def says(self) -> tuple[str, str]:
@@ -201,7 +201,7 @@ class GoalChoice(Control):
         return [round(x / self.step) * self.step, round(y / self.step) * self.step, round(yaw / TURN) * TURN]
 
     def _want(self, place: list[float]) -> None:
-        x, y = (max(-FARTHEST, min(FARTHEST, value)) + 0.0 for value in place[:2])
+        x, y = (max(-MAX_COORDINATE, min(MAX_COORDINATE, value)) + 0.0 for value in place[:2])
         if self._errand.run:
             self._left = self._errand.run, list(self.wanted)
         self._errand.drop()

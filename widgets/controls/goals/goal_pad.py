@@ -39,9 +39,9 @@ __all__ = ["STEP", "TURN", "GoalPad", "samples"]
 
 REPEAT_AFTER, REPEAT_EVERY = 0.45, 0.12
 """A held button goes on moving the goal [s]."""
-CELL = 53
+MIN_CELL = 53
 """Least side of a button for which a picture or a table may take room from the buttons [dp]."""
-LEAST_WORDS = 46
+MIN_WORDS_HEIGHT = 46
 """Lower buttons have their icon only [sp]."""
 GAP = 3
 """Between the buttons [dp]."""
@@ -115,7 +115,7 @@ class GoalPad(GoalChoice, Grip, Gauge):
     def layout(self) -> tuple[Box, Box | None, Box | None]:
         """Of the pad, of the picture and of the figures; None for what has no room: the figures are in corners then."""
         # a whole target each where there is room; nine of them would fill half a phone, so on a small card less
-        edge, least, wanted = dp(5), 3 * dp(CELL) + 2 * dp(GAP), 3 * theme.target + 2 * dp(GAP)
+        edge, least, wanted = dp(5), 3 * dp(MIN_CELL) + 2 * dp(GAP), 3 * theme.target + 2 * dp(GAP)
         left, low = self.x + edge, self.y + edge
         width, height = self.width - 2 * edge, self.height - 2 * edge
         gap, table = dp(10), sp(62)
@@ -177,7 +177,7 @@ class GoalPad(GoalChoice, Grip, Gauge):
         if self.pressed == name:
             ground(shapes, box, tint(ink, 0.18), ink)
         words, sign = self.says if name == "go" else (AXES.get(name, ""), BUTTONS[name][2])
-        if height < sp(LEAST_WORDS):
+        if height < sp(MIN_WORDS_HEIGHT):
             words = ""
         shift = sp(9) if words else 0
         yield Word(icon(sign), x, y + shift, sp(24), ink, font=theme.icons)
@@ -201,7 +201,7 @@ class GoalPad(GoalChoice, Grip, Gauge):
             if column == 0:
                 fill = tint(theme.accent, 0.25) if self.pressed == "here" else theme.raised
                 ground(shapes, box, fill, theme.line)
-            if height < sp(LEAST_WORDS):
+            if height < sp(MIN_WORDS_HEIGHT):
                 sign, ink = icon("my_location") if column == 0 else "", theme.text
                 yield Word(sign, left + width / 2, low + height / 2, sp(24), ink, font=theme.icons)
                 continue

@@ -16,13 +16,13 @@ from kivy.properties import AliasProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import Twist
-from widgets.controls.sticks.stick import DEAD
+from widgets.controls.sticks.stick import DEAD_ZONE
 from widgets.controls.sticks.stick_caption import Captioned
 from widgets.core.canvas_ink import tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 
-__all__ = ["DEAD", "Joystick"]
+__all__ = ["DEAD_ZONE", "Joystick"]
 
 BELOW = 0.6
 """From the middle down to the caption, of the radius: on the inner ring, between the knob at rest and the arrow."""
@@ -89,7 +89,7 @@ class Joystick(Captioned):
     def shaped(self, forward: float, left: float) -> tuple[float, float]:
         """Nothing near the middle, never beyond the rim."""
         length = math.hypot(forward, left)
-        scale = 0.0 if length < DEAD else 1.0 / max(1.0, length)
+        scale = 0.0 if length < DEAD_ZONE else 1.0 / max(1.0, length)
         return forward * scale, left * scale
 
     def holds(self, x: float, y: float) -> bool:
@@ -104,7 +104,7 @@ class Joystick(Captioned):
         shapes.ring(x, y, radius - dp(0.75), dp(1.5), theme.line)
         shapes.ring(x, y, radius * 0.6, dp(1.5), theme.line, dashes=36)
         for index, share in enumerate((self.forward, self.left, -self.forward, -self.left)):
-            shapes.polygon(self._arrow(index, radius), theme.accent if share > DEAD else theme.muted)
+            shapes.polygon(self._arrow(index, radius), theme.accent if share > DEAD_ZONE else theme.muted)
         knob = self.knob_pos
         if pushed:
             shapes.line(np.array([self.center, knob]), dp(5), theme.accent)

@@ -15,7 +15,7 @@ from kivy.properties import NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
-from widgets.controls.sticks.stick import DEAD
+from widgets.controls.sticks.stick import DEAD_ZONE
 from widgets.controls.sticks.stick_caption import Captioned
 from widgets.core.canvas_ink import tint
 from widgets.core.shapes import Shapes
@@ -68,7 +68,7 @@ class LiftLever(Captioned):
 
     def shaped(self, forward: float, left: float) -> tuple[float, float]:
         """Nothing near the middle, never beyond its ends, and nothing aside."""
-        return (0.0 if abs(forward) < DEAD else max(-1.0, min(1.0, forward))), 0.0
+        return (0.0 if abs(forward) < DEAD_ZONE else max(-1.0, min(1.0, forward))), 0.0
 
     def holds(self, x: float, y: float) -> bool:
         """Anywhere on it."""
@@ -87,7 +87,7 @@ class LiftLever(Captioned):
         for sign, share in ((1.0, self.forward), (-1.0, -self.forward)):
             tip, size = y + sign * (self.height / 2 - dp(8)), radius * 0.26
             corners = [(x, tip), (x - size, tip - sign * size * 1.3), (x + size, tip - sign * size * 1.3)]
-            shapes.polygon(corners, theme.accent if share > DEAD else theme.muted)
+            shapes.polygon(corners, theme.accent if share > DEAD_ZONE else theme.muted)
         knob = self.knob_pos
         if self.forward:
             shapes.line(np.array([self.center, knob]), dp(5), theme.accent)

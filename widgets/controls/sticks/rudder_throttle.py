@@ -17,7 +17,7 @@ from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RudderState
-from widgets.controls.sticks.stick import DEAD, Stick
+from widgets.controls.sticks.stick import DEAD_ZONE, Stick
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import HULL, Points, rounded
 from widgets.core.shapes import Shapes
@@ -234,7 +234,7 @@ class RudderThrottle(Stick, Gauge):
 
 def _eased(share: float) -> float:
     """Nothing near the middle, never more than 1, and no step between."""
-    pushed = (min(abs(share), 1.0) - DEAD) / (1.0 - DEAD)
+    pushed = (min(abs(share), 1.0) - DEAD_ZONE) / (1.0 - DEAD_ZONE)
     return math.copysign(max(pushed, 0.0), share)
 
 

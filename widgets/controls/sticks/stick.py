@@ -21,11 +21,11 @@ from widgets.core.canvas_ink import Drawing, Ink
 from widgets.core.icons import icon
 from widgets.core.theme import theme
 
-__all__ = ["DEAD", "SLIGHT", "Stick"]
+__all__ = ["DEAD_ZONE", "MIN_PUSH", "Stick"]
 
-DEAD = 0.07
+DEAD_ZONE = 0.07
 """Of the way to the rim, round the middle: a resting thumb commands nothing."""
-SLIGHT = 1e-6
+MIN_PUSH = 1e-6
 """A share of the way that is only an error of rounding."""
 
 GAMEPAD = {
@@ -156,7 +156,7 @@ class Stick(Grip, Drawing):
 
     def _push(self, forward: float, left: float) -> None:
         shaped = self.shaped(forward, left)
-        forward, left = (0.0 if abs(share) < SLIGHT else share for share in shaped)
+        forward, left = (0.0 if abs(share) < MIN_PUSH else share for share in shaped)
         if (forward, left) != (self.forward, self.left):
             self.forward, self.left = forward, left
             self.dispatch("on_command", self.order)

@@ -13,9 +13,9 @@ from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from widgets.controls.sticks.stick import Stick
 
-__all__ = ["NEUTRAL", "TiltStick"]
+__all__ = ["NEUTRAL_ZONE", "TiltStick"]
 
-NEUTRAL = 0.1
+NEUTRAL_ZONE = 0.1
 """Of the way to the rim, round the middle: a hand that is not quite still commands nothing."""
 
 
@@ -40,7 +40,7 @@ class TiltStick(Stick):
     """A key or a switch holds it as a finger would."""
     held = BooleanProperty(False)
     """A finger, a key or a switch holds it."""
-    dead = NumericProperty(NEUTRAL)
+    dead = NumericProperty(NEUTRAL_ZONE)
     """Within that share of the way to the rim nothing is commanded; drawn as the green ring."""
 
     def _roll(self) -> float:

@@ -20,11 +20,11 @@ from widgets.core.surfaces import Outlined
 
 __all__ = ["StopAll"]
 
-LEAST = 14.0
+MIN_FONT_SIZE = 14.0
 """Smallest type that anything is written in [sp]; a note that would need a smaller one is left out."""
-LINE = 1.25
+LINE_HEIGHT = 1.25
 """Height of a line of type in its size."""
-TIGHT = 1.5
+MIN_ASPECT = 1.5
 """Narrower than so many heights its word goes on two lines."""
 
 Builder.load_string("""
@@ -97,7 +97,7 @@ class StopAll(Outlined, Control, AnchorLayout):
     """Role of the word."""
 
     def _tight(self) -> bool:
-        return self.width < self.height * TIGHT
+        return self.width < self.height * MIN_ASPECT
 
     tight = AliasProperty(_tight, bind=["size"], cache=True)
 
@@ -110,9 +110,9 @@ class StopAll(Outlined, Control, AnchorLayout):
 
     def _note(self) -> str:
         note = "STOPPED" if self.active else f"{self.robots} robot{'' if self.robots == 1 else 's'}"
-        across = fitting_size([note], sp(LEAST), self.width - dp(8)) >= sp(LEAST)
+        across = fitting_size([note], sp(MIN_FONT_SIZE), self.width - dp(8)) >= sp(MIN_FONT_SIZE)
         lines = 2 if self.tight and not self.active else 1
-        below = self.height - lines * self.word_size * LINE >= sp(LEAST) * LINE
+        below = self.height - lines * self.word_size * LINE_HEIGHT >= sp(MIN_FONT_SIZE) * LINE_HEIGHT
         return note if across and below else ""
 
     note = AliasProperty(_note, bind=["active", "robots", "size", "word_size"], cache=True)
@@ -120,7 +120,7 @@ class StopAll(Outlined, Control, AnchorLayout):
 
     def _word_size(self) -> float:
         lines = 2 if self.tight and not self.active else 1
-        most = max(min(self.height * (0.36 if lines == 1 else 0.24), sp(26)), sp(LEAST))
+        most = max(min(self.height * (0.36 if lines == 1 else 0.24), sp(26)), sp(MIN_FONT_SIZE))
         return fitting_size(self.word.split("\n"), most, self.width - dp(8), bold=True)
 
     word_size = AliasProperty(_word_size, bind=["size", "word", "tight", "active"], cache=True)

@@ -15,26 +15,26 @@ from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, Opt
 from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.widget import Widget
 
-from widgets.controls.hold_progress import HOLD, Hold
+from widgets.controls.hold_progress import HOLD_DURATION, Hold
 from widgets.core.base import Control
 from widgets.core.surfaces import Outlined
 from widgets.parts.labels import spaced
 
 __all__ = ["PHASES", "StopButton"]
 
-LONG_HOLD = 3.0
+LONG_HOLD_DURATION = 3.0
 """How long the finger must stay to release a STOP held here alone that is not confirmed [s]: who presses it again and
 stays on it wants it to stop."""
 
-ROOMY = 130
+MIN_STACKED_HEIGHT = 130
 """Lower than this it has the icon beside the word while it says a sentence [dp]."""
 NO_BREAK = "\u00a0"
 """A space at which no line ends."""
-LOW = 72
+MIN_WORD_HEIGHT = 72
 """Lower than this its word is smaller, so that two lines fit below it [dp]."""
-WORDY = 110
+MIN_AGE_SIDE = 110
 """Smaller than a square with this side it says only what can be done, and not how long ago something was [dp]."""
-LEAST = 14.0
+MIN_FONT_SIZE = 14.0
 """Smallest type that anything is written in [sp]."""
 
 PHASES = {
@@ -134,7 +134,7 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
         sentence = PHASES[self.phase][1]
         if self.local:
             sentence = LOCAL.get(self.phase, sentence)
-        if self.width * self.height < dp(WORDY) * dp(WORDY):
+        if self.width * self.height < dp(MIN_AGE_SIDE) * dp(MIN_AGE_SIDE):
             return sentence.rpartition(" · ")[2]
         if self.phase == "lost" and self.ago:
             return f"{sentence} " + f"{self.ago} ago".replace(" ", NO_BREAK)
@@ -159,7 +159,7 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
     """Role of the words."""
 
     def _upright(self) -> bool:
-        low = bool(self.sentence) and self.height < dp(ROOMY)
+        low = bool(self.sentence) and self.height < dp(MIN_STACKED_HEIGHT)
         return self.width < self.height * 2 and not low
 
     upright = AliasProperty(_upright, bind=["size", "sentence"], cache=True)
@@ -168,14 +168,14 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
     def _word_size(self) -> float:
         width, height = self.size
         across = width / (5.2 if self.upright else 6.4) * (0.78 if self.phase == "stopped" else 1.0)
-        low = bool(self.sentence) and height < dp(LOW)
-        return max(min(across, height * (0.23 if self.upright else 0.27 if low else 0.36)), sp(LEAST))
+        low = bool(self.sentence) and height < dp(MIN_WORD_HEIGHT)
+        return max(min(across, height * (0.23 if self.upright else 0.27 if low else 0.36)), sp(MIN_FONT_SIZE))
 
     word_size = AliasProperty(_word_size, bind=["size", "phase", "upright", "sentence"], cache=True)
     """Height of the type [px]."""
 
     def _sentence_size(self) -> float:
-        return max(min(self.word_size * 0.55, self.width / 16), sp(LEAST))
+        return max(min(self.word_size * 0.55, self.width / 16), sp(MIN_FONT_SIZE))
 
     sentence_size = AliasProperty(_sentence_size, bind=["word_size", "size", "upright"], cache=True)
     """Height of the sentence's type [px]; it goes on two lines where it is too long."""
@@ -199,7 +199,7 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
         self.pressed += 1
         unanswered = self.local and self.phase in ("no_answer", "moves")
         if self.phase == "stopped" or unanswered:
-            self.hold(HOLD if self.phase == "stopped" else LONG_HOLD)
+            self.hold(HOLD_DURATION if self.phase == "stopped" else LONG_HOLD_DURATION)
         if self.phase != "stopped":
             self.dispatch("on_command")
         return True

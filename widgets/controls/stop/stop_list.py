@@ -24,7 +24,7 @@ from widgets.parts.buttons import QuietButton
 
 __all__ = ["WORDS", "StopList", "StopRow"]
 
-SLIM = 320
+MIN_HEAD_WIDTH = 320
 """A narrower line has no cross [dp]."""
 
 WORDS = {
@@ -199,7 +199,7 @@ class StopList(Control, BoxLayout):
     """Something else needs the room: it can be folded and unfolded."""
 
     def _slim(self) -> bool:
-        return self.folded and self.width < dp(SLIM)
+        return self.folded and self.width < dp(MIN_HEAD_WIDTH)
 
     slim = AliasProperty(_slim, bind=["folded", "width"], cache=True)
     """There is room for one thing to press: it is unfolded before it is closed."""

@@ -10,7 +10,7 @@ from app.inputs.switch_access.window import finger
 from app.inputs.switch_access.window.finding import in_window
 from widgets.controls.crosshair import Crosshair
 from widgets.inputs.scan_pad import PadKey, ScanPad
-from widgets.map.map_gestures import HELD, MapGestures
+from widgets.map.map_gestures import HOLD_DURATION, MapGestures
 
 __all__ = ["Area"]
 
@@ -110,7 +110,7 @@ class Area:
         elif name == "touch":
             finger.tap(self._widget, self._place(self.cross.at))
         elif name == "hold":
-            self._lift = finger.hold(self._widget, HELD + LONGER, self._place(self.cross.at))
+            self._lift = finger.hold(self._widget, HOLD_DURATION + LONGER, self._place(self.cross.at))
         elif name == "carry":
             self._carry()
         elif name in ("zoom_in", "zoom_out"):

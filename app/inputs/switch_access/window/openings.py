@@ -16,8 +16,8 @@ from app.inputs.switch_access.window import finger
 from app.inputs.switch_access.window.area import Area
 from app.inputs.switch_access.window.finding import Box, in_window
 from app.inputs.switch_access.window.placing import beside
-from widgets.controls.hold_progress import HOLD
-from widgets.controls.stop.stop_button import LONG_HOLD
+from widgets.controls.hold_progress import HOLD_DURATION
+from widgets.controls.stop.stop_button import LONG_HOLD_DURATION
 from widgets.inputs.scan_keyboard import ScanKeyboard
 from widgets.inputs.scan_pad import PadKey, ScanPad
 
@@ -197,7 +197,9 @@ class Openings:
             finger.drag(widget, [(left + high / 2, middle), (left + wide + high, middle)])
             return
         latched = getattr(widget, "phase", "stopped") == "stopped"
-        self._lift = finger.hold(widget, (HOLD if latched else LONG_HOLD) * PATIENT, until="on_held_long")
+        self._lift = finger.hold(
+            widget, (HOLD_DURATION if latched else LONG_HOLD_DURATION) * PATIENT, until="on_held_long"
+        )
 
 
 def _held_words(widget: Any) -> str:

@@ -7,8 +7,8 @@ import pytest
 from bridge.msgs.arrays import Float64Array
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import ArmState
-from widgets.controls.goals.arm_keys import CHOICE
-from widgets.controls.goals.arm_panel import TOLD, ArmPanel
+from widgets.controls.goals.arm_keys import CHOICE_TIMEOUT
+from widgets.controls.goals.arm_panel import OUTCOME_TIMEOUT, ArmPanel
 from widgets.controls.goals.arm_picture import side_points
 from widgets.core.theme import theme
 
@@ -88,7 +88,7 @@ def test_where_it_is_small_one_button_opens_the_poses_over_the_picture(stage, sm
 
 def test_the_poses_close_by_themselves(stage, small):
     tap(stage, small, "Poses")
-    stage.run_for(CHOICE + 0.1)
+    stage.run_for(CHOICE_TIMEOUT + 0.1)
     assert texts(small) == {"Poses", "Close"}
     assert small.orders == []
 
@@ -140,7 +140,7 @@ def test_what_became_of_an_order_is_told_for_a_while(stage, panel):
     panel.answer("refused")
     stage.frames(2)
     assert panel.texts[1] == "refused"
-    stage.run_for(TOLD + 0.1)
+    stage.run_for(OUTCOME_TIMEOUT + 0.1)
     assert panel.texts[1] == "Home"
 
 
@@ -226,7 +226,7 @@ def test_where_it_does_not_reach_is_shown_as_long_as_the_refusal(stage, panel):
     panel.answer("refused")
     tell(panel, stage)
     assert panel.aim
-    stage.run_for(TOLD + 0.1)
+    stage.run_for(OUTCOME_TIMEOUT + 0.1)
     assert panel.aim == []
 
 

@@ -14,7 +14,7 @@ from bridge.msgs.geometry_msgs import (
 )
 from bridge.msgs.nav_msgs import Path
 from bridge.msgs.pilothouse_msgs import TaskStatus
-from widgets.controls.goals.goal_choice import BUTTONS, FARTHEST
+from widgets.controls.goals.goal_choice import BUTTONS, MAX_COORDINATE
 from widgets.controls.goals.goal_pad import GoalPad
 from widgets.core.theme import theme
 
@@ -303,9 +303,9 @@ def test_a_pose_that_is_no_number_is_not_known(stage, pad):
 
 
 def test_no_goal_is_farther_than_a_map_can_be(pad):
-    pad.show(pose(FARTHEST, 0.0))
+    pad.show(pose(MAX_COORDINATE, 0.0))
     pad.press("east")
-    assert pad.wanted[0] == FARTHEST
+    assert pad.wanted[0] == MAX_COORDINATE
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from widgets.controls.sticks.tilt_circle import TiltCircle
-from widgets.controls.sticks.tilt_stick import NEUTRAL
+from widgets.controls.sticks.tilt_stick import NEUTRAL_ZONE
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 
@@ -53,11 +53,11 @@ def test_let_go_it_commands_level_once(stage, circle):
 
 
 def test_inside_the_green_ring_it_is_level(stage, circle):
-    circle.tilt(0.0, NEUTRAL * LIMIT * 0.9)
+    circle.tilt(0.0, NEUTRAL_ZONE * LIMIT * 0.9)
     assert (circle.orders, circle.order.pitch) == ([], 0.0)
     assert circle.knob_pos[1] > circle.round[1]
-    circle.tilt(0.0, NEUTRAL * LIMIT * 1.1)
-    assert circle.orders == [("tilt", 0.0, pytest.approx(NEUTRAL * LIMIT * 1.1))]
+    circle.tilt(0.0, NEUTRAL_ZONE * LIMIT * 1.1)
+    assert circle.orders == [("tilt", 0.0, pytest.approx(NEUTRAL_ZONE * LIMIT * 1.1))]
 
 
 @given(st.floats(-9, 9), st.floats(-9, 9))
