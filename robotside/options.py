@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from robotside.core.config import NOTHING_SET, Config, load
+from robotside.core.config import DEFAULT_CONFIG, Config, load
 
 __all__ = ["MOST", "SIMULATED", "One", "UserMistake", "configs", "ports", "read", "robots", "state"]
 
@@ -176,7 +176,7 @@ def configs(options: argparse.Namespace, count: int) -> list[Config]:
         raise UserMistake(
             f"--config is said once, or {count} times for {count} robots, not {len(files)} times."
         )
-    read = [load(file) for file in files] or [NOTHING_SET]
+    read = [load(file) for file in files] or [DEFAULT_CONFIG]
     if len(read) == count:
         return read
     only = read[0]

@@ -10,7 +10,7 @@ import numpy as np
 
 from robotside.core.pose2 import Pose2
 from robotside.core.robot import Robot
-from robotside.mapping.obstacle_memory import FADES
+from robotside.mapping.obstacle_memory import LIFETIME
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.navigator import Goal, LegState, Navigator
 from sim.world.occupancy import occupancy
@@ -54,7 +54,7 @@ def longest(robot: Robot, grid: Grid, way: tuple[tuple[float, float], tuple[floa
     guide = Navigator(robot, grid, lambda _: None)
     pose = Pose2(x, y, math.atan2(to_y - y, to_x - x))
     ahead = np.column_stack([np.full(20, 2.0), np.linspace(-1.0, 1.0, 20)])
-    guide.obstacles.see(pose.apply(ahead), FADES)
+    guide.obstacles.see(pose.apply(ahead), LIFETIME)
     guide.head_for(Goal("The goal", to_x, to_y))
     gc.collect()
     gc.freeze()  # what else the bench holds is nothing that the robot's collector looks through

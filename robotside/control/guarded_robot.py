@@ -13,7 +13,7 @@ from bridge.msgs.geometry_msgs import Pose, Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.core.notice import Notice, Problem
 from robotside.core.robot import Equipped, Levelled, Manoeuvrable, Resettable, Robot, Stoppable
-from robotside.motion.manoeuvres import BY_ITSELF, Order
+from robotside.motion.manoeuvres import VERTICAL_KINDS, Order
 
 __all__ = ["Guarded", "port_info"]
 
@@ -88,7 +88,7 @@ class Guarded:
         if order.kind == "rest":
             self.stop()
             return
-        if order.kind in BY_ITSELF and order.kind not in self.info.manoeuvres:
+        if order.kind in VERTICAL_KINDS and order.kind not in self.info.manoeuvres:
             raise ValueError(f"{self.info.name} cannot {order.kind.replace('_', ' ')}.")
         self._take(order)
 

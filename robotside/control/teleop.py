@@ -20,9 +20,9 @@ from robotside.core.config import ControlSettings
 from robotside.core.notice import Notice, Problem
 from robotside.core.refusal import Refusal
 from robotside.kinds.registry import kind_of
-from robotside.limits.bumper_guard import AGAIN, kept_off
+from robotside.limits.bumper_guard import CONTACT_TIME, kept_off
 from robotside.limits.limits import turned_over
-from robotside.motion.manoeuvres import BY_STICK, Order, settled
+from robotside.motion.manoeuvres import STREAMED_KINDS, Order, settled
 from robotside.motion.measured import MeasuredState
 from robotside.records.events import Say
 
@@ -156,7 +156,7 @@ class Helm:
         if left is order:
             return order
         before, self._pushed = self._pushed, self._clock()
-        if self._pushed - before > AGAIN:
+        if self._pushed - before > CONTACT_TIME:
             said = "It touches something there: no stick pushes it on. Drive it away."
             self._say("control", Notice(Code.DRIVE_TOUCHES, said), "warn")
         return left
@@ -176,8 +176,8 @@ class Helm:
         if not isinstance(order, Manoeuvre):
             return ""
         info = self._robot.info
-        if order.kind not in BY_STICK:
-            said = f"it is {', '.join(BY_STICK[:-1])} or {BY_STICK[-1]}, not {order.kind!r}"
+        if order.kind not in STREAMED_KINDS:
+            said = f"it is {', '.join(STREAMED_KINDS[:-1])} or {STREAMED_KINDS[-1]}, not {order.kind!r}"
             dropped = f"A drive command was dropped: {said}."
             return Notice(Code.DRIVE_KIND_UNKNOWN, dropped, kind=order.kind)
         lacks = {"steer": not info.max_steering, "tilt": not info.max_tilt}

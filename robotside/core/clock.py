@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["MOST", "STEP", "RobotClock"]
+__all__ = ["MAX_TICK", "MAX_STEP", "RobotClock"]
 
-MOST = 0.25
+MAX_TICK = 0.25
 """The most real time that one tick makes good [s]: after a longer halt the robot's clock falls behind."""
 
 CATCH_UP = 0.1
 """Part by which ticks are longer until a clock that fell behind is right again."""
 
 
-STEP = 1 / 30
+MAX_STEP = 1 / 30
 """Longest step of the robot's clock [s]."""
 
 
@@ -29,7 +29,7 @@ class RobotClock:
 
     def tick(self, wall: float) -> float:
         """Advance to real time `wall` [s] as far as is allowed; returns the robot's clock [s]."""
-        passed = min(max(wall - self._last, 0.0), MOST)
+        passed = min(max(wall - self._last, 0.0), MAX_TICK)
         self._last = max(wall, self._last)
         due = self._start + (self._last - self._start) * self._speed
         self.now = min(due, self.now + passed * self._speed * (1.0 + CATCH_UP))
@@ -39,7 +39,7 @@ class RobotClock:
         """Like `tick`, in steps so short that a robot can be steered between them; none when no time passed."""
         before = self.now
         passed = self.tick(wall) - before
-        count = math.ceil(passed / STEP - 1e-9)
+        count = math.ceil(passed / MAX_STEP - 1e-9)
         return [before + passed * number / count for number in range(1, count + 1)]
 
     def real(self, stamp: float) -> float:

@@ -17,7 +17,7 @@ from bridge.core.toml_files import MAX_BYTES, FileFault, read
 __all__ = [
     "BadConfig",
     "Config",
-    "NOTHING_SET",
+    "DEFAULT_CONFIG",
     "ControlSettings",
     "DatabaseSettings",
     "LimitSettings",
@@ -28,11 +28,11 @@ __all__ = [
     "parse",
 ]
 
-MOST_CORNERS = 200
+MAX_CORNERS = 200
 """Of one area of the fence."""
-MOST_CORNERS_IN_ALL = 1000
+MAX_CORNERS_TOTAL = 1000
 """Of the whole fence, which is looked at with every drive command."""
-MOST_AREAS = 50
+MAX_AREAS = 50
 """Of each kind."""
 
 Ring: TypeAlias = tuple[tuple[float, float], ...]
@@ -124,7 +124,7 @@ class Config(_Section, frozen=True):
     database: DatabaseSettings = DatabaseSettings()
 
 
-NOTHING_SET = Config()
+DEFAULT_CONFIG = Config()
 """What there is without a file."""
 
 
@@ -166,22 +166,22 @@ def _limits_problem(limits: LimitSettings) -> str:
     if least is not None and most is not None and least >= most:
         return f"limits.min_depth must be less than max_depth, {most:g} m, not {least:g} m."
     for name, rings in (("keep_in", limits.keep_in), ("keep_out", limits.keep_out)):
-        if len(rings) > MOST_AREAS:
-            return f"limits.{name} has {len(rings)} areas; at most {MOST_AREAS} are allowed."
+        if len(rings) > MAX_AREAS:
+            return f"limits.{name} has {len(rings)} areas; at most {MAX_AREAS} are allowed."
         for number, ring in enumerate(rings, 1):
             problem = _ring_problem(ring)
             if problem:
                 return f"area {number} of limits.{name} {problem}."
     corners = sum(map(len, (*limits.keep_in, *limits.keep_out)))
-    if corners > MOST_CORNERS_IN_ALL:
-        return f"the fence has {corners} corners; at most {MOST_CORNERS_IN_ALL} are allowed."
+    if corners > MAX_CORNERS_TOTAL:
+        return f"the fence has {corners} corners; at most {MAX_CORNERS_TOTAL} are allowed."
     return ""
 
 
 def _ring_problem(ring: Ring) -> str:
     """Why `ring` encloses nothing that could be kept to, as the end of a sentence; empty when it does."""
-    if not 3 <= len(ring) <= MOST_CORNERS:
-        return f"must have 3 to {MOST_CORNERS} corners, not {len(ring)}"
+    if not 3 <= len(ring) <= MAX_CORNERS:
+        return f"must have 3 to {MAX_CORNERS} corners, not {len(ring)}"
     sides = list(zip(ring, (*ring[1:], ring[0]), strict=True))
     for number, (start, end) in enumerate(sides, 1):
         if start == end:

@@ -13,11 +13,11 @@ from robotside.kinds.registry import kind_of
 from robotside.motion.manoeuvres import Order, kept, leads_to
 from robotside.motion.measured import MeasuredState
 
-__all__ = ["AGAIN", "kept_off"]
+__all__ = ["CONTACT_TIME", "kept_off"]
 
-AGAIN = 1.0
+CONTACT_TIME = 1.0
 """A touch within so long of the last one is the same contact, and told no more [s]."""
-BESIDE = 0.25
+MIN_COSINE = 0.25
 """What is touched with less than this cosine of its bearing is beside a robot that goes ahead and astern only."""
 
 
@@ -30,7 +30,7 @@ def kept_off(order: Order, info: RobotInfo, measured: MeasuredState) -> Order:
     v, (ahead, aside) = leads.linear, (math.cos(bearing), math.sin(bearing))
     flies = kind_of(info.kind).flies
     into = v.x * ahead + v.y * aside if flies else v.x * ahead
-    if into <= 0 or not (flies or abs(ahead) > BESIDE):
+    if into <= 0 or not (flies or abs(ahead) > MIN_COSINE):
         return order
     left = Vector3(v.x - into * ahead, v.y - into * aside, v.z) if flies else Vector3(0.0, v.y, v.z)
     may = Twist(left, leads.angular)

@@ -12,26 +12,34 @@ from robotside.kinds.vehicle_kind import Handling
 from robotside.limits.fence import Fence
 from robotside.motion.stopping_path import REST, PlanarVelocity, reach, track
 
-__all__ = ["GAP", "LEVEL_FROM", "MOST_DOUBT", "SLACK", "SURE_ENOUGH", "FenceGuard", "uncertainty_margin"]
+__all__ = [
+    "GAP",
+    "LEVEL_DISTANCE",
+    "MAX_UNCERTAINTY",
+    "TRACK_GAP",
+    "SIGMAS",
+    "FenceGuard",
+    "uncertainty_margin",
+]
 
 GAP = 0.10
 """Kept between the body and the fence on the way of a command that is obeyed at once [m]."""
-SLACK = 0.02
+TRACK_GAP = 0.02
 """Kept on the way that the robot takes from how it moves now [m]: it lags behind what it was told before."""
-RETURN = 1.0
+RETURN_GAIN = 1.0
 """What slides along nearer than GAP goes inward for what lacks of that [1/s]: it would be pushed out bit by bit."""
-SURE_ENOUGH, MOST_DOUBT = 2.0, 2.0
+SIGMAS, MAX_UNCERTAINTY = 2.0, 2.0
 """A place counts as off by so many standard deviations, and by no more than so much [m]: beyond that the fence is not promised."""
-LEVEL_FROM = 1.5
+LEVEL_DISTANCE = 1.5
 """Nearer than this to the fence one that glides aside is made to roll less, and not at all where it begins [m]."""
-_LEFT = 0.05
+_MIN_SPEED = 0.05
 """The speed to which what glides aside slows down within its room [m/s]."""
 _HALVINGS = 6
 
 
 def uncertainty_margin(spread: float) -> float:
     """Farther than GAP from the fence [m], for a place that is off by `spread` [m], one standard deviation; 0 for NaN."""
-    return max(0.0, min(SURE_ENOUGH * spread, MOST_DOUBT) - GAP) if spread > 0 else 0.0
+    return max(0.0, min(SIGMAS * spread, MAX_UNCERTAINTY) - GAP) if spread > 0 else 0.0
 
 
 class FenceGuard:
@@ -79,7 +87,7 @@ class FenceGuard:
     def unhurried(self, room: float) -> float:
         """The fastest towards the fence that has `room` [m] for one that glides [m/s]; infinite for others."""
         glide = self._handling.glide
-        return _LEFT * math.expm1(min(max(room - GAP, 0.0) / glide, 50.0)) if glide else math.inf
+        return _MIN_SPEED * math.expm1(min(max(room - GAP, 0.0) / glide, 50.0)) if glide else math.inf
 
     def _unhurried(self, pose: Pose2, wanted: PlanarVelocity, room: float) -> PlanarVelocity:
         """Slower towards the fence, since a turn leaves the way that it has; the turn is left as it is."""
@@ -93,7 +101,7 @@ class FenceGuard:
         far = reach(moving, wanted, self._handling) + radius + GAP
         near = self._fence.around(pose.x, pose.y, far)
         # from inside, nothing gets to the other side of the border without coming near to it
-        distance: Callable[[Points], Points] = near.distance if room > SLACK else self._fence.clearance
+        distance: Callable[[Points], Points] = near.distance if room > TRACK_GAP else self._fence.clearance
 
         def kept(start: PlanarVelocity, command: PlanarVelocity, gap: float, *, swings: bool = False) -> bool:
             way = track(pose, start, command, self._handling, swings=swings)
@@ -101,8 +109,8 @@ class FenceGuard:
 
         return lambda command: (
             kept(command, command, GAP)
-            and kept(moving, command, SLACK)
-            and kept(moving, command, SLACK, swings=True)
+            and kept(moving, command, TRACK_GAP)
+            and kept(moving, command, TRACK_GAP, swings=True)
         )
 
     def _slid(
@@ -111,7 +119,7 @@ class FenceGuard:
         """As much of the part towards the fence as can be, and all of the part along it; None when that is too much."""
         in_x, in_y = self.inward(pose)
         out = min(0.0, wanted.x * in_x + wanted.y * in_y)
-        back = RETURN * max(0.0, GAP - room)
+        back = RETURN_GAIN * max(0.0, GAP - room)
 
         def less(part: float) -> PlanarVelocity:
             spare = (1.0 - part) * out - back

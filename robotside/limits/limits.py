@@ -23,13 +23,27 @@ from robotside.core.text import place_sentence
 from robotside.kinds.registry import kind_of
 from robotside.kinds.vehicle_kind import Handling
 from robotside.limits.fence import Fence
-from robotside.limits.fence_guard import LEVEL_FROM, MOST_DOUBT, SURE_ENOUGH, FenceGuard, uncertainty_margin
+from robotside.limits.fence_guard import (
+    LEVEL_DISTANCE,
+    MAX_UNCERTAINTY,
+    SIGMAS,
+    FenceGuard,
+    uncertainty_margin,
+)
 from robotside.mapping.occupancy_grid import Grid
-from robotside.motion.manoeuvres import BY_ITSELF, Order, kept, leads_to, levelled
+from robotside.motion.manoeuvres import VERTICAL_KINDS, Order, kept, leads_to, levelled
 from robotside.motion.measured import MeasuredState
 from robotside.motion.speed_limit import slower, within
-from robotside.motion.station_keeping import BACK_AT, BACK_TO, CREEP, DRIFTS, DriftMonitor, back, way_back
-from robotside.motion.stopping_path import REACTION, PlanarVelocity
+from robotside.motion.station_keeping import (
+    CREEP_SPEED,
+    MIN_DRIFT,
+    RETURN_BELOW,
+    RETURN_UNTIL,
+    DriftMonitor,
+    back,
+    way_back,
+)
+from robotside.motion.stopping_path import REACTION_TIME, PlanarVelocity
 
 __all__ = ["GOAL_ROOM", "PATH_ROOM", "ClampedTwist", "LimitKeeper", "KeptOrder", "turned_over"]
 
@@ -37,13 +51,13 @@ GOAL_ROOM = 0.4
 """KeptOrder between the body and the fence at a goal [m]: following a path is not exact."""
 PATH_ROOM = 0.15
 """Of the map, what is nearer than this to the fence is no place to plan through [m]."""
-STEEP_FROM, STEEP_SLOWEST = 0.8, 0.3
+STEEP_SLOPE_SHARE, STEEP_SPEED_SHARE = 0.8, 0.3
 """From this part of the greatest slope on it goes slower, down to this part of the speed."""
-UPSIDE_DOWN = 0.2
+OVERTURNED_COSINE = 0.2
 """Cosine of the tilt from which on a robot has turned over."""
-DIVING = 0.1
+MIN_DIVE_PITCH = 0.1
 """From this pitch on a swimmer goes up and down as it goes ahead, and its fins cannot make up for that [rad]."""
-UNSURE = 0.25
+UNSURE_SHARE = 0.25
 """A robot that is not sure of its place goes at this part of its speed while it has a fence."""
 NOT_PLACED = Notice(
     Code.FENCE_UNPLACED,
@@ -69,7 +83,7 @@ class KeptOrder(NamedTuple):
 
 def turned_over(measured: MeasuredState, kind: str) -> bool:
     """A robot of this `kind` lies on its side or its back, as only a swimmer may."""
-    over = math.cos(measured.roll) * math.cos(measured.pitch) < UPSIDE_DOWN
+    over = math.cos(measured.roll) * math.cos(measured.pitch) < OVERTURNED_COSINE
     return not kind_of(kind).dives and (over or measured.overturned)
 
 
@@ -171,7 +185,7 @@ class LimitKeeper:
         leads = leads_to(order, own, measured)
         may, why = self.clamp(leads, measured)
         why = why or cut
-        if self._back and order.kind not in BY_ITSELF:
+        if self._back and order.kind not in VERTICAL_KINDS:
             return KeptOrder(may, why)
         if order.kind not in own.manoeuvres or turned_over(measured, own.kind):
             return KeptOrder(may, why)
@@ -196,7 +210,7 @@ class LimitKeeper:
         v, nose = twist.linear, 0.0 if self._handling.sideways else measured.pitch
         rise = v.z * math.cos(nose) - v.x * math.sin(nose)
         allowed = max(-self._speed_within(z - self._deepest), min(rise, self._speed_within(self._height - z)))
-        if abs(nose) < DIVING:
+        if abs(nose) < MIN_DIVE_PITCH:
             fitted = Vector3(v.x, v.y, (allowed + v.x * math.sin(nose)) / math.cos(nose))
         else:
             part = allowed / rise if rise else 1.0
@@ -212,23 +226,23 @@ class LimitKeeper:
         if room <= 0:
             return 0.0
         braking = self._handling.levelling
-        lag = braking * REACTION
+        lag = braking * REACTION_TIME
         return math.sqrt(lag * lag + 2 * braking * room) - lag
 
     def _level(self, twist: Twist, measured: MeasuredState) -> ClampedTwist:
         """Slower where it is steep; too steep, only back to where it came from."""
         tilt = math.acos(max(-1.0, min(1.0, math.cos(measured.roll) * math.cos(measured.pitch))))
-        if tilt < STEEP_FROM * self._slope:
+        if tilt < STEEP_SLOPE_SHARE * self._slope:
             self._came = None
             return ClampedTwist(twist)
         v = twist.linear
         if tilt < self._slope:
-            part = (self._slope - tilt) / (self._slope * (1 - STEEP_FROM))
-            return ClampedTwist(_scaled(twist, max(STEEP_SLOWEST, part), self._handling))
+            part = (self._slope - tilt) / (self._slope * (1 - STEEP_SLOPE_SHARE))
+            return ClampedTwist(_scaled(twist, max(STEEP_SPEED_SHARE, part), self._handling))
         if self._came is None:
             self._came = _direction(measured)
         if v.x * self._came[0] + v.y * self._came[1] <= 0:
-            return ClampedTwist(_scaled(twist, STEEP_SLOWEST, self._handling))
+            return ClampedTwist(_scaled(twist, STEEP_SPEED_SHARE, self._handling))
         said = f"It is steeper here, {math.degrees(tilt):.0f} degrees, than the {math.degrees(self._slope):.0f} allowed"
         return ClampedTwist(
             _scaled(twist, 0.0, self._handling), Notice(Code.DRIVE_STEEP, f"{said}; drive back.")
@@ -246,7 +260,7 @@ class LimitKeeper:
         room, outward = self._fencing.room(pose), self._fencing.outward(pose, measured.moving)
         returns = self._back and last[1] == measured
         if returns:
-            room, outward = min(room - self._doubt, BACK_AT), max(outward, DRIFTS)
+            room, outward = min(room - self._doubt, RETURN_BELOW), max(outward, MIN_DRIFT)
         return self._drift.told(self._own.name, room, outward, returns=returns)
 
     def _fenced(self, twist: Twist, measured: MeasuredState) -> ClampedTwist:
@@ -262,7 +276,7 @@ class LimitKeeper:
             )
         doubt, unsure = uncertainty_margin(measured.spread), _unsure(measured)
         if unsure:
-            most = UNSURE * self.info.max_speed
+            most = UNSURE_SHARE * self.info.max_speed
             far = math.hypot(v.x, v.y)
             twist = _scaled(twist, most / far, self._handling) if far > most else twist
         clamped = self._within(twist, measured, pose, doubt)
@@ -278,8 +292,8 @@ class LimitKeeper:
 
     def _within(self, twist: Twist, measured: MeasuredState, pose: Pose2, doubt: float) -> ClampedTwist:
         v, w = twist.linear, twist.angular
-        creeps = kind_of(self._own.kind).comes_about and w.z != 0.0 and abs(v.x) < CREEP
-        wanted = PlanarVelocity(math.copysign(CREEP, v.x) if creeps else v.x, v.y, w.z)
+        creeps = kind_of(self._own.kind).comes_about and w.z != 0.0 and abs(v.x) < CREEP_SPEED
+        wanted = PlanarVelocity(math.copysign(CREEP_SPEED, v.x) if creeps else v.x, v.y, w.z)
         if not wanted.speed:
             return ClampedTwist(twist)
         done = self._fencing.slowed(pose, measured.moving, wanted, doubt)
@@ -293,7 +307,7 @@ class LimitKeeper:
             return ClampedTwist(kept)
         room = self._fencing.room(pose)
         where = f"is {room:.1f} m away" if room > 0.05 else "is here"
-        known = f" and it knows its place to {SURE_ENOUGH * measured.spread:.1f} m only" if doubt else ""
+        known = f" and it knows its place to {SIGMAS * measured.spread:.1f} m only" if doubt else ""
         said = f"The robot's fence {where}{known}: it goes no nearer."
         return ClampedTwist(kept, Notice(Code.FENCE_NEAR, said, room=room))
 
@@ -304,20 +318,20 @@ class LimitKeeper:
         room, out = self._fencing.room(pose) - doubt, self._fencing.outward(pose, moving)
         most = self._fencing.unhurried(room)
         if self._returns:
-            self._returns = room < BACK_TO or out > most
+            self._returns = room < RETURN_UNTIL or out > most
         else:
-            self._returns = (room < BACK_AT and out > DRIFTS) or out > most + 2 * DRIFTS
+            self._returns = (room < RETURN_BELOW and out > MIN_DRIFT) or out > most + 2 * MIN_DRIFT
         inward = -self._fencing.outward(pose, PlanarVelocity(kept.linear.x, kept.linear.y, 0.0))
         if not self._returns:
             self._way = 0.0
-        return self._returns and inward < CREEP / 2
+        return self._returns and inward < CREEP_SPEED / 2
 
     def _rolled(self, roll: float, measured: MeasuredState) -> float:
         """As much of a `roll` [rad] as one that glides may have here: rolled, its fins push it aside."""
         if not (self._handling.glide and self._fence and measured.pose):
             return roll
         room = self._fencing.room(measured.pose) - uncertainty_margin(measured.spread)
-        return roll * max(0.0, min(1.0, room / LEVEL_FROM))
+        return roll * max(0.0, min(1.0, room / LEVEL_DISTANCE))
 
     def _roll_rate(self, rate: float, measured: MeasuredState) -> float:
         """One that is rolled farther than it may rolls back [rad/s]."""
@@ -334,10 +348,10 @@ def _scaled(twist: Twist, part: float, handling: Handling) -> Twist:
 
 def _unsure(measured: MeasuredState) -> Problem:
     """Why its place is not sure enough to promise a fence, as one sentence; empty when it is."""
-    off = SURE_ENOUGH * measured.spread
-    if measured.sure and not off > MOST_DOUBT:
+    off = SIGMAS * measured.spread
+    if measured.sure and not off > MAX_UNCERTAINTY:
         return ""
-    how = f"to {off:.1f} m only" if off > MOST_DOUBT else "for sure"
+    how = f"to {off:.1f} m only" if off > MAX_UNCERTAINTY else "for sure"
     said = f"The robot does not know {how} where it is, so its fence is not certain: it goes slowly; place it on the map."
     return Notice(Code.FENCE_UNSURE, said)
 

@@ -36,16 +36,16 @@ from robotside.records.events import Say
 
 __all__ = ["OdometryTrack", "PoseEstimator"]
 
-FIXES = 5
+FIXES_AVERAGED = 5
 """Satellite fixes averaged for the first guess."""
 
-PATIENCE = 3.0
+FIX_TIMEOUT = 3.0
 """Without fix and compass for this long the robot supposes to stand at the map's origin [s]."""
 
-GUESS_REACH, GUESS_TURN = 4.0, 0.35
+GUESS_REACH, GUESS_YAW = 4.0, 0.35
 """How wrong a guess by satellite and compass may be [m, rad]."""
 
-TOLD_REACH, TOLD_TURN = 1.0, 0.5
+PLACED_REACH, PLACED_YAW = 1.0, 0.5
 """How wrong a pose told by an operator's finger may be [m, rad]."""
 
 
@@ -53,10 +53,10 @@ FIX_SPREAD = 1.0
 """How far a single fix is trusted by a robot that has no laser [m]: its error changes slowly."""
 
 
-FACING, COMPASS_SPREAD = 0.5, 0.2
+COMPASS_PERIOD, COMPASS_SPREAD = 0.5, 0.2
 """So often such a robot believes its compass [s], and how far each time [rad]: its error changes slowly."""
 
-RINGS = 4
+SONAR_RINGS = 4
 """Of sonars that are laid on the map together."""
 
 
@@ -65,7 +65,7 @@ _NO_IDEA = Notice(
     "There is no fix or compass: the robot supposes to be near the map's origin. Place it on the map.",
 )
 
-PUSHED = 0.3
+MAX_PUSH = 0.3
 """So far the wheels may run against something before it is told [m]."""
 
 _PUSHES = Notice(
@@ -127,7 +127,7 @@ class PoseEstimator:
         self._datum = Datum(info.latitude, info.longitude) if has_place else None
         self._localiser: Localiser | None = None
         self._doubt = PositionUncertainty()
-        self._fixes: deque[tuple[float, float]] = deque(maxlen=FIXES)
+        self._fixes: deque[tuple[float, float]] = deque(maxlen=FIXES_AVERAGED)
         self._compass = math.nan
         self._since = math.nan
         self._search: tuple[Pose2, float, float] | None = None
@@ -160,7 +160,7 @@ class PoseEstimator:
     @property
     def pushes(self) -> bool:
         """The wheels turn against something and the robot does not get on."""
-        return self._pushed > PUSHED
+        return self._pushed > MAX_PUSH
 
     @property
     def fit(self) -> float:
@@ -198,7 +198,7 @@ class PoseEstimator:
         if (
             self._localiser
             and not self._swept
-            and stamp >= self._faced + FACING
+            and stamp >= self._faced + COMPASS_PERIOD
             and math.isfinite(self._compass)
         ):
             self._faced = stamp
@@ -214,7 +214,7 @@ class PoseEstimator:
             self._rings.clear()  # they would make its place sure again while its wheels say that it leaves it
             return
         self._rings.append(odom.apply(arcs.reshape(-1, 2)).reshape(arcs.shape))
-        if len(self._rings) == RINGS:
+        if len(self._rings) == SONAR_RINGS:
             ends = np.concatenate(self._rings)
             self._rings.clear()
             localiser.echo(odom.inverse().apply(ends.reshape(-1, 2)).reshape(ends.shape))
@@ -229,7 +229,7 @@ class PoseEstimator:
         if self._localiser:
             self._localiser.place(pose, spread=0.3, turn=0.2)
             self._doubt.settle()
-            self._search = (pose, TOLD_REACH, TOLD_TURN)
+            self._search = (pose, PLACED_REACH, PLACED_YAW)
 
     def put(self, pose: Pose2) -> None:
         """The robot was put back to `pose`, where its wheels begin to count anew."""
@@ -276,10 +276,15 @@ class PoseEstimator:
         if math.isnan(self._begun):
             self._begun = stamp
         localiser = self._localiser
-        if localiser is None or localiser.pose is not None or self._swept or stamp - self._begun < PATIENCE:
+        if (
+            localiser is None
+            or localiser.pose is not None
+            or self._swept
+            or stamp - self._begun < FIX_TIMEOUT
+        ):
             return
-        if len(self._fixes) == FIXES and not math.isnan(self._compass):
-            x, y = (sum(axis) / FIXES for axis in zip(*self._fixes, strict=True))
+        if len(self._fixes) == FIXES_AVERAGED and not math.isnan(self._compass):
+            x, y = (sum(axis) / FIXES_AVERAGED for axis in zip(*self._fixes, strict=True))
             localiser.place(Pose2(x, y, self._compass), spread=1.0, turn=0.1)
         else:
             localiser.place(odom, spread=0.3, turn=0.1)
@@ -307,10 +312,10 @@ class PoseEstimator:
     def _guess(self, stamp: float) -> tuple[Pose2, float, float] | None:
         if math.isnan(self._since):
             self._since = stamp
-        if len(self._fixes) == FIXES and not math.isnan(self._compass):
-            x, y = (sum(axis) / FIXES for axis in zip(*self._fixes, strict=True))
-            return Pose2(x, y, self._compass), GUESS_REACH, GUESS_TURN
-        if stamp - self._since > PATIENCE:
+        if len(self._fixes) == FIXES_AVERAGED and not math.isnan(self._compass):
+            x, y = (sum(axis) / FIXES_AVERAGED for axis in zip(*self._fixes, strict=True))
+            return Pose2(x, y, self._compass), GUESS_REACH, GUESS_YAW
+        if stamp - self._since > FIX_TIMEOUT:
             self._say("localisation", _NO_IDEA, "warn")
             return Pose2(0.0, 0.0, 0.0), GUESS_REACH, math.pi
         return None

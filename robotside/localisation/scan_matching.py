@@ -23,37 +23,37 @@ __all__ = ["Field", "Localiser", "Match"]
 HIT_SPREAD = 0.06
 """Of a sweep's end points about the map's surfaces [m]; the grid's own coarseness is most of it."""
 
-FITS = 0.15
+MAX_FIT_DISTANCE = 0.15
 """End points within this of a surface agree with the map [m]."""
 
-INDEPENDENT = 0.15
+INDEPENDENT_SHARE = 0.15
 """Part of the end points that count as independent evidence: neighbours err together."""
 
-BEAMS = 120
+MAX_BEAMS = 120
 """End points used of a sweep."""
 
-SLIP = 0.1
+SLIP_SPREAD = 0.1
 """Odometry's error of place from sweep to sweep [m/m], one standard deviation."""
 
-SWERVE = (0.03, 0.03)
+YAW_SPREAD = (0.03, 0.03)
 """Odometry's error of yaw per metre [rad/m] and per turned radian [rad/rad]: wheels that are not quite equal."""
 
-LOSS = 0.25
+LOSS_DISTANCE = 0.25
 """End points count less the farther they are from a surface; at this distance a quarter [m]."""
 
-ECHO, ECHOES = 0.5, 12
+MAX_ECHO_DISTANCE, MAX_ECHOES = 0.5, 12
 """An echo counts within this of a surface [m], and so many of them are laid on the map."""
 
-SURE = 0.5
+MIN_FIT = 0.5
 """Part of the end points that must lie on surfaces for the position to be trusted."""
 
-HEARD = 0.7
+MIN_ECHO_FIT = 0.7
 """Part of all echoes that must come from surfaces for the position to be believed again: 0.8 do at the least, where it is right, and 0.45 at the most, where it is wrong."""
 
 UNSURE_AFTER = 8
 """Sweeps in a row that must disagree before the position is called unsure."""
 
-DISTRUSTED = 16
+DISTRUSTED_SWEEPS = 16
 """A position that is distrusted for another reason is as bad as after so many of them."""
 
 
@@ -163,13 +163,13 @@ class Localiser:
             return
         off = self._off(self.pose, ends)
         nearest = off.argmin(axis=1)
-        points = ends[np.arange(len(ends)), nearest][off.min(axis=1) < ECHO]
-        if len(ends) >= ECHOES:
+        points = ends[np.arange(len(ends)), nearest][off.min(axis=1) < MAX_ECHO_DISTANCE]
+        if len(ends) >= MAX_ECHOES:
             self._hear(off.min(axis=1))
-        if len(points) < ECHOES:
+        if len(points) < MAX_ECHOES:
             return
         match = self._fit(self.pose, points)
-        if match.fit >= SURE:
+        if match.fit >= MIN_FIT:
             self.pose = match.pose
             self.covariance = np.asarray(np.linalg.inv(match.information), dtype=np.float64)
 
@@ -179,10 +179,10 @@ class Localiser:
 
     def _hear(self, off: NDArray[np.float64]) -> None:
         """Be the surer of it the more echoes are of what the map knows; each is so far `off` it [m]."""
-        known = float((off < FITS).mean())
-        if known < SURE:
-            self._bad = min(self._bad + 1, DISTRUSTED)
-        elif known >= HEARD:
+        known = float((off < MAX_FIT_DISTANCE).mean())
+        if known < MIN_FIT:
+            self._bad = min(self._bad + 1, DISTRUSTED_SWEEPS)
+        elif known >= MIN_ECHO_FIT:
             self._bad = self._bad - 1 if self._bad >= UNSURE_AFTER else 0
 
     def predict(self, odom: Pose2, against: float = math.nan) -> float:
@@ -203,27 +203,27 @@ class Localiser:
         self.pose = self.pose.then(step)
         travelled, turned = math.hypot(step.x, step.y), abs(step.yaw)
         doubt = 2.0 * into * math.sqrt(float(self.covariance[:2, :2].trace())) + into**2
-        spread = (SLIP * travelled) ** 2 + doubt + 1e-9
-        turn = (SWERVE[0] * travelled + SWERVE[1] * turned) ** 2 + 1e-9
+        spread = (SLIP_SPREAD * travelled) ** 2 + doubt + 1e-9
+        turn = (YAW_SPREAD[0] * travelled + YAW_SPREAD[1] * turned) ** 2 + 1e-9
         self.covariance += np.diag([spread, spread, turn])
         return into
 
     def distrust(self) -> None:
         """What it believes may be wrong: it is unsure until sweeps, echoes or fixes have fitted for a while."""
-        self._bad = DISTRUSTED
+        self._bad = DISTRUSTED_SWEEPS
 
     def correct(self, points: Points) -> None:
         """Lay one sweep on the map; `points` are its end points in `base_link`."""
         if self.pose is None or len(points) < 10:
             self._bad += self.pose is not None
             return
-        match = self._fit(self.pose, points[:: max(1, len(points) // BEAMS)])
+        match = self._fit(self.pose, points[:: max(1, len(points) // MAX_BEAMS)])
         self.fit = match.fit
-        if match.fit < SURE:
+        if match.fit < MIN_FIT:
             self._bad += 1
         else:
             self._bad = 0
-        if match.fit >= 0.5 * SURE:
+        if match.fit >= 0.5 * MIN_FIT:
             self.pose = match.pose
             self.covariance = np.asarray(np.linalg.inv(match.information), dtype=np.float64)
 
@@ -270,7 +270,7 @@ class Localiser:
         found = self._field.read(placed)
         off, gx, gy = found[:, 0], found[:, 1], found[:, 2]
         jacobian = np.column_stack([gx, gy, gy * (placed[:, 0] - pose.x) - gx * (placed[:, 1] - pose.y)])
-        weight = 1.0 / (1.0 + (off / LOSS) ** 2) ** 2
-        weight *= INDEPENDENT / HIT_SPREAD**2
+        weight = 1.0 / (1.0 + (off / LOSS_DISTANCE) ** 2) ** 2
+        weight *= INDEPENDENT_SHARE / HIT_SPREAD**2
         weighted = jacobian * weight[:, None]
-        return weighted.T @ off, weighted.T @ jacobian, float((np.abs(off) < FITS).mean())
+        return weighted.T @ off, weighted.T @ jacobian, float((np.abs(off) < MAX_FIT_DISTANCE).mean())

@@ -12,10 +12,10 @@ from robotside.core.pose2 import Points
 
 __all__ = ["distance_from", "within"]
 
-_LOOK = 8
+_ROWS_PER_CHECK = 8
 """Rows after which it is looked what is still to do."""
 
-_FARTHEST = 1 << 14
+_MAX_DISTANCE = 1 << 14
 """Distances end at this [cells]: its square is still a number of 32 bits, and so is the sum of two."""
 
 
@@ -24,8 +24,8 @@ def distance_from(full: NDArray[np.bool_]) -> NDArray[np.float64]:
     along = _along_rows(full)
     squared = along.copy()
     step, rows, columns = 0, slice(0, full.shape[0]), slice(0, full.shape[1])
-    while step < min(len(full), _FARTHEST) - 1:
-        if step % _LOOK == 0:
+    while step < min(len(full), _MAX_DISTANCE) - 1:
+        if step % _ROWS_PER_CHECK == 0:
             # no row farther off can be nearer than what is found
             left = squared[rows, columns] > (step + 1) ** 2
             if not left.any():
@@ -41,11 +41,11 @@ def _along_rows(full: NDArray[np.bool_]) -> NDArray[np.int32]:
     """Squared, to the nearest full cell of the same row."""
     width = full.shape[1]
     places = np.arange(width, dtype=np.int32)
-    none = np.int32(width + _FARTHEST)
+    none = np.int32(width + _MAX_DISTANCE)
     before = np.maximum.accumulate(np.where(full, places, -none), axis=1)
     after = np.minimum.accumulate(np.where(full, places, 2 * none)[:, ::-1], axis=1)[:, ::-1]
     nearest = np.minimum(places - before, after - places)
-    return np.square(np.minimum(nearest, np.int32(_FARTHEST)))
+    return np.square(np.minimum(nearest, np.int32(_MAX_DISTANCE)))
 
 
 def _box(left: NDArray[np.bool_], rows: slice, columns: slice) -> tuple[slice, slice]:

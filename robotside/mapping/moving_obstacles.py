@@ -10,18 +10,18 @@ from numpy.typing import NDArray
 from robotside.core.pose2 import Points
 from robotside.mapping.distances import within
 
-__all__ = ["SHARE", "MovingObstacles"]
+__all__ = ["ROOM_SHARE", "MovingObstacles"]
 
-AGO = 0.4
+COMPARED_AGE = 0.4
 """What is seen is compared with what was seen so long before [s]."""
 
-MOVED = 0.12
+MIN_MOTION = 0.12
 """Where nothing was within this of it then, it has moved [m]: faster than a third of a metre a second."""
 
-SHARE = 0.55
+ROOM_SHARE = 0.55
 """Part of the room up to something that moves: the other uses the rest."""
 
-REACH = 4.0
+MAX_RANGE = 4.0
 """Farther away it does not matter yet [m]."""
 
 
@@ -33,15 +33,20 @@ class MovingObstacles:
 
     def moving(self, placed: Points, stamp: float) -> NDArray[np.bool_]:
         """Which points of the sweep at `stamp` [s] have moved; none without a sweep to compare with."""
-        while len(self._before) > 1 and self._before[1][0] <= stamp - AGO:
+        while len(self._before) > 1 and self._before[1][0] <= stamp - COMPARED_AGE:
             self._before.popleft()
         old = self._before[0] if self._before else None
         self._before.append((stamp, placed))
-        if old is None or not len(old[1]) or not AGO / 2 < stamp - old[0] < 3 * AGO or not len(placed):
+        if (
+            old is None
+            or not len(old[1])
+            or not COMPARED_AGE / 2 < stamp - old[0] < 3 * COMPARED_AGE
+            or not len(placed)
+        ):
             return np.zeros(len(placed), dtype=np.bool_)
-        return ~within(placed, old[1], MOVED)
+        return ~within(placed, old[1], MIN_MOTION)
 
     @staticmethod
     def nearer(points: Points) -> Points:
         """Where `points` of `base_link` that move have to be supposed, so that half of the room is left to them."""
-        return SHARE * points[np.hypot(points[:, 0], points[:, 1]) < REACH]
+        return ROOM_SHARE * points[np.hypot(points[:, 0], points[:, 1]) < MAX_RANGE]

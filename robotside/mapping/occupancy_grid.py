@@ -16,19 +16,19 @@ from robotside.core.text import number
 from robotside.mapping.distances import distance_from
 from robotside.mapping.wavefront import CELLS_PER_STEP, work_steps
 
-__all__ = ["OCCUPIED", "Grid"]
+__all__ = ["OCCUPIED_FROM", "Grid"]
 
-OCCUPIED = 50
+OCCUPIED_FROM = 50
 """Cells of at least this value count as occupied, of 0 to 100."""
 
 
-EDGES = (0.001, 10.0)
+RESOLUTION_RANGE = (0.001, 10.0)
 """Least and greatest width of a cell of any use [m]: a finer map of a place is one of nothing."""
 
-STAMPS = 20
+STAMPS_PER_STEP = 20
 """Points that one step marks."""
 
-FARTHEST = 1e8
+MAX_ORIGIN = 1e8
 """How far a map's corner may be from its frame's origin [m]."""
 
 
@@ -55,19 +55,19 @@ class Grid:
         info = msg.info
         data = np.asarray(msg.data, dtype=np.int8).reshape(info.height, info.width)
         corner = info.origin.position
-        occupied: NDArray[np.bool_] = np.logical_or(data >= OCCUPIED, data < 0)
+        occupied: NDArray[np.bool_] = np.logical_or(data >= OCCUPIED_FROM, data < 0)
         return cls(occupied, info.resolution, corner.x, corner.y)
 
     @staticmethod
     def fault(msg: OccupancyGrid) -> str:
         """Why the map message is of no use, as one sentence; empty when it is."""
         info, turned, corner = msg.info, msg.info.origin.orientation, msg.info.origin.position
-        if not EDGES[0] <= info.resolution <= EDGES[1]:
-            allowed = f"{EDGES[0]} to {EDGES[1]:g} m are allowed"
+        if not RESOLUTION_RANGE[0] <= info.resolution <= RESOLUTION_RANGE[1]:
+            allowed = f"{RESOLUTION_RANGE[0]} to {RESOLUTION_RANGE[1]:g} m are allowed"
             return f"The map is of no use: its cells are {info.resolution:.4g} m wide; {allowed}."
-        if not all(abs(place) <= FARTHEST for place in (corner.x, corner.y)):
+        if not all(abs(place) <= MAX_ORIGIN for place in (corner.x, corner.y)):
             where = f"({number(corner.x)}, {number(corner.y)})"
-            return f"The map is of no use: it begins at {where}, which is over {FARTHEST:.0e} m away."
+            return f"The map is of no use: it begins at {where}, which is over {MAX_ORIGIN:.0e} m away."
         if not 4 <= info.width * info.height == len(msg.data) or min(info.width, info.height) < 2:
             return (
                 f"The map is of no use: it says {info.width} x {info.height} cells and has {len(msg.data)}."
@@ -117,7 +117,7 @@ class Grid:
         side = np.arange(-most, most + 1)
         stamp = (np.hypot(side[:, None], side[None, :]) - 0.5) * self.resolution
         for done, (row, column) in enumerate(sorted(set(zip(rows.tolist(), columns.tolist(), strict=True)))):
-            if done % STAMPS == 0:
+            if done % STAMPS_PER_STEP == 0:
                 yield
             top, left = max(0, row - most), max(0, column - most)
             here = distance[top : row + most + 1, left : column + most + 1]

@@ -8,21 +8,21 @@ from numpy.typing import NDArray
 from bridge.msgs.pilothouse_msgs import SonarRing
 from robotside.core.pose2 import Points
 
-__all__ = ["NEAR", "SonarProjection"]
+__all__ = ["MAX_OBSTACLE_RANGE", "SonarProjection"]
 
-NEAR = 1.5
+MAX_OBSTACLE_RANGE = 1.5
 """Beyond this a cone is too wide to say where something stands [m]."""
 
-TOUCHING = 0.7
+TOUCHING_SHARE = 0.7
 """What is too close to be measured is supposed to be at this part of the shortest range."""
 
-FAR = 4.0
+MAX_ECHO_RANGE = 4.0
 """Beyond this an echo says nothing of where the robot is [m]."""
 
-EDGES = np.array([-0.35, 0.0, 0.35])
+CONE_PLACES = np.array([-0.35, 0.0, 0.35])
 """Places across a cone that are taken for its end, in widths; not its very edges, or no door were wide enough."""
 
-ARC = np.linspace(-0.5, 0.5, 7)
+ARC_PLACES = np.linspace(-0.5, 0.5, 7)
 """Places on the end of a cone that may have given the echo, in widths."""
 
 
@@ -34,11 +34,11 @@ class SonarProjection:
 
         What is too close to be measured stands right before its sonar.
         """
-        return _ends(ring, -np.inf, NEAR, EDGES).reshape(-1, 2)
+        return _ends(ring, -np.inf, MAX_OBSTACLE_RANGE, CONE_PLACES).reshape(-1, 2)
 
     def arcs(self, ring: SonarRing) -> NDArray[np.float64]:
         """The ends of all cones that measured something not too far away, shape (echoes, places, 2) in `base_link` [m]."""
-        return _ends(ring, 0.0, FAR, ARC)
+        return _ends(ring, 0.0, MAX_ECHO_RANGE, ARC_PLACES)
 
 
 def _ends(ring: SonarRing, least: float, most: float, across: Points) -> NDArray[np.float64]:
@@ -47,7 +47,7 @@ def _ends(ring: SonarRing, least: float, most: float, across: Points) -> NDArray
     bearings = np.asarray(ring.bearings, dtype=np.float64)[: len(ranges)]
     ranges = ranges[: len(bearings)]
     met = (ranges >= least) & (ranges < min(ring.range_max, most))  # not NaN
-    measured = np.maximum(ranges[met], TOUCHING * ring.range_min)
+    measured = np.maximum(ranges[met], TOUCHING_SHARE * ring.range_min)
     reach = (ring.radius + measured)[:, None]
     angles = bearings[met][:, None] + ring.field_of_view * across
     return np.stack([reach * np.cos(angles), reach * np.sin(angles)], axis=-1)

@@ -19,13 +19,13 @@ WorkSteps = Generator[None, None, None]
 CELLS_PER_STEP = 20_000
 """Cells of a map that one step looks at."""
 
-AT_ONCE, ROUND = 1_500, 300
+CELLS_PER_SPREAD, COST_OF_ROUND = 1_500, 300
 """Cells from which the wave spreads in one step; to begin with some is as much work as so many more."""
 
-THICK = 2.0
+THICKNESS = 2.0
 """Of the wave: cells whose cost differs by no more spread at a time [cells]."""
 
-THICKER = 0.002
+THICKNESS_GROWTH = 0.002
 """The same for a wave that has come far, as a part of what it has cost."""
 
 DIAGONAL = math.sqrt(2.0)
@@ -77,13 +77,13 @@ class Wavefront:
             first = float(keys.min())
             if goal is not None and first >= cost[self._index(goal)]:
                 return
-            now = keys <= first + max(THICK, THICKER * first)
+            now = keys <= first + max(THICKNESS, THICKNESS_GROWTH * first)
             cells, spent, later = waiting[now], costs[now], ~now
             current = cost[cells] == spent  # the others were reached more cheaply meanwhile
             cells, spent = cells[current], spent[current]
-            work += ROUND + len(cells)
-            yield from work_steps(work // AT_ONCE, 1)
-            work %= AT_ONCE
+            work += COST_OF_ROUND + len(cells)
+            yield from work_steps(work // CELLS_PER_SPREAD, 1)
+            work %= CELLS_PER_SPREAD
             reached, paid = self._relax(price, cost, cells, spent)
             waiting = np.concatenate((waiting[later], reached))
             costs = np.concatenate((costs[later], paid))

@@ -16,11 +16,11 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.kinds.registry import kind_of
 from robotside.motion.measured import MeasuredState
 from robotside.motion.speed_limit import slower, within
-from robotside.motion.station_keeping import CREEP
+from robotside.motion.station_keeping import CREEP_SPEED
 
 __all__ = [
-    "BY_ITSELF",
-    "BY_STICK",
+    "VERTICAL_KINDS",
+    "STREAMED_KINDS",
     "Order",
     "at_rest",
     "finite",
@@ -34,19 +34,19 @@ __all__ = [
 Order: TypeAlias = Twist | Manoeuvre
 """How to move until told otherwise."""
 
-BY_STICK = ("twist", "steer", "tilt")
+STREAMED_KINDS = ("twist", "steer", "tilt")
 """The kinds that a person gives as a stream."""
-BY_ITSELF = ("take_off", "land", "surface")
+VERTICAL_KINDS = ("take_off", "land", "surface")
 """The kinds for which no twist stands: a robot knows them or cannot do it."""
 
 GRAVITY = 9.81
-LEAN = 0.3
+LEAN_TIME = 0.3
 """What leans goes on by so much time of its acceleration until another order is felt [s]."""
 COURSE_GAIN = 0.9
 """Turn rate for a heading that is off [1/s]."""
-USUAL_HEIGHT = 1.0
+DEFAULT_HEIGHT = 1.0
 """Above where it stands, to which a robot takes off that is told no height [m]."""
-_EXACT = 1e-9
+_TOLERANCE = 1e-9
 
 
 def finite(order: Order) -> bool:
@@ -119,11 +119,11 @@ def leads_to(order: Manoeuvre, info: RobotInfo, measured: MeasuredState) -> Twis
         case "course":
             return Twist.planar(_speed(order, info), _turn(order.yaw, info, measured))
         case "hover":
-            creeps = CREEP if kind_of(info.kind).comes_about else 0.0
+            creeps = CREEP_SPEED if kind_of(info.kind).comes_about else 0.0
             return Twist.planar(creeps, _turn(order.yaw, info, measured))
         case "tilt" if _leans(info):
-            x = measured.moving.x + LEAN * GRAVITY * math.tan(order.pitch)
-            y = measured.moving.y - LEAN * GRAVITY * math.tan(order.roll)
+            x = measured.moving.x + LEAN_TIME * GRAVITY * math.tan(order.pitch)
+            y = measured.moving.y - LEAN_TIME * GRAVITY * math.tan(order.roll)
             return Twist(Vector3(x, y, v.z), Vector3(0.0, 0.0, w.z))
         case "tilt":
             return Twist(Vector3(_speed(order, info), 0.0, v.z), Vector3(0.0, 0.0, w.z))
@@ -145,7 +145,7 @@ def kept(order: Manoeuvre, leads: Twist, may: Twist, info: RobotInfo) -> Order:
         case "twist":
             return may
         case "tilt" if _leans(info):
-            moved = abs(v.x - leads.linear.x) > _EXACT or abs(v.y - leads.linear.y) > _EXACT
+            moved = abs(v.x - leads.linear.x) > _TOLERANCE or abs(v.y - leads.linear.y) > _TOLERANCE
             return _leaning(may, order) if moved else replace(order, twist=climbing)
         case "tilt":
             held = replace(order, speed=v.x, throttle=math.nan, twist=climbing)
@@ -175,7 +175,7 @@ def levelled(order: Manoeuvre, lowest: float, highest: float, height: float) -> 
         return order if highest >= 0 else Manoeuvre(order.header, "hover", height=highest)
     wanted = order.height
     if order.kind == "take_off" and math.isnan(wanted) and highest < math.inf:
-        wanted = height + USUAL_HEIGHT
+        wanted = height + DEFAULT_HEIGHT
     if order.kind not in ("course", "hover", "take_off") or math.isnan(wanted):
         return order
     allowed = max(min(wanted, highest), lowest)
@@ -222,7 +222,7 @@ def _within(value: float, most: float) -> float:
 
 
 def _same(one: Twist, other: Twist) -> bool:
-    return all(abs(a - b) <= _EXACT for a, b in zip(_numbers(one), _numbers(other), strict=True))
+    return all(abs(a - b) <= _TOLERANCE for a, b in zip(_numbers(one), _numbers(other), strict=True))
 
 
 def _numbers(twist: Twist) -> tuple[float, ...]:

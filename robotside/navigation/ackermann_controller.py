@@ -15,13 +15,13 @@ from robotside.core.robot import Manoeuvrable, Robot
 from robotside.core.text import place_sentence
 from robotside.kinds.registry import kind_of
 from robotside.navigation.lattice_planner import LatticePlanner, Piece
-from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, GroundBound, Search
+from robotside.navigation.path_controller import CRUISE_SHARE, UNSURE_SPEED, GroundBound, Search
 from robotside.navigation.planner import Planner, Unreachable
 from robotside.navigation.pure_pursuit import PathFollower
 
 __all__ = ["AckermannController", "bend_of", "girth"]
 
-FASTEST = 2.0
+MAX_SPEED = 2.0
 """It goes by itself no faster than this [m/s], however fast it may be driven by hand."""
 
 DISCS, GIRTH = (0.0, 0.39, 0.78), 0.36
@@ -33,37 +33,37 @@ MARGIN = 0.2
 GAP = 0.12
 """Kept between the body and anything that the laser sees [m]."""
 
-SPARE = 0.9
+BEND_SHARE = 0.9
 """It plans with bends of so much of its tightest, so that it can steer back to its way."""
 
-FACES = 0.35
+YAW_TOLERANCE = 0.35
 """It looks to where it should within this [rad]."""
 
 HORIZON, STEP = 6.4, 0.4
 """So far ahead it looks along an arc, and in such steps [m]."""
 
-ENOUGH = 1.0
+MIN_ROOM = 1.0
 """With less room than this ahead it stands [m]."""
 
 BRAKING = 1.0
 """Deceleration counted on when something is ahead [m/s2]."""
 
-BEYOND = 2.0
+AIM_BEYOND = 2.0
 """It aims at a way that goes on so far beyond its end [m]."""
 
-NEAR, MISSED = 0.15, 0.6
+END_TOLERANCE, MISSED_DISTANCE = 0.15, 0.6
 """At the end of a way it is so far from it along the way, or past it; farther away than the second it has missed it [m]."""
 
-SWING, PERIOD = 0.8, 0.05
+SWING_TIME, PERIOD = 0.8, 0.05
 """From straight to the tightest bend the front wheels take so long, and so often they are told [s]."""
 
-SWINGING, CREEP = 0.3, 0.15
+MAX_SWING_SPEED, CREEP_SPEED = 0.3, 0.15
 """No faster than this they are let swing first, and so fast it creeps meanwhile where it cannot stand [m/s]."""
 
-LOCK = 0.5
+DEFAULT_STEERING = 0.5
 """Of the front wheels, where the robot does not say [rad]."""
 
-TRIES = 2
+MAX_TRIES = 2
 """Ways to come to look where it should, after the first."""
 
 
@@ -97,8 +97,8 @@ class AckermannController(GroundBound):
         self._bend, self._pursuit = bend_of(info), kind_of(info.kind).pursuit
         self.discs: tuple[float, ...] = tuple(part * info.radius for part in DISCS)
         self._girth = girth(info)
-        self.turning = 1.0 / (SPARE * self._bend)
-        self.cruise, self.clear = min(CRUISE * info.max_speed, FASTEST), self._girth + MARGIN + 0.1
+        self.turning = 1.0 / (BEND_SHARE * self._bend)
+        self.cruise, self.clear = min(CRUISE_SHARE * info.max_speed, MAX_SPEED), self._girth + MARGIN + 0.1
         self._pieces: list[Piece] = []
         self._follower: PathFollower | None = None
         self._speed = 0.0
@@ -128,7 +128,7 @@ class AckermannController(GroundBound):
             if not grid.holds(*place):
                 raise Unreachable(f"{place_sentence(called, *place)} is off the map.")
         grid = yield from planner.seeing(obstacles)
-        lattice = LatticePlanner(grid, SPARE * self._bend, self.discs, self._girth, MARGIN)
+        lattice = LatticePlanner(grid, BEND_SHARE * self._bend, self.discs, self._girth, MARGIN)
         pieces = yield from lattice.search(pose, goal)
         if not pieces:
             raise Unreachable(f"There is no way to {place_sentence(name, *goal[:2])} that it can drive.")
@@ -144,13 +144,13 @@ class AckermannController(GroundBound):
         if self._follower is None:
             return math.nan
         rest = (np.hypot(*np.diff(piece.points, axis=0).T).sum() for piece in self._pieces[1:])
-        return max(0.0, self._follower.remaining(pose) - BEYOND) + float(sum(rest))
+        return max(0.0, self._follower.remaining(pose) - AIM_BEYOND) + float(sum(rest))
 
     def arrived(self, pose: Pose2) -> bool:
         """The way is gone to its end; where it changes over in between, the next piece begins."""
         if self._follower is None or not self._at_end(pose):
             return False
-        if pose.distance(*self._pieces[0].points[-1].tolist()) > MISSED:
+        if pose.distance(*self._pieces[0].points[-1].tolist()) > MISSED_DISTANCE:
             self.forget()  # it came out beside it: the next way begins here
             return False
         if len(self._pieces) == 1:
@@ -170,24 +170,24 @@ class AckermannController(GroundBound):
         if abs(bearing) > math.pi / 2:
             wanted = math.copysign(self._bend, bearing)
         bend = max(-self._bend, min(self._bend, wanted))
-        left = max(0.0, follower.remaining(looking) - BEYOND)
+        left = max(0.0, follower.remaining(looking) - AIM_BEYOND)
         speed = min(
             follower.speed(looking, bearing, distance),
             max(self._pursuit.min_speed, math.sqrt(2 * self._pursuit.deceleration * left)),
         )
         speed = min(speed if sure else min(speed, UNSURE_SPEED), self._speed + 0.1)
         bend, room = self._free_of(bend, way, points)
-        self._speed = min(speed, math.sqrt(2 * BRAKING * max(0.0, room - ENOUGH / 2)))
-        if room < ENOUGH:
+        self._speed = min(speed, math.sqrt(2 * BRAKING * max(0.0, room - MIN_ROOM / 2)))
+        if room < MIN_ROOM:
             self._speed = 0.0
-        if self._swings(bend) and self._speed <= SWINGING:
+        if self._swings(bend) and self._speed <= MAX_SWING_SPEED:
             self._swing(bend, way)
         else:
             self._robot.drive(Twist.planar(way * self._speed, self._speed * bend) if self._speed else Twist())
 
     def face(self, pose: Pose2, yaw: float) -> bool:
         """It cannot turn where it stands: it drives another way to the same place, and then looks where that has led it."""
-        if abs(wrap(yaw - pose.yaw)) < FACES or self._tries >= TRIES:
+        if abs(wrap(yaw - pose.yaw)) < YAW_TOLERANCE or self._tries >= MAX_TRIES:
             self._tries = 0
             return True
         self._tries += 1
@@ -208,7 +208,7 @@ class AckermannController(GroundBound):
         tries = np.concatenate(([bend], tries))
         # seen from the body, a way back that bends to its own left is one of the opposite curvature
         rooms = self._free(tries * way, points, way)
-        loss = 2.0 * np.clip(ENOUGH + 2.0 - rooms, 0.0, None) + np.abs(tries - bend) / self._bend
+        loss = 2.0 * np.clip(MIN_ROOM + 2.0 - rooms, 0.0, None) + np.abs(tries - bend) / self._bend
         best = int(loss.argmin())
         return float(tries[best]), float(rooms[best])
 
@@ -237,7 +237,7 @@ class AckermannController(GroundBound):
 
     def _swings(self, bend: float) -> bool:
         """The front wheels, which need their time, are far from where this bend has them."""
-        most = self._bend / SWING * PERIOD
+        most = self._bend / SWING_TIME * PERIOD
         self._steered += max(-most, min(most, bend - self._steered))
         return abs(bend - self._steered) > 0.3 * self._bend
 
@@ -245,12 +245,12 @@ class AckermannController(GroundBound):
         """Stand, or creep where that is all that can be told, until the front wheels have swung round."""
         self._speed = 0.0
         if isinstance(self._robot, Manoeuvrable) and "steer" in self._robot.info.manoeuvres:
-            lock = self._robot.info.max_steering or LOCK
+            lock = self._robot.info.max_steering or DEFAULT_STEERING
             # of the wheels the same angle bends a way back to the other side of it
             angle = math.atan(math.tan(lock) * bend * way / self._bend)
             self._robot.manoeuvre(Manoeuvre(kind="steer", speed=0.0, steering=angle))
         else:
-            self._robot.drive(Twist.planar(way * CREEP, CREEP * bend))
+            self._robot.drive(Twist.planar(way * CREEP_SPEED, CREEP_SPEED * bend))
 
     def _take(self, pieces: list[Piece]) -> None:
         if self._pieces and self._pieces[0].ahead != pieces[0].ahead:
@@ -259,7 +259,7 @@ class AckermannController(GroundBound):
         points = pieces[0].points
         along = _end(points)
         # aiming beyond the end it comes there in the direction of the way
-        beyond = points[-1] + np.arange(0.1, BEYOND + 0.05, 0.1)[:, None] * along
+        beyond = points[-1] + np.arange(0.1, AIM_BEYOND + 0.05, 0.1)[:, None] * along
         self._follower = PathFollower(
             np.concatenate([points, beyond]), cruise=self.cruise, parameters=self._pursuit
         )
@@ -271,4 +271,4 @@ class AckermannController(GroundBound):
         x, y = points[-1].tolist()
         dx, dy = _end(points).tolist()
         over = (pose.x - x) * dx + (pose.y - y) * dy
-        return over > -NEAR and pose.distance(x, y) < BEYOND
+        return over > -END_TOLERANCE and pose.distance(x, y) < AIM_BEYOND

@@ -30,7 +30,7 @@ BRAKING = 0.4
 CURVATURES = np.concatenate([np.linspace(-3.0, -0.25, 12), [0.0], np.linspace(0.25, 3.0, 12)])
 """Arcs that are tried beside the wanted one [1/m]; positive to the left."""
 
-ENOUGH = 0.35
+MIN_FREE_LENGTH = 0.35
 """An arc with less free length than this leads nowhere [m]."""
 
 
@@ -88,9 +88,9 @@ class Avoidance:
         near = points[np.hypot(points[:, 0], points[:, 1]) < HORIZON]
         curvatures = np.append(CURVATURES, wanted)
         free = free_lengths(curvatures, near, self._reach)
-        needed = min(distance, ENOUGH + speed * speed / (2 * BRAKING) + 0.4)
+        needed = min(distance, MIN_FREE_LENGTH + speed * speed / (2 * BRAKING) + 0.4)
         best = self._best(curvatures, free, wanted, needed)
-        if free[best] < min(ENOUGH, distance * 0.5):
+        if free[best] < min(MIN_FREE_LENGTH, distance * 0.5):
             return AvoidanceResult(Twist.planar(0.0, self._rate(1.5 * bearing)), True)
         return AvoidanceResult(self._along(float(curvatures[best]), float(free[best]), speed), False)
 

@@ -9,26 +9,26 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Manoeuvrable, Robot
 from robotside.kinds.registry import kind_of
-from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, SinglePath
+from robotside.navigation.path_controller import CRUISE_SHARE, UNSURE_SPEED, SinglePath
 
-__all__ = ["TAKES_OFF_TO", "CourseController"]
+__all__ = ["TAKE_OFF_HEIGHT", "CourseController"]
 
-TAKES_OFF_TO = 2.0
+TAKE_OFF_HEIGHT = 2.0
 """Above where it stands, which is over people's heads [m]."""
 
-FASTEST = 2.0
+MAX_SPEED = 2.0
 """It goes by itself no faster than this [m/s]."""
 
-TURNS_FIRST = 0.6
+MAX_BEARING = 0.6
 """Farther off its course than this, what turns where it is does so before it goes [rad]."""
 
-SLOW = 0.4
+TURNING_SPEED = 0.4
 """The speed at which a boat, which turns only by going, comes about [m/s]."""
 
-BOAT_TURNS = 3.0
+TURNING_RADIUS = 3.0
 """Of the bend in which a boat comes about [m]."""
 
-ALIGNED = 0.1
+YAW_TOLERANCE = 0.1
 """It looks to where it should within this [rad]."""
 
 
@@ -44,8 +44,8 @@ class CourseController(SinglePath):
         info = robot.info
         super().__init__(kind_of(info.kind).pursuit)
         self._robot, self._comes_about = robot, kind_of(info.kind).comes_about
-        self.cruise, self.clear = min(CRUISE * info.max_speed, FASTEST), info.radius + 0.18
-        self.turning = BOAT_TURNS if kind_of(info.kind).comes_about else 0.0
+        self.cruise, self.clear = min(CRUISE_SHARE * info.max_speed, MAX_SPEED), info.radius + 0.18
+        self.turning = TURNING_RADIUS if kind_of(info.kind).comes_about else 0.0
         self.height = math.nan
         self.aloft = "take_off" not in info.manoeuvres
         self.measured = math.nan
@@ -57,14 +57,14 @@ class CourseController(SinglePath):
             return
         distance, bearing = follower.aim(pose, self._speed)
         speed = follower.speed(pose, bearing, distance)
-        if abs(bearing) > TURNS_FIRST:
-            speed = SLOW if self._comes_about else 0.0
+        if abs(bearing) > MAX_BEARING:
+            speed = TURNING_SPEED if self._comes_about else 0.0
         self._speed = speed if sure else min(speed, UNSURE_SPEED)
         self.along(wrap(pose.yaw + bearing), self._speed)
 
     def face(self, pose: Pose2, yaw: float) -> bool:
         """Turn to `yaw`; a boat, which turns only by going, looks wherever it came from."""
-        if self._comes_about or abs(wrap(yaw - pose.yaw)) < ALIGNED:
+        if self._comes_about or abs(wrap(yaw - pose.yaw)) < YAW_TOLERANCE:
             return True
         self.along(yaw, 0.0)
         return False
@@ -79,7 +79,7 @@ class CourseController(SinglePath):
     def take_off(self, height: float = math.nan) -> None:
         """Rise to `height` above the map's origin [m], NaN for the usual one."""
         told = self.height if math.isnan(height) else height
-        usual = TAKES_OFF_TO + (0.0 if math.isnan(self.measured) else self.measured)
+        usual = TAKE_OFF_HEIGHT + (0.0 if math.isnan(self.measured) else self.measured)
         self._order(Manoeuvre(kind="take_off", height=usual if math.isnan(told) else told))
 
     def along(self, yaw: float, speed: float, throttle: float = math.nan) -> None:

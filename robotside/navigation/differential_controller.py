@@ -11,17 +11,17 @@ from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Robot
 from robotside.kinds.registry import kind_of
 from robotside.navigation.avoidance import Avoidance, free_lengths
-from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, GroundBound, SinglePath
+from robotside.navigation.path_controller import CRUISE_SHARE, UNSURE_SPEED, GroundBound, SinglePath
 
 __all__ = ["DifferentialController"]
 
-STANDS = 0.03
+MIN_SPEED = 0.03
 """Slower than this it gets nowhere [m/s]."""
 
-PATIENCE, BACKS, BACK = 80, 50, 0.12
+MAX_STANDING_STEPS, BACKING_STEPS, BACKING_SPEED = 80, 50, 0.12
 """After so many times of getting nowhere it goes back for so many, at this speed [m/s]; there are about twenty a second."""
 
-CLOSE, ROOM = 0.04, 0.4
+MIN_SIDE_GAP, MIN_BACK_ROOM = 0.04, 0.4
 """It goes back where it passes everything by this, and has so much room [m]."""
 
 
@@ -39,7 +39,7 @@ class DifferentialController(SinglePath, GroundBound):
         super().__init__(kind_of(info.kind).pursuit)
         self._robot, self._turn = robot, info.max_yaw_rate
         self._avoidance = Avoidance(info.radius, max_yaw_rate=info.max_yaw_rate)
-        self.cruise, self.clear = CRUISE * info.max_speed, info.radius + 0.18
+        self.cruise, self.clear = CRUISE_SHARE * info.max_speed, info.radius + 0.18
         self._stood = 0
         """Times that it was to go on and could not, of late."""
 
@@ -58,18 +58,21 @@ class DifferentialController(SinglePath, GroundBound):
         speed = cruise if sure else min(cruise, UNSURE_SPEED)
         way = self._avoidance.choose(distance, bearing, min(speed, self._speed + 0.08), points)
         self._speed = way.twist.linear.x
-        self._stood = self._stood + 1 if self._speed < STANDS else max(self._stood - 2, 0)
-        if self._stood > PATIENCE and self._backs(points):
-            self._robot.drive(Twist.planar(-BACK, 0.0))
+        self._stood = self._stood + 1 if self._speed < MIN_SPEED else max(self._stood - 2, 0)
+        if self._stood > MAX_STANDING_STEPS and self._backs(points):
+            self._robot.drive(Twist.planar(-BACKING_SPEED, 0.0))
             return
         self._robot.drive(way.twist)
 
     def _backs(self, points: Points) -> bool:
         """It makes room again where it has stood for a while, as long as there is some behind it."""
-        if self._stood > PATIENCE + BACKS:
+        if self._stood > MAX_STANDING_STEPS + BACKING_STEPS:
             self._stood = 0
         behind = points * np.array([-1.0, -1.0])
-        return float(free_lengths(np.zeros(1), behind, self._robot.info.radius + CLOSE)[0]) > ROOM
+        return (
+            float(free_lengths(np.zeros(1), behind, self._robot.info.radius + MIN_SIDE_GAP)[0])
+            > MIN_BACK_ROOM
+        )
 
     def face(self, pose: Pose2, yaw: float) -> bool:
         """Turn to `yaw` where it stands."""

@@ -19,7 +19,7 @@ from robotside.core.pose2 import Points, Pose2
 from robotside.mapping.occupancy_grid import Grid
 from robotside.mapping.wavefront import Wavefront, work_steps
 
-__all__ = ["MOST", "LatticePlanner", "Piece"]
+__all__ = ["MAX_POSES", "LatticePlanner", "Piece"]
 
 STRIDE = 0.9
 """From a pose of the search to the next [m]."""
@@ -27,31 +27,31 @@ STRIDE = 0.9
 SAMPLES = 3
 """Places on that way at which the body must fit."""
 
-CELL, TURNS = 0.6, 48
+CELL_SIZE, DIRECTIONS = 0.6, 48
 """Poses in one cell of this edge [m] and one of so many directions are one."""
 
-BACK, CHANGE, BEND = 2.0, 6.0, 1.05
+BACK_COST, CHANGE_COST, BEND_COST = 2.0, 6.0, 1.05
 """A way back is as dear as one so many times as long; so much longer for changing over [m]; and so many times for a bend."""
 
-LONGEST_BACK = 8.0
+MAX_BACK_SHOT = 8.0
 """The last part of a way, to the goal itself, is driven backwards no farther than this [m]."""
 
-TIGHT = 3.0
+TIGHT_COST = 3.0
 """So many times as dear is a way where it is narrow."""
 
-MOST = 5_000
+MAX_POSES = 5_000
 """Poses that are looked at before there is no way."""
 
-FIELD = 0.4
+FIELD_CELL = 0.4
 """Cells of the map by which the rest of the way is reckoned [m]."""
 
-DEAR = 2
+SHOT_STEPS = 2
 """Steps more that it counts to try the last part of a way."""
 
-DEEP = 1.0
+MAX_WALL_DEPTH = 1.0
 """So far from the surface of a wall no way is reckoned [m]."""
 
-FINE, ROUGH = 0.1, 1.2
+FINE_SPACING, ROUGH_SPACING = 0.1, 1.2
 """Between two points of a way, and where it is only seen whether it may be one [m]."""
 
 
@@ -99,14 +99,14 @@ class LatticePlanner:
                 return pieces
 
     def search(self, start: Pose2, goal: tuple[float, float, float]) -> Generator[None, None, list[Piece]]:
-        """The same, bit by bit: it yields at least once for each of at most `MOST` poses, and while it reckons before."""
+        """The same, bit by bit: it yields at least once for each of at most `MAX_POSES` poses, and while it reckons before."""
         field = yield from self._field(goal)
         room = float(self._room(np.array([start])).min())
         first = _Node(start, 0.0, None, 0.0, 0.0)
         number = itertools.count()
         queue = [(field(start.x, start.y), next(number), first)]
         seen: set[tuple[int, int, int]] = set()
-        while queue and len(seen) < MOST:
+        while queue and len(seen) < MAX_POSES:
             node = heapq.heappop(queue)[2]
             key = _key(node.pose)
             if key in seen:
@@ -114,7 +114,7 @@ class LatticePlanner:
             yield
             seen.add(key)
             if self._tries(node, goal, len(seen)):
-                yield from work_steps(DEAR, 1)
+                yield from work_steps(SHOT_STEPS, 1)
                 last = self._last(node, goal, min(self._need, room))
                 if last is not None:
                     return _pieces(last)
@@ -130,13 +130,13 @@ class LatticePlanner:
     ) -> Generator[None, None, Callable[[float, float], float]]:
         """The way that is left to the goal for a disc [m], by place."""
         grid = self._grid
-        factor = max(1, round(FIELD / grid.resolution))
+        factor = max(1, round(FIELD_CELL / grid.resolution))
         room = self._distance[::factor, ::factor]
         row, column = (index // factor for index in grid.cell(goal[0], goal[1]))
         row, column = min(max(row, 0), room.shape[0] - 1), min(max(column, 0), room.shape[1] - 1)
         wave = Wavefront(room.shape, (row, column))
         # what stands too close already has to come away, but not from deep in a wall
-        inside = np.where(room > -DEEP, 1e3, np.inf)
+        inside = np.where(room > -MAX_WALL_DEPTH, 1e3, np.inf)
         wave.price[:] = np.where(room > self._need * 0.8, 1.0, np.where(room > 0, 8.0, inside))
         wave.price[row, column] = 1.0
         yield from work_steps(room.size)
@@ -164,9 +164,9 @@ class LatticePlanner:
         for (bend, way), free in zip(self._moves, free_of, strict=True):
             if free < need:
                 continue
-            cost = STRIDE * (BEND if bend else 1.0) * (1.0 if way > 0 else BACK)
-            cost *= 1.0 + TIGHT * max(0.0, self._want - free) / self._want
-            cost += CHANGE if node.length * way < 0 else 0.0
+            cost = STRIDE * (BEND_COST if bend else 1.0) * (1.0 if way > 0 else BACK_COST)
+            cost *= 1.0 + TIGHT_COST * max(0.0, self._want - free) / self._want
+            cost += CHANGE_COST if node.length * way < 0 else 0.0
             children.append(_Node(_after(pose, bend, way), node.cost + cost, node, bend, way))
         return children
 
@@ -177,16 +177,18 @@ class LatticePlanner:
         """The goal's own pose, by at most two bends and a straight line between them; None when that cannot be."""
         ways: list[list[_Node]] = []
         for legs in _shots(node.pose, goal, self._bend):
-            if sum(-way for _, way in legs if way < 0) > LONGEST_BACK:
+            if sum(-way for _, way in legs if way < 0) > MAX_BACK_SHOT:
                 continue
             ends = [node]
             for bend, way in legs:
-                cost = abs(way) * (1.0 if way > 0 else BACK) + (CHANGE if ends[-1].length * way < 0 else 0.0)
+                cost = abs(way) * (1.0 if way > 0 else BACK_COST) + (
+                    CHANGE_COST if ends[-1].length * way < 0 else 0.0
+                )
                 end = _after(ends[-1].pose, bend, way)
                 ends.append(_Node(end, ends[-1].cost + cost, ends[-1], bend, way))
             ways.append(ends)
         # a few places tell of most ways that they do not fit
-        for step in (ROUGH, 2 * FINE):
+        for step in (ROUGH_SPACING, 2 * FINE_SPACING):
             rooms = self._rooms_along(ways, step)
             ways = [ends for ends, room in zip(ways, rooms, strict=True) if room >= need]
         return min((ends[-1] for ends in ways), key=lambda end: end.cost, default=None)
@@ -236,7 +238,11 @@ class LatticePlanner:
 
 
 def _key(pose: Pose2) -> tuple[int, int, int]:
-    return round(pose.x / CELL), round(pose.y / CELL), round(pose.yaw / math.tau * TURNS) % TURNS
+    return (
+        round(pose.x / CELL_SIZE),
+        round(pose.y / CELL_SIZE),
+        round(pose.yaw / math.tau * DIRECTIONS) % DIRECTIONS,
+    )
 
 
 def _after(pose: Pose2, bend: float, way: float) -> Pose2:
@@ -318,7 +324,7 @@ def _pieces(node: _Node) -> list[Piece]:
             pieces.append(Piece(np.concatenate(points), ahead))
             points = [points[-1][-1:]]
         ahead = after.length > 0
-        count = max(1, round(abs(after.length) / FINE))
+        count = max(1, round(abs(after.length) / FINE_SPACING))
         points.append(_arc(before.pose, after.bend, after.length, count)[:, :2])
     if ahead is not None:
         pieces.append(Piece(np.concatenate(points), ahead))

@@ -21,27 +21,27 @@ from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.ackermann_controller import AckermannController, girth
 from robotside.navigation.course_controller import CourseController
 from robotside.navigation.differential_controller import DifferentialController
-from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, PathController, Search
+from robotside.navigation.path_controller import CRUISE_SHARE, UNSURE_SPEED, PathController, Search
 from robotside.navigation.planner import STEP, Planner, Unreachable
 
-__all__ = ["CRUISE", "UNSURE_SPEED", "Goal", "Navigator", "LegState"]
+__all__ = ["CRUISE_SHARE", "UNSURE_SPEED", "Goal", "Navigator", "LegState"]
 
-REPLAN = 1.0
+REPLAN_PERIOD = 1.0
 """Least time between two plans [s]."""
 
-STUCK = 10.0
+STUCK_TIMEOUT = 10.0
 """Without getting 0.1 m nearer or turning for this long, the way is blocked [s]."""
 
-PATIENCE = 20.0
+READY_TIMEOUT = 20.0
 """To get ready to go [s]."""
 
-AT_ONCE = 40
+SEARCH_STEPS = 40
 """Steps of a search for a way in one update: a few milliseconds, so that whoever presses STOP is heard."""
 
-AT_REST, COMES_TO_REST = 0.15, 3.0
+MAX_REST_SPEED, REST_TIMEOUT = 0.15, 3.0
 """Slower than this it stands, and after so long it is taken to [m/s, s]."""
 
-GIVE_UP = 3
+MAX_STUCK = 3
 """Times stuck on one leg before it is given up."""
 
 
@@ -227,7 +227,7 @@ class Navigator:
         self._left = going.remaining(pose)
         if not self._progresses(pose, now):
             return LegState.BLOCKED
-        if now - self._planned >= REPLAN and self._in_the_way(now):
+        if now - self._planned >= REPLAN_PERIOD and self._in_the_way(now):
             self._ask(now)
         if self.planning and not looks:
             looks = not self._look(pose, goal, now)
@@ -242,9 +242,9 @@ class Navigator:
             self._waits_since = math.inf
             return ""
         self._waits_since = min(self._waits_since, now)
-        if now - self._waits_since > PATIENCE:
-            said = f"{waits[:-1]} took longer than {PATIENCE:.0f} s; the robot stays where it is."
-            self.reason = Notice(Code.TASK_SLOW, said, seconds=PATIENCE)
+        if now - self._waits_since > READY_TIMEOUT:
+            said = f"{waits[:-1]} took longer than {READY_TIMEOUT:.0f} s; the robot stays where it is."
+            self.reason = Notice(Code.TASK_SLOW, said, seconds=READY_TIMEOUT)
         return waits
 
     def _ask(self, now: float) -> None:
@@ -261,7 +261,7 @@ class Navigator:
             known = self.obstacles.points(now)
             self._search = self.going.search(self.planner, pose, (goal.x, goal.y, goal.yaw), goal.name, known)
         try:
-            for _ in range(AT_ONCE):
+            for _ in range(SEARCH_STEPS):
                 next(self._search)
         except StopIteration as found:
             self._left = self.going.remaining(pose)
@@ -281,8 +281,8 @@ class Navigator:
         if before is None:
             return False
         was, then = before
-        slow = pose.distance(was.x, was.y) < AT_REST * max(now - then, 1e-3)
-        return slow or now - self._asked > COMES_TO_REST
+        slow = pose.distance(was.x, was.y) < MAX_REST_SPEED * max(now - then, 1e-3)
+        return slow or now - self._asked > REST_TIMEOUT
 
     def _drop(self) -> None:
         """Look for no way any more."""
@@ -305,11 +305,11 @@ class Navigator:
         if self._moved == -math.inf or self._left < self._best - 0.1:
             self._moved, self._best = now, self._left
             return True
-        if now - self._moved < STUCK:
+        if now - self._moved < STUCK_TIMEOUT:
             return True
         self._stuck += 1
         self._moved = now
-        if self._stuck < GIVE_UP and self._goal:
+        if self._stuck < MAX_STUCK and self._goal:
             self._best = math.inf
             self._ask(now)
             return True

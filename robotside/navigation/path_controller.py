@@ -13,9 +13,9 @@ from robotside.kinds.vehicle_kind import PursuitParameters
 from robotside.navigation.planner import Planner
 from robotside.navigation.pure_pursuit import ON_WHEELS, PathFollower
 
-__all__ = ["CRUISE", "UNSURE_SPEED", "PathController", "GroundBound", "SinglePath", "Search"]
+__all__ = ["CRUISE_SHARE", "UNSURE_SPEED", "PathController", "GroundBound", "SinglePath", "Search"]
 
-CRUISE = 0.9
+CRUISE_SHARE = 0.9
 """Part of the robot's greatest speed that it travels with by itself."""
 
 UNSURE_SPEED = 0.15

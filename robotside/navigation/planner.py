@@ -14,27 +14,27 @@ from robotside.core.text import place_sentence
 from robotside.mapping.occupancy_grid import Grid
 from robotside.mapping.wavefront import Cell, Wavefront, WorkSteps, rows_at_once, work_steps
 
-__all__ = ["MARGIN", "PREFERRED", "STEP", "Planner", "Unreachable"]
+__all__ = ["MARGIN", "PREFERRED_MARGIN", "STEP", "Planner", "Unreachable"]
 
 MARGIN = 0.08
 """Kept between the body and anything, where it is narrow [m]."""
 
-PREFERRED = 0.45
+PREFERRED_MARGIN = 0.45
 """Kept where there is room [m]."""
 
 STEP = 0.1
 """Between two points of a path [m]."""
 
-CELL = 0.1
+MIN_CELL = 0.1
 """Least width of a cell when searching [m]; finer maps are made coarser, since time grows with their area."""
 
-REACH = 1.0
+SOFT_MARGIN = 1.0
 """Beside the body it matters how near something new is up to here [m]."""
 
-PULLED = 300
+POINTS_PER_STEP = 300
 """Points of a line that one step looks at."""
 
-ESCAPE = 0.6
+ESCAPE_DISTANCE = 0.6
 """A robot that stands too close to something may cross that zone within this distance of itself [m]."""
 
 _BELL = np.exp(-0.5 * (np.arange(-8, 9) / 2.0) ** 2)
@@ -50,11 +50,11 @@ class Planner:
     """Plans paths on one map for one robot."""
 
     def __init__(self, grid: Grid, radius: float) -> None:
-        factor = max(1, math.floor(CELL / grid.resolution + 1e-6))
+        factor = max(1, math.floor(MIN_CELL / grid.resolution + 1e-6))
         self.grid = grid.coarser(factor) if factor > 1 else grid
         self._need = radius + MARGIN
-        self._want = radius + PREFERRED
-        self._reach = radius + REACH
+        self._want = radius + PREFERRED_MARGIN
+        self._reach = radius + SOFT_MARGIN
         _ = self.grid.distance  # now, and not while somebody waits for a way
 
     def fault(self, name: str, x: float, y: float) -> Problem:
@@ -111,7 +111,7 @@ class Planner:
         self._check_on_map(start, goal, name)
         grid = self.grid if obstacles is None else (yield from self.seeing(obstacles))
         straight = np.array([start, goal])
-        yield from work_steps(round(math.dist(start, goal) / STEP), PULLED)
+        yield from work_steps(round(math.dist(start, goal) / STEP), POINTS_PER_STEP)
         if _room_along(grid, straight) >= self._want:
             return resampled(straight)
         route = yield from self._route(grid, start, goal, name)
@@ -140,7 +140,7 @@ class Planner:
         cells = wave.way(to_cell)
         if not len(cells):
             raise Unreachable(f"There is no way to {place_sentence(name, *goal)}.")
-        yield from work_steps(len(cells), PULLED)
+        yield from work_steps(len(cells), POINTS_PER_STEP)
         inner = np.array([grid.x, grid.y]) + (cells[1:-1, ::-1] + 0.5) * grid.resolution
         return np.concatenate([[start], inner, [goal]])
 
@@ -151,12 +151,12 @@ class Planner:
             tight = np.clip((self._want - room) / (self._want - self._need), 0.0, 1.0)
             price[rows] = np.where(room < self._need, np.inf, 1.0 + 8.0 * tight**2)
             yield
-        far = math.ceil(ESCAPE / grid.resolution)
+        far = math.ceil(ESCAPE_DISTANCE / grid.resolution)
         near = tuple(slice(max(0, at - far), at + far + 1) for at in start)
         rows_near, columns_near = np.ogrid[: distance.shape[0], : distance.shape[1]]
         gaps = (rows_near[near[0]] - start[0]) ** 2 + (columns_near[:, near[1]] - start[1]) ** 2
         room = distance[near]
-        escapes = (room < self._need) & (room > 0) & (gaps <= (ESCAPE / grid.resolution) ** 2)
+        escapes = (room < self._need) & (room > 0) & (gaps <= (ESCAPE_DISTANCE / grid.resolution) ** 2)
         price[near][escapes] = 30.0
         price[start] = 1.0
 
@@ -169,7 +169,7 @@ class Planner:
                 here += 1  # no line from here has the room
             else:
                 left = math.dist(route[here].tolist(), route[-1].tolist())
-                yield from work_steps(round(left / STEP) + PULLED, PULLED)
+                yield from work_steps(round(left / STEP) + POINTS_PER_STEP, POINTS_PER_STEP)
                 here = self._farthest(grid, route, here)
             kept.append(here)
         return route[kept]

@@ -9,11 +9,11 @@ import numpy as np
 from robotside.core.pose2 import Points, Pose2
 from robotside.kinds.vehicle_kind import PursuitParameters
 
-__all__ = ["ARRIVED", "CREEP", "PathFollower"]
+__all__ = ["GOAL_TOLERANCE", "MIN_SPEED", "PathFollower"]
 
 ON_WHEELS = PursuitParameters()
 """Of one that turns where it stands."""
-ARRIVED, CREEP = ON_WHEELS.goal_tolerance, ON_WHEELS.min_speed
+GOAL_TOLERANCE, MIN_SPEED = ON_WHEELS.goal_tolerance, ON_WHEELS.min_speed
 """Its circle of arrival [m] and its least speed on the way [m/s]."""
 
 

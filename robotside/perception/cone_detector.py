@@ -14,20 +14,20 @@ from robotside.mapping.connected_components import boxes
 
 __all__ = ["Sighting", "find_cones"]
 
-WIDTH = 320
+SEARCH_WIDTH = 320
 """Columns of the picture that is searched; larger ones are made smaller first."""
 
-LEAST = 12
+MIN_PIXELS = 12
 """Orange pixels of the searched picture that make a thing."""
 
-SPECK = 3
+MIN_PATCH = 3
 """Orange pixels that hang together and are fewer than this are noise."""
 
-GAP = 0.6
+MAX_GAP = 0.6
 """Most between the two orange parts of a cone, as a part of their height together."""
 
-MASK = NDArray[np.bool_]
-PIXELS = NDArray[np.int16]
+Mask = NDArray[np.bool_]
+Pixels = NDArray[np.int16]
 Box = tuple[slice, slice]
 
 
@@ -62,18 +62,18 @@ def find_cones(jpeg: bytes) -> list[Sighting]:
     """The cones in a picture, best first; a picture that cannot be read shows none."""
     try:
         with Image.open(io.BytesIO(jpeg)) as image:
-            image.draft("RGB", (WIDTH, WIDTH))
+            image.draft("RGB", (SEARCH_WIDTH, SEARCH_WIDTH))
             rgb = np.asarray(image.convert("RGB"))
     except (UnidentifiedImageError, OSError, ValueError):
         return []
-    step = max(1, round(rgb.shape[1] / WIDTH))
+    step = max(1, round(rgb.shape[1] / SEARCH_WIDTH))
     return _search(rgb[::step, ::step].astype(np.int16))
 
 
-def _search(rgb: PIXELS) -> list[Sighting]:
+def _search(rgb: Pixels) -> list[Sighting]:
     red, green, blue = rgb[..., 0], rgb[..., 1], rgb[..., 2]
     orange = (red > 90) & (red - green > 45) & (green - blue > 8) & (red - blue > 75) & (green * 20 > red * 5)
-    if np.count_nonzero(orange) < LEAST:
+    if np.count_nonzero(orange) < MIN_PIXELS:
         return []
     low = np.minimum(np.minimum(red, green), blue)
     high = np.maximum(np.maximum(red, green), blue)
@@ -86,11 +86,11 @@ def _search(rgb: PIXELS) -> list[Sighting]:
     return sorted(found, key=lambda sighting: -sighting.score)
 
 
-def _groups(orange: MASK) -> Iterator[Box]:
+def _groups(orange: Mask) -> Iterator[Box]:
     """The boxes round orange things; what stands above another across a gap, as above a white band, is one with it."""
     whole: list[Box] = []
     for box in boxes(orange):
-        if np.count_nonzero(orange[box]) < SPECK:
+        if np.count_nonzero(orange[box]) < MIN_PATCH:
             continue
         above = next((number for number, other in enumerate(whole) if _stands_on(other, box)), None)
         if above is None:
@@ -111,14 +111,14 @@ def _stands_on(upper: Box, lower: Box) -> bool:
     tall = (up.stop - up.start) + (down.stop - down.start)
     aside = abs((across.start + across.stop) - (below.start + below.stop)) / 2
     wide = max(across.stop - across.start, below.stop - below.start)
-    return bool(-2 <= gap <= GAP * tall and aside <= 0.35 * wide)
+    return bool(-2 <= gap <= MAX_GAP * tall and aside <= 0.35 * wide)
 
 
-def _judge(orange: MASK, pale: MASK, box: Box, shape: tuple[int, ...]) -> Sighting | None:
+def _judge(orange: Mask, pale: Mask, box: Box, shape: tuple[int, ...]) -> Sighting | None:
     """The sighting that a group of orange pixels stands for; None when it does not look like a cone."""
     rows, columns = orange.shape
     count = int(np.count_nonzero(orange))
-    if count < LEAST or rows < 6 or not 0.9 <= rows / columns <= 5.0:
+    if count < MIN_PIXELS or rows < 6 or not 0.9 <= rows / columns <= 5.0:
         return None
     white = _white_between(orange, pale)
     narrowing = _narrowing(orange)
@@ -131,7 +131,7 @@ def _judge(orange: MASK, pale: MASK, box: Box, shape: tuple[int, ...]) -> Sighti
     )
 
 
-def _white_between(orange: MASK, pale: MASK) -> float:
+def _white_between(orange: Mask, pale: Mask) -> float:
     """Part of the expected white band that is there: pale rows with orange above and below."""
     full = orange.sum(axis=1)
     band = (pale & ~orange).sum(axis=1)
@@ -141,7 +141,7 @@ def _white_between(orange: MASK, pale: MASK) -> float:
     return float(middle.sum() / (0.25 * len(full)))
 
 
-def _narrowing(orange: MASK) -> float:
+def _narrowing(orange: Mask) -> float:
     """1 when the upper half is clearly narrower than the lower one, 0 when it is not."""
     widths = orange.sum(axis=1).astype(float)
     half = len(widths) // 2

@@ -11,13 +11,13 @@ from bridge.msgs.std_msgs import Time
 
 __all__ = ["IntruderTracker"]
 
-SAME = 1.2
+SAME_DISTANCE = 1.2
 """Sightings within this distance are of the same thing [m]."""
 
-CONFIRM = 3
+MIN_SIGHTINGS = 3
 """Sightings before something is reported."""
 
-FORGET = 20.0
+FORGET_AFTER = 20.0
 """A thing not yet reported is forgotten when it was not seen for this long [s]."""
 
 
@@ -48,14 +48,14 @@ class IntruderTracker:
 
     def see(self, x: float, y: float, distance: float, now: float) -> Intruder | None:
         """Take in one sighting at (x, y) [m], from `distance` [m]; the intruder when it has just become one."""
-        self._suspects = [s for s in self._suspects if s.number or now - s.last < FORGET]
+        self._suspects = [s for s in self._suspects if s.number or now - s.last < FORGET_AFTER]
         suspect = min(self._suspects, key=lambda s: math.hypot(x - s.x, y - s.y), default=None)
         weight = 1.0 / max(distance, 0.5) ** 2
-        if suspect is None or math.hypot(x - suspect.x, y - suspect.y) > SAME:
+        if suspect is None or math.hypot(x - suspect.x, y - suspect.y) > SAME_DISTANCE:
             self._suspects.append(_Suspect(x, y, weight, now, now))
             return None
         _add(suspect, x, y, weight, now)
-        if suspect.number or suspect.sightings < CONFIRM:
+        if suspect.number or suspect.sightings < MIN_SIGHTINGS:
             return None
         self._count += 1
         suspect.number = self._count

@@ -32,13 +32,13 @@ __all__ = ["CameraMount", "IntruderWatch"]
 PERIOD = 0.2
 """Between two pictures that are searched [s]."""
 
-REACH = 7.0
+MAX_DISTANCE = 7.0
 """Sightings from farther away are not placed on the map [m]."""
 
 CONE_HEIGHT = (0.35, 0.95)
 """How tall a thing at the measured distance must be to be a cone [m]."""
 
-FORGETS = 1.0
+MAX_SWEEP_AGE = 1.0
 """Laser points older than this against the picture are not used [s]."""
 
 
@@ -99,7 +99,7 @@ class IntruderWatch:
         if whole and not CONE_HEIGHT[0] < tall < CONE_HEIGHT[1]:
             return None
         place = Point(distance * math.cos(bearing), distance * math.sin(bearing), 0.0)
-        if pose is not None and whole and distance < REACH:
+        if pose is not None and whole and distance < MAX_DISTANCE:
             self._place(pose, place, distance, stamp)
         what = ObjectHypothesis("cone", sighting.score)
         box = BoundingBox2D(
@@ -116,7 +116,7 @@ class IntruderWatch:
         """From the camera [m]: the laser's at this bearing, or where the ground is at the lower edge."""
         drop = (2.0 * sighting.bottom - 1.0) * self._slope * ratio
         ground = self._mount.z / drop / math.cos(bearing) if drop > 0.01 else math.inf
-        if pose is None or abs(stamp - self._points_stamp) > FORGETS:
+        if pose is None or abs(stamp - self._points_stamp) > MAX_SWEEP_AGE:
             return ground
         eye = pose.then(Pose2(self._mount.x, 0.0, 0.0))
         seen = eye.inverse().apply(self._points)

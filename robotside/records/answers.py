@@ -5,9 +5,9 @@ from __future__ import annotations
 from robotside.records.database.rows import Answered
 from robotside.records.ledger import Ledger
 
-__all__ = ["KEPT", "Answers"]
+__all__ = ["MAX_ANSWERS", "Answers"]
 
-KEPT = 256
+MAX_ANSWERS = 256
 """Answers that are kept."""
 
 
@@ -32,5 +32,5 @@ class Answers:
             number = ledger.count("last answer")
             change = ledger.order if job.orders else ledger.fact
             change("answers", number, answered)
-            for old in sorted(ledger.rows("answers"))[:-KEPT]:
+            for old in sorted(ledger.rows("answers"))[:-MAX_ANSWERS]:
                 ledger.fact("answers", old, None)

@@ -14,11 +14,11 @@ from robotside.core.notice import Notice
 from robotside.records.database.jobs import NotRecorded
 from robotside.records.ledger import Ledger
 
-__all__ = ["AT_FIRST", "KEPT", "EventLog"]
+__all__ = ["FIRST_EVENTS", "MAX_EVENTS", "EventLog"]
 
-KEPT = 5000
+MAX_EVENTS = 5000
 """Events that can still be asked for."""
-AT_FIRST = 500
+FIRST_EVENTS = 500
 """Events for somebody who knows none of them."""
 
 
@@ -62,7 +62,7 @@ class EventLog:
         if most > 0:
             keys = keys[:most] if identity else keys[-most:]
         elif known <= 0:
-            keys = keys[-AT_FIRST:]
+            keys = keys[-FIRST_EVENTS:]
         return [self._signed(rows[key]) for key in keys]
 
     def more(self, told: Iterable[Event]) -> bool:
@@ -107,7 +107,7 @@ class EventLog:
 
     def _prune(self) -> None:
         rows = self._ledger.rows("events")
-        while len(rows) > KEPT:
+        while len(rows) > MAX_EVENTS:
             oldest = self._oldest
             self._oldest += 1
             if oldest in rows:

@@ -15,7 +15,7 @@ from robotside.records.eventlog import EventLog
 
 __all__ = ["Events", "Say"]
 
-LONGEST = 300
+MAX_TEXT = 300
 """Characters kept of an event's sentence."""
 
 
@@ -50,7 +50,7 @@ class Events:
     ) -> Event:
         """Record one notice; `at` is where in `map` [m], None when it has no place."""
         position = Point(at[0], at[1], 0.0) if at else Point(math.nan, math.nan, math.nan)
-        said = plain(notice, LONGEST)
+        said = plain(notice, MAX_TEXT)
         event = Event(0, "", Time.at(self._now()), level, kind, said, position, **coded(notice))
         return self._log.add(event, self._publish)
 

@@ -16,11 +16,11 @@ from robotside.records.ledger import Ledger, within
 
 __all__ = ["Missions"]
 
-MOST = 200
+MAX_MISSIONS = 200
 """Names that are kept."""
-REVISIONS = 20
+MAX_REVISIONS = 20
 """Of each mission that are kept."""
-LONGEST = 60
+MAX_NAME = 60
 """Characters of a mission's name."""
 
 
@@ -73,25 +73,25 @@ class Missions:
 
         NotRecorded says what is wrong with it.
         """
-        mission = msgspec.structs.replace(mission, name=plain(mission.name, LONGEST))
+        mission = msgspec.structs.replace(mission, name=plain(mission.name, MAX_NAME))
         ledger = self._ledger
         with ledger.together():
             rows = ledger.rows("missions")
             names = {kept.name for kept in rows.values()} | {mission.name}
-            within(len(names - {""}), MOST, "missions")
+            within(len(names - {""}), MAX_MISSIONS, "missions")
             key = ledger.count("last mission")
             ledger.order("missions", key, mission)
             ledger.order("facts", "mission", str(key), then)
-            for old in sorted(k for k in rows if rows[k].name == mission.name)[:-REVISIONS]:
+            for old in sorted(k for k in rows if rows[k].name == mission.name)[:-MAX_REVISIONS]:
                 ledger.order("missions", old, None)
         return mission
 
     def recall(self, name: str) -> Mission:
         """Of the missions under `name` the newest, with the home that the robot has now. NotRecorded when there is none."""
-        found = self.revisions(plain(name, LONGEST))
+        found = self.revisions(plain(name, MAX_NAME))
         if not found or not name:
             names = ", ".join(self.names()) or "none"
-            asked = plain(name, LONGEST)
+            asked = plain(name, MAX_NAME)
             said = f"There is no mission {asked!r}; there are: {names}."
             raise NotRecorded(Notice(Code.MISSION_UNKNOWN, said, mission=asked))
         return msgspec.structs.replace(found[-1], home=self.current.home or found[-1].home)

@@ -11,7 +11,7 @@ from pathlib import Path
 from sqlalchemy.engine import URL, make_url
 from sqlalchemy.exc import ArgumentError, NoSuchModuleError
 
-from robotside.records.database.files import BACKUPS_KEPT, PATIENCE, Files
+from robotside.records.database.files import LOCK_TIMEOUT, MAX_BACKUPS, Files
 from robotside.records.database.legacy import left_behind, put_away
 from robotside.records.database.postgresql_store import PostgresqlStore
 from robotside.records.database.rows import Put
@@ -26,7 +26,7 @@ __all__ = ["CannotOpen", "open_records"]
 
 _BACKENDS = ("sqlite", "postgresql")
 
-AFTER_CRASH = 1_000
+SKIPPED_AFTER_CRASH = 1_000
 """Numbers of events left out after a crash: some may have been told and are not on the disk."""
 
 
@@ -35,8 +35,8 @@ def open_records(
     url: str | None,
     call_soon: CallSoon,
     *,
-    backups: int = BACKUPS_KEPT,
-    patience: float = PATIENCE,
+    backups: int = MAX_BACKUPS,
+    patience: float = LOCK_TIMEOUT,
     now: Callable[[], float] = time.time,
 ) -> Records:
     """Open what is kept in `directory`, or at `url` as SQLAlchemy writes it; CannotOpen says why it cannot be.
@@ -86,7 +86,7 @@ def _store(directory: Path, url: str | None, files: Callable[[Path], Files], pat
 def _first_words(opened: Opened, directory: Path) -> tuple[list[Put], list[str]]:
     """What is written before anything else, and what there is to say about it."""
     facts = opened.content["facts"]
-    skip = max(opened.skip, AFTER_CRASH if facts.get("clean") == "0" else 0)
+    skip = max(opened.skip, SKIPPED_AFTER_CRASH if facts.get("clean") == "0" else 0)
     puts = [Put("facts", "clean", "0")]
     if "log" not in facts:
         puts.append(Put("facts", "log", secrets.token_hex(4)))

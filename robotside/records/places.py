@@ -16,9 +16,9 @@ from robotside.records.ledger import Ledger, within
 __all__ = ["KINDS", "Places"]
 
 KINDS = PLACE_KINDS
-MOST = 1000
+MAX_PLACES = 1000
 """Places that are kept."""
-LONGEST = {"name": 60, "floor": 20, "tag": 64, "note": 300}
+MAX_TEXTS = {"name": 60, "floor": 20, "tag": 64, "note": 300}
 """Characters of each text."""
 
 
@@ -44,7 +44,7 @@ class Places:
 
     def named(self, name: str) -> Place | None:
         """The place that people call so; large and small letters are the same."""
-        wanted = plain(name, LONGEST["name"]).casefold()
+        wanted = plain(name, MAX_TEXTS["name"]).casefold()
         return next((place for place in self.all() if place.name.casefold() == wanted), None)
 
     def set(self, place: Place) -> Place:
@@ -53,7 +53,7 @@ class Places:
         NotRecorded says what is wrong with it.
         """
         _check(place)
-        texts = {field: plain(getattr(place, field), most) for field, most in LONGEST.items()}
+        texts = {field: plain(getattr(place, field), most) for field, most in MAX_TEXTS.items()}
         place = msgspec.structs.replace(place, **texts)
         if not place.name:
             raise NotRecorded(Notice(Code.PLACE_UNNAMED, "A place needs a name."))
@@ -65,7 +65,7 @@ class Places:
             raise _no_place(place.id)
         with self._ledger.together():
             if not place.id:
-                within(len(self._ledger.rows("places")) + 1, MOST, "places")
+                within(len(self._ledger.rows("places")) + 1, MAX_PLACES, "places")
                 place = msgspec.structs.replace(place, id=self._ledger.count("last place"))
             self._ledger.order("places", place.id, place)
         return place

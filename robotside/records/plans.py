@@ -16,9 +16,9 @@ from robotside.records.ledger import Ledger, within
 
 __all__ = ["Queue", "Timetable"]
 
-MOST_QUEUED = 100
+MAX_QUEUED = 100
 """Orders that may wait."""
-MOST_SCHEDULED = 200
+MAX_SCHEDULED = 200
 """Scheduled tasks that are kept."""
 
 
@@ -48,7 +48,7 @@ class Queue:
             said = f"The queue was changed meanwhile: this is revision {revision}, the robot's is {now.revision}."
             changed = f"{said} Look at it and try again."
             raise NotRecorded(Notice(Code.QUEUE_CHANGED, changed, revision=now.revision))
-        within(len(orders), MOST_QUEUED, "waiting tasks")
+        within(len(orders), MAX_QUEUED, "waiting tasks")
         ids = [order.id for order in orders if order.id]
         strange = sorted(set(ids) - {order.id for order in now.orders})
         if strange or len(set(ids)) < len(ids):
@@ -108,7 +108,7 @@ class Timetable:
             raise _no_scheduled(task.id)
         with self._ledger.together():
             if not task.id:
-                within(len(rows) + 1, MOST_SCHEDULED, "scheduled tasks")
+                within(len(rows) + 1, MAX_SCHEDULED, "scheduled tasks")
                 task = msgspec.structs.replace(task, id=self._ledger.count("last scheduled"))
             self._ledger.order("schedule", task.id, task)
         return task

@@ -12,9 +12,9 @@ from robotside.records.ledger import Ledger
 
 __all__ = ["Runs", "UnderWay"]
 
-KEPT = 2000
+MAX_RUNS = 2000
 """Runs that are kept."""
-AT_ONCE = 200
+MAX_PAGE = 200
 """Runs that one question is answered with."""
 
 
@@ -40,7 +40,7 @@ class Runs:
             run = msgspec.structs.replace(run, id=ledger.count("last run"))
             self.note(run, course)
             rows = ledger.rows("runs")
-            for old in sorted(rows)[:-KEPT]:
+            for old in sorted(rows)[:-MAX_RUNS]:
                 ledger.fact("runs", old, None)
         return run
 
@@ -82,4 +82,4 @@ class Runs:
         """The newest runs that are on the disk, newest first: those before `id`, 0 for all; at most `limit` of them."""
         rows = self._ledger.stored("runs")
         found = sorted((key for key in rows if not id or key < id), reverse=True)
-        return [rows[key] for key in found[: max(0, min(limit, AT_ONCE))]]
+        return [rows[key] for key in found[: max(0, min(limit, MAX_PAGE))]]

@@ -13,7 +13,7 @@ from robotside.control.command_expiry import AHEAD
 from robotside.core.notice import Notice, Problem, coded
 from robotside.core.refusal import Refusal
 from robotside.core.text import number, plain
-from robotside.records.answers import KEPT
+from robotside.records.answers import MAX_ANSWERS
 
 __all__ = ["KEPT_FOR", "Commands"]
 
@@ -64,7 +64,7 @@ class Commands:
         if request.command_id:
             self._answers[key] = now, answer
             self._answers.move_to_end(key)
-            while len(self._answers) > KEPT:
+            while len(self._answers) > MAX_ANSWERS:
                 self._answers.popitem(last=False)
         return answer
 

@@ -26,8 +26,8 @@ from bridge.msgs.std_msgs import Time
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
-from robotside.records.places import LONGEST
-from robotside.records.runs import AT_ONCE
+from robotside.records.places import MAX_TEXTS
+from robotside.records.runs import MAX_PAGE
 from robotside.services.command_service import Answering
 from robotside.services.preconditions import Permits
 from robotside.station.station import Station
@@ -69,7 +69,7 @@ class _Kept:
         """Keep a place, unless somebody else drives, or the robot can never stand there."""
         self._permits.may_change(client)
         place = asked.place
-        station, name = self._station, plain(place.name, LONGEST["name"]) or "The place"
+        station, name = self._station, plain(place.name, MAX_TEXTS["name"]) or "The place"
         judge = station.fault if station.autonomy.has_map else station.keeper.fault
         x, y = place.x, place.y
         if place.kind == "dock" and math.isfinite(place.yaw):
@@ -94,8 +94,10 @@ class _Kept:
 
     def history(self, _: Operator, asked: GetHistoryRequest) -> GetHistoryResponse:
         """What was done, newest first."""
-        if asked.before < 0 or not 1 <= asked.limit <= AT_ONCE:
-            said = f"before must be 0 or more and limit 1 to {AT_ONCE}, not {asked.before} and {asked.limit}."
+        if asked.before < 0 or not 1 <= asked.limit <= MAX_PAGE:
+            said = (
+                f"before must be 0 or more and limit 1 to {MAX_PAGE}, not {asked.before} and {asked.limit}."
+            )
             code = Code.HISTORY_RANGE_INVALID
             raise Refusal(Notice(code, said, before=asked.before, limit=asked.limit))
         return GetHistoryResponse(True, runs=self._records.runs.before(asked.before, asked.limit))

@@ -38,7 +38,7 @@ from robotside.control.stop_consequences import still_moves
 from robotside.control.stop_latch import Latch
 from robotside.control.teleop import FOLLOW_LINK, LOST_LINK_STOPS_TASK, Helm, Options
 from robotside.core.bus import Bus
-from robotside.core.config import NOTHING_SET, Config
+from robotside.core.config import DEFAULT_CONFIG, Config
 from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Pose2
 from robotside.core.refusal import Refusal
@@ -80,7 +80,7 @@ class Station:
         clock: Callable[[], float],
         rng: random.Random,
         name: str = "",
-        config: Config = NOTHING_SET,
+        config: Config = DEFAULT_CONFIG,
         civil: Callable[[], float] | None = None,
         zone: tzinfo = UTC,
     ) -> None:

@@ -19,7 +19,7 @@ from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.records import Job, NotRecorded, Records
 from robotside.records.events import Say
-from robotside.records.plans import MOST_QUEUED
+from robotside.records.plans import MAX_QUEUED
 from robotside.tasks.engine import TO_CHARGE, Engine
 from robotside.tasks.manual_hold import Manual
 from robotside.tasks.schedule import Turn, fault, following, turns
@@ -30,7 +30,7 @@ __all__ = ["Agenda"]
 PERIOD = 1.0
 """Between two looks [s], robot clock."""
 
-APART = 1.0
+CLOCK_TOLERANCE = 1.0
 """Two clocks that differ by less are one [s]."""
 
 _BARS = ("PAUSED", "INTERRUPTED")
@@ -129,14 +129,14 @@ class Agenda:
         Refusal when one of them cannot be done, NotRecorded when the queue has changed meanwhile.
         """
         tidy = []
-        for number, order in enumerate(orders[:MOST_QUEUED], 1):
+        for number, order in enumerate(orders[:MAX_QUEUED], 1):
             try:
                 tidy.append(self._assignments.task(order).order)
             except Refusal as problem:
                 raise Refusal(problem.notice.reworded(f"Task {number} of the queue: {problem}")) from problem
         fresh = not (orders and self._records.queue.current.orders)
         with self._records.together() as job:
-            queue = self._records.queue.set([*tidy, *orders[MOST_QUEUED:]], revision)
+            queue = self._records.queue.set([*tidy, *orders[MAX_QUEUED:]], revision)
             why = self._against(queue.orders, fresh=fresh)
             job.then.append(lambda: self._taken_over(job, fresh=fresh))
         return queue, why
@@ -283,7 +283,7 @@ class Agenda:
 
 def _told(task: ScheduledTask, ahead: float) -> ScheduledTask:
     """With its next start by a clock that is `ahead` [s] of the computer's."""
-    if task.next.seconds <= 0 or abs(ahead) < APART:
+    if task.next.seconds <= 0 or abs(ahead) < CLOCK_TOLERANCE:
         return task
     return msgspec.structs.replace(task, next=Time.at(task.next.seconds + ahead))
 

@@ -32,7 +32,7 @@ from robotside.core.pose2 import Points, Pose2
 from robotside.core.refusal import Refusal
 from robotside.core.robot import Robot
 from robotside.core.topic_demand import Demand
-from robotside.limits.bumper_guard import AGAIN
+from robotside.limits.bumper_guard import CONTACT_TIME
 from robotside.localisation.pose_estimator import PoseEstimator
 from robotside.mapping.laser_points import LaserProjection
 from robotside.mapping.moving_obstacles import MovingObstacles
@@ -343,7 +343,7 @@ class Autonomy:
         if not msg.pressed or was or self.engine.status.phase == "docking":
             return
         self.engine.pause(Notice(Code.TASK_BUMPED, "Paused: the bumper touched something."), "alarm")
-        if self._now - self._let_go < AGAIN:
+        if self._now - self._let_go < CONTACT_TIME:
             return
         pose = self.whereabouts.pose
         at = (pose.x, pose.y) if pose else None

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from bridge.msgs.pilothouse_msgs import Check
 from robotside.core.text import number
 
-__all__ = ["MOST_OFFSET", "Looked", "checks"]
+__all__ = ["MAX_OFFSET", "Looked", "checks"]
 
-MOST_OFFSET = 1.0
+MAX_OFFSET = 1.0
 """As far a handheld's clock may be from the robot's, the way included [s]."""
 
 
@@ -77,7 +77,7 @@ def _stop(looked: Looked) -> Check:
 def _clock(looked: Looked) -> Check:
     if math.isnan(looked.offset):
         return Check("clock", "unknown", "No handheld has told its clock yet.")
-    if abs(looked.offset) > MOST_OFFSET:
+    if abs(looked.offset) > MAX_OFFSET:
         side = "ahead of" if looked.offset > 0 else "behind"
         said = f"The handheld's clock is {number(abs(looked.offset))} s {side} the robot's"
         return Check("clock", "bad", f"{said}; connect it anew, or check the link.")

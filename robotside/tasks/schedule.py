@@ -21,18 +21,18 @@ from bridge.msgs.pilothouse_msgs import ScheduledTask
 from bridge.msgs.std_msgs import Time
 from robotside.core.notice import Notice, Problem
 
-__all__ = ["LATE", "LEAST_EVERY", "Turn", "fault", "following", "local_zone", "turns"]
+__all__ = ["MAX_LATENESS", "MIN_PERIOD", "Turn", "fault", "following", "local_zone", "turns"]
 
-LATE = 60.0
+MAX_LATENESS = 60.0
 """A start that is later than this is missed [s]."""
 
 SOON = 23 * 3600.0
 """A time of day that comes within this needs no second look, whatever the clock did [s]."""
 
-LEAST_EVERY = 60.0
+MIN_PERIOD = 60.0
 """[s]"""
 
-MOST_EVERY = 31 * 86400.0
+MAX_PERIOD = 31 * 86400.0
 """[s]"""
 
 _AT = re.compile(r"([01]\d|2[0-3]):([0-5]\d)")
@@ -61,8 +61,8 @@ def fault(task: ScheduledTask) -> Problem:
         if any(task.days):
             return ""
         return Notice(Code.SCHEDULE_DAY_MISSING, "A scheduled task needs at least one day of the week.")
-    if not LEAST_EVERY <= task.every <= MOST_EVERY:
-        said = f"The period must be {LEAST_EVERY:.0f} to {MOST_EVERY:.0f} s, not {task.every:g} s."
+    if not MIN_PERIOD <= task.every <= MAX_PERIOD:
+        said = f"The period must be {MIN_PERIOD:.0f} to {MAX_PERIOD:.0f} s, not {task.every:g} s."
         return Notice(Code.SCHEDULE_PERIOD_INVALID, said, period=task.every)
     return ""
 
@@ -101,7 +101,7 @@ def turns(tasks: Iterable[ScheduledTask], now: float, zone: dt.tzinfo) -> list[T
             if first > 0:
                 found.append(Turn(_at(task, first), due=False))
         elif due <= now:
-            late = now - due > LATE
+            late = now - due > MAX_LATENESS
             found.append(
                 Turn(_at(task, _after(task, due, now, first)), due=not late, missed=due if late else 0.0)
             )

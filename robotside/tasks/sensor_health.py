@@ -15,7 +15,7 @@ from robotside.kinds.registry import kind_of
 from robotside.motion.measured import MeasuredState
 from robotside.motion.stopping_path import PlanarVelocity
 
-__all__ = ["PATIENCE", "Senses", "needed"]
+__all__ = ["SENSOR_TIMEOUT", "Senses", "needed"]
 
 _NAMES = {"/odom": "odometry", "/scan": "laser", "/sonar": "sonars"}
 
@@ -46,7 +46,7 @@ def needed(kind: str, heard: Container[str]) -> dict[str, str]:
     return {topic: _NAMES[topic] for topic in ("/odom", ranging) if topic}
 
 
-PATIENCE = 1.0
+SENSOR_TIMEOUT = 1.0
 """A sensor that was silent for longer than this is not alive [s]."""
 
 
@@ -90,7 +90,7 @@ class Senses:
         """What people call the sensors that are not alive."""
         names = _NAMES | _MORE
         known = dict.fromkeys(needed(self._kind, self._heard), -math.inf) | self._heard
-        return [names[topic] for topic, heard in known.items() if now - heard > PATIENCE]
+        return [names[topic] for topic, heard in known.items() if now - heard > SENSOR_TIMEOUT]
 
 
 def _level(odom: Odometry) -> tuple[float, float]:

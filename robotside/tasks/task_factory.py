@@ -32,22 +32,22 @@ from robotside.tasks.engine import Task
 
 __all__ = ["Assignments", "tasks_of", "words_for"]
 
-MOST_PLACES = 100
+MAX_PLACES = 100
 """That one task may name."""
 
-LONGEST_MESSAGE = 200
+MAX_MESSAGE = 200
 """Characters kept of what is told to a person."""
 
-LONGEST_NAME = 64
+MAX_NAME = 64
 """Characters kept of a name and a tag."""
 
-LONGEST_TIME = 24 * 3600.0
+MAX_DURATION = 24 * 3600.0
 """To hold or to follow a heading, where a time is given [s]."""
 
-NAMED = 8
+MAX_NAMED = 8
 """Places that a refusal names."""
 
-LOWEST = 0.3
+MIN_HEIGHT = 0.3
 """What flies is sent no lower [m]."""
 
 _WORDS = {
@@ -119,7 +119,7 @@ class Assignments:
         make = self._makers.get(order.task)
         if make is None:
             said = f"There is no task {order.task!r}; there are {', '.join(TASKS)}."
-            raise Refusal(Notice(Code.TASK_UNKNOWN, said, task=order.task[:LONGEST_NAME]))
+            raise Refusal(Notice(Code.TASK_UNKNOWN, said, task=order.task[:MAX_NAME]))
         known = tasks_of(self._info)
         if order.task not in known:
             said = f"{self._info.name} does not know {words_for(order.task)}; it knows {', '.join(known)}."
@@ -147,7 +147,7 @@ class Assignments:
     def _patrol(self, order: TaskOrder) -> Task:
         mission = self._records.missions.current
         if order.places:
-            places = self._places(order, 1, MOST_PLACES, "A patrol needs at least one place")
+            places = self._places(order, 1, MAX_PLACES, "A patrol needs at least one place")
             goals = [at_place(place) for place in places]
             dwell = mission.dwell if mission.motion == "intermittent" else 0.0
             course = Course(goals, motion=mission.motion, laps=mission.laps, dwell=dwell, rng=self._rng)
@@ -171,7 +171,7 @@ class Assignments:
         return Task("deliver", "Delivery", tree, course, done=lambda: f"Delivered at {places[1].name}.")
 
     def _lead(self, order: TaskOrder) -> Task:
-        places = self._places(order, 1, MOST_PLACES, "A guided tour needs at least one place")
+        places = self._places(order, 1, MAX_PLACES, "A guided tour needs at least one place")
         course, tree = lead(places, order.message, self._guide, self._situation, self._say)
 
         def done() -> str:
@@ -262,7 +262,7 @@ class Assignments:
         if not (kind.flies or kind.dives):
             raise Refusal(Notice(Code.HEIGHT_UNUSED, f"{name} keeps no height; leave it out.", robot=name))
         lowest, highest = self._heights
-        lowest, highest = (max(LOWEST, lowest), highest) if kind.flies else (lowest, min(0.0, highest))
+        lowest, highest = (max(MIN_HEIGHT, lowest), highest) if kind.flies else (lowest, min(0.0, highest))
         lowest = math.ceil(10 * lowest) / 10 if lowest > -math.inf else lowest
         highest = math.floor(10 * highest) / 10 if highest < math.inf else highest
         if math.isinf(height) or not lowest <= height <= highest:
@@ -295,10 +295,10 @@ class Assignments:
         return dock
 
     def _span(self, order: TaskOrder) -> Span:
-        if not (math.isnan(order.duration) or 0 < order.duration <= LONGEST_TIME):
-            allowed = f"above 0 and at most {LONGEST_TIME:.0f} s, or left out until stopped"
+        if not (math.isnan(order.duration) or 0 < order.duration <= MAX_DURATION):
+            allowed = f"above 0 and at most {MAX_DURATION:.0f} s, or left out until stopped"
             said = f"The duration must be {allowed}, not {order.duration:g} s."
-            raise Refusal(Notice(Code.DURATION_INVALID, said, duration=order.duration, max=LONGEST_TIME))
+            raise Refusal(Notice(Code.DURATION_INVALID, said, duration=order.duration, max=MAX_DURATION))
         return Span(order.duration, lambda: self._situation.worked)
 
     def _places(
@@ -320,7 +320,9 @@ class Assignments:
         if name.strip().casefold() == "home" and home is not None:
             return Place(name="Home", kind="home", x=home.x, y=home.y, yaw=home.yaw)
         known = [place.name for place in self._records.places.all()]
-        there = ", ".join(known[:NAMED]) + (f" and {len(known) - NAMED} more" if len(known) > NAMED else "")
+        there = ", ".join(known[:MAX_NAMED]) + (
+            f" and {len(known) - MAX_NAMED} more" if len(known) > MAX_NAMED else ""
+        )
         which = f"there are {there}" if known else "no place has a name yet"
         raise Refusal(Notice(Code.PLACE_UNKNOWN, f"There is no place {name!r}; {which}.", place=name))
 
@@ -341,16 +343,16 @@ def _span_words(lowest: float, highest: float, more: str) -> str:
 
 def _tidy(order: TaskOrder) -> TaskOrder:
     """The same order with its texts cut to readable lines; Refusal when it names too many places."""
-    if max(len(order.places), len(order.goals)) > MOST_PLACES:
+    if max(len(order.places), len(order.goals)) > MAX_PLACES:
         count = max(len(order.places), len(order.goals))
-        said = f"A task names at most {MOST_PLACES} places or points, not {count}."
-        raise Refusal(Notice(Code.PLACES_TOO_MANY, said, count=count, max=MOST_PLACES))
+        said = f"A task names at most {MAX_PLACES} places or points, not {count}."
+        raise Refusal(Notice(Code.PLACES_TOO_MANY, said, count=count, max=MAX_PLACES))
     return msgspec.structs.replace(
         order,
-        places=[plain(name, LONGEST_NAME) for name in order.places],
-        goals=[msgspec.structs.replace(goal, name=plain(goal.name, LONGEST_NAME)) for goal in order.goals],
-        message=plain(order.message, LONGEST_MESSAGE),
-        recipient_tag=plain(order.recipient_tag, LONGEST_NAME),
+        places=[plain(name, MAX_NAME) for name in order.places],
+        goals=[msgspec.structs.replace(goal, name=plain(goal.name, MAX_NAME)) for goal in order.goals],
+        message=plain(order.message, MAX_MESSAGE),
+        recipient_tag=plain(order.recipient_tag, MAX_NAME),
     )
 
 

@@ -16,7 +16,7 @@ __all__ = ["History"]
 
 _OVER = ("SUCCEEDED", "CANCELED", "FAILED")
 
-NOTED_EVERY = 5.0
+NOTE_PERIOD = 5.0
 """A task that takes a time is noted so often beside its changes [s], operators' clock."""
 
 
@@ -72,7 +72,7 @@ class History:
         self._run = self._runs.begin(begun)
 
     def _keep(self, run: TaskRun) -> None:
-        self._due = self._clock() + NOTED_EVERY
+        self._due = self._clock() + NOTE_PERIOD
         self._run = msgspec.structs.replace(run, distance=self._distance)
         if self._engine.active:
             self._course = msgspec.json.encode(self._engine.noted).decode()

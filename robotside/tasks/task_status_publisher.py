@@ -8,9 +8,9 @@ from collections.abc import Callable
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from robotside.records import Job, Records
 
-__all__ = ["PATIENCE", "Telling"]
+__all__ = ["DISK_TIMEOUT", "Telling"]
 
-PATIENCE = 2.0
+DISK_TIMEOUT = 2.0
 """How long a disk that does not answer may keep back what the robot does [s]: who stands beside it must know."""
 
 
@@ -32,7 +32,7 @@ class Telling:
             self.note(status)
             waits = bool(self._waiting) or job.binding
             if waits:
-                self._waiting.append((status, job, self._clock() + PATIENCE))
+                self._waiting.append((status, job, self._clock() + DISK_TIMEOUT))
                 job.after.append(self.look)
         if not waits:
             self._publish(status)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Event, Manoeuvre
-from robotside.core.config import NOTHING_SET, Config
+from robotside.core.config import DEFAULT_CONFIG, Config
 from robotside.door.station_door import StationDoor
 from robotside.motion.manoeuvres import Order
 from robotside.station.station import Station
@@ -39,7 +39,7 @@ class Hand:
     """Anna's controls, and what becomes of the robot."""
 
     def __init__(
-        self, name: str, state: Path, config: Config = NOTHING_SET, *, payloads: Sequence[str] = ()
+        self, name: str, state: Path, config: Config = DEFAULT_CONFIG, *, payloads: Sequence[str] = ()
     ) -> None:
         self.robot = make(name, WORLDS.get(name, "parking_lot"), seed=2, camera=False, payloads=payloads)
         self.now = 1000.0

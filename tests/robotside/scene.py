@@ -19,7 +19,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskStatus,
     Waypoint,
 )
-from robotside.core.config import NOTHING_SET, Config
+from robotside.core.config import DEFAULT_CONFIG, Config
 from robotside.door.station_door import StationDoor
 from robotside.records import Records
 from robotside.records.database.rows import Content, empty
@@ -51,7 +51,7 @@ class Scene:
         robot: FakeRobot,
         state: Path,
         speed: float = 1.0,
-        config: Config = NOTHING_SET,
+        config: Config = DEFAULT_CONFIG,
         *,
         civil: Callable[[], float] | None = None,
     ) -> None:

@@ -11,7 +11,7 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, StartTaskRequest, TaskOrder, Waypoint
-from robotside.core.config import NOTHING_SET, Config, SafeStateSettings
+from robotside.core.config import DEFAULT_CONFIG, Config, SafeStateSettings
 from robotside.motion.manoeuvres import Order
 from tests.robotside.hand import UPSIDE_DOWN, Hand, steer, tilt
 
@@ -24,7 +24,7 @@ def hand(tmp_path: Path) -> Iterator[Make]:
     hands = []
 
     def make(name: str, hold_for: float | None = None) -> Hand:
-        config = Config(safe_state=SafeStateSettings(hold_for=hold_for)) if hold_for else NOTHING_SET
+        config = Config(safe_state=SafeStateSettings(hold_for=hold_for)) if hold_for else DEFAULT_CONFIG
         hands.append(Hand(name, tmp_path, config))
         return hands[-1]
 

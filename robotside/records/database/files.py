@@ -12,14 +12,14 @@ from contextlib import closing, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 
-__all__ = ["BACKUPS_KEPT", "PATIENCE", "Files", "Taken"]
+__all__ = ["MAX_BACKUPS", "LOCK_TIMEOUT", "Files", "Taken"]
 
-PATIENCE = 5.0
+LOCK_TIMEOUT = 5.0
 """How long to wait for another program that has the database [s]."""
 
-DAMAGED_KEPT = 3
+MAX_DAMAGED = 3
 """Broken files that are kept for whoever wants to look into them."""
-BACKUPS_KEPT = 5
+MAX_BACKUPS = 5
 """Backups that are kept: one half are the newest ones, the others the newest of each of the days before."""
 _PARTS = ("", "-wal", "-shm", "-journal")
 
@@ -35,8 +35,8 @@ class Files:
         self,
         path: Path,
         now: Callable[[], float] = time.time,
-        patience: float = PATIENCE,
-        backups: int = BACKUPS_KEPT,
+        patience: float = LOCK_TIMEOUT,
+        backups: int = MAX_BACKUPS,
     ) -> None:
         """`path` is the database, which need not be there; `now` names backups and broken files.
 
@@ -129,7 +129,7 @@ class Files:
         for part in _PARTS:
             with suppress(FileNotFoundError):
                 Path(f"{self.path}{part}").rename(f"{aside}{part}")
-        for old in sorted(self.path.parent.glob(f"{self.path.stem}-damaged-*.sqlite3"))[:-DAMAGED_KEPT]:
+        for old in sorted(self.path.parent.glob(f"{self.path.stem}-damaged-*.sqlite3"))[:-MAX_DAMAGED]:
             for part in _PARTS:
                 Path(f"{old}{part}").unlink(missing_ok=True)
         _sync(self.path.parent)
@@ -192,7 +192,10 @@ class Files:
 def _copy(source: Path, target: Path) -> None:
     """Copy a database to a whole file that is on the disk when this returns."""
     target.unlink(missing_ok=True)
-    with closing(sqlite3.connect(source, timeout=PATIENCE)) as old, closing(sqlite3.connect(target)) as new:
+    with (
+        closing(sqlite3.connect(source, timeout=LOCK_TIMEOUT)) as old,
+        closing(sqlite3.connect(target)) as new,
+    ):
         old.backup(new)
         new.execute("PRAGMA journal_mode=DELETE")
     with target.open("rb") as file:

@@ -14,9 +14,9 @@ from robotside.records.database.schema import upgrade
 from robotside.records.database.storage import NotWritten, Storage, engine_of, not_written
 from robotside.records.database.store import CannotOpen, Opened, Store
 
-__all__ = ["AFTER_RESTORE", "SqliteStore"]
+__all__ = ["SKIPPED_AFTER_RESTORE", "SqliteStore"]
 
-AFTER_RESTORE = 100_000
+SKIPPED_AFTER_RESTORE = 100_000
 """Numbers of events left out after a backup was restored: some may have been told and are not in it."""
 
 
@@ -49,7 +49,7 @@ class SqliteStore(Store):
             raise not_written(error) from error
         if fault:
             problems.append(self._mend(fault))
-            skip = AFTER_RESTORE
+            skip = SKIPPED_AFTER_RESTORE
         storage = self._connect()
         content, unread = storage.load()
         return Opened(storage, content, problems + unread, skip)

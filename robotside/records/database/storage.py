@@ -12,7 +12,7 @@ from sqlalchemy.orm import Session
 from sqlalchemy.pool import StaticPool
 
 from bridge.core.errors import BridgeError
-from robotside.records.database.files import PATIENCE
+from robotside.records.database.files import LOCK_TIMEOUT
 from robotside.records.database.rows import Content, Put, read_all, write
 from robotside.records.database.tables import Base
 
@@ -66,7 +66,7 @@ class Storage:
         self.engine.dispose()
 
 
-def engine_of(url: URL, patience: float = PATIENCE) -> Engine:
+def engine_of(url: URL, patience: float = LOCK_TIMEOUT) -> Engine:
     """An engine whose commits are on the disk when they return; `patience` [s] waits for locks."""
     if url.get_backend_name() != "sqlite":
         return create_engine(url, pool_pre_ping=True, pool_size=1, max_overflow=1)

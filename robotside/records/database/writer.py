@@ -23,15 +23,15 @@ CallSoon = Callable[..., object]
 Told = Callable[[Job, str], None]
 """Hears of a job why it is not written, empty when it is."""
 
-MOST_WAITING = 500
+MAX_WAITING = 500
 """Jobs that may wait to be written."""
-AT_ONCE = 50
+MAX_BATCH = 50
 """Jobs that are written in one transaction at most."""
-RETRY = 5.0
+RETRY_PERIOD = 5.0
 """From one try to write what could not be written to the next [s]."""
 BACKUP_PERIOD = 3600.0
 """From one backup to the next [s], if anything was written."""
-FAREWELL = 10.0
+CLOSE_TIMEOUT = 10.0
 """How long the last jobs may take at the end [s]."""
 
 
@@ -60,7 +60,7 @@ class Threaded:
         """Called when the database turns out to be broken, in the thread of the records."""
         self._store = store
         self._call_soon = call_soon
-        self._waiting: queue.Queue[_Work] = queue.Queue(MOST_WAITING)
+        self._waiting: queue.Queue[_Work] = queue.Queue(MAX_WAITING)
         self._thread = threading.Thread(target=self._run, name="records", daemon=True)
         self._changed = True
         self._broken = False
@@ -88,12 +88,12 @@ class Threaded:
         return True
 
     def close(self) -> None:
-        """Write what waits and let go of the database; what takes longer than `FAREWELL` is given up."""
+        """Write what waits and let go of the database; what takes longer than `CLOSE_TIMEOUT` is given up."""
         try:
-            self._waiting.put(None, timeout=FAREWELL)
+            self._waiting.put(None, timeout=CLOSE_TIMEOUT)
         except queue.Full:
             return
-        self._thread.join(FAREWELL)
+        self._thread.join(CLOSE_TIMEOUT)
 
     def _run(self) -> None:
         ended = False
@@ -104,11 +104,11 @@ class Threaded:
 
     def _turn(self) -> bool:
         """Do what waits; True when it was told to end."""
-        work = self._next(RETRY)
+        work = self._next(RETRY_PERIOD)
         batch: list[tuple[Job, Told]] = []
         while isinstance(work, tuple):
             batch.append(work)
-            work = self._next(0.0) if len(batch) < AT_ONCE else _Nothing.YET
+            work = self._next(0.0) if len(batch) < MAX_BATCH else _Nothing.YET
         if batch and self._broken:
             self._hold(batch)
         elif batch:
@@ -130,7 +130,7 @@ class Threaded:
     def _chores(self) -> None:
         now = time.monotonic()
         if now >= self._next_retry:
-            self._next_retry = now + RETRY
+            self._next_retry = now + RETRY_PERIOD
             self._tell(self.on_damage if self._broken else self.on_idle)
         if self._changed and now >= self._next_backup:
             self._next_backup = now + BACKUP_PERIOD
@@ -172,7 +172,7 @@ class Threaded:
         self._tell(work.told, said, "")
 
     def _hold(self, batch: list[tuple[Job, Told]]) -> None:
-        if len(self._held) < MOST_WAITING:
+        if len(self._held) < MAX_WAITING:
             self._held += batch
             return
         for job, told in batch:

@@ -14,9 +14,9 @@ from robotside.navigation.navigator import Goal, LegState, Navigator
 from robotside.records.events import Say
 from robotside.tasks.behaviours.situation import Seen, Situation
 
-__all__ = ["CLEAR", "Circle"]
+__all__ = ["CLEARANCE", "Circle"]
 
-CLEAR = 1.5
+CLEARANCE = 1.5
 """Between the body and what it goes round [m]."""
 
 SIDES = 6
@@ -80,7 +80,7 @@ class Circle(Behaviour):
 
     def _ring(self, seen: Seen) -> list[Goal]:
         """The sides that can be stood at, beginning with the nearest, each looking inwards."""
-        pose, reach = self._situation.pose, self._guide.radius + CLEAR
+        pose, reach = self._situation.pose, self._guide.radius + CLEARANCE
         first = math.atan2(pose.y - seen.y, pose.x - seen.x)
         sides = []
         for number in range(SIDES):

@@ -13,10 +13,10 @@ from robotside.navigation.navigator import Goal
 
 __all__ = ["Course", "Noted", "Outline", "Route", "Span"]
 
-PACE = 0.8
+PACE_SHARE = 0.8
 """Of the cruising speed that is made good on the whole, turns and slow arrivals included."""
 
-SAME = 0.05
+SAME_DISTANCE = 0.05
 """Points nearer than this to each other are the same one [m]."""
 
 
@@ -163,7 +163,7 @@ class Course:
             self.goals, self.motion, self.laps, self.dwell = coming
             return True
         here = self.goal
-        same = [n for n, goal in enumerate(coming.goals) if _apart(goal, here) < SAME]
+        same = [n for n, goal in enumerate(coming.goals) if _apart(goal, here) < SAME_DISTANCE]
         index = same[0] if same else min(self.index, len(coming.goals)) - 1
         self._before = self.lap - 1 if not self.finished else self.lap
         whole = self.passed > 0 and self.passed % len(self.goals) == 0
@@ -215,7 +215,7 @@ class Course:
         first = max(self.index, 0)
         coming = range(first, first + max(visits - done - (not self._standing), 0))
         metres = remaining + sum(self._leg(number, number + 1) for number in coming)
-        return metres / (PACE * cruise) + self.dwell * max(visits - done, 0)
+        return metres / (PACE_SHARE * cruise) + self.dwell * max(visits - done, 0)
 
     def noted(self) -> Noted:
         """How far it is."""

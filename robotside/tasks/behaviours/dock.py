@@ -17,30 +17,30 @@ from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.drive_to import LEG_STATUS
 from robotside.tasks.behaviours.situation import Situation
 
-__all__ = ["APPROACH", "PATIENCE", "Dock", "before"]
+__all__ = ["APPROACH_DISTANCE", "CHARGE_TIMEOUT", "Dock", "before"]
 
-APPROACH = 0.8
+APPROACH_DISTANCE = 0.8
 """From where it stands at the dock back to where it turns to it [m]."""
 
-CREEP = 0.08
+CREEP_SPEED = 0.08
 """On the last bit [m/s]."""
 
-BEYOND = 0.15
+MAX_BEYOND = 0.15
 """It creeps no farther than this beyond the dock's place [m]."""
 
-PATIENCE = 20.0
+CHARGE_TIMEOUT = 20.0
 """So long it creeps and waits for the charge [s]."""
 
-ASIDE = 0.25
+MAX_ASIDE = 0.25
 """Who is farther from the line to the dock begins anew [m]."""
 
-ASKEW = 0.5
+MAX_ASKEW = 0.5
 """The same for the direction [rad]."""
 
 
 def before(dock: Place) -> Goal:
     """Where it turns to the dock; `dock` has a direction."""
-    x, y = dock.x - APPROACH * math.cos(dock.yaw), dock.y - APPROACH * math.sin(dock.yaw)
+    x, y = dock.x - APPROACH_DISTANCE * math.cos(dock.yaw), dock.y - APPROACH_DISTANCE * math.sin(dock.yaw)
     return Goal(dock.name, x, y, dock.yaw, dock.name)
 
 
@@ -74,13 +74,13 @@ class Dock(Behaviour):
 
     def _approach(self) -> Status:
         now, name = self._situation, self._dock.name
-        if now.charging and now.pose.distance(self._dock.x, self._dock.y) < APPROACH / 2:
+        if now.charging and now.pose.distance(self._dock.x, self._dock.y) < APPROACH_DISTANCE / 2:
             self._course.reached()
             return Status.SUCCESS
         leg = self._guide.update(now.pose, now.points, now.now)
         phase = "turning" if self._guide.turning else "driving"
         text = f"Turning to {name}." if self._guide.turning else f"Heading for {name}."
-        now.tell(phase, text, place=name, still=APPROACH / CREEP)
+        now.tell(phase, text, place=name, still=APPROACH_DISTANCE / CREEP_SPEED)
         if LEG_STATUS[leg] is Status.SUCCESS:
             self._guide.finish()
             self._began = now.worked
@@ -93,17 +93,17 @@ class Dock(Behaviour):
             self._course.reached()
             return Status.SUCCESS
         here = now.pose.since(self._place)
-        if abs(here.y) > ASIDE or abs(here.yaw) > ASKEW or here.x < -APPROACH - ASIDE:
+        if abs(here.y) > MAX_ASIDE or abs(here.yaw) > MAX_ASKEW or here.x < -APPROACH_DISTANCE - MAX_ASIDE:
             self._set_out()  # somebody moved it meanwhile
             return Status.RUNNING
-        left = PATIENCE - (now.worked - self._began)
+        left = CHARGE_TIMEOUT - (now.worked - self._began)
         if left <= 0:
-            said = f"No charge was seen at {name} within {PATIENCE:.0f} s; the robot stands there."
-            self._guide.reason = Notice(Code.DOCK_DEAD, said, place=name, seconds=PATIENCE)
+            said = f"No charge was seen at {name} within {CHARGE_TIMEOUT:.0f} s; the robot stands there."
+            self._guide.reason = Notice(Code.DOCK_DEAD, said, place=name, seconds=CHARGE_TIMEOUT)
             return Status.FAILURE
-        at_end = now.touched or here.x > BEYOND
+        at_end = now.touched or here.x > MAX_BEYOND
         text = f"Waiting for the charge at {name}." if at_end else f"Creeping to {name}."
         now.tell("docking", text, place=name, still=left)
         turn = -1.5 * here.yaw - 2.0 * here.y
-        self._guide.move(Twist() if at_end else Twist.planar(CREEP, max(-0.3, min(0.3, turn))))
+        self._guide.move(Twist() if at_end else Twist.planar(CREEP_SPEED, max(-0.3, min(0.3, turn))))
         return Status.RUNNING

@@ -20,10 +20,10 @@ LEG_STATUS = {
     LegState.BLOCKED: Status.FAILURE,
 }
 
-STANDS = 4.0
+STANDING_TIMEOUT = 4.0
 """Without moving for so long it is said that it makes no way [s]."""
 
-MOVES, TURNS = 0.1, 0.2
+MIN_MOVE, MIN_TURN = 0.1, 0.2
 """Less than this is no way [m, rad]."""
 
 
@@ -68,9 +68,9 @@ class DriveTo(Behaviour):
         """It was to move and has not, for a while."""
         pose, clock = self._situation.pose, self._situation.worked
         turned = abs(math.remainder(pose.yaw - self._was.yaw, math.tau))
-        if pose.distance(self._was.x, self._was.y) > MOVES or turned > TURNS:
+        if pose.distance(self._was.x, self._was.y) > MIN_MOVE or turned > MIN_TURN:
             self._was, self._since = pose, clock
-        return clock - self._since > STANDS
+        return clock - self._since > STANDING_TIMEOUT
 
     def terminate(self, new_status: Status) -> None:
         """Stand still, whatever the reason."""

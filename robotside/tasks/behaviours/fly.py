@@ -15,16 +15,16 @@ from robotside.tasks.behaviours.situation import Situation
 
 __all__ = ["Land", "Surface", "TakeOff"]
 
-CLIMBS_FOR, SINKS_FOR, RISES_FOR = 60.0, 150.0, 300.0
+TAKE_OFF_TIMEOUT, LANDING_TIMEOUT, SURFACING_TIMEOUT = 60.0, 150.0, 300.0
 """To take off, to land and to surface takes no longer [s]."""
 
-RISES_BY, WITHIN = 0.1, 20.0
+MIN_RISE, RISE_TIMEOUT = 0.1, 20.0
 """To take off, it comes nearer to its height by so much [m] within so long [s]; otherwise there is something that holds it."""
 
-AT_HEIGHT = 0.25
+HEIGHT_TOLERANCE = 0.25
 """It is where it was told within this [m]."""
 
-AFLOAT = -0.12
+SURFACE_HEIGHT = -0.12
 """A swimmer above this lies at the surface [m]."""
 
 
@@ -73,7 +73,7 @@ class _UpAndDown(Behaviour):
 class TakeOff(_UpAndDown):
     """Succeeds in the air; one that flies already goes to the height that is asked for."""
 
-    title, order, lasts = "Taking off", "take_off", CLIMBS_FOR
+    title, order, lasts = "Taking off", "take_off", TAKE_OFF_TIMEOUT
 
     _nearest, _since = math.inf, 0.0
 
@@ -86,9 +86,9 @@ class TakeOff(_UpAndDown):
         """Go on, as long as it gets on."""
         status, now = super().update(), self._situation.worked
         off = abs(self._guide.height - self._height)
-        if off < self._nearest - RISES_BY:
+        if off < self._nearest - MIN_RISE:
             self._nearest, self._since = off, now
-        if status is not Status.RUNNING or math.isnan(off) or now - self._since < WITHIN:
+        if status is not Status.RUNNING or math.isnan(off) or now - self._since < RISE_TIMEOUT:
             return status
         reached = self._guide.height
         said = f"It comes no nearer to {self._height:g} m than {reached:.1f} m; it stays there."
@@ -99,7 +99,7 @@ class TakeOff(_UpAndDown):
         """It flies, as high as it should."""
         if self._situation.flight not in ("flying", "landing"):
             return False
-        return math.isnan(self._height) or not abs(self._guide.height - self._height) > AT_HEIGHT
+        return math.isnan(self._height) or not abs(self._guide.height - self._height) > HEIGHT_TOLERANCE
 
     def tell_robot(self) -> None:
         """Take off, or climb."""
@@ -112,7 +112,7 @@ class TakeOff(_UpAndDown):
 class Land(_UpAndDown):
     """Succeeds on the ground."""
 
-    title, order, lasts = "Landing", "land", SINKS_FOR
+    title, order, lasts = "Landing", "land", LANDING_TIMEOUT
 
     def done(self) -> bool:
         """It stands."""
@@ -122,8 +122,8 @@ class Land(_UpAndDown):
 class Surface(_UpAndDown):
     """Succeeds at the surface."""
 
-    title, order, lasts = "Surfacing", "surface", RISES_FOR
+    title, order, lasts = "Surfacing", "surface", SURFACING_TIMEOUT
 
     def done(self) -> bool:
         """It lies at the surface."""
-        return self._guide.height >= AFLOAT
+        return self._guide.height >= SURFACE_HEIGHT

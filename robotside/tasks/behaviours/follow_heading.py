@@ -24,19 +24,19 @@ from robotside.tasks.behaviours.situation import Situation
 
 __all__ = ["FollowHeading"]
 
-ALIGNED = 0.5
+MAX_BEARING = 0.5
 """Farther off than this it turns where it stands [rad]."""
 
-TURN = 0.8
+MAX_YAW_RATE = 0.8
 """Greatest turn rate [rad/s]."""
 
-BENDING = 1.0
+MAX_BEND_SPEED = 1.0
 """The most while it comes round in a bend [m/s]."""
 
-NEAR = 0.15
+MIN_ROOM = 0.15
 """With less room than this it stands [m]."""
 
-PATIENCE = 10.0
+BLOCKED_TIMEOUT = 10.0
 """So long it waits for something in the way to go [s]."""
 
 
@@ -86,19 +86,19 @@ class FollowHeading(Behaviour):
         error = math.remainder(self._heading - now.pose.yaw, math.tau)
         towards = heading(self._heading)
         bends = self._guide.going.turning > 0
-        if abs(error) > ALIGNED and not bends:
+        if abs(error) > MAX_BEARING and not bends:
             now.tell("turning", f"Turning to {towards}.")
             self._go(0.0, error)
             return Status.RUNNING
         wall, thing = self._wall(), self._thing()
-        if min(wall, thing) < NEAR:
-            return self._stand(wall < NEAR)
+        if min(wall, thing) < MIN_ROOM:
+            return self._stand(wall < MIN_ROOM)
         self._blocked_since = math.nan
-        turns = abs(error) > ALIGNED
+        turns = abs(error) > MAX_BEARING
         said = f"Coming round to {towards}." if turns else f"Going straight at {towards}."
         now.tell("turning" if turns else "driving", said)
         pace = self._pace(min(wall, thing))
-        self._go(min(pace, BENDING) if turns else pace, error)
+        self._go(min(pace, MAX_BEND_SPEED) if turns else pace, error)
         return Status.RUNNING
 
     def terminate(self, new_status: Status) -> None:
@@ -112,7 +112,7 @@ class FollowHeading(Behaviour):
             full = speed >= self._wanted and math.isnan(self._speed) and not math.isnan(self._throttle)
             going.along(self._heading, math.nan if full else speed, self._throttle if full else math.nan)
             return
-        most = min(TURN, speed / going.turning) if going.turning else TURN
+        most = min(MAX_YAW_RATE, speed / going.turning) if going.turning else MAX_YAW_RATE
         self._guide.move(Twist.planar(speed, max(-most, min(most, 1.5 * error))))
 
     @property
@@ -121,7 +121,7 @@ class FollowHeading(Behaviour):
 
     def _pace(self, room: float) -> float:
         wanted = self._wanted
-        safe = math.sqrt(2.0 * self._braking * max(0.0, room - NEAR / 2))
+        safe = math.sqrt(2.0 * self._braking * max(0.0, room - MIN_ROOM / 2))
         return min(wanted, safe, wanted if self._guide.sure else UNSURE_SPEED)
 
     def _stand(self, wall: bool) -> Status:
@@ -129,7 +129,7 @@ class FollowHeading(Behaviour):
         self._go(0.0, 0.0)
         if math.isnan(self._blocked_since):
             self._blocked_since = now.worked
-        waits = PATIENCE - (now.worked - self._blocked_since)
+        waits = BLOCKED_TIMEOUT - (now.worked - self._blocked_since)
         where = f"at ({now.pose.x:.1f}, {now.pose.y:.1f})"
         if wall or waits <= 0:
             what = "a wall, the fence or the end of the map" if wall else "something that does not go away"

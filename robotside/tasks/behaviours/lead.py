@@ -20,15 +20,15 @@ from robotside.tasks.behaviours.drive_to import DriveTo
 from robotside.tasks.behaviours.patrol import at_place
 from robotside.tasks.behaviours.situation import Situation
 
-__all__ = ["PATIENCE", "SILENCE", "STAY", "lead"]
+__all__ = ["FOLLOWER_TIMEOUT", "SENSOR_TIMEOUT", "STAY_TIME", "lead"]
 
-PATIENCE = 1.5
+FOLLOWER_TIMEOUT = 1.5
 """It drives on for so long after nobody was seen to follow [s]."""
 
-SILENCE = 3.0
+SENSOR_TIMEOUT = 3.0
 """A sensor that was silent for this long cannot tell who follows [s]."""
 
-STAY = 6.0
+STAY_TIME = 6.0
 """At a place about which there is something to tell [s]."""
 
 
@@ -66,7 +66,7 @@ class _Lead(DriveTo):
     def _alone(self) -> bool:
         """Nobody has followed for a while, as far as a sensor can tell."""
         now = self._situation
-        if now.follows is None or now.now - now.follows_heard > SILENCE:
+        if now.follows is None or now.now - now.follows_heard > SENSOR_TIMEOUT:
             if not self._blind:
                 said = "Nothing tells whether somebody follows; the robot goes on without waiting."
                 self._say("task", Notice(Code.FOLLOWER_UNKNOWN, said), "warn")
@@ -77,7 +77,7 @@ class _Lead(DriveTo):
             self._alone_since = math.nan
         elif math.isnan(self._alone_since):
             self._alone_since = now.now
-        return now.now - self._alone_since > PATIENCE or (self._waits and not now.follows)
+        return now.now - self._alone_since > FOLLOWER_TIMEOUT or (self._waits and not now.follows)
 
 
 class _Tell(Behaviour):
@@ -93,7 +93,7 @@ class _Tell(Behaviour):
         words = f"{goal.name} reached: {note}" if note else f"{goal.name} reached."
         reached = Notice(Code.WAYPOINT_REACHED, words, place=goal.name.rstrip(","))
         self._say("waypoint", reached, "ok", at=(goal.x, goal.y))
-        self._until = self._situation.worked + (STAY if note else 0.0)
+        self._until = self._situation.worked + (STAY_TIME if note else 0.0)
 
     def update(self) -> Status:
         left = self._until - self._situation.worked

@@ -12,7 +12,7 @@ from robotside.core.pose2 import ORIGIN, Points, Pose2
 
 __all__ = ["Doing", "Seen", "Situation"]
 
-MOST_INTRUDERS = 20
+MAX_INTRUDERS = 20
 """That may wait to be gone round."""
 
 
@@ -66,7 +66,7 @@ class Situation:
     """The battery takes charge, or is full at the charger."""
     touched: bool = False
     """The bumper touches something."""
-    intruders: deque[Seen] = field(default_factory=lambda: deque(maxlen=MOST_INTRUDERS))
+    intruders: deque[Seen] = field(default_factory=lambda: deque(maxlen=MAX_INTRUDERS))
     """Found, and not gone round yet."""
     doing: Doing = Doing()
     """What the behaviour that was ticked last said that it does."""

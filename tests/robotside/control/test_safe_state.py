@@ -9,7 +9,7 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Twist
 from robotside.control.safe_state import GROUND, LONGEST, SURFACE, Act, SafeState
-from robotside.core.config import NOTHING_SET, SafeStateSettings
+from robotside.core.config import DEFAULT_CONFIG, SafeStateSettings
 from robotside.core.pose2 import Pose2
 from robotside.motion.measured import MeasuredState
 from robotside.motion.stopping_path import PlanarVelocity
@@ -22,7 +22,7 @@ class Body:
     """Moves as told with some lag; what pushes it, pushes it all the time."""
 
     kind: str
-    settings: SafeStateSettings = NOTHING_SET.safe_state
+    settings: SafeStateSettings = DEFAULT_CONFIG.safe_state
     height: float = 0.0
     roll: float = 0.0
     pitch: float = 0.0

@@ -10,7 +10,7 @@ import pytest
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import CommandRequest, SetModeRequest, SetOptionRequest, TaskOrder, Waypoint
 from robotside.control.command_gate import STOP_SENTENCE
-from robotside.core.config import NOTHING_SET, Config, ControlSettings, SafeStateSettings
+from robotside.core.config import DEFAULT_CONFIG, Config, ControlSettings, SafeStateSettings
 from tests.fakes import FakeClient, FakeRobot
 from tests.robotside.scene import SQUARE, Scene
 
@@ -204,7 +204,7 @@ class Kind(FakeRobot):
         self.info = msgspec.structs.replace(self.info, kind=kind)
 
 
-def after_the_link(tmp_path: Path, kind: str, seconds: float, config: Config = NOTHING_SET) -> Scene:
+def after_the_link(tmp_path: Path, kind: str, seconds: float, config: Config = DEFAULT_CONFIG) -> Scene:
     """A robot of a kind whose driver was lost in motion, so long ago."""
     scene = Scene(Kind(kind), tmp_path, config=config)
     scene.run(4.0)

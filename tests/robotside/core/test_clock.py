@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from robotside.core.clock import MOST, STEP, RobotClock
+from robotside.core.clock import MAX_STEP, MAX_TICK, RobotClock
 
 
 def test_the_robots_clock_follows_real_time_at_its_speed() -> None:
@@ -15,7 +15,7 @@ def test_the_robots_clock_follows_real_time_at_its_speed() -> None:
 
 def test_after_a_long_halt_little_is_made_good_at_once_and_the_rest_slowly() -> None:
     clock = RobotClock(100.0)
-    assert clock.tick(110.0) - 100.0 <= MOST * 1.1 + 1e-9
+    assert clock.tick(110.0) - 100.0 <= MAX_TICK * 1.1 + 1e-9
     before = clock.now
     assert clock.tick(110.1) - before == pytest.approx(0.11)
     for tick in range(2000):
@@ -36,7 +36,7 @@ def test_a_fast_clock_goes_in_steps_short_enough_to_steer() -> None:
     steps = clock.steps(100.1)
     assert steps[-1] == clock.now == pytest.approx(102.0)
     gaps = [b - a for a, b in zip([100.0, *steps], steps, strict=False)]
-    assert 0.0 < max(gaps) <= STEP + 1e-9
+    assert 0.0 < max(gaps) <= MAX_STEP + 1e-9
     assert clock.steps(100.1) == []
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from bridge.core.toml_files import MAX_BYTES
 from robotside.control.latency_speed_cap import UNMEASURED_SHARE
-from robotside.core.config import MOST_AREAS, MOST_CORNERS, BadConfig, Config, load, parse
+from robotside.core.config import MAX_AREAS, MAX_CORNERS, BadConfig, Config, load, parse
 
 EXAMPLE = Path(__file__).parents[3] / "docs" / "robot.toml.example"
 SQUARE = "[[0, 0], [2, 0], [2, 2], [0, 2]]"
@@ -91,7 +91,7 @@ def test_what_is_no_toml_is_one_sentence_with_the_line(text: str, said: str) -> 
 @pytest.mark.parametrize(
     ("corners", "said"),
     [
-        ("[[0, 0], [1, 1]]", f"must have 3 to {MOST_CORNERS} corners, not 2."),
+        ("[[0, 0], [1, 1]]", f"must have 3 to {MAX_CORNERS} corners, not 2."),
         ("[[0, 0], [1, 1], [2, 2]]", "has no inside: its corners lie on one line."),
         ("[[0, 0], [1, 1], [1, 0], [0, 1]]", "crosses itself: its side 1 and its side 3 meet."),
         ("[[0, 0], [4, 0], [4, 4], [2, 0], [0, 4]]", "crosses itself: its side 1 and its side 3 meet."),
@@ -106,10 +106,8 @@ def test_an_area_that_encloses_nothing_clear_is_named(corners: str, said: str) -
 
 
 def test_a_fence_has_a_bounded_number_of_areas() -> None:
-    areas = ", ".join([SQUARE] * (MOST_AREAS + 1))
-    with pytest.raises(
-        BadConfig, match=f"limits.keep_in has {MOST_AREAS + 1} areas; at most {MOST_AREAS} are"
-    ):
+    areas = ", ".join([SQUARE] * (MAX_AREAS + 1))
+    with pytest.raises(BadConfig, match=f"limits.keep_in has {MAX_AREAS + 1} areas; at most {MAX_AREAS} are"):
         parse(f"[limits]\nkeep_in = [{areas}]")
 
 
@@ -167,6 +165,6 @@ def test_whatever_stands_in_the_file_it_is_taken_or_refused_in_one_line(
 
 
 def test_a_fence_has_a_bounded_number_of_corners() -> None:
-    ring = "[" + ", ".join(f"[{x}, {x * x}]" for x in range(MOST_CORNERS)) + "]"
+    ring = "[" + ", ".join(f"[{x}, {x * x}]" for x in range(MAX_CORNERS)) + "]"
     with pytest.raises(BadConfig, match=r"the fence has 1200 corners; at most 1000 are allowed\."):
         parse(f"[limits]\nkeep_out = [{', '.join([ring] * 6)}]")

@@ -16,7 +16,7 @@ from bridge.discovery.beacon import Hello
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import RobotInfo, StartTaskRequest, TaskOrder, Waypoint
 from robotside.control.safe_state import SafeState
-from robotside.core.config import NOTHING_SET, LimitSettings
+from robotside.core.config import DEFAULT_CONFIG, LimitSettings
 from robotside.core.pose2 import Pose2
 from robotside.kinds.registry import KINDS
 from robotside.kinds.vehicle_kind import Handling, PursuitParameters, SafeStateDefaults, VehicleKind
@@ -74,7 +74,7 @@ def test_it_goes_brakes_and_rests_by_its_record(scene: Scene) -> None:
     going = scene.station.autonomy.guide.going
     assert isinstance(going, CourseController)
     assert going.turning > 0.0
-    safe = SafeState("airboat", NOTHING_SET.safe_state)
+    safe = SafeState("airboat", DEFAULT_CONFIG.safe_state)
     safe.enter(0.0, MeasuredState())
     assert safe.step(0.0, MeasuredState(), lost=True).phase == "idles and holds its heading"
     assert 0.0 < near_its_fence("airboat") < 0.8 * near_its_fence("wheels")

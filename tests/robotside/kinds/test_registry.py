@@ -19,7 +19,7 @@ from bridge.msgs.pilothouse_msgs import (
     Waypoint,
 )
 from robotside.control.safe_state import SafeState
-from robotside.core.config import NOTHING_SET, Config, LimitSettings
+from robotside.core.config import DEFAULT_CONFIG, Config, LimitSettings
 from robotside.kinds.registry import GENERIC, KINDS, described, kind_of, unknown
 from robotside.motion.measured import MeasuredState
 from robotside.navigation.differential_controller import DifferentialController
@@ -45,7 +45,7 @@ class Agile(FakeRobot):
         self.orders.append(order.kind)
 
 
-def scene(kind: str, state: Path, *manoeuvres: str, config: Config = NOTHING_SET) -> Scene:
+def scene(kind: str, state: Path, *manoeuvres: str, config: Config = DEFAULT_CONFIG) -> Scene:
     robot = Agile() if manoeuvres else FakeRobot()
     robot.info = msgspec.structs.replace(robot.info, kind=kind, manoeuvres=list(manoeuvres))
     scene = Scene(robot, state, config=config)
@@ -128,7 +128,7 @@ def test_every_kind_is_known_wherever_it_counts(kind: str) -> None:
     assert record.path_controller in PATH_CONTROLLERS
     assert record.icon in ICONS
     assert set(record.order_fields) <= {"speed", "throttle", "height"}
-    safe = SafeState(kind, NOTHING_SET.safe_state)
+    safe = SafeState(kind, DEFAULT_CONFIG.safe_state)
     safe.enter(0.0, MeasuredState())
     assert safe.step(0.0, MeasuredState(), lost=True).phase
 

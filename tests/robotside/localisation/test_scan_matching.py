@@ -12,7 +12,7 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import LaserScan
 from robotside.core.pose2 import Points, Pose2
-from robotside.localisation.scan_matching import DISTRUSTED, UNSURE_AFTER, Localiser
+from robotside.localisation.scan_matching import DISTRUSTED_SWEEPS, UNSURE_AFTER, Localiser
 from robotside.mapping.laser_points import LaserProjection
 from robotside.mapping.occupancy_grid import Grid
 from tests.fakes import Box, FakeRobot, Pillar
@@ -163,7 +163,7 @@ def test_who_is_distrusted_is_sure_again_after_echoes_that_fit_for_a_while() -> 
     localiser.distrust()
     localiser.echo(arcs(true))
     assert not localiser.sure
-    for _ in range(DISTRUSTED):
+    for _ in range(DISTRUSTED_SWEEPS):
         localiser.echo(arcs(true))
     assert localiser.sure
 

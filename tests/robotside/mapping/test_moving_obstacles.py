@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from robotside.mapping.moving_obstacles import SHARE, MovingObstacles
+from robotside.mapping.moving_obstacles import ROOM_SHARE, MovingObstacles
 
 WALL = np.column_stack([np.linspace(-3.0, 3.0, 60), np.full(60, 2.0)])
 
@@ -25,4 +25,6 @@ def test_what_was_not_looked_at_for_long_is_not_said_to_move() -> None:
 
 
 def test_the_other_gets_the_rest_of_the_room() -> None:
-    assert MovingObstacles.nearer(np.array([[2.0, 0.4], [9.0, 0.0]])).tolist() == [[2.0 * SHARE, 0.4 * SHARE]]
+    assert MovingObstacles.nearer(np.array([[2.0, 0.4], [9.0, 0.0]])).tolist() == [
+        [2.0 * ROOM_SHARE, 0.4 * ROOM_SHARE]
+    ]

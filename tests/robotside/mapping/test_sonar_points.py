@@ -8,7 +8,7 @@ import numpy as np
 
 from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.pilothouse_msgs import SonarRing
-from robotside.mapping.sonar_points import NEAR, SonarProjection
+from robotside.mapping.sonar_points import MAX_OBSTACLE_RANGE, SonarProjection
 
 
 def ring(*ranges: float) -> SonarRing:
@@ -39,4 +39,4 @@ def test_what_is_too_close_stands_right_before_its_sonar() -> None:
 
 
 def test_far_echoes_and_those_that_are_no_numbers_say_nothing() -> None:
-    assert len(SonarProjection().points(ring(NEAR + 0.1, math.nan, math.inf, 5.9))) == 0
+    assert len(SonarProjection().points(ring(MAX_OBSTACLE_RANGE + 0.1, math.nan, math.inf, 5.9))) == 0

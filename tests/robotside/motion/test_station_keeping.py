@@ -8,10 +8,10 @@ import pytest
 
 from robotside.core.config import LimitSettings
 from robotside.core.pose2 import Pose2
-from robotside.limits.fence_guard import MOST_DOUBT
+from robotside.limits.fence_guard import MAX_UNCERTAINTY
 from robotside.limits.limits import LimitKeeper
 from robotside.motion.measured import MeasuredState
-from robotside.motion.station_keeping import BACK_SPEED, DriftMonitor, back, way_back
+from robotside.motion.station_keeping import RETURN_SPEED, DriftMonitor, back, way_back
 from robotside.motion.stopping_path import PlanarVelocity
 from tests.robotside.limits.test_limits import AQUA, SQUARE, WHEELS, twist
 from tests.robotside.motion.test_manoeuvres import BOAT
@@ -24,7 +24,7 @@ def test_ahead_or_astern_it_goes_to_the_inside_and_turns_its_bow_or_stern_there(
     inward = (math.cos(bearing), math.sin(bearing))
     way = way_back(inward, 0.0)
     done = back(inward, way)
-    assert done.linear.x == way * BACK_SPEED
+    assert done.linear.x == way * RETURN_SPEED
     assert done.linear.x * inward[0] > -0.1
     later = bearing - 0.1 * done.angular.z
     assert way * math.cos(later) >= way * math.cos(bearing) - 1e-9
@@ -38,7 +38,7 @@ def test_it_does_not_change_its_mind_at_every_wave() -> None:
 
 def test_one_that_turns_where_it_is_looks_inside_before_it_goes() -> None:
     assert back((-1.0, 0.1), 0.0).linear.x == 0.0
-    assert back((1.0, 0.0), 0.0).linear.x == BACK_SPEED
+    assert back((1.0, 0.0), 0.0).linear.x == RETURN_SPEED
 
 
 def test_a_drift_is_told_once_until_it_was_back() -> None:
@@ -110,7 +110,7 @@ def test_a_place_that_is_not_sure_is_said_and_makes_it_slow_where_there_is_a_fen
     assert done.linear.x == pytest.approx(0.25 * WHEELS.max_speed)
     assert why.startswith("The robot does not know for sure where it is, so its fence is not certain")
     assert LimitKeeper(LimitSettings(), WHEELS).clamp(twist(0.6), lost) == (twist(0.6), "")
-    vague = MeasuredState(Pose2(0.0, 0.0, 0.0), spread=MOST_DOUBT)
+    vague = MeasuredState(Pose2(0.0, 0.0, 0.0), spread=MAX_UNCERTAINTY)
     assert "to 4.0 m only" in LimitKeeper(FENCED, WHEELS).clamp(twist(0.6), vague).why
 
 

@@ -11,7 +11,7 @@ import pytest
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.core.pose2 import Points, Pose2
 from robotside.mapping.occupancy_grid import Grid
-from robotside.navigation.course_controller import FASTEST, SLOW, CourseController
+from robotside.navigation.course_controller import MAX_SPEED, TURNING_SPEED, CourseController
 from robotside.navigation.path_controller import UNSURE_SPEED
 from robotside.navigation.planner import Planner
 from tests.fakes import FakeRobot
@@ -55,13 +55,13 @@ def test_it_keeps_the_course_to_its_goal_at_nine_tenths_of_its_speed(kind: str) 
 
 @pytest.mark.parametrize("kind", COURSES)
 def test_by_itself_it_goes_no_faster_than_people_can_follow(kind: str) -> None:
-    assert steered(kind, 0.0, fastest=6.0).speed == FASTEST == 2.0
+    assert steered(kind, 0.0, fastest=6.0).speed == MAX_SPEED == 2.0
 
 
 def test_a_boat_comes_about_slowly_since_it_turns_only_by_going() -> None:
     order = steered("boat", math.pi / 2)
     assert order.yaw == pytest.approx(0.0)
-    assert order.speed == SLOW > 0
+    assert order.speed == TURNING_SPEED > 0
 
 
 @pytest.mark.parametrize("kind", ["hexapod", "quadrotor"])

@@ -8,7 +8,12 @@ import numpy as np
 
 from robotside.core.pose2 import Points, Pose2
 from robotside.mapping.occupancy_grid import Grid
-from robotside.navigation.differential_controller import BACK, BACKS, PATIENCE, DifferentialController
+from robotside.navigation.differential_controller import (
+    BACKING_SPEED,
+    BACKING_STEPS,
+    MAX_STANDING_STEPS,
+    DifferentialController,
+)
 from robotside.navigation.planner import Planner
 from tests.fakes import FakeRobot
 
@@ -34,12 +39,12 @@ def steered(points: Points, times: int) -> list[float]:
 
 
 def test_after_a_while_it_makes_room_behind_it_and_tries_again() -> None:
-    speeds = steered(AHEAD, PATIENCE + BACKS + 10)
-    assert speeds[:PATIENCE] == [0.0] * PATIENCE
-    assert speeds[PATIENCE : PATIENCE + BACKS] == [-BACK] * BACKS
+    speeds = steered(AHEAD, MAX_STANDING_STEPS + BACKING_STEPS + 10)
+    assert speeds[:MAX_STANDING_STEPS] == [0.0] * MAX_STANDING_STEPS
+    assert speeds[MAX_STANDING_STEPS : MAX_STANDING_STEPS + BACKING_STEPS] == [-BACKING_SPEED] * BACKING_STEPS
     assert speeds[-5:] == [0.0] * 5
 
 
 def test_it_stands_where_there_is_no_room_behind_it_either() -> None:
-    speeds = steered(np.concatenate([AHEAD, -AHEAD]), PATIENCE + 20)
+    speeds = steered(np.concatenate([AHEAD, -AHEAD]), MAX_STANDING_STEPS + 20)
     assert set(speeds) == {0.0}

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from robotside.mapping.occupancy_grid import Grid
-from robotside.navigation.planner import PREFERRED, STEP, Planner, Unreachable
+from robotside.navigation.planner import PREFERRED_MARGIN, STEP, Planner, Unreachable
 from tests.fakes import Box, FakeRobot
 
 RADIUS = 0.18
@@ -43,8 +43,8 @@ def test_in_the_open_the_path_is_straight() -> None:
 def test_round_a_box_the_path_keeps_its_distance_and_is_not_much_longer_than_needed() -> None:
     plans = planner(Box(-1.0, -2.0, 1.0, 2.0))
     path = plans.plan((-5.0, 0.0), (5.0, 0.0), "Point 1")
-    assert plans.grid.clearance(path).min() > RADIUS + 0.7 * PREFERRED
-    corner = 2.0 + RADIUS + PREFERRED
+    assert plans.grid.clearance(path).min() > RADIUS + 0.7 * PREFERRED_MARGIN
+    corner = 2.0 + RADIUS + PREFERRED_MARGIN
     assert length(path) < 1.1 * (2 * math.hypot(4.0, corner) + 2.0)
 
 

@@ -15,7 +15,7 @@ from robotside.core.pose2 import Pose2
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation import lattice_planner as lattice
 from robotside.navigation.lattice_planner import LatticePlanner
-from robotside.navigation.navigator import AT_ONCE, Goal, LegState, Navigator
+from robotside.navigation.navigator import SEARCH_STEPS, Goal, LegState, Navigator
 from tests.fakes import Box, FakeRobot
 from tests.robotside.scene import Scene
 
@@ -57,7 +57,7 @@ def truck(*boxes: Box) -> FakeRobot:
 def test_the_hardest_search_takes_no_more_than_its_share_of_each_update(
     looks: Looks, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(lattice, "MOST", 10 * AT_ONCE)
+    monkeypatch.setattr(lattice, "MAX_POSES", 10 * SEARCH_STEPS)
     robot = truck(*CLOSED)
     guide = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
     guide.head_for(GOAL)
@@ -72,8 +72,8 @@ def test_the_hardest_search_takes_no_more_than_its_share_of_each_update(
         assert robot.at_rest
     assert leg is LegState.BLOCKED
     assert guide.reason == "There is no way to Point 1 at (5.0, 0.0) that it can drive."
-    assert max(shares) <= AT_ONCE
-    assert 9 * AT_ONCE < sum(shares) <= 10 * AT_ONCE
+    assert max(shares) <= SEARCH_STEPS
+    assert 9 * SEARCH_STEPS < sum(shares) <= 10 * SEARCH_STEPS
 
 
 def test_it_finds_bit_by_bit_what_it_finds_in_one_go() -> None:
@@ -93,7 +93,7 @@ def test_it_finds_bit_by_bit_what_it_finds_in_one_go() -> None:
     with pytest.MonkeyPatch.context() as patched:
         found = []
         for share in (2, 10**6):
-            patched.setattr("robotside.navigation.navigator.AT_ONCE", share)
+            patched.setattr("robotside.navigation.navigator.SEARCH_STEPS", share)
             found.append(drawn())
     assert found[0] == found[1]
     assert math.dist(found[0][0][-1], (5.0, 0.0)) < 0.05
@@ -104,7 +104,7 @@ def searching(state: Path, looks: Looks) -> Scene:
     run = Scene(truck(*CLOSED), state)
     run.run(3.5)
     run.go_to(5.0, 0.0)
-    for _ in itertools.takewhile(lambda _: looks.count < 3 * AT_ONCE, range(20)):
+    for _ in itertools.takewhile(lambda _: looks.count < 3 * SEARCH_STEPS, range(20)):
         run.run(0.1)
     status = run.task
     assert (status.phase, status.reason) == ("planning", "Looking for a way to the goal.")
@@ -149,7 +149,7 @@ def test_another_place_takes_the_place_of_the_one_that_it_looks_for(tmp_path: Pa
 def test_every_kind_looks_for_a_way_a_bit_at_a_time_and_stands_meanwhile(
     kind: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("robotside.navigation.navigator.AT_ONCE", 1)
+    monkeypatch.setattr("robotside.navigation.navigator.SEARCH_STEPS", 1)
     robot = truck(Box(0.0, -2.0, 0.4, 2.0))
     robot.info = msgspec.structs.replace(robot.info, kind=kind)
     guide = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
@@ -173,7 +173,7 @@ def test_while_it_looks_for_another_way_it_goes_on_along_the_one_that_it_has(
     nothing = np.empty((0, 2))
     guide.update(Pose2(-4.0, 0.0, 0.0), nothing, 0.0)
     assert guide.going.under_way
-    monkeypatch.setattr("robotside.navigation.navigator.AT_ONCE", 1)
+    monkeypatch.setattr("robotside.navigation.navigator.SEARCH_STEPS", 1)
     guide.obstacles.see(np.array([[1.0, 0.0]]), 2.0)
     told = len(robot.commands)
     guide.update(Pose2(-4.0, 0.0, 0.0), nothing, 2.0)

@@ -9,7 +9,7 @@ import pytest
 
 from robotside.core.pose2 import Pose2
 from robotside.navigation.planner import resampled
-from robotside.navigation.pure_pursuit import ARRIVED, CREEP, PathFollower
+from robotside.navigation.pure_pursuit import GOAL_TOLERANCE, MIN_SPEED, PathFollower
 
 STRAIGHT = resampled(np.array([[0.0, 0.0], [10.0, 0.0]]))
 CORNER = resampled(np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]]))
@@ -32,20 +32,20 @@ def drive(follower: PathFollower, pose: Pose2, seconds: float = 60.0) -> tuple[P
 
 def test_a_straight_path_is_followed_at_cruising_speed_to_its_end() -> None:
     pose, astray, fastest = drive(PathFollower(STRAIGHT, cruise=0.6), Pose2(0.0, 0.0, 0.0))
-    assert pose.distance(10.0, 0.0) < ARRIVED + 0.02
+    assert pose.distance(10.0, 0.0) < GOAL_TOLERANCE + 0.02
     assert astray < 0.06
     assert fastest == pytest.approx(0.6)
 
 
 def test_a_path_is_found_again_from_beside_it() -> None:
     pose, _, _ = drive(PathFollower(STRAIGHT, cruise=0.6), Pose2(0.0, 0.5, 0.3))
-    assert pose.distance(10.0, 0.0) < ARRIVED + 0.02
+    assert pose.distance(10.0, 0.0) < GOAL_TOLERANCE + 0.02
 
 
 def test_a_corner_is_cut_only_a_little_and_taken_more_slowly() -> None:
     follower = PathFollower(CORNER, cruise=0.6)
     pose, astray, _ = drive(follower, Pose2(0.0, 0.0, 0.0))
-    assert pose.distance(4.0, 4.0) < ARRIVED + 0.02
+    assert pose.distance(4.0, 4.0) < GOAL_TOLERANCE + 0.02
     assert astray < 0.35
     assert PathFollower(CORNER, cruise=0.6).speed(Pose2(3.6, 0.0, 0.0), 0.8, 0.6) < 0.6
 
@@ -54,7 +54,7 @@ def test_it_slows_down_before_the_end() -> None:
     follower = PathFollower(STRAIGHT, cruise=0.6)
     for _ in range(100):
         follower.aim(Pose2(9.8, 0.0, 0.0), 0.0)
-    assert CREEP <= follower.speed(Pose2(9.8, 0.0, 0.0), 0.0, 0.2) < 0.5
+    assert MIN_SPEED <= follower.speed(Pose2(9.8, 0.0, 0.0), 0.0, 0.2) < 0.5
 
 
 def test_the_way_left_shrinks_to_nothing() -> None:

@@ -14,7 +14,7 @@ from bridge.msgs.std_msgs import Header, Time
 from bridge.msgs.vision_msgs import Detection2DArray
 from robotside.core.pose2 import Pose2
 from robotside.localisation.pose_estimator import OdometryTrack
-from robotside.perception.intruder_tracker import CONFIRM, IntruderTracker
+from robotside.perception.intruder_tracker import MIN_SIGHTINGS, IntruderTracker
 from robotside.perception.intruder_watch import IntruderWatch, jpeg_size
 from tests.robotside.perception.test_cone_detector import cone, jpeg, picture
 
@@ -24,14 +24,14 @@ FOV = 1.2
 def test_a_thing_is_reported_with_its_third_sighting_and_never_again() -> None:
     intruders = IntruderTracker()
     told = [intruders.see(5.0 + 0.1 * (n % 2), 2.0, 4.0, float(n)) for n in range(20)]
-    assert [n for n, intruder in enumerate(told) if intruder] == [CONFIRM - 1]
+    assert [n for n, intruder in enumerate(told) if intruder] == [MIN_SIGHTINGS - 1]
     assert len(intruders.known) == 1
     assert intruders.known[0].sightings == 20
 
 
 def test_two_things_are_numbered_in_the_order_of_their_reports() -> None:
     intruders = IntruderTracker()
-    for n in range(CONFIRM):
+    for n in range(MIN_SIGHTINGS):
         intruders.see(0.0, 0.0, 4.0, float(n))
         intruders.see(3.0, 0.0, 4.0, float(n))
     assert [(i.id, i.position.x) for i in intruders.known] == [(1, 0.0), (2, 3.0)]
@@ -54,7 +54,7 @@ def test_scattered_single_sightings_are_nothing() -> None:
 
 def test_sightings_that_are_long_past_do_not_count() -> None:
     intruders = IntruderTracker()
-    for n in range(CONFIRM):
+    for n in range(MIN_SIGHTINGS):
         assert intruders.see(0.0, 0.0, 4.0, 30.0 * n) is None
 
 
@@ -87,7 +87,7 @@ class Scene:
 @pytest.mark.parametrize("laser", [True, False])
 def test_a_cone_is_placed_on_the_map_by_the_laser_or_by_the_ground(laser: bool) -> None:
     scene = Scene()
-    for n in range(CONFIRM):
+    for n in range(MIN_SIGHTINGS):
         if laser:
             scene.watch.take_sweep(np.array([[0.5, 4.97], [0.52, 4.95], [5.0, 2.0]]), 0.2 * n)
         scene.look(0.2 * n)

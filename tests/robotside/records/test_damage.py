@@ -16,7 +16,7 @@ from bridge.msgs.pilothouse_msgs import Event, Place
 from robotside.records import Records
 from robotside.records.database import storage as storage_module
 from robotside.records.database.files import Files
-from robotside.records.database.sqlite_store import AFTER_RESTORE
+from robotside.records.database.sqlite_store import SKIPPED_AFTER_RESTORE
 from robotside.records.opening import CannotOpen, open_records
 
 OFFICE, LAB = Place(name="Office 12", x=4.0), Place(name="Lab", x=8.0)
@@ -25,7 +25,7 @@ OFFICE, LAB = Place(name="Office 12", x=4.0), Place(name="Lab", x=8.0)
 @pytest.fixture(autouse=True)
 def at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """What could not be written is tried again soon."""
-    monkeypatch.setattr("robotside.records.database.writer.RETRY", 0.05)
+    monkeypatch.setattr("robotside.records.database.writer.RETRY_PERIOD", 0.05)
 
 
 async def opened(state: Path, patience: float = 0.2) -> Records:
@@ -89,7 +89,9 @@ async def test_a_broken_database_is_set_aside_and_its_newest_backup_put_in_its_p
         records.events.add(Event(text="after"), told.append)
         records.places.set(Place(name="New"))
     assert await job.kept(10.0) == ""
-    assert told[0].id > last + AFTER_RESTORE - 10, "numbers that somebody may have heard are not used again"
+    assert told[0].id > last + SKIPPED_AFTER_RESTORE - 10, (
+        "numbers that somebody may have heard are not used again"
+    )
     records.close()
 
 
@@ -300,7 +302,7 @@ async def test_a_disk_that_is_full_at_the_start_costs_no_robot_and_is_said_until
 async def test_what_could_not_be_written_is_written_at_the_end_if_it_can_be_then(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("robotside.records.database.writer.RETRY", 60.0)
+    monkeypatch.setattr("robotside.records.database.writer.RETRY_PERIOD", 60.0)
     records = await opened(tmp_path, patience=0.05)
     with closing(sqlite3.connect(tmp_path / "records.sqlite3")) as other:
         other.execute("BEGIN IMMEDIATE")

@@ -8,7 +8,7 @@ from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
 from robotside.records import NotRecorded, Records
 from robotside.records.database.rows import empty
-from robotside.records.eventlog import AT_FIRST
+from robotside.records.eventlog import FIRST_EVENTS
 
 
 def say(records: Records, count: int = 1) -> list[Event]:
@@ -30,11 +30,11 @@ def test_numbers_count_on_after_a_restart_and_the_log_keeps_its_identity() -> No
 
 def test_who_knows_another_log_or_none_is_told_the_newest() -> None:
     records = Records.in_memory()
-    say(records, AT_FIRST + 10)
+    say(records, FIRST_EVENTS + 10)
     for known, identity in ((0, records.events.identity), (7, "another")):
         told = records.events.since(known, identity)
-        assert (len(told), told[-1].id) == (AT_FIRST, AT_FIRST + 10)
-    assert len(records.events.since(1, records.events.identity)) == AT_FIRST + 9
+        assert (len(told), told[-1].id) == (FIRST_EVENTS, FIRST_EVENTS + 10)
+    assert len(records.events.since(1, records.events.identity)) == FIRST_EVENTS + 9
 
 
 def test_what_was_missed_comes_in_rounds_and_nothing_is_left_out() -> None:
@@ -70,7 +70,7 @@ def test_what_others_saw_to_meanwhile_is_told_of_the_events_named_and_of_no_othe
 
 
 def test_the_newest_are_kept(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("robotside.records.eventlog.KEPT", 5)
+    monkeypatch.setattr("robotside.records.eventlog.MAX_EVENTS", 5)
     records = Records.in_memory()
     say(records, 12)
     assert [event.id for event in records.events.since(0, "")] == [8, 9, 10, 11, 12]

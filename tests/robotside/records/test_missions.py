@@ -6,7 +6,7 @@ import pytest
 
 from bridge.msgs.pilothouse_msgs import Mission, Waypoint
 from robotside.records import NotRecorded, Records
-from robotside.records.missions import REVISIONS
+from robotside.records.missions import MAX_REVISIONS
 
 
 @pytest.fixture
@@ -37,10 +37,10 @@ def test_the_mission_that_was_stored_last_is_the_stored_one(records: Records) ->
 
 
 def test_each_change_of_a_mission_is_a_revision_of_which_the_newest_are_kept(records: Records) -> None:
-    for laps in range(REVISIONS + 5):
+    for laps in range(MAX_REVISIONS + 5):
         records.missions.set(mission("Night", laps))
     kept = [revision.laps for revision in records.missions.revisions("Night")]
-    assert kept == list(range(5, REVISIONS + 5))
+    assert kept == list(range(5, MAX_REVISIONS + 5))
 
 
 def test_a_mission_is_recalled_as_it_was_but_with_the_home_of_now(records: Records) -> None:
@@ -59,7 +59,7 @@ def test_an_unknown_mission_is_refused_with_the_names_there_are(records: Records
 
 
 def test_names_are_bounded(records: Records, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("robotside.records.missions.MOST", 1)
+    monkeypatch.setattr("robotside.records.missions.MAX_MISSIONS", 1)
     records.missions.set(mission("Night"))
     records.missions.set(mission("Night"))
     with pytest.raises(NotRecorded, match="At most 1 missions"):

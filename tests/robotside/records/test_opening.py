@@ -23,7 +23,7 @@ from bridge.msgs.std_msgs import Time
 from robotside.records import Job, Records
 from robotside.records.database import schema
 from robotside.records.database.storage import engine_of
-from robotside.records.opening import AFTER_CRASH, CannotOpen, open_records
+from robotside.records.opening import SKIPPED_AFTER_CRASH, CannotOpen, open_records
 from tests.robotside.records.conftest import Open
 
 OFFICE = Place(
@@ -127,7 +127,7 @@ async def test_after_a_crash_the_numbers_of_events_leave_room_for_those_that_wer
         again.events.add(Event(text="new"), told.append)
         again.runs.begin(TaskRun())
     await job.kept(10.0)
-    assert [event.id for event in told] == [2 + AFTER_CRASH]
+    assert [event.id for event in told] == [2 + SKIPPED_AFTER_CRASH]
     again.close()
 
 

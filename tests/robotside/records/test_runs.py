@@ -47,7 +47,7 @@ def test_runs_come_newest_first_and_page_by_page(records: Records) -> None:
 
 
 def test_the_newest_runs_are_kept(records: Records, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("robotside.records.runs.KEPT", 3)
+    monkeypatch.setattr("robotside.records.runs.MAX_RUNS", 3)
     for _ in range(5):
         records.runs.begin(PATROL)
     assert [run.id for run in records.runs.before()] == [5, 4, 3]

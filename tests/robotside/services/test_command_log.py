@@ -8,7 +8,7 @@ import pytest
 
 from bridge.msgs.pilothouse_msgs import CommandRequest
 from robotside.core.refusal import Refusal
-from robotside.records.answers import KEPT
+from robotside.records.answers import MAX_ANSWERS
 from robotside.services.command_log import KEPT_FOR, Commands
 
 
@@ -84,12 +84,12 @@ def test_commands_without_an_id_are_all_done(commands: Commands, counter: Counte
 
 
 def test_only_the_newest_answers_are_kept(commands: Commands, counter: Counter) -> None:
-    for number in range(KEPT + 1):
+    for number in range(MAX_ANSWERS + 1):
         commands.run("/x", CommandRequest(command_id=f"c{number}"), counter.act)
-    commands.run("/x", CommandRequest(command_id=f"c{KEPT}"), counter.act)
-    assert counter.done == KEPT + 1
+    commands.run("/x", CommandRequest(command_id=f"c{MAX_ANSWERS}"), counter.act)
+    assert counter.done == MAX_ANSWERS + 1
     commands.run("/x", CommandRequest(command_id="c0"), counter.act)
-    assert counter.done == KEPT + 2
+    assert counter.done == MAX_ANSWERS + 2
 
 
 def test_a_command_older_than_its_validity_is_refused_with_both_numbers(

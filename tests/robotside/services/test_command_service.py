@@ -198,7 +198,7 @@ async def test_a_command_that_was_not_written_is_done_when_it_is_sent_again_afte
 
 
 async def test_the_newest_answers_are_kept(slow: Slow, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("robotside.records.answers.KEPT", 2)
+    monkeypatch.setattr("robotside.records.answers.MAX_ANSWERS", 2)
     for number in range(4):
         answer = await soon(slow.ask("/places/set", place(f"{number}", f"c{number}")))
         slow.write()

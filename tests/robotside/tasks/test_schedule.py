@@ -11,7 +11,7 @@ import pytest
 
 from bridge.msgs.pilothouse_msgs import ScheduledTask, TaskOrder
 from bridge.msgs.std_msgs import Time
-from robotside.tasks.schedule import LATE, fault, following, local_zone, turns
+from robotside.tasks.schedule import MAX_LATENESS, fault, following, local_zone, turns
 
 BERLIN = ZoneInfo("Europe/Berlin")
 DAY = 86400.0
@@ -85,9 +85,9 @@ def test_every_so_often_does_not_drift() -> None:
 
 def test_what_is_late_is_missed_once_and_the_next_one_counts() -> None:
     task = ScheduledTask(1, order=TaskOrder(task="hold"), every=600.0, next=Time.at(1000.0))
-    (turn,) = turns([task], 1000.0 + LATE + 1.0, BERLIN)
+    (turn,) = turns([task], 1000.0 + MAX_LATENESS + 1.0, BERLIN)
     assert (turn.due, turn.missed, turn.task.next.seconds) == (False, 1000.0, 1600.0)
-    (turn,) = turns([task], 1000.0 + 5 * 600.0 + LATE + 1.0, BERLIN)
+    (turn,) = turns([task], 1000.0 + 5 * 600.0 + MAX_LATENESS + 1.0, BERLIN)
     assert (turn.due, turn.missed, turn.task.next.seconds) == (False, 1000.0, 4600.0)
 
 

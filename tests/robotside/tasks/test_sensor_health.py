@@ -18,7 +18,7 @@ from bridge.msgs.pilothouse_msgs import LineSensor
 from bridge.msgs.sensor_msgs import Imu, LaserScan, Range
 from robotside.core.pose2 import Pose2
 from robotside.motion.stopping_path import PlanarVelocity
-from robotside.tasks.sensor_health import PATIENCE, Senses, needed
+from robotside.tasks.sensor_health import SENSOR_TIMEOUT, Senses, needed
 
 MOVING = Twist(Vector3(0.3, 0.1), Vector3(0.0, 0.0, 0.2))
 ODOM = Odometry(pose=PoseWithCovariance(Pose(Point(0.0, 0.0, -2.0))), twist=TwistWithCovariance(MOVING))
@@ -57,7 +57,7 @@ def test_what_it_drives_with_is_missed_from_the_start_and_the_rest_once_it_was_t
     assert senses.silent(0.0) == ["odometry", "laser"]
     senses.take("/odom", ODOM, 0.0)
     senses.take("/scan", LaserScan(), 0.0)
-    assert senses.silent(PATIENCE) == []
+    assert senses.silent(SENSOR_TIMEOUT) == []
     senses.take("/imu/data", Imu(), 0.0)
     senses.take("/odom", ODOM, 2.0)
     assert senses.silent(2.0) == ["laser", "IMU"]
@@ -86,7 +86,7 @@ def test_a_boat_misses_no_laser() -> None:
     senses = Senses("boat")
     assert senses.silent(0.0) == ["odometry"]
     senses.take("/odom", ODOM, 0.0)
-    assert senses.silent(PATIENCE) == []
+    assert senses.silent(SENSOR_TIMEOUT) == []
 
 
 def test_speed_is_over_ground_whichever_way_the_body_leans() -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import CommandRequest, StartTaskRequest, TaskOrder
-from robotside.tasks.task_status_publisher import PATIENCE
+from robotside.tasks.task_status_publisher import DISK_TIMEOUT
 from tests.robotside.slow import FULL, Slow
 
 HOLD = StartTaskRequest(order=TaskOrder(task="hold", duration=600.0))
@@ -80,7 +80,7 @@ def test_a_disk_that_fails_hides_nothing_of_what_the_robot_does(slow: Slow) -> N
 def test_nor_does_one_that_never_answers(slow: Slow) -> None:
     states = told(slow)
     order(slow, "start", HOLD)
-    slow.clock += PATIENCE - 0.1
+    slow.clock += DISK_TIMEOUT - 0.1
     slow.run(0.1)
     assert states == []
     slow.clock += 0.1

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from robotside.records.database.files import DAMAGED_KEPT, Files
+from robotside.records.database.files import MAX_DAMAGED, Files
 
 DAY = 86_400.0
 
@@ -72,7 +72,7 @@ def test_a_backup_that_cannot_be_made_leaves_nothing_half(
 def test_of_broken_files_the_newest_are_kept(tmp_path: Path) -> None:
     now = [1_795_000_000.0]
     files = Files(tmp_path / "records.sqlite3", lambda: now[0])
-    for number in range(DAMAGED_KEPT + 2):
+    for number in range(MAX_DAMAGED + 2):
         now[0] += 1.0
         files.path.write_text(f"{number}")
         files.set_aside()

@@ -12,7 +12,7 @@ import pytest
 from robotside.records.database.jobs import Job
 from robotside.records.database.rows import Put
 from robotside.records.database.storage import NotWritten
-from robotside.records.database.writer import MOST_WAITING, Store, Threaded
+from robotside.records.database.writer import MAX_WAITING, Store, Threaded
 
 
 class Paper(Store):
@@ -119,8 +119,8 @@ def test_one_that_cannot_be_written_costs_the_others_nothing(
 
 def test_too_many_are_refused_and_none_waits_for_the_disk(writer: Threaded, paper: Paper, desk: Desk) -> None:
     paper.go.clear()
-    taken = sum(writer.submit(job(number), desk.hear) for number in range(MOST_WAITING + 100))
-    assert MOST_WAITING <= taken <= MOST_WAITING + 50
+    taken = sum(writer.submit(job(number), desk.hear) for number in range(MAX_WAITING + 100))
+    assert MAX_WAITING <= taken <= MAX_WAITING + 50
     paper.go.set()
     desk.look(taken)
 

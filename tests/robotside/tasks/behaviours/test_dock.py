@@ -9,7 +9,7 @@ from py_trees.common import Status
 
 from bridge.msgs.pilothouse_msgs import Place
 from robotside.tasks.behaviours.course import Course
-from robotside.tasks.behaviours.dock import BEYOND, PATIENCE, Dock, before
+from robotside.tasks.behaviours.dock import CHARGE_TIMEOUT, MAX_BEYOND, Dock, before
 from tests.fakes import Box
 from tests.robotside.tasks.behaviours.stage import Stage
 
@@ -48,10 +48,10 @@ def test_without_a_charge_in_time_it_stands_and_says_so() -> None:
     until(stage, tree, "docking")
     began = stage.situation.now
     assert stage.tick(tree, 60.0) is Status.FAILURE
-    assert stage.situation.now - began == pytest.approx(PATIENCE, abs=0.2)
+    assert stage.situation.now - began == pytest.approx(CHARGE_TIMEOUT, abs=0.2)
     assert stage.guide.reason == "No charge was seen at Dock within 20 s; the robot stands there."
     assert stage.robot.at_rest
-    assert stage.robot.pose[1] < DOCK.y + BEYOND + 0.05
+    assert stage.robot.pose[1] < DOCK.y + MAX_BEYOND + 0.05
 
 
 def test_what_it_touches_while_it_creeps_is_the_dock_and_it_pushes_no_further() -> None:
@@ -79,7 +79,7 @@ def test_a_pause_does_not_count_as_waiting_for_the_charge() -> None:
     stage = Stage()
     tree = make(stage)
     until(stage, tree, "docking")
-    stage.pause(PATIENCE + 5.0)
+    stage.pause(CHARGE_TIMEOUT + 5.0)
     assert stage.tick(tree, 1.0) is Status.RUNNING
 
 

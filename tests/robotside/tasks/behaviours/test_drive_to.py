@@ -5,7 +5,7 @@ from __future__ import annotations
 from py_trees.common import Status
 
 from bridge.msgs.pilothouse_msgs import Mission, Waypoint
-from robotside.tasks.behaviours.drive_to import STANDS, DriveTo
+from robotside.tasks.behaviours.drive_to import STANDING_TIMEOUT, DriveTo
 from tests.robotside.tasks.behaviours.stage import Stage
 
 
@@ -17,7 +17,7 @@ def test_a_robot_that_makes_no_way_says_so_and_ends_with_a_sentence() -> None:
     assert stage.situation.doing.text == "Heading for point 1 of 1."
     drive, stage.robot.drive = stage.robot.drive, lambda _: None  # type: ignore[method-assign]
     stage.robot.stop()
-    stage.tick(tree, STANDS + 0.5)
+    stage.tick(tree, STANDING_TIMEOUT + 0.5)
     assert stage.situation.doing.text == "Makes no way to point 1 of 1; it goes on trying."
     stage.robot.drive = drive  # type: ignore[method-assign]
     stage.tick(tree, 2.0)

@@ -9,7 +9,7 @@ import pytest
 from py_trees.common import Status
 
 from robotside.tasks.behaviours.course import Span
-from robotside.tasks.behaviours.follow_heading import PATIENCE, FollowHeading
+from robotside.tasks.behaviours.follow_heading import BLOCKED_TIMEOUT, FollowHeading
 from tests.fakes import Pillar
 from tests.robotside.tasks.behaviours.stage import Stage
 
@@ -78,7 +78,7 @@ def test_it_waits_before_what_is_in_the_way_and_goes_on_when_that_is_gone() -> N
 def test_it_fails_before_what_does_not_go_away() -> None:
     stage = Stage(pillars=(Pillar(3.0, 0.0),))
     tree = make(stage, 0.0)
-    assert run(stage, tree, 12.0 + PATIENCE) is Status.FAILURE
+    assert run(stage, tree, 12.0 + BLOCKED_TIMEOUT) is Status.FAILURE
     assert "before something that does not go away." in stage.guide.reason
     assert stage.robot.contacts == 0
 

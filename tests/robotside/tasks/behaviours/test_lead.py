@@ -6,7 +6,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from bridge.msgs.pilothouse_msgs import Place
-from robotside.tasks.behaviours.lead import PATIENCE, SILENCE, STAY, lead
+from robotside.tasks.behaviours.lead import FOLLOWER_TIMEOUT, SENSOR_TIMEOUT, STAY_TIME, lead
 from tests.robotside.tasks.behaviours.stage import Stage
 
 TOUR = [
@@ -46,14 +46,14 @@ def test_it_stays_while_the_note_is_told_and_only_there() -> None:
     assert stage.situation.doing.text == "At Reception: Here you get your badge."
     while stage.phase == "dwelling":
         go(stage, tree, 0.05, follows=True)
-    assert abs(stage.situation.now - began - STAY) < 0.2
+    assert abs(stage.situation.now - began - STAY_TIME) < 0.2
 
 
 def test_it_waits_when_nobody_follows_and_goes_on_when_they_come() -> None:
     stage = Stage()
     _, tree = lead(TOUR, "", stage.guide, stage.situation, stage.say)
     go(stage, tree, 1.0, follows=True)
-    go(stage, tree, PATIENCE - 0.2, follows=False)
+    go(stage, tree, FOLLOWER_TIMEOUT - 0.2, follows=False)
     assert stage.phase == "driving"
     go(stage, tree, 20.0, follows=False)
     assert stage.phase == "waiting"
@@ -87,7 +87,7 @@ def test_a_sensor_that_falls_silent_while_it_waits_does_not_hold_it_for_ever() -
     _, tree = lead(TOUR, "", stage.guide, stage.situation, stage.say)
     go(stage, tree, 4.0, follows=False)
     assert stage.phase == "waiting"
-    go(stage, tree, SILENCE + 0.2, follows=None)
+    go(stage, tree, SENSOR_TIMEOUT + 0.2, follows=None)
     assert stage.phase == "driving"
 
 
