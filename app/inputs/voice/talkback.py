@@ -65,7 +65,7 @@ class _Line:
 
 def _android_or(voice: str) -> Mouth:
     if is_android():
-        from app.device.speech import AndroidMouth
+        from app.inputs.voice.android.speech import AndroidMouth
 
         return AndroidMouth()
     return mouth_of(voice)

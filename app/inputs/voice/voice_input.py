@@ -42,7 +42,7 @@ TRIED = "Understood; while it is tried out nothing is done."
 def _usual() -> VoiceRecognizer:
     """The best recogniser that there is here; the first, which says what it lacks, where there is none."""
     if is_android():
-        from app.device.speech import AndroidRecognizer
+        from app.inputs.voice.android.speech import AndroidRecognizer
 
         return AndroidRecognizer()
     return (

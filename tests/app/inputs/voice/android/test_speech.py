@@ -9,8 +9,16 @@ from typing import Any
 
 import pytest
 
-from app.device import speech
-from app.device.speech import ASKS, NO_PACK, NONE, REFUSED, TRIES, AndroidMouth, AndroidRecognizer
+from app.inputs.voice.android import speech
+from app.inputs.voice.android.speech import (
+    ASKS,
+    NO_PACK,
+    NONE,
+    REFUSED,
+    TRIES,
+    AndroidMouth,
+    AndroidRecognizer,
+)
 from app.inputs.voice.interfaces.speech_recognizer import (
     Grammar,
     Level,

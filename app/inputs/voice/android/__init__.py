@@ -1,0 +1,1 @@
+"""Android's own speech: its recogniser and its voice."""
