@@ -196,8 +196,8 @@ WHO_INSTALLS = {
 }
 
 
-ALSO = {"app": "voice"}
-"""An extra that a folder makes use of where it is installed."""
+ALSO = {"app": ("voice", "vosk", "espeak")}
+"""Extras that a folder makes use of where they are installed."""
 
 
 FOR_EXTRAS = {"bridge/core/fence.py": ("handheld", "robot")}
@@ -234,7 +234,9 @@ def test_every_import_is_installed_by_the_folders_own_extra(folder):
     names = PROJECT["project"]["dependencies"] + PROJECT["project"]["optional-dependencies"].get(
         WHO_INSTALLS.get(folder), []
     )
-    names = names + PROJECT["project"]["optional-dependencies"].get(ALSO.get(folder), [])
+    names = names + [
+        name for also in ALSO.get(folder, ()) for name in PROJECT["project"]["optional-dependencies"][also]
+    ]
     installed = {canonical(re.split(r"[<>=!~]", name)[0]) for name in names}
     wanted = {
         module.split(".")[0]

@@ -10,7 +10,7 @@ from app.inputs.voice.interfaces.speech_recognizer import (
     Grammar,
     Level,
     Result,
-    VoiceRecognizer,
+    SpeechRecognizer,
     VoiceTrouble,
 )
 from app.inputs.voice.recognition.phrases import PHRASES
@@ -27,14 +27,14 @@ class RecognizerSession:
     def __init__(self, on_level: Callable[[Level], object], wake: Callable[[], object]) -> None:
         """`on_level` is given how loud it is, in any thread; `wake` has `drain` called soon, for a command must not wait."""
         self._on_level, self._wake = on_level, wake
-        self.recognizer: VoiceRecognizer | None = None
+        self.recognizer: SpeechRecognizer | None = None
         """What understands; None while nothing does."""
         self.listening = False
         """The microphone is open, or opening."""
         self._heeded: frozenset[str] | None = None
         self._events: deque[Event] = deque(maxlen=MAX_EVENTS)
 
-    def start(self, recognizer: VoiceRecognizer, language: str) -> str:
+    def start(self, recognizer: SpeechRecognizer, language: str) -> str:
         """Get ready to hear the commands of `language`; one sentence why that cannot be, empty when it can."""
         self._events.clear()
         self._heeded, self.listening = None, False

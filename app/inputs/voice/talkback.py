@@ -22,7 +22,8 @@ from app.core.checked_settings import Kept
 from app.core.notifications import tell
 from app.device import is_android
 from app.inputs.base.toggleable_method import Switched
-from app.inputs.voice.speech.tts import VOICES, Mouth, mouth_of
+from app.inputs.voice.interfaces.speaker import Speaker
+from app.inputs.voice.speech.tts import VOICES, choose_voice, speaker_of
 from app.intents.intents import LOCAL_INTENTS, Heard, Verdict
 from app.link.channels import EVENT, OUTCOME
 from app.link.commands import Outcome
@@ -63,12 +64,12 @@ class _Line:
     at: float
 
 
-def _android_or(voice: str) -> Mouth:
+def _android_or(voice: str) -> Speaker:
     if is_android():
-        from app.inputs.voice.android.speech import AndroidMouth
+        from app.inputs.voice.android.speech import AndroidSpeaker
 
-        return AndroidMouth()
-    return mouth_of(voice)
+        return AndroidSpeaker()
+    return speaker_of(voice)
 
 
 class Talking(Switched):
@@ -76,11 +77,11 @@ class Talking(Switched):
 
     name = "talk"
 
-    def __init__(self, app: Any, make: Callable[[str], Mouth] = _android_or) -> None:
+    def __init__(self, app: Any, make: Callable[[str], Speaker] = _android_or) -> None:
         """`app` is asked for its `settings`, `intents`, `session`, `shell`, `connect` and `now`; it gets `app.talk`."""
         app.talk = self
         self._app, self._make = app, make
-        self._mouth: Mouth | None = None
+        self._speaker: Speaker | None = None
         self._lines: deque[_Line] = deque()
         self._told: deque[tuple[str, str]] = deque(maxlen=32)
         """What the voice told, from its own thread."""
@@ -89,6 +90,8 @@ class Talking(Switched):
         self.spoke = -math.inf
         """When it ended its last sentence [s]; infinitely long ago before the first."""
         self._used = -math.inf
+        self._instead = ""
+        """Why another voice talks than the one that is chosen, as it was said last; empty where it is that one."""
         self.problem = ""
         """Why it is silent though it was asked to talk; empty when it is well."""
         self._session: Any = None
@@ -169,7 +172,7 @@ class Talking(Switched):
     @property
     def busy(self) -> bool:
         """Time has to be told to it though it is off: it says a label."""
-        return self._mouth is not None
+        return self._speaker is not None
 
     # what is said
 
@@ -201,18 +204,18 @@ class Talking(Switched):
     def hush(self) -> None:
         """Break off, and forget what waits."""
         self._lines.clear()
-        if self._mouth is not None and self._now_said is not None:
-            self._mouth.hush()
+        if self._speaker is not None and self._now_said is not None:
+            self._speaker.hush()
             self._ended(self._app.now())
 
     def _turn(self, now: float) -> None:
         while self._told:
-            self._hear_mouth(*self._told.popleft(), now)
+            self._on_speech(*self._told.popleft(), now)
         if self._now_said is not None and now - self._began > LOST:
             self._ended(now)
         if self._now_said is None and self._lines:
             self._next()
-        if self._mouth is not None and self._now_said is None and now - self._used > SLEEPS:
+        if self._speaker is not None and self._now_said is None and now - self._used > SLEEPS:
             self._put_away()
 
     def _next(self) -> None:
@@ -224,27 +227,30 @@ class Talking(Switched):
                 break
         else:
             return
-        if self._mouth is None and not self._open():
+        if self._speaker is None and not self._open():
             return
         self._now_said, self._began, self._used = line, now, now
-        if self._mouth is not None:
-            self._mouth.say(line.words, self._rate)
+        if self._speaker is not None:
+            self._speaker.say(line.words, self._rate)
 
     def _open(self) -> bool:
-        mouth = self._make(self._voice)
-        self.problem = mouth.missing()
+        speaker, instead = choose_voice(self._voice, self._make)
+        self.problem = speaker.missing()
         if not self.problem:
             try:
-                mouth.start(lambda word, sentence: self._told.append((word, sentence)))
+                speaker.start(lambda word, sentence: self._told.append((word, sentence)))
             except OSError as problem:
                 self.problem = f"The voice cannot be started: {problem}."
         if self.problem:
             self._fail(self.problem)
             return False
-        self._mouth = mouth
+        self._speaker = speaker
+        if instead and instead != self._instead:
+            tell(self._app, f"Talk-back: {instead}", "info", about=self.name)
+        self._instead = instead
         return True
 
-    def _hear_mouth(self, word: str, sentence: str, now: float) -> None:
+    def _on_speech(self, word: str, sentence: str, now: float) -> None:
         said = self._now_said
         if word == "ended" and said is not None and sentence == said.words:
             self._ended(now)
@@ -260,12 +266,12 @@ class Talking(Switched):
         tell(self._app, f"Talk-back: {sentence}", about=self.name)
 
     def _put_away(self) -> None:
-        mouth, self._mouth = self._mouth, None
+        speaker, self._speaker = self._speaker, None
         self._lines.clear()
         if self._now_said is not None:
             self._ended(self._app.now())
-        if mouth is not None:
-            mouth.stop()
+        if speaker is not None:
+            speaker.stop()
         self._told.clear()
 
     # what is told

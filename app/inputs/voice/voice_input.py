@@ -13,47 +13,28 @@ from typing import Any
 from kivy.clock import Clock
 
 from app.core.notifications import tell
-from app.device import is_android
 from app.inputs.voice.command_gate import CommandGate
 from app.inputs.voice.interfaces.speech_recognizer import (
     Level,
     Rejected,
     Result,
+    SpeechRecognizer,
     State,
-    VoiceRecognizer,
 )
 from app.inputs.voice.recognition.phrases import PHRASES
 from app.inputs.voice.recognizer_session import RecognizerSession
+from app.inputs.voice.recognizers import choose
 from app.inputs.voice.talk_button import TalkButton
 from app.inputs.voice.voice_settings import VoiceOptions
 from app.inputs.voice.voice_status import CLIPS, VoiceStatus
 from app.intents.intents import Heard
 
-__all__ = ["KINDS", "VoiceInput"]
+__all__ = ["VoiceInput"]
 
-KINDS: dict[str, str] = {"phonemes": "By sounds", "sphinx": "By words", "android": "Android's own"}
-"""What can understand, with its name for the operator; the first that is there is the usual one."""
 RETRY_PERIOD = 5.0
 """Where it is to listen all the time and the microphone gives nothing, it is opened anew so often [s]."""
 HEARS = "The microphone works again."
 TRIED = "Understood; while it is tried out nothing is done."
-
-
-def _usual() -> VoiceRecognizer:
-    """The best recogniser that there is here; the first, which says what it lacks, where there is none."""
-    if is_android():
-        from app.inputs.voice.android.speech import AndroidRecognizer
-
-        return AndroidRecognizer()
-    return (
-        _made("phonemes") if not _made("phonemes").missing() or _made("sphinx").missing() else _made("sphinx")
-    )
-
-
-def _made(kind: str) -> VoiceRecognizer:
-    from app.inputs.voice.process.worker import recognizer
-
-    return recognizer(kind)
 
 
 class VoiceInput(VoiceOptions):
@@ -61,10 +42,14 @@ class VoiceInput(VoiceOptions):
 
     name = "voice"
 
-    def __init__(self, app: Any, make: Callable[[], VoiceRecognizer] = _usual) -> None:
-        """`app` is asked for its `settings`, `intents`, `inputs`, `methods`, `talk`, `shell`, `connect` and `now`."""
+    def __init__(self, app: Any, make: Callable[[], SpeechRecognizer] | None = None) -> None:
+        """`app` is asked for its `settings`, `intents`, `inputs`, `methods`, `talk`, `shell`, `connect` and `now`.
+
+        `make` makes what understands, in place of the one that is chosen.
+        """
         super().__init__(app)
-        self._make = make
+        self._make, self._instead = make or self._chosen, ""
+        """`_instead` says why what understands is not the one that is wanted; empty where it is."""
         self._status = VoiceStatus(app.now, lambda: self._settings)
         self._button, self._gate = TalkButton(app.now), CommandGate(app)
         self._session = RecognizerSession(
@@ -76,7 +61,8 @@ class VoiceInput(VoiceOptions):
         """What came of it, as one sentence."""
         self._retry_at = -math.inf
         """When the microphone that gave nothing is opened anew [s]."""
-        self._trying = False
+        self.trying = False
+        """It is being tried out."""
 
     @property
     def languages(self) -> tuple[str, ...]:
@@ -108,13 +94,10 @@ class VoiceInput(VoiceOptions):
 
     @property
     def problem(self) -> str:
-        """Why it does not work though it is on; empty when it is well."""
-        return self._fault or (CLIPS if self.listening and self._status.is_clipping else "")
-
-    @property
-    def _fault(self) -> str:
-        """Why nothing is understood; what is overdriven is only understood badly."""
-        return self._status.fault(self.mistaken)
+        """Why it does not work though it is on; empty when it is well. What is overdriven is only understood badly."""
+        return self._status.fault(self.mistaken) or (
+            CLIPS if self.listening and self._status.is_clipping else ""
+        )
 
     @property
     def standing(self) -> str:
@@ -144,18 +127,23 @@ class VoiceInput(VoiceOptions):
         held = self._app.inputs.meanings.held["talk"]
         if self._hold in held:
             held.remove(self._hold)
-        self._trying = False
+        self.trying = False
         self._end()
 
     def close(self) -> None:
         """For good."""
         self.stop()
 
+    def _chosen(self) -> SpeechRecognizer:
+        chosen, self._instead = choose(self.recognizer, self.model)
+        return chosen
+
     def _begin(self) -> None:
         self._status.reset("starting")
         if fault := self._session.start(self._make(), self.language):
             self._fail(fault)
         else:
+            self._say(self._instead, "info")
             self._fit()
 
     def _end(self) -> None:
@@ -164,8 +152,9 @@ class VoiceInput(VoiceOptions):
         self._status.reset("off")
 
     def _restart(self) -> None:
-        """With other settings; nothing where it has not begun."""
-        if self._session.recognizer is not None:
+        """With other settings; nothing where it has not begun, and nothing was missing."""
+        failed = self._status.state.word == "failed" and (self.on or self.trying)
+        if self._session.recognizer is not None or failed:
             self._end()
             self._begin()
 
@@ -200,29 +189,24 @@ class VoiceInput(VoiceOptions):
 
     def try_out(self, *, on: bool) -> None:
         """Listen, and do nothing about what is understood but STOP: to see whether one is understood."""
-        if on == self._trying:
+        if on == self.trying:
             return
         if on and self._session.recognizer is None:
             self._begin()
-        self._trying = on
+        self.trying = on
         if not on and not self.on:
             self._end()
         self._fit()
 
     @property
-    def trying(self) -> bool:
-        """It is being tried out."""
-        return self._trying
-
-    @property
     def busy(self) -> bool:
         """Time has to be told to it though it is off: it is being tried out."""
-        return self._trying
+        return self.trying
 
     def _fit(self) -> None:
         """The microphone is open while somebody wants to be heard."""
         button = self._button
-        wants = self.hands_free or self._trying or button.is_held or button.is_tapped
+        wants = self.hands_free or self.trying or button.is_held or button.is_tapped
         if self._session.recognizer is not None and wants != self.listening:
             self._heed()
             self._session.listen(on=wants)
@@ -263,7 +247,10 @@ class VoiceInput(VoiceOptions):
         if news == "hears":
             self._say(HEARS, "info")
         elif news:
-            self._say(self._fault or state.sentence, "warn" if state.word != "listening" else "info")
+            self._say(
+                self._status.fault(self.mistaken) or state.sentence,
+                "warn" if state.word != "listening" else "info",
+            )
         if self._status.has_lost_microphone:  # whoever wants it opens it anew
             self._session.listening = False
             self._button.clear()
@@ -275,7 +262,7 @@ class VoiceInput(VoiceOptions):
             self._on_rejected(Rejected(why, result.command, result.confidence, result.ended))
             return
         self.last = result
-        if self._trying and not (stop and self._app.intents.possible("stop")):
+        if self.trying and not (stop and self._app.intents.possible("stop")):
             self.said = TRIED
             return
         self.said = self._app.intents.take(_heard(result, self.level.noise)).sentence
@@ -285,7 +272,7 @@ class VoiceInput(VoiceOptions):
 
     def _on_rejected(self, rejected: Rejected) -> None:
         self.last, self.said = rejected, rejected.reason
-        if self._trying:
+        if self.trying:
             return
         asked_for = not self.hands_free
         log = self._app.methods.get("log")

@@ -8,6 +8,7 @@ from typing import Any
 from app.core.checked_settings import Kept, known, shown
 from app.inputs.base.toggleable_method import Switched
 from app.inputs.voice.recognition.phrases import PHRASES
+from app.inputs.voice.recognizers import BEST, RECOGNIZERS
 
 __all__ = ["VoiceOptions", "VoiceSettings", "read_settings"]
 
@@ -24,21 +25,32 @@ class VoiceSettings:
     """It listens all the time, and not only while the button to talk is held."""
     language: str = "en"
     """ISO 639-1, of what may be said."""
+    recognizer: str = BEST
+    """What understands, of `app.inputs.voice.recognizers.RECOGNIZERS`; empty for the best that works here."""
+    model: str = ""
+    """Folder of the model of a recogniser that has none of its own; empty for none."""
 
     def save(self) -> dict[str, Any]:
-        """As JSON."""
-        return {"on": self.on, "hands_free": self.hands_free, "language": self.language}
+        """As JSON; what understands only where it was chosen."""
+        chosen = {"recognizer": self.recognizer, "model": self.model}
+        kept = {"on": self.on, "hands_free": self.hands_free, "language": self.language}
+        return kept | {name: value for name, value in chosen.items() if value}
 
 
 def read_settings(value: object) -> tuple[VoiceSettings, str]:
     """The settings kept as `value`, and one sentence about what means nothing; empty when all is well."""
     kept = Kept(value, "voice")
     on, hands_free = kept.flag("on", usual=False), kept.flag("hands_free", usual=False)
+    recognizer = kept.word("recognizer", {BEST, *RECOGNIZERS}, BEST)
+    model = kept.values.get("model", "")
+    if not isinstance(model, str):
+        kept.mistaken("model", "a folder")
+        model = ""
     mistaken = kept.sentence
     language = kept.values.get("language", "en")
     if not known(language, PHRASES):
         language, mistaken = "en", NO_LANGUAGE.format(shown(language))
-    return VoiceSettings(on, hands_free, language), mistaken
+    return VoiceSettings(on, hands_free, language, recognizer, model), mistaken
 
 
 class VoiceOptions(Switched):
@@ -96,4 +108,26 @@ class VoiceOptions(Switched):
         if language not in PHRASES:
             raise ValueError(f"There are no commands in {language!r}; there are {', '.join(PHRASES)}.")
         self._change(language=language)
+        self._restart()
+
+    @property
+    def recognizer(self) -> str:
+        """What understands, of `RECOGNIZERS`, or `BEST`; ValueError for another."""
+        return self._settings.recognizer
+
+    @recognizer.setter
+    def recognizer(self, name: str) -> None:
+        if name not in (BEST, *RECOGNIZERS):
+            raise ValueError(f"There is no recogniser {name!r}; there are {', '.join(RECOGNIZERS)}.")
+        self._change(recognizer=name)
+        self._restart()
+
+    @property
+    def model(self) -> str:
+        """Folder of the model of a recogniser that has none of its own; empty for none."""
+        return self._settings.model
+
+    @model.setter
+    def model(self, folder: str) -> None:
+        self._change(model=folder.strip())
         self._restart()

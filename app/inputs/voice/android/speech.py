@@ -1,4 +1,4 @@
-"""Speech on the phone: Android's own recogniser as a `VoiceRecognizer`, and its own voice as a `Mouth`.
+"""Speech on the phone: Android's own recogniser as a `SpeechRecognizer`, and its own voice as a `Speaker`.
 
 The recogniser hears one utterance at a time and ends with it, so that it is begun again after each while the ears are open. It gives
 words and knows no grammar: `app.inputs.voice.recognition.matching` finds the command that they sound like. What belongs to the phone's main thread
@@ -26,7 +26,7 @@ from app.inputs.voice.interfaces.speech_recognizer import (
 from app.inputs.voice.recognition.matching import Match, match, said_within
 from app.inputs.voice.recognition.phrases import PHRASES
 
-__all__ = ["AndroidMouth", "AndroidRecognizer"]
+__all__ = ["AndroidSpeaker", "AndroidRecognizer"]
 
 log = logging.getLogger(__name__)
 
@@ -105,7 +105,7 @@ def _runnable(do: Callable[[], None], kept: list[Any]) -> Any:
 
 
 class AndroidRecognizer:
-    """A `VoiceRecognizer`, offline where the phone can."""
+    """A `SpeechRecognizer`, offline where the phone can."""
 
     name = "Android"
     languages = tuple(PHRASES)
@@ -344,8 +344,8 @@ def _listener(to: AndroidRecognizer) -> Any:
     return Listener()
 
 
-class AndroidMouth:
-    """A `Mouth`: the voice that is chosen in Android's settings, in English as the app's sentences are."""
+class AndroidSpeaker:
+    """A `Speaker`: the voice that is chosen in Android's settings, in English as the app's sentences are."""
 
     def __init__(self) -> None:
         """Opens nothing."""

@@ -25,7 +25,7 @@ __all__ = [
     "Rejected",
     "Result",
     "State",
-    "VoiceRecognizer",
+    "SpeechRecognizer",
     "VoiceTrouble",
 ]
 
@@ -127,7 +127,7 @@ Event: TypeAlias = Partial | Result | Rejected | Level | State
 Hear: TypeAlias = Callable[[Event], object]
 
 
-class VoiceRecognizer(Protocol):
+class SpeechRecognizer(Protocol):
     """One way to understand speech. All methods return at once and are called in one thread; events come in any."""
 
     name: str

@@ -1,6 +1,6 @@
 """The voice process: orders come in on its standard input and events go out on its standard output, a line of JSON each.
 
-`python -m app.inputs.voice.process.child phonemes` is started by `app.inputs.voice.process.worker` and ends with its standard input.
+`python -m app.inputs.voice.process.child phonemes`, or `vosk=FOLDER`, is started by `app.inputs.voice.process.worker` and ends with its standard input.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ __all__ = ["main", "own_line"]
 
 
 def main(arguments: list[str], orders: TextIO, events: TextIO) -> int:
-    """Serve until the orders end; `arguments` are the judge's name and, in place of the microphone, recordings."""
+    """Serve until the orders end; `arguments` are the engine, as in `judge_of`, and, in place of the microphone, recordings."""
     name, *recordings = arguments
     first = orders.readline()
     if not first:

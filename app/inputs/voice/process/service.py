@@ -29,26 +29,33 @@ was heard is not: some give nothing at all between the words."""
 MUTED = "The microphone gives nothing but silence: it is muted, or the system does not let this app hear it."
 
 
-def judge_of(name: str, grammar: Grammar) -> Judge:
-    """The judge of that name in `JUDGES`; `VoiceTrouble` when it cannot work here."""
-    return JUDGES[name](grammar)
+def judge_of(engine: str, grammar: Grammar) -> Judge:
+    """The judge of an engine, a key of `JUDGES` with its model after `=` where it needs one; `VoiceTrouble` when it cannot work here."""
+    name, _, model = engine.partition("=")
+    return JUDGES[name](grammar, model)
 
 
-def _phonemes(grammar: Grammar) -> Judge:
+def _phonemes(grammar: Grammar, _: str) -> Judge:
     from app.inputs.voice.recognition.hearing import Phonemes
     from app.inputs.voice.recognition.model import HamaModel
 
     return Phonemes(grammar, HamaModel())
 
 
-def _sphinx(grammar: Grammar) -> Judge:
+def _sphinx(grammar: Grammar, _: str) -> Judge:
     from app.inputs.voice.recognition.sphinx import Sphinx
 
     return Sphinx(grammar)
 
 
-JUDGES: dict[str, Callable[[Grammar], Judge]] = {"phonemes": _phonemes, "sphinx": _sphinx}
-"""What can judge speech, by name."""
+def _vosk(grammar: Grammar, model: str) -> Judge:
+    from app.inputs.voice.recognition.vosk_judge import VoskJudge
+
+    return VoskJudge(grammar, model)
+
+
+JUDGES: dict[str, Callable[[Grammar, str], Judge]] = {"phonemes": _phonemes, "vosk": _vosk, "sphinx": _sphinx}
+"""What can judge speech, by name; called with the grammar and the model's folder, empty where none is needed."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 """Recognisers that work beside the app: in a process of their own where that can be had, else in a thread.
 
-    voice = recognizer("phonemes")      # or "sphinx"
+    voice = recognizer("phonemes")      # or "sphinx", or "vosk" with a model's folder
     voice.start(Grammar(COMMANDS), hear)
 
 A process keeps the user interface smooth, and a fault in foreign code takes nothing with it: a process that crashes or hangs is said, and
@@ -25,8 +25,8 @@ from app.inputs.voice.interfaces.speech_recognizer import (
     Grammar,
     Hear,
     Result,
+    SpeechRecognizer,
     State,
-    VoiceRecognizer,
     VoiceTrouble,
 )
 from app.inputs.voice.process.breakdown import BEAT, Breakdowns, Signs, reason
@@ -34,18 +34,23 @@ from app.inputs.voice.process.ending import end_aside
 from app.inputs.voice.process.running import Running
 from app.inputs.voice.process.service import Service, judge_of
 from app.inputs.voice.process.wire import THERE, grammar_fields, read_event
+from app.inputs.voice.recognition.phrases import PHRASES
+from app.inputs.voice.recognition.vosk_judge import model_fault
 
 __all__ = ["PACKAGES", "InProcess", "InThread", "recognizer"]
 
 log = logging.getLogger(__name__)
 
-PACKAGES = {"phonemes": "hama", "sphinx": "pocketsphinx"}
-"""What each judge needs."""
+PACKAGES = {"phonemes": ("hama", "voice"), "sphinx": ("pocketsphinx", "voice"), "vosk": ("vosk", "vosk")}
+"""The package that each judge needs, and the extra of pilothouse that installs it."""
 ROOT = Path(__file__).parents[4]
 
 
-def recognizer(name: str = "phonemes", *, alone: bool | None = None) -> VoiceRecognizer:
-    """The recogniser of that name in `PACKAGES`; `alone` in a process of its own, None where the system has such."""
+def recognizer(name: str = "phonemes", model: str = "", *, alone: bool | None = None) -> SpeechRecognizer:
+    """The recogniser of that name in `PACKAGES`; `alone` in a process of its own, None where the system has such.
+
+    `model` is the folder of a model, for one that has none of its own.
+    """
     if name not in PACKAGES:
         raise VoiceTrouble(f"There is no recogniser {name!r}; there are {', '.join(PACKAGES)}.")
     if alone is None:
@@ -54,19 +59,28 @@ def recognizer(name: str = "phonemes", *, alone: bool | None = None) -> VoiceRec
             and not getattr(sys, "frozen", False)
             and not hasattr(sys, "getandroidapilevel")
         )
-    return InProcess(name) if alone else InThread(name)
+    return InProcess(name, model=model) if alone else InThread(name, model=model)
 
 
-def _missing(name: str) -> str:
-    package = PACKAGES[name]
+def _missing(name: str, model: str) -> str:
+    package, extra = PACKAGES[name]
     if importlib.util.find_spec(package) is None:
-        return f"Voice needs the package {package}, which is not installed: pip install pilothouse[voice]."
-    return ""
+        return f"Voice needs the package {package}, which is not installed: pip install pilothouse[{extra}]."
+    return model_fault(model) if name == "vosk" else ""
 
 
-def _checked(name: str, grammar: Grammar, languages: Collection[str]) -> None:
-    if _missing(name):
-        raise VoiceTrouble(_missing(name))
+def _languages(name: str) -> tuple[str, ...]:
+    """Vosk understands the language of its model, which it is given the words of."""
+    return tuple(PHRASES) if name == "vosk" else ("en",)
+
+
+def _engine(name: str, model: str) -> str:
+    return f"{name}={model}" if model else name
+
+
+def _checked(missing: str, grammar: Grammar, languages: Collection[str]) -> None:
+    if missing:
+        raise VoiceTrouble(missing)
     if grammar.language not in languages:
         raise VoiceTrouble(
             f"This recogniser has no {grammar.language!r}; it understands {', '.join(languages)}."
@@ -81,31 +95,32 @@ def _until(over: threading.Event, hear: Hear) -> Hear:
 class InThread:
     """In a thread of the app: on a phone, which has no processes to start."""
 
-    languages: tuple[str, ...] = ("en",)
-
     def __init__(
         self,
         name: str,
         ears: Callable[[], Ears] = Microphone,
         now: Callable[[], float] = time.monotonic,
+        model: str = "",
     ) -> None:
-        """`name` is one of `PACKAGES`."""
-        self.name, self._ears, self._now = name, ears, now
+        """`name` is one of `PACKAGES`, `model` the folder of its model where it has none of its own."""
+        self.name, self._model, self._ears, self._now = name, model, ears, now
+        self.languages = _languages(name)
         self._service: Service | None = None
         self._thread: threading.Thread | None = None
         self._over = threading.Event()
 
     def missing(self) -> str:
         """Why it cannot work here."""
-        return _missing(self.name)
+        return _missing(self.name, self._model)
 
     def start(self, grammar: Grammar, hear: Hear) -> None:
         """Load in the thread."""
         self.stop()
-        _checked(self.name, grammar, self.languages)
+        _checked(self.missing(), grammar, self.languages)
         self._over = threading.Event()
         hear = _until(self._over, hear)
-        self._service = Service(grammar, self._ears(), lambda wanted: judge_of(self.name, wanted), hear)
+        engine = _engine(self.name, self._model)
+        self._service = Service(grammar, self._ears(), lambda wanted: judge_of(engine, wanted), hear)
         self._thread = threading.Thread(
             target=self._run, args=(self._service, hear), name="voice", daemon=True
         )
@@ -147,22 +162,25 @@ class InThread:
 class InProcess:
     """In a process of its own."""
 
-    languages: tuple[str, ...] = ("en",)
-
     def __init__(
         self,
         name: str,
         recordings: Sequence[Path] = (),
         command: Sequence[str] = (),
         now: Callable[[], float] = time.monotonic,
+        model: str = "",
     ) -> None:
-        """`recordings` are heard in place of the microphone; `command` is run in place of `app.inputs.voice.process.child`."""
-        self.name, self._now = name, now
+        """`recordings` are heard in place of the microphone; `command` is run in place of `app.inputs.voice.process.child`.
+
+        `model` is the folder of a model where the recogniser has none of its own.
+        """
+        self.name, self._model, self._now = name, model, now
+        self.languages = _languages(name)
         self._command = list(command) or [
             sys.executable,
             "-m",
             "app.inputs.voice.process.child",
-            name,
+            _engine(name, model),
             *map(str, recordings),
         ]
         self._lock = threading.Lock()
@@ -173,12 +191,12 @@ class InProcess:
 
     def missing(self) -> str:
         """Why it cannot work here."""
-        return _missing(self.name)
+        return _missing(self.name, self._model)
 
     def start(self, grammar: Grammar, hear: Hear) -> None:
         """Start the process."""
         self.stop()
-        _checked(self.name, grammar, self.languages)
+        _checked(self.missing(), grammar, self.languages)
         self._over, self._said = threading.Event(), {}
         process = self._spawn(grammar, self._over)
         self._life = threading.Thread(

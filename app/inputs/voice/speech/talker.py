@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import queue
-import subprocess
+import shutil
 import sys
 import threading
 from collections.abc import Callable, Generator
@@ -17,18 +17,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
+from app.inputs.voice.speech import espeak
 
 __all__ = ["main", "play"]
 
 BLOCK_MS = 60
 TAIL = 0.15
 """Silence after each, so that the device is not closed on its last sound [s]."""
-WORDS_A_MINUTE = 170
-"""What espeak-ng calls its usual speed, to the nearest ten."""
 NO_SPEAKER = "There is no loudspeaker to talk by."
 
 
-class Speaker(Protocol):
+class Synthesizer(Protocol):
     """Says a text and returns when that is over, or soon after `hushed` is set."""
 
     def __call__(self, words: str, rate: float, hushed: threading.Event) -> None:
@@ -43,14 +42,14 @@ def main(arguments: list[str], orders: TextIO, events: TextIO) -> int:
         events.flush()
 
     try:
-        speak = SPEAKERS[arguments[0]]()
+        speak = SYNTHESIZERS[arguments[0]]()
     except (ImportError, OSError, VoiceTrouble) as trouble:
         tell("failed", f"The voice cannot be started: {trouble}.")
         return 1
     return serve(speak, orders, tell)
 
 
-def serve(speak: Speaker, orders: TextIO, tell: Callable[..., None]) -> int:
+def serve(speak: Synthesizer, orders: TextIO, tell: Callable[..., None]) -> int:
     """Say each order, the newest instead of the one before, until they end; 1 where nothing can be heard."""
     waiting = queue.SimpleQueue[tuple[dict[str, Any], threading.Event] | None]()
 
@@ -116,7 +115,7 @@ def play(sound: NDArray[np.float32], rate: int, hushed: threading.Event, audio: 
         device.close()
 
 
-def _natural() -> Speaker:
+def _natural() -> Synthesizer:
     import hibari
 
     voice = hibari.Hibari()
@@ -129,21 +128,20 @@ def _natural() -> Speaker:
     return speak
 
 
-def _clear() -> Speaker:
+def _clear() -> Synthesizer:
+    if shutil.which(espeak.PROGRAM) is not None:
+        return espeak.say_by_program
+    library = espeak.EspeakLibrary()
+
     def speak(words: str, rate: float, hushed: threading.Event) -> None:
-        command = ["espeak-ng", "-s", str(round(WORDS_A_MINUTE * rate)), "--", words]
-        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        try:
-            while process.poll() is None and not hushed.wait(0.05):
-                pass
-        finally:
-            process.kill()
-            process.wait()
+        sound = library.samples(words, rate)
+        if not hushed.is_set():
+            play(sound, library.sample_rate, hushed)
 
     return speak
 
 
-SPEAKERS: dict[str, Callable[[], Speaker]] = {"natural": _natural, "clear": _clear}
+SYNTHESIZERS: dict[str, Callable[[], Synthesizer]] = {"natural": _natural, "clear": _clear}
 """Each voice of `app.inputs.voice.speech.tts.VOICES` to what says something by it."""
 
 

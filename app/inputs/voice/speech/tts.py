@@ -1,6 +1,6 @@
 """What speaks on a desktop: a voice in a process of its own, which is given a line to say and tells when it began and ended.
 
-mouth = mouth_of("natural"); mouth.start(tell); mouth.say("Go home?", 1.0); mouth.stop()
+speaker = speaker_of("natural"); speaker.start(tell); speaker.say("Go home?", 1.0); speaker.stop()
 """
 
 from __future__ import annotations
@@ -9,59 +9,47 @@ import contextlib
 import importlib.util
 import json
 import os
-import shutil
 import subprocess
 import sys
 import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Protocol
 
+from app.inputs.voice.interfaces.speaker import Speaker, Tell
 from app.inputs.voice.process.ending import end_aside
+from app.inputs.voice.speech import espeak
 
-__all__ = ["VOICES", "ChildMouth", "Mouth", "Tell", "mouth_of"]
+__all__ = ["VOICES", "SpeakerProcess", "choose_voice", "speaker_of"]
 
-Tell = Callable[[str, str], object]
-"""`began` or `ended` with the words that were said, or `failed` with a sentence; in any thread."""
 VOICES: dict[str, str] = {"natural": "Natural", "clear": "Clear, like a machine"}
 """Voices of a desktop, with their names for the operator."""
 ROOT = Path(__file__).parents[4]
 NO_HIBARI = "Talking needs the packages hibari-tts and miniaudio: pip install pilothouse[voice]."
-NO_ESPEAK = "This voice needs the program espeak-ng, which is not installed."
+NO_ESPEAK = "This voice needs the program espeak-ng, or pip install pilothouse[espeak]."
 CRASHED = "The voice that talks crashed and is silent. Choose it again to start it again."
 
 
-class Mouth(Protocol):
-    """One way to speak. Called in one thread; `tell` is called in any."""
-
-    def missing(self) -> str:
-        """Why it cannot speak here, in one sentence; empty when nothing is known against it."""
-        ...
-
-    def start(self, tell: Tell) -> None:
-        """Get ready; OSError when that cannot be."""
-        ...
-
-    def say(self, words: str, rate: float) -> None:
-        """Say it, `rate` times as fast as usual, instead of what is being said."""
-        ...
-
-    def hush(self) -> None:
-        """Say nothing more."""
-        ...
-
-    def stop(self) -> None:
-        """Let go of everything; more than once does nothing."""
-        ...
-
-
-def mouth_of(voice: str) -> Mouth:
+def speaker_of(voice: str) -> Speaker:
     """A voice of `VOICES`; KeyError for another."""
     _ = VOICES[voice]
-    return ChildMouth(voice)
+    return SpeakerProcess(voice)
 
 
-class ChildMouth:
+def choose_voice(voice: str, make: Callable[[str], Speaker] = speaker_of) -> tuple[Speaker, str]:
+    """That voice of `VOICES`, and an empty text; else another one that works here, and one sentence why it is another.
+
+    Where none works, the one that is wanted, which says itself what it lacks.
+    """
+    first = make(voice)
+    missing = first.missing()
+    for name in VOICES if missing else ():
+        other = make(name)
+        if name != voice and not other.missing():
+            return other, f"{missing} “{VOICES[name]}” talks instead."
+    return first, ""
+
+
+class SpeakerProcess:
     """Speaks by `app.inputs.voice.speech.talker` in a process of its own."""
 
     def __init__(self, voice: str, command: Sequence[str] = ()) -> None:
@@ -75,7 +63,7 @@ class ChildMouth:
     def missing(self) -> str:
         """Why it cannot speak here."""
         if self._voice == "clear":
-            return "" if shutil.which("espeak-ng") else NO_ESPEAK
+            return "" if espeak.is_installed() else NO_ESPEAK
         found = all(importlib.util.find_spec(name) is not None for name in ("hibari", "miniaudio"))
         return "" if found and sys.executable else NO_HIBARI
 

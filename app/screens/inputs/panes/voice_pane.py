@@ -11,6 +11,8 @@ from app.device import is_android
 from app.inputs.voice.audio.noise import TOO_LOUD
 from app.inputs.voice.interfaces.speech_recognizer import Level, Result
 from app.inputs.voice.recognition.phrases import LANGUAGES, PHRASES
+from app.inputs.voice.recognition.vosk_judge import model_fault
+from app.inputs.voice.recognizers import BEST, RECOGNIZERS
 from app.inputs.voice.speech.tts import VOICES
 from app.inputs.voice.talkback import RATES, Talking
 from app.inputs.voice.voice_input import VoiceInput
@@ -20,6 +22,7 @@ from widgets.inputs.noise_meter import NoiseMeter
 from widgets.parts.kit import Column, ListRow, PrimaryButton, QuietButton, Roll, Segmented
 from widgets.parts.labels import Remark
 from widgets.parts.rows import group_label
+from widgets.parts.text_field import TextField
 
 __all__ = ["VoicePane"]
 
@@ -62,6 +65,7 @@ class VoicePane(BoxLayout):
         self.kind.bind(on_choose=lambda _, value: self._listen_so(value))
         add(self.kind)
         add(self.how)
+        self._fill_recognizers()
         self._fill_languages()
         self._fill_answers()
         add(group_label("What may be said"))
@@ -98,6 +102,20 @@ class VoicePane(BoxLayout):
         self.trouble = Remark(font_size="14sp", role="warn")
         add(self.trouble)
 
+    def _fill_recognizers(self) -> None:
+        """Not on a phone, which has one of its own."""
+        self.recognizers = Segmented(
+            options=[(BEST, "Best"), *RECOGNIZERS.items()], size_hint_y=None, height="48dp"
+        )
+        self.recognizers.bind(on_choose=lambda _, name: self._choose_recognizer(name))
+        self.model = TextField(label="Vosk model", hint_text="Folder of a Vosk model")
+        self.model.bind(on_text_validate=lambda _: self._enter_model(), focus=self._on_model_focus)
+        self._models = Column(spacing="6dp")
+        if not is_android():
+            self._column.add_widget(group_label("What understands"))
+            self._column.add_widget(self.recognizers)
+            self._column.add_widget(self._models)
+
     def _fill_languages(self) -> None:
         """Only where what understands here knows more than one."""
         known = self.speaking.languages
@@ -117,6 +135,19 @@ class VoicePane(BoxLayout):
 
     def _listen_so(self, value: str) -> None:
         self.speaking.hands_free = value == "free"
+        self.tick()
+
+    def _choose_recognizer(self, name: str) -> None:
+        self.speaking.recognizer = name
+        self.tick()
+
+    def _on_model_focus(self, _: object, focus: bool) -> None:
+        if not focus:
+            self._enter_model()
+
+    def _enter_model(self) -> None:
+        if self.model.text.strip() != self.speaking.model:
+            self.speaking.model = self.model.text
         self.tick()
 
     def _choose_language(self, name: str) -> None:
@@ -166,10 +197,21 @@ class VoicePane(BoxLayout):
         self.trial.icon = "close" if speaking.trying else "mic"
         self.kind.value = "free" if speaking.hands_free else "push"
         self.how.text = FREE if speaking.hands_free else PUSH
+        self._show_recognizer(speaking)
         self.language.value = speaking.language
         self.talks.active = talking.on
         self.voices.value, self.rate.value = talking.voice, round(talking.rate, 2)
         self.trouble.text = talking.problem
+
+    def _show_recognizer(self, speaking: VoiceInput) -> None:
+        self.recognizers.value = speaking.recognizer
+        if (speaking.recognizer == "vosk") != (self.model.parent is self._models):
+            (self._models.add_widget if speaking.recognizer == "vosk" else self._models.remove_widget)(
+                self.model
+            )
+        if not self.model.focus:
+            self.model.text = speaking.model
+        self.model.wrong = speaking.recognizer == "vosk" and bool(model_fault(speaking.model))
 
     def _usual(self, speaking: VoiceInput) -> str:
         if speaking.trying:

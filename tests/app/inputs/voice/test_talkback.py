@@ -222,6 +222,22 @@ def test_where_nothing_can_talk_it_is_said_once_and_everything_goes_on() -> None
     assert desk.talking.standing == "silent"
 
 
+def test_where_the_voice_that_is_chosen_is_missing_another_talks_and_it_is_said_once() -> None:
+    desk, mouths = Desk(), {"natural": Mouth("There is no hibari."), "clear": Mouth()}
+    desk.talking._make = mouths.__getitem__
+    desk.talking.say("One.", "answer")
+    assert mouths["clear"].said == ["One."]
+    assert desk.warned == ["Talk-back: There is no hibari. “Clear, like a machine” talks instead."]
+    mouths["clear"].ends()
+    desk.wait(0.1)
+    desk.wait(61.0)
+    assert mouths["clear"].tell is None, "put away"
+    desk.talking.say("Two.", "answer")
+    assert mouths["clear"].said == ["One.", "Two."]
+    assert len(desk.warned) == 1
+    assert (desk.talking.problem, desk.talking.voice) == ("", "natural")
+
+
 def test_a_voice_that_crashes_is_said_and_silent_until_it_is_chosen_again(desk: Desk) -> None:
     desk.talking.say("One.", "answer")
     desk.mouth.tell("failed", "It crashed.")

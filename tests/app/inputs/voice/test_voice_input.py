@@ -444,3 +444,55 @@ def test_another_language_has_its_own_words(desk: Desk) -> None:
     assert desk.speaking.languages == ("en", "de")
     with pytest.raises(ValueError, match="There are no commands in 'xx'"):
         desk.speaking.language = "xx"
+
+
+# what understands
+
+
+def test_what_understands_is_chosen_kept_and_begun_anew(desk: Desk) -> None:
+    assert (desk.speaking.recognizer, desk.speaking.model) == ("", "")
+    assert set(desk.kept["voice"]) == {"on"}, "nothing is kept before anything is chosen"
+    before = desk.recogniser.grammar
+    desk.speaking.recognizer, desk.speaking.model = "vosk", " /models/small "
+    assert desk.kept["voice"] | {"on": True} == desk.kept["voice"]
+    assert (desk.kept["voice"]["recognizer"], desk.kept["voice"]["model"]) == ("vosk", "/models/small")
+    assert desk.recogniser.grammar is not before
+    with pytest.raises(ValueError, match="no recogniser 'ears'"):
+        desk.speaking.recognizer = "ears"
+
+
+def test_what_was_missing_is_tried_again_when_something_else_is_chosen() -> None:
+    desk = Desk(Recogniser("There is no hama."))
+    desk.recogniser.absent = ""
+    desk.speaking.recognizer = "vosk"
+    desk.wait(0.0)
+    assert (desk.speaking.problem, desk.speaking.ready) == ("", True)
+    off = Desk(Recogniser("There is no hama."), on=False)
+    off.speaking.stop()
+    off.recogniser.absent = ""
+    off.speaking.recognizer = "vosk"
+    assert off.recogniser.grammar is None
+
+
+def test_that_another_listens_is_said_and_it_listens(monkeypatch: pytest.MonkeyPatch) -> None:
+    other = Recogniser()
+    why = "Voice needs the package hama. “By words” listens instead."
+    asked: list[tuple[str, str]] = []
+    monkeypatch.setattr(
+        "app.inputs.voice.voice_input.choose", lambda *wanted: asked.append(wanted) or (other, why)
+    )
+    desk = Desk(recognizer="vosk", model="/models/small")
+    speaking = VoiceInput(desk.app)
+    speaking.start()
+    speaking.press()
+    assert asked == [("vosk", "/models/small")]
+    assert desk.said == [f"Voice: {why}"]
+    assert desk.levels == ["info"]
+    assert other.open
+
+
+@pytest.mark.parametrize("kept", [{"recognizer": "ears"}, {"recognizer": 3}, {"model": ["a"]}])
+def test_a_recogniser_that_there_is_not_is_the_best_and_said(kept: dict[str, Any]) -> None:
+    desk = Desk(**kept)
+    assert (desk.speaking.recognizer, desk.speaking.model) == ("", "")
+    assert "as usual again" in desk.said[0]

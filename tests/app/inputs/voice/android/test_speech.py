@@ -16,8 +16,8 @@ from app.inputs.voice.android.speech import (
     NONE,
     REFUSED,
     TRIES,
-    AndroidMouth,
     AndroidRecognizer,
+    AndroidSpeaker,
 )
 from app.inputs.voice.interfaces.speech_recognizer import (
     Grammar,
@@ -289,8 +289,8 @@ def test_stopped_it_lets_go_of_the_service_and_tells_nothing(phone: Phone) -> No
     assert len(phone.told) == told
 
 
-def spoken(phone: Phone, status: int = 0) -> tuple[AndroidMouth, list[tuple[str, str]]]:
-    mouth, told = AndroidMouth(), []
+def spoken(phone: Phone, status: int = 0) -> tuple[AndroidSpeaker, list[tuple[str, str]]]:
+    mouth, told = AndroidSpeaker(), []
     mouth.start(lambda *words: told.append(words))
     mouth.say("Go home?", 1.2)
     phone.run()

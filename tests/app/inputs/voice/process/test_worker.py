@@ -156,7 +156,7 @@ def test_a_phone_has_no_processes_to_start():
 
 def test_a_fault_in_the_thread_is_said_and_it_is_started_again_once(monkeypatch, told):
     monkeypatch.setattr("app.inputs.voice.process.worker.judge_of", lambda name, grammar: 1 / 0)
-    monkeypatch.setattr("app.inputs.voice.process.worker._missing", lambda name: "")
+    monkeypatch.setattr("app.inputs.voice.process.worker._missing", lambda *_: "")
     voice = InThread("phonemes")
     voice.start(GRAMMAR, told.put)
     events = words(told, 4)
@@ -167,7 +167,7 @@ def test_a_fault_in_the_thread_is_said_and_it_is_started_again_once(monkeypatch,
 
 
 def test_faults_in_the_thread_that_are_hours_apart_never_end_it(monkeypatch, told):
-    monkeypatch.setattr("app.inputs.voice.process.worker._missing", lambda name: "")
+    monkeypatch.setattr("app.inputs.voice.process.worker._missing", lambda *_: "")
     hours = iter(range(100))
 
     class Faulty:
@@ -218,7 +218,7 @@ def test_one_that_hangs_holds_nobody_up_and_is_ended_all_the_same(told, monkeypa
 
 
 def test_what_ends_beside_the_glass_is_heard_no_more(monkeypatch, told):
-    monkeypatch.setattr("app.inputs.voice.process.worker._missing", lambda name: "")
+    monkeypatch.setattr("app.inputs.voice.process.worker._missing", lambda *_: "")
     goes_on, told_late = threading.Event(), threading.Event()
 
     class Late:
@@ -318,7 +318,7 @@ class World:
             return self.processes[-1]
 
         monkeypatch.setattr("app.inputs.voice.process.worker.Running", start)
-        monkeypatch.setattr("app.inputs.voice.process.worker._missing", lambda name: "")
+        monkeypatch.setattr("app.inputs.voice.process.worker._missing", lambda *_: "")
         self.voice = InProcess("phonemes", now=lambda: self.t)
 
     def run(self):
@@ -469,7 +469,7 @@ def test_a_fault_in_the_real_process_gives_its_reason(told, monkeypatch):
     program = "from app.inputs.voice.process import child; child.judge_of = lambda *_: 1 / 0; child._alone()"
     voice = InProcess("phonemes", command=[sys.executable, "-c", program, "phonemes"])
     voice.missing = lambda: ""
-    monkeypatch.setattr("app.inputs.voice.process.worker._missing", lambda name: "")
+    monkeypatch.setattr("app.inputs.voice.process.worker._missing", lambda *_: "")
     voice.start(GRAMMAR, told.put)
     events = words(told, 4)
     voice.stop()

@@ -18,9 +18,10 @@ from app.inputs.voice.process.ending import wait_for_ends
 from app.inputs.voice.recognition.hearing import Hearing, Phonemes
 from app.inputs.voice.recognition.lexicon import COMMANDS
 from app.inputs.voice.recognition.model import HamaModel
+from app.inputs.voice.speech import espeak
 from app.inputs.voice.speech import tts as module
 from app.inputs.voice.speech.talker import NO_SPEAKER, play, serve
-from app.inputs.voice.speech.tts import CRASHED, NO_ESPEAK, ChildMouth, mouth_of
+from app.inputs.voice.speech.tts import CRASHED, NO_ESPEAK, SpeakerProcess, speaker_of
 from app.inputs.voice.talkback import aloud
 
 SOUND = np.full(2400, 0.5, np.float32)
@@ -129,17 +130,17 @@ def test_miniaudios_own_silence_is_no_loudspeaker() -> None:
 
 
 def test_what_a_voice_needs_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module.shutil, "which", lambda _: None)
-    assert mouth_of("clear").missing() == NO_ESPEAK
+    monkeypatch.setattr(espeak.shutil, "which", lambda _: None)
     monkeypatch.setattr(module.importlib.util, "find_spec", lambda _: None)
-    assert "hibari-tts" in mouth_of("natural").missing()
+    assert speaker_of("clear").missing() == NO_ESPEAK
+    assert "hibari-tts" in speaker_of("natural").missing()
     with pytest.raises(KeyError):
-        mouth_of("soprano")
+        speaker_of("soprano")
 
 
 def test_a_process_that_ends_by_itself_is_said() -> None:
     told = queue.SimpleQueue[tuple[str, str]]()
-    mouth = ChildMouth("natural", [sys.executable, "-c", "print('no event')"])
+    mouth = SpeakerProcess("natural", [sys.executable, "-c", "print('no event')"])
     mouth.start(lambda *words: told.put(words))
     assert told.get(timeout=10) == ("failed", CRASHED)
     mouth.say("One.", 1.0)
@@ -151,7 +152,7 @@ def test_a_process_that_ends_by_itself_is_said() -> None:
 def test_the_real_voice_has_a_process_of_its_own_and_says_where_it_cannot_be_heard() -> None:
     pytest.importorskip("hibari")
     told = queue.SimpleQueue[tuple[str, str]]()
-    mouth = mouth_of("natural")
+    mouth = speaker_of("natural")
     mouth.start(lambda *words: told.put(words))
     try:
         mouth.say("Go home?", 1.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -19,6 +20,7 @@ class VoiceInput:
     def __init__(self) -> None:
         self.on, self.hands_free, self.trying, self.language = True, False, False, "en"
         self.languages: tuple[str, ...] = ("en",)
+        self.recognizer, self.model = "", ""
         self.problem, self.standing, self.said = "", "hold to talk", ""
         self.loud, self.ready, self.listening = False, True, False
         self.level, self.last = Level(-40.0, -55.0, 25.0), None
@@ -121,3 +123,21 @@ def test_a_language_is_asked_for_only_where_there_are_several(stage: Stage, desk
     assert several.pane.language.parent is not None
     several.pane.language.choose("de")
     assert several.speaking.language == "de"
+
+
+def test_what_understands_is_chosen_and_the_folder_of_a_model_asked_for_only_where_it_is_needed(
+    desk: Desk, tmp_path: Path
+) -> None:
+    pane = desk.pane
+    assert (pane.recognizers.value, pane.model.parent) == ("", None)
+    pane.recognizers.choose("vosk")
+    desk.tick()
+    assert desk.speaking.recognizer == "vosk"
+    assert pane.model.parent is not None
+    assert pane.model.wrong, "there is no model yet"
+    (tmp_path / "final.mdl").write_bytes(b"")
+    pane.model.text = str(tmp_path)
+    pane.model.dispatch("on_text_validate")
+    assert (desk.speaking.model, pane.model.wrong) == (str(tmp_path), False)
+    pane.recognizers.choose("phonemes")
+    assert pane.model.parent is None
