@@ -69,14 +69,14 @@ def test_teeth_point_to_where_the_robot_never_is():
 def test_an_edge_that_is_far_larger_than_the_glass_has_a_bounded_number_of_teeth():
     border = Border(np.array([[-1e6, 5.0]]), np.array([[1e6, 5.0]]))
     feet, _ = marks.teeth(View.centred(5, 5, at=(200, 150), scale=400), border, BOX)
-    assert 0 < len(feet) <= marks.MOST
+    assert 0 < len(feet) <= marks.MAX_LINES
 
 
 def test_many_edges_have_fewer_teeth_each():
     y = np.linspace(-5, 5, 2000)[:, None]
     border = Border(np.hstack([np.full_like(y, -9), y]), np.hstack([np.full_like(y, 9), y]))
     feet, _ = marks.teeth(View.centred(0, 0, at=(200, 150), scale=20), border, BOX)
-    assert 0 < len(feet) <= 2 * marks.MOST
+    assert 0 < len(feet) <= 2 * marks.MAX_LINES
 
 
 def test_the_legend_names_only_what_there_is():

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from widgets.controls.sticks.joystick import DEAD, Joystick
+from widgets.controls.sticks.joystick import DEAD_ZONE, Joystick
 
 SIZE = 240
 MIDDLE = SIZE / 2
@@ -112,7 +112,7 @@ def test_disabled_it_lets_go_and_takes_no_finger(stage, stick):
 
 
 def test_a_thumb_that_rests_on_the_middle_commands_nothing(stage, stick):
-    hold(stage, MIDDLE + stick.reach * DEAD * 0.7, MIDDLE)
+    hold(stage, MIDDLE + stick.reach * DEAD_ZONE * 0.7, MIDDLE)
     assert stick.twists == []
 
 
