@@ -38,7 +38,8 @@ class HttpGateway:
         self._host = host
         self.port = port
         """Where it listens; 0 until one was taken."""
-        self._site = site(door, rosbridge_url, Streams(door, pictures))
+        self.site = site(door, rosbridge_url, Streams(door, pictures))
+        """The ASGI application."""
         self._socket: socket.socket | None = None
         self._server: uvicorn.Server | None = None
         self._serving: asyncio.Task[None] | None = None
@@ -54,7 +55,7 @@ class HttpGateway:
                 f"Cannot serve HTTP on {where}: {why}; --http-port names another port."
             ) from error
         self.port = self._socket.getsockname()[1]
-        config = uvicorn.Config(self._site, http=Visit, log_level="warning", lifespan="off", access_log=False)
+        config = uvicorn.Config(self.site, http=Visit, log_level="warning", lifespan="off", access_log=False)
         self._server = _WebServer(config)
         self._serving = asyncio.create_task(self._server.serve([self._socket]))
         self._serving.add_done_callback(_log_fault)

@@ -1,20 +1,30 @@
-"""A thousand random sequences of what operators may do with control: never two drivers, never a stranger's command, STOP always."""
+"""A thousand random sequences of what operators may do with control: never two drivers, never a stranger's command, STOP always.
+
+Once with the controls alone; once with a whole station behind its door, where operators come by rosbridge and by a gateway
+in memory, and STOP by HTTP as well.
+"""
 
 from __future__ import annotations
 
 import itertools
+import random
 
 from hypothesis import HealthCheck, settings, strategies
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
 from bridge.core.link_state import CONTROL_TIMEOUT
+from bridge.core.robot_catalogue import Operator
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import RobotInfo
+from bridge.msgs.pilothouse_msgs import CommandRequest, RobotInfo
 from robotside.control.authority import TO_OBJECT
 from robotside.control.command_expiry import VALID
 from robotside.control.command_gate import Controls
 from robotside.control.guarded_robot import Guarded
+from robotside.door.station_door import StationDoor
+from robotside.records import Records
+from robotside.station.station import Station
 from tests.fakes import FakeClient, FakeRobot
+from tests.robotside.gateways.in_process import Client, Gateways
 
 NAMES = ("anna", "bert", "carl")
 WHO = strategies.sampled_from(NAMES)
@@ -27,22 +37,26 @@ class Operators(RuleBasedStateMachine):
     def __init__(self) -> None:
         super().__init__()
         self.now = 1000.0
-        self.controls = Controls(RobotInfo(max_speed=0.7, max_yaw_rate=1.9))
         self.body = FakeRobot()
-        self.robot = Guarded(self.body, lambda: self.controls.stopped)
         self.numbers = itertools.count(1)
-        self.clients = {name: self._fresh(name) for name in NAMES}
+        self.controls = self._open()
+        self.clients: dict[str, Operator] = {name: self._fresh(name) for name in NAMES}
         self.silent: set[str] = set()
         self.moved_by = ""
         self.valid = 0.0
         """When the command in force was given [s]."""
 
-    def _fresh(self, name: str) -> FakeClient:
+    def _open(self) -> Controls:
+        controls = Controls(RobotInfo(max_speed=0.7, max_yaw_rate=1.9))
+        self.robot = Guarded(self.body, lambda: self.controls.stopped)
+        return controls
+
+    def _fresh(self, name: str) -> Operator:
         client = FakeClient(f"{name}-{next(self.numbers)}", self.now)
         self.controls.introduce(client, name, name.capitalize())
         return client
 
-    def _heard(self, who: str) -> FakeClient:
+    def _heard(self, who: str) -> Operator:
         """Who does something is heard at that moment; what is due by then has happened."""
         client = self.clients[who]
         client.last_heard = self.now
@@ -55,21 +69,21 @@ class Operators(RuleBasedStateMachine):
     @rule(who=WHO)
     def acquire(self, who: str) -> None:
         client, before = self._heard(who), self._driver()
-        problem = self.controls.acquire(client, self.now)
+        problem = self._ask("acquire", client)
         assert self.controls.holds(client) == (not problem)
         assert before in ("", who, self._driver())
 
     @rule(who=WHO)
     def release(self, who: str) -> None:
         client, before = self._heard(who), self._driver()
-        self.controls.release(client)
+        self._ask("release", client)
         assert before in ("", who) or self._driver() == before
         self._tick()
 
     @rule(who=WHO)
     def request(self, who: str) -> None:
         client, before = self._heard(who), self._driver()
-        problem = self.controls.request(client, self.now)
+        problem = self._ask("request", client)
         assert self._driver() == (before or who)
         asker = self.controls.asker
         assert problem or self.controls.holds(client) or (asker and asker.client_id == who)
@@ -77,7 +91,7 @@ class Operators(RuleBasedStateMachine):
     @rule(who=WHO)
     def grant(self, who: str) -> None:
         client, before, asker = self._heard(who), self._driver(), self.controls.asker
-        problem = self.controls.grant(client)
+        problem = self._ask("grant", client)
         if not problem:
             assert asker is not None
             assert (before, self._driver()) == (who, asker.client_id)
@@ -88,42 +102,36 @@ class Operators(RuleBasedStateMachine):
     @rule(who=WHO)
     def refuse(self, who: str) -> None:
         client, before = self._heard(who), self._driver()
-        problem = self.controls.object(client, self.now)
+        problem = self._ask("object", client)
         assert self._driver() == before
         assert problem or (who == before and self.controls.asker is None)
 
     @rule(who=WHO, age=strategies.floats(-0.2, 0.6), speed=strategies.sampled_from([0.0, 0.3, -0.7]))
     def drive(self, who: str, age: float, speed: float) -> None:
         client, before, stopped = self._heard(who), self._driver(), self.controls.stopped
-        ruling = self.controls.drive(client, Twist.planar(speed, 0.0), self.now, stamp=self.now - age)
-        if ruling.order is None:
+        if not self._obeys(client, Twist.planar(speed, 0.0), self.now - age):
             return
         assert age <= VALID
         assert not stopped
         assert before in ("", who)
         assert self.controls.holds(client)
-        self.robot.follow(ruling.order)
         self.moved_by, self.valid = client.id, self.now - max(age, 0.0)
 
     @rule(who=WHO)
     def stop(self, who: str) -> None:
-        self.controls.stop(self.controls.name(self.clients[who]))
-        self.robot.stop()
+        self._press_stop(self.clients[who])
         assert self.body.at_rest
         assert not self.controls.driving
 
     @precondition(lambda self: self.controls.stopped)
-    @rule()
-    def release_stop(self) -> None:
-        self.controls.release_stop()
+    @rule(who=WHO)
+    def release_stop(self, who: str) -> None:
+        self._release_stop(self.clients[who])
         assert self.body.at_rest
 
     @rule(who=WHO)
     def cut(self, who: str) -> None:
-        drove = self.controls.drives(self.clients[who])
-        self.controls.gone(self.clients[who])
-        if drove:
-            self.robot.stop()
+        self._leave(self.clients[who])
         self.clients[who] = self._fresh(who)
         self.silent.discard(who)
         self._tick()
@@ -154,6 +162,36 @@ class Operators(RuleBasedStateMachine):
             if name not in self.silent:
                 client.last_heard = self.now
         self._tick()
+
+    def _ask(self, what: str, client: Operator) -> str:
+        """Do what the service `/control/WHAT` does; why not, empty when done."""
+        timed = {
+            "acquire": self.controls.acquire,
+            "request": self.controls.request,
+            "object": self.controls.object,
+        }
+        plain = {"release": self.controls.release, "grant": self.controls.grant}
+        return timed[what](client, self.now) if what in timed else plain[what](client)
+
+    def _obeys(self, client: Operator, twist: Twist, stamp: float) -> bool:
+        """Give a drive command; True when the robot does it."""
+        ruling = self.controls.drive(client, twist, self.now, stamp=stamp)
+        if ruling.order is not None:
+            self.robot.follow(ruling.order)
+        return ruling.order is not None
+
+    def _press_stop(self, client: Operator) -> None:
+        self.controls.stop(self.controls.name(client))
+        self.robot.stop()
+
+    def _release_stop(self, client: Operator) -> None:
+        self.controls.release_stop()
+
+    def _leave(self, client: Operator) -> None:
+        drove = self.controls.drives(client)
+        self.controls.gone(client)
+        if drove:
+            self.robot.stop()
 
     def _tick(self) -> None:
         self.controls.mind(self.now)
@@ -194,3 +232,57 @@ TestOperators.settings = settings(
     derandomize=True,
     suppress_health_check=list(HealthCheck),
 )
+
+
+class OperatorsAtTheDoor(Operators):
+    """The same with a station, its door and its gateways: who connects comes by another one each time."""
+
+    def _open(self) -> Controls:
+        self.body.silent = {"/map", "/scan", "/battery_state", "/bumper"}
+        self.station = Station(
+            self.body, Records.in_memory(), now=self.now, clock=lambda: self.now, rng=random.Random(1)
+        )
+        self.gateways = Gateways(StationDoor(self.station))
+        self.by_id: dict[str, Client] = {}
+        return self.station.controls
+
+    def teardown(self) -> None:
+        self.gateways.close()
+
+    def _fresh(self, name: str) -> Operator:
+        how = ("rosbridge", "memory")[next(self.numbers) % 2]
+        client = self.gateways.connect(how, name)
+        self.by_id[client.operator.id] = client
+        self._call(client.operator, "/missions/get", client_id=name, client_name=name.capitalize())
+        return client.operator
+
+    def _call(self, operator: Operator, service: str, **words: str) -> str:
+        answer = self.by_id[operator.id].ask(service, CommandRequest(**words))
+        return "" if answer.success else answer.message
+
+    def _ask(self, what: str, client: Operator) -> str:
+        return self._call(client, f"/control/{what}")
+
+    def _obeys(self, client: Operator, twist: Twist, stamp: float) -> bool:
+        before = len(self.body.commands)
+        self.by_id[client.id].publish("/cmd_vel", twist, stamp)
+        return self.controls.drives(client) and len(self.body.commands) > before
+
+    def _press_stop(self, client: Operator) -> None:
+        if next(self.numbers) % 3:
+            assert self._call(client, "/stop") == ""
+        else:
+            self.gateways.stop("Fred")
+
+    def _release_stop(self, client: Operator) -> None:
+        self._call(client, "/stop/release")
+
+    def _leave(self, client: Operator) -> None:
+        self.by_id.pop(client.id).leave()
+
+    def _tick(self) -> None:
+        self.station.step(self.now)
+
+
+TestOperatorsAtTheDoor = OperatorsAtTheDoor.TestCase
+TestOperatorsAtTheDoor.settings = settings(TestOperators.settings, max_examples=200)
