@@ -13,6 +13,7 @@ from typing import Any, Protocol
 from kivy.core.window import Window
 
 from app.core.command_origin import origins
+from app.core.optional_parts import is_included
 from app.device.motion import motion_source
 from app.inputs.input_problems import Problems
 from app.inputs.motion.motion_sensing import Sensing
@@ -33,7 +34,10 @@ MADE_BY: dict[str, str] = {
     "gamepad": "app.inputs.hand_methods:GamepadMethod",
     "keyboard": "app.inputs.hand_methods:KeyboardMethod",
 }
-"""Name of each to its module and class, as in `"shake": "app.inputs.motion.shake_input:Shaking"`; the class is called with the app."""
+"""Name of each to its module and class, as in `"shake": "app.inputs.motion.shake_input:Shaking"`; the class is called with the app.
+
+A method whose module is left out of the build is not offered, and nothing is said of it.
+"""
 
 
 class Method(Protocol):
@@ -83,6 +87,8 @@ class Methods:
         Window.bind(on_touch_down=self._touched, on_touch_up=self._lifted)
         self._app.intents.on_taken.append(self._told)
         for name, where in MADE_BY.items():
+            if not is_included(where.partition(":")[0]):  # as the study may be left out of a build
+                continue
             try:
                 self._make(name, where)
             except Exception as problem:

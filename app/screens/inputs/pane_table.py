@@ -6,9 +6,9 @@ A pane is a widget in a module of its own, made as `Pane(app=app)` when it is fi
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from typing import NamedTuple
 
+from app.core.optional_parts import is_included
 from app.screens.parts.method_signs import METHOD_SIGNS
 
 __all__ = ["PANES", "Pane", "panes"]
@@ -40,11 +40,4 @@ PANES: dict[str, Pane] = {
 
 def panes() -> dict[str, Pane]:
     """Those of `PANES` whose module is part of this build, in their order."""
-    return {name: pane for name, pane in PANES.items() if _is_there(pane.where.partition(":")[0])}
-
-
-def _is_there(module: str) -> bool:
-    try:
-        return find_spec(module) is not None
-    except ModuleNotFoundError:  # the room itself is left out
-        return False
+    return {name: pane for name, pane in PANES.items() if is_included(pane.where.partition(":")[0])}
