@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Generator
+from functools import partial
 from typing import Any
 
 from msgspec.structs import replace
@@ -90,7 +91,7 @@ class Answering:
             return answer
         if key[2]:
             self._unwritten[key] = job
-        return self._when_kept(key, answer, job)
+        return _Later(partial(self._when_kept, key, answer, job))
 
     async def _when_kept(self, key: _Key, answer: CommandResponse, job: Job) -> CommandResponse:
         await job.kept(PATIENCE)
@@ -116,3 +117,13 @@ def _done(action: Action, client: Operator, asked: CommandRequest) -> str | Comm
         return action(client, asked)
     except NotRecorded as problem:
         raise Refusal(problem.notice) from problem
+
+
+class _Later:
+    """An answer that takes its first step when it is awaited; one that is given up before then leaves nothing behind."""
+
+    def __init__(self, begin: Callable[[], Awaitable[CommandResponse]]) -> None:
+        self._begin = begin
+
+    def __await__(self) -> Generator[Any, None, CommandResponse]:
+        return self._begin().__await__()
