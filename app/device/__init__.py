@@ -11,6 +11,7 @@ import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 __all__ = [
     "device_name",
@@ -113,7 +114,7 @@ class sees_broadcasts:  # noqa: N801 - used as a word in `with`
     """While it is entered, Android's Wi-Fi hands broadcasts to the app; elsewhere it does nothing."""
 
     def __init__(self) -> None:
-        self._lock = None
+        self._lock: Any = None
 
     def __enter__(self) -> None:
         if not is_android():

@@ -145,7 +145,15 @@ class Robots:
         }
         heard = [self._entry(hello, now - at) for hello, at in self._heard.values()]
         unheard = [
-            Entry(url, latency=self._latency.get(url, math.nan), saved=True, **kept)
+            Entry(
+                url,
+                kept["name"],
+                kept["kind"],
+                description=kept["description"],
+                icon=kept["icon"],
+                latency=self._latency.get(url, math.nan),
+                saved=True,
+            )
             for url, kept in self._saved.items()
             if url not in self._heard
         ]

@@ -136,10 +136,15 @@ class Simulator:
         match = READY.match(line)
         if match and not self.url:
             self._urls.append(match[1])
-            if self.url:
-                timer.cancel()
-                if not self._closing.is_set():
-                    self._on_ready(self.url)
+            self._report_ready(timer)
+
+    def _report_ready(self, timer: threading.Timer) -> None:
+        """Once every robot is served there is nothing to give up any longer."""
+        url = self.url
+        if url:
+            timer.cancel()
+            if not self._closing.is_set():
+                self._on_ready(url)
 
     def _why(self, code: int) -> str:
         if self._late:

@@ -41,7 +41,8 @@ def check_room(where: str, what: str, slots: Sequence[str], room: Mapping[str, i
 
 def check_field(where: str, kind: type[Msg], path: str) -> None:
     """A message of that type has a number there."""
-    found = reduce(_member, path.split("."), kind)
+    whole: Any = kind
+    found = reduce(_member, path.split("."), whole)
     if found not in (float, int):
         raise LayoutError(f"{where}: {kind.MSGTYPE} has no number {shown(path)}.")
 

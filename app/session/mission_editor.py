@@ -277,7 +277,8 @@ class MissionEditor:
             draft = msgspec.convert(saved, Draft)
         except msgspec.ValidationError:
             return False
-        numbers = [value for place in (*draft.points, draft.home or ()) for value in _flat(place)]
+        places = [*draft.points, *([draft.home] if draft.home is not None else [])]
+        numbers = [value for place in places for value in place]
         known = draft.motion in MOTIONS and draft.on_intruder in REACTIONS
         if not known or not all(map(math.isfinite, [*numbers, draft.dwell])):
             return False
@@ -286,10 +287,6 @@ class MissionEditor:
         self._redo.clear()
         self.on_change()
         return True
-
-
-def _flat(place: float | tuple[float, float]) -> tuple[float, ...]:
-    return place if isinstance(place, tuple) else (place,)
 
 
 def _check_place(x: float, y: float) -> None:

@@ -103,14 +103,14 @@ class Hands(EventDispatcher):
 
     def _tilted(self) -> dict[str, Widget]:
         """The circle by its name, made when it is first wanted; nothing where there is none to choose."""
-        made = self.tilt.made
-        if self.tablet and self.tilt.control is not None:
+        made, control = self.tilt.made, self.tilt.control
+        if self.tablet and control is not None:
             circle = self.tilt.circle
             if made is None:
-                circle.bind(on_command=lambda stick, said: self._pushed(stick, said, self.tilt.control))
+                circle.bind(on_command=lambda stick, said: self._pushed(stick, said, control))
                 circle.bind(on_in_vain=lambda _: self._in_vain.tell())
             if not any(stick is circle for stick, _ in self._sticks):
-                self._sticks.append((circle, self.tilt.control))
+                self._sticks.append((circle, control))
             return {TILT: circle}
         if made is not None:
             made.rest()

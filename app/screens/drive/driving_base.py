@@ -41,7 +41,7 @@ class Driving(FloatLayout):
     corner = 0
     """Rounding of the picture [dp]."""
     app = ObjectProperty()
-    session: Session = ObjectProperty()
+    session: ObjectProperty[Session] = ObjectProperty()
 
     def __init__(self, layout: Layout, **kwargs: Any) -> None:
         """`layout` says what sits where."""

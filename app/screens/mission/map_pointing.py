@@ -8,12 +8,12 @@ from typing import Any
 
 import msgspec
 from kivy.metrics import dp
-from kivy.uix.widget import Widget
 
 from app.screens.mission.selection_bar import SelectionBar
 from app.session.mission_editor import Draft
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Place, PlaceArray
+from widgets.map.map_overlay import MapOverlay
 from widgets.parts.kit import IconButton, PrimaryButton, QuietButton
 
 __all__ = ["MODES", "Pointing"]
@@ -68,7 +68,7 @@ class Pointing:
             self._ids[button] = word
         self._screen.ids.update(self._ids)
 
-    def follow(self, one: Any) -> None:
+    def follow(self, one: MapOverlay) -> None:
         """Do what fingers on this map ask for."""
         mission = self._session.mission
         one.bind(
@@ -186,7 +186,7 @@ class Pointing:
 
     # places and the robot's own
 
-    def show_places(self, one: Widget, msg: PlaceArray) -> None:
+    def show_places(self, one: MapOverlay, msg: PlaceArray) -> None:
         """Show the places that have names on a map."""
         self._named = list(msg.places)
         one.places = [(place.x, place.y, place.name, place.kind) for place in msg.places]

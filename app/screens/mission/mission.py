@@ -31,6 +31,7 @@ from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Place, RobotInfo, TaskStatus
 from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import Compass, Video
+from widgets.map.map_overlay import MapOverlay
 from widgets.parts.kit import IconButton
 
 __all__ = ["MissionScreen"]
@@ -75,7 +76,7 @@ class MissionScreen(FloatLayout):
     """Supervise one robot on its map."""
 
     app = ObjectProperty()
-    session: Session = ObjectProperty()
+    session: ObjectProperty[Session] = ObjectProperty()
     modes = ListProperty(MODES)
     mode = StringProperty("view")
     """What a finger on the map does: one of `MODES`."""
@@ -105,7 +106,7 @@ class MissionScreen(FloatLayout):
         self._show_draft()
 
     @property
-    def map(self) -> Any:
+    def map(self) -> MapOverlay:
         """The map on the glass: the robot's own, or the one over aerial pictures."""
         return self._maps.shown
 
@@ -130,8 +131,8 @@ class MissionScreen(FloatLayout):
         self.panel.lacking.bind(on_choose=lambda _, screen: self.app.show(screen))
         ids.handle.bind(on_touch_down=self._pull)
         ids.floats.add_widget(self.corner)
-        for widget in (self.selection, self.checks):
-            widget.bind(height=self._settle_soon)
+        for listed in (self.selection, self.checks):
+            listed.bind(height=self._settle_soon)
         ids.update({"map": self.map, "video": self.video, "selection": self.selection, "panel": self.panel})
         ids.update({"tasks": self.panel.tasks, "send": self.panel.ids.send, "motion": self.panel.motion})
 
@@ -247,9 +248,10 @@ class MissionScreen(FloatLayout):
         self.checks.brief, corner.height = not wide, corner.minimum_height
         corner.pos = bar.x, bar.top - corner.height if wide else bar.y
         self.checks.room = bar.top - low if wide else self.notice.top - bar.y
-        covers = self.checks.unfolded and self.checks.parent is corner
-        covers = covers or (self.selection.trouble and self.selection.parent is corner)
-        area.foot = 0 if wide or not corner.height else math.nan if covers else max(0, corner.top - low)
+        covers = (self.checks.unfolded and self.checks.parent is corner) or (
+            bool(self.selection.trouble) and self.selection.parent is corner
+        )
+        area.foot = 0.0 if wide or not corner.height else math.nan if covers else max(0.0, corner.top - low)
         covered, begins = self._cover, low + (area.foot if math.isfinite(area.foot) else 0)
         foot = Rect(area.x, begins, area.width, SCALE * self._dp)
         if covered is not None and covered.overlaps(foot):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any
 
 import widgets
 from app.screens.mission.map_pointing import Pointing
@@ -12,6 +11,7 @@ from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.core.geo import Datum
 from widgets import GridMap
+from widgets.map.map_overlay import MapOverlay
 
 __all__ = ["Maps"]
 
@@ -24,9 +24,9 @@ class Maps:
 
     def __init__(self, session: Session, dashboard: Dashboard) -> None:
         self._session, self._dashboard = session, dashboard
-        self.shown: Any = GridMap()
+        self.shown: MapOverlay = GridMap()
         """The map on the glass."""
-        self._other: Any = None
+        self._other: MapOverlay | None = None
         self._pointing: Pointing | None = None
 
     def follow(self, pointing: Pointing) -> None:
@@ -34,7 +34,7 @@ class Maps:
         self._pointing = pointing
         self._bind(self.shown, pointing)
 
-    def _bind(self, one: Any, pointing: Pointing) -> None:
+    def _bind(self, one: MapOverlay, pointing: Pointing) -> None:
         bind = self._dashboard.bind
         pointing.follow(one)
         bind(one, "/places", lambda msg: pointing.show_places(one, msg), fresh=False)
@@ -61,8 +61,8 @@ class Maps:
             from widgets import GeoMap
 
             info = self._session.robot.info
-            self._other = GeoMap(tiles=str(pictures), datum=Datum(info.latitude, info.longitude))
-            self._bind(self._other, self._pointing)
+            other = self._other = GeoMap(tiles=str(pictures), datum=Datum(info.latitude, info.longitude))
+            self._bind(other, self._pointing)
         if self._other is None:
             return False
         self.shown.let_go()

@@ -32,7 +32,7 @@ class MissionPane(BoxLayout):
 
     __events__ = ("on_close",)
 
-    chosen: KeptMission | None = ObjectProperty(None, allownone=True)
+    chosen: ObjectProperty[KeptMission | None] = ObjectProperty(None, allownone=True)
     """The kept mission that is looked at; None to save one."""
 
     def __init__(self, session: Session, **kwargs: Any) -> None:

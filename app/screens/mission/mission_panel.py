@@ -197,7 +197,7 @@ class MissionPanel(BoxLayout):
             self.figures.add_widget(figure)
         self._send.ids.send.bind(on_release=lambda _: session.send_mission())
         self.motion.bind(on_command=lambda _, choice: session.mission.set_motion(**choice))
-        self.tasks.bind(on_command=lambda _, name: session.command(TASKS.get(name, name)))
+        self.tasks.bind(on_command=lambda _, name: self._command(name))
         self.ids["send"] = self._send.ids.send
         self._bind(dashboard)
         self._fold_soon = Clock.create_trigger(self._fold, -1)
@@ -276,6 +276,9 @@ class MissionPanel(BoxLayout):
         if not self._session.running:
             spare -= column.spacing + self.motion.choice_height
         self._fill.height = 0 if self.sheet_open else max(0, spare)
+
+    def _command(self, name: str) -> None:
+        self._session.command(TASKS.get(name, name))
 
     @property
     def beside_stop(self) -> Widget:

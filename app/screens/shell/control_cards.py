@@ -54,7 +54,8 @@ class ControlCards:
 
     def close(self) -> None:
         """Hear of control no longer."""
-        self._session.authority.on_news = self._session.authority.on_past = lambda *_: None
+        self._session.authority.on_news = lambda *_: None
+        self._session.authority.on_past = lambda: None
 
     def ask_mode(self) -> None:
         """Open the choice of the mode, or close it."""

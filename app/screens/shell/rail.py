@@ -93,11 +93,13 @@ class Rail(Edged, FloatLayout):
         super().__init__(**kwargs)
         self._rect, self._dp = Rect(0, 0, 1, 1), 1.0
         for name, (icon, text) in ENTRIES.items():
-            button = TalkButton(size_hint=(None, None)) if name == "talk" else NavButton(icon=icon, text=text)
+            button: PushButton | NavButton
             if name == "talk":
-                button.on_sign()
-                button.bind(state=lambda _, state: self.dispatch("on_talk", state == "down"))
+                button = talk = TalkButton(size_hint=(None, None))
+                talk.on_sign()
+                talk.bind(state=lambda _, state: self.dispatch("on_talk", state == "down"))
             else:
+                button = NavButton(icon=icon, text=text)
                 button.bind(on_release=lambda _, name=name: self.dispatch("on_press", name))
             self.ids[name] = button
             self.buttons.append(button)

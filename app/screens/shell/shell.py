@@ -57,7 +57,7 @@ class Shell(FloatLayout):
     """Everything on the glass while a robot is connected."""
 
     app = ObjectProperty()
-    session: Session = ObjectProperty()
+    session: ObjectProperty[Session] = ObjectProperty()
     form = OptionProperty("wide", options=["wide", "short", "tall"])
     """Shape of the window, as in `app.layout.arrange.form`."""
     screen = StringProperty("")

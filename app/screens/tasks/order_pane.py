@@ -9,6 +9,7 @@ from kivy.lang import Builder
 from kivy.properties import AliasProperty, BooleanProperty, ObjectProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
+from app.session.mission_editor import Draft
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import RobotInfo, ScheduledTask, TaskOrder, TaskStatus
 from widgets import OrderForm, TaskChooser, WhenPicker
@@ -107,7 +108,8 @@ class OrderPane(BoxLayout):
     """What is asked for so far."""
 
     def __init__(self, session: Session, **kwargs: Any) -> None:
-        self._session, self._shown = session, None
+        self._session = session
+        self._shown: Draft | None = None
         self.chooser, self.form, self.when = TaskChooser(), OrderForm(), WhenPicker()
         self._chosen = ListRow(aside="Change")
         self._roll = Roll()

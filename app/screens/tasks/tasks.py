@@ -67,7 +67,7 @@ class TasksScreen(FloatLayout):
     """Everything about tasks but the map."""
 
     app = ObjectProperty()
-    session: Session = ObjectProperty()
+    session: ObjectProperty[Session] = ObjectProperty()
     tab = StringProperty("now")
     """The list that is shown: one of `DETAILS`."""
     detail = StringProperty("")
@@ -234,7 +234,7 @@ class TasksScreen(FloatLayout):
 
     def _lay(self, *_: object) -> None:
         listed, area, shown = self.ids.listed, self.ids.detail, self._shown_detail()
-        lists = {
+        lists: dict[str, Widget] = {
             "now": self.now,
             "schedule": self.schedule,
             "history": self.runs,

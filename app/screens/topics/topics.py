@@ -315,7 +315,7 @@ class TopicsScreen(FloatLayout):
     """Look at anything that the robot tells."""
 
     app = ObjectProperty()
-    session: Session = ObjectProperty()
+    session: ObjectProperty[Session] = ObjectProperty()
     summary = StringProperty("")
     video = None
     """No picture is shown here."""
@@ -332,7 +332,8 @@ class TopicsScreen(FloatLayout):
         self.ids.update({"list": self.list, "detail": self.detail, "search": self.list.ids.search})
         self._places: dict[str, Rect] = {}
         self._cover: Rect | None = None
-        self._form, self._ticks, self._rows = "wide", 0, []
+        self._form, self._ticks = "wide", 0
+        self._rows: list[dict[str, Any]] = []
 
     # what the shell calls
 
