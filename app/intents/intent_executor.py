@@ -86,7 +86,7 @@ class IntentExecutor:
         app = self._app
         return {
             "stop": app.inputs.stop,
-            "theme": app.next_theme,
+            "theme": app.themes.choose_next,
             "help": self.on_help or str,
             "back": app.back,
             "screen.inputs": app.show_inputs,
@@ -106,7 +106,7 @@ class IntentExecutor:
             "slower": partial(self._speed.change, -1),
             "lights": lambda: session.command("lights", brightness=0.0 if self._lit else 1.0),
             "snapshot": app.records.snapshot,
-            "record": app.toggle_recording,
+            "record": app.visit.toggle_recording,
             "camera": session.cameras.choose_next,
             "take_control": session.take_control,
             **{f"screen.{name}": partial(app.show, name) for name in ("drive", "mission", "tasks")},

@@ -73,7 +73,7 @@ class Actions:
         self._acts: dict[str, Callable[[], object]] = {
             "pause": lambda: session.command("resume" if self._paused else "pause"),
             "lights": self._switch_lights,
-            "record": app.toggle_recording,
+            "record": app.visit.toggle_recording,
             "snapshot": app.records.snapshot,
             "camera": session.cameras.choose_next,
             "reset": self._ask_to_reset,

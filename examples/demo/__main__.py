@@ -87,7 +87,7 @@ def _play(arguments: argparse.Namespace, robot: Any, settings: Path) -> int:
     witness = Witness(robot.url, topics(arguments.story))
     scene = Scene(Glass(hand), witness, report, robot.url, arguments.speed, arguments.until, robot.power_cut)
     record = arguments.out / "run.mcap"
-    story = tell(arguments.story, scene, lambda: app.start_recording(record))
+    story = tell(arguments.story, scene, lambda: app.records.start(record, app.session))
     record.unlink(missing_ok=True)
     EventLoop.add_input_provider(hand)
     Clock.schedule_interval(lambda _: _turn(story, report, app), 0)

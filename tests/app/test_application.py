@@ -61,12 +61,12 @@ def test_nobody_at_an_address_is_said_and_can_be_cancelled(glass: Glass, robot: 
 def test_an_address_is_kept_once_something_has_answered_there(glass: Glass, robot: FakeRobot) -> None:
     app = glass.app
     robot.stop()
-    app._add_address(robot.url)
+    app.robot_list.open_typed(robot.url)
     glass.until(lambda: app.connect._banner and "No robot answers" in app.connect._banner.text, "no sentence")
     assert app.robots.entries() == []
     assert app.session.robot.name == f"127.0.0.1:{robot.port}", "two robots of one host are told apart"
     robot.start()
-    app._add_address(robot.url)
+    app.robot_list.open_typed(robot.url)
     glass.until(lambda: app.shell is not None, "no screens")
     assert [entry.url for entry in app.robots.entries()] == [robot.url]
 
@@ -74,7 +74,7 @@ def test_an_address_is_kept_once_something_has_answered_there(glass: Glass, robo
 def test_a_wrong_address_stays_in_the_field_with_a_sentence(glass: Glass) -> None:
     from app.screens.parts.dialogs import AddressDialog
 
-    glass.app.ask_address()
+    glass.app.robot_list.ask_address()
     glass.stage.frames(2)
     (dialog,) = (child for child in glass.app.root.children if isinstance(child, AddressDialog))
     dialog.ids.field.text = "http://10.0.0.3"
@@ -149,7 +149,7 @@ def test_escape_is_stop_on_every_screen(driving: Glass, monkeypatch: pytest.Monk
 def test_a_link_that_is_silent_says_so_before_it_is_lost(driving: Glass, robot: FakeRobot) -> None:
     chip, link = driving.app.shell.ids.link, driving.app.session.link
     driving.until(lambda: chip.text.endswith("ms") or "ms ·" in chip.text, "no round trip")
-    heard = driving.app._now() - 1.5
+    heard = driving.app.now() - 1.5
     link._on_message("/pose", PoseWithCovarianceStamped(), heard)
     link.health.measure = lambda: None
     driving.until(lambda: "silent" in chip.text, chip.text)
@@ -157,13 +157,13 @@ def test_a_link_that_is_silent_says_so_before_it_is_lost(driving: Glass, robot: 
 
 
 def test_a_lost_link_is_said_and_takes_the_stick_away(driving: Glass, robot: FakeRobot) -> None:
-    driving.app.mission.add(1.0, 2.0)
+    driving.app.session.mission.add(1.0, 2.0)
     push(driving, robot)
     robot.stop()
     driving.until(lambda: any("Trying again" in text for text in driving.banners()), "no sentence")
     stick = driving.app.screens["drive"].stick
     assert (stick.state, stick.twist) == ("disabled", Twist())
-    assert driving.app.mission.draft.points == ((1.0, 2.0),)
+    assert driving.app.session.mission.draft.points == ((1.0, 2.0),)
     robot.heard.clear()
     robot.start()
     driving.until(lambda: stick.state == "live" and not driving.banners(), "did not come back")
@@ -191,16 +191,16 @@ def test_a_robot_comes_onto_the_glass_with_all_that_is_known_of_it(glass: Glass,
     robot.publish("/robot/info", RobotInfo(name="Rover-1"))
     robot.publish("/control/status", ControlStatus(driver_id="t2", driver="Anna", mode="MANUAL"))
     app, first = glass.app, []
-    entered = app._enter_robot
+    entered = app.visit.enter
 
     def enter() -> None:
-        app._enter_robot = lambda: None  # the frames of the wait ask for it again
+        app.visit.enter = lambda: None  # the frames of the wait ask for it again
         glass.until(lambda: app.session.control == "other" and app.session.robot.info.name, "nothing told")
         entered()
         mission = app.screens["mission"]
         first.append((app.shell.bar.robot_name, app.shell.bar.mode_text, mission.panel.tasks.state))
 
-    app._enter_robot = enter
+    app.visit.enter = enter
     app.open(robot.url)
     glass.until(lambda: first, "no screens")
     assert first == [("Rover-1", "MANUAL", "disabled")]
@@ -208,16 +208,16 @@ def test_a_robot_comes_onto_the_glass_with_all_that_is_known_of_it(glass: Glass,
 
 def test_nothing_can_be_asked_for_before_it_is_known_who_has_control(driving: Glass) -> None:
     app = driving.app
-    feed = app.feeds["/control/status"]
+    feed = app.session.feeds["/control/status"]
     told, feed.message = feed.message, None
-    app.session.deliver("/robot/info", Post(app.session.robot.info, app._now(), 1))
+    app.session.deliver("/robot/info", Post(app.session.robot.info, app.now(), 1))
     app.shell.tick()
     drive, mission = app.screens["drive"], app.screens["mission"]
     mission.tick()
     assert (drive.ids.home.disabled, mission.panel.tasks.state) == (True, "disabled")
     assert not app.screens["tasks"].mine
     feed.message = told
-    app.session.deliver("/control/status", Post(told, app._now(), 1))
+    app.session.deliver("/control/status", Post(told, app.now(), 1))
     assert app.shell.bar.control_text == "you have control", "in the same frame, not at the next tick"
     assert not drive.ids.home.disabled
 
@@ -297,11 +297,11 @@ def test_with_stop_pressed_nothing_on_the_drive_screen_moves_the_robot(
 
 def test_only_the_screen_on_the_glass_looks_chosen(driving: Glass, tmp_path: Path) -> None:
     shell = driving.app.shell
-    driving.app.start_recording(tmp_path / "run.mcap")
+    driving.app.records.start(tmp_path / "run.mcap", driving.app.session)
     driving.stage.run_for(0.3)
     assert [button.text for button in shell.rail if getattr(button, "active", False)] == ["Drive"]
     assert (shell.ids.record.tint, shell.ids.record.icon) == ("danger", "fiber_manual_record_fill")
-    driving.app.stop_recording()
+    driving.app.records.stop()
     driving.stage.run_for(0.3)
     assert shell.ids.record.tint == ""
 
@@ -316,10 +316,10 @@ def test_points_are_tapped_sent_and_stored(driving: Glass, robot: FakeRobot) -> 
     area = mission.map
     for share in (0.3, 0.5):
         driving.stage.tap(area.x + area.width * share, area.center_y + 60)
-    assert len(driving.app.mission.draft.points) == 2
+    assert len(driving.app.session.mission.draft.points) == 2
     driving.until(lambda: mission.ids["send"].disabled is False, "cannot be sent")
     driving.tap(mission.ids["send"])
-    driving.until(lambda: driving.app.mission.state == "stored", "not stored")
+    driving.until(lambda: driving.app.session.mission.state == "stored", "not stored")
     assert len(robot.asked[-1][1].mission.waypoints) == 2
 
 
@@ -411,7 +411,7 @@ def test_what_cannot_be_saved_is_said_on_the_glass(driving: Glass) -> None:
 
 
 def test_the_theme_is_remembered(glass: Glass, tmp_path: Path) -> None:
-    glass.app.next_theme()
+    glass.app.themes.choose_next()
     glass.app.settings.close()
     assert theme.name == "sunlight"
     assert json.loads((tmp_path / "settings.json").read_text())["theme"] == "sunlight"
@@ -421,17 +421,17 @@ def test_a_recording_holds_what_came(driving: Glass, robot: FakeRobot, tmp_path:
     from mcap.reader import make_reader
 
     path = tmp_path / "run.mcap"
-    assert driving.app.start_recording(path)
+    assert driving.app.records.start(path, driving.app.session)
     robot.publish("/pose", PoseWithCovarianceStamped())
-    driving.until(lambda: driving.app.feeds.latest("/pose") is not None, "no pose")
-    driving.app.stop_recording()
+    driving.until(lambda: driving.app.session.feeds.latest("/pose") is not None, "no pose")
+    driving.app.records.stop()
     with path.open("rb") as file:
         topics = {channel.topic for _, channel, _ in make_reader(file).iter_messages()}
     assert {"/pose", "/robot/info", "/control/status"} <= topics
 
 
 def test_a_recording_that_leaving_the_robot_ends_is_said(driving: Glass, tmp_path: Path) -> None:
-    assert driving.app.start_recording(tmp_path / "run.mcap")
+    assert driving.app.records.start(tmp_path / "run.mcap", driving.app.session)
     driving.app.leave()
     assert driving.app.connect._banner.text == "Recording saved as run.mcap."
 

@@ -103,20 +103,20 @@ def test_a_kept_mission_is_recalled_and_that_is_taken_back(
     glass: Glass, robot: FakeRobot, tasks: Any
 ) -> None:
     robot.publish("/mission", Mission(name="Day", waypoints=[Waypoint(1.0, 1.0)]))
-    glass.until(lambda: glass.app.mission.state == "stored", "no mission")
-    glass.app.mission.add(2.0, 2.0)
+    glass.until(lambda: glass.app.session.mission.state == "stored", "no mission")
+    glass.app.session.mission.add(2.0, 2.0)
     tasks.tab = "missions"
     glass.until(lambda: [one.name for one in tasks.missions.missions] == ["Night"], "not listed")
     row = next(one for one in tasks.missions.walk(restrict=True) if isinstance(one, ListRow))
     glass.tap(row)
     press(glass, tasks, "recall")
-    glass.until(lambda: glass.app.mission.draft.name == "Night", "not recalled")
+    glass.until(lambda: glass.app.session.mission.draft.name == "Night", "not recalled")
     glass.until(lambda: tasks.missions.current == "Night", "not marked")
     notices = glass.app.shell.notices
     glass.until(lambda: any(isinstance(one, ActionToast) for one in notices.children), "no undo")
     next(one for one in notices.children if isinstance(one, ActionToast)).act()
     glass.until(lambda: tasks.missions.current == "Day", "the robot has the other one")
-    assert glass.app.mission.draft.points == ((1.0, 1.0), (2.0, 2.0))
+    assert glass.app.session.mission.draft.points == ((1.0, 1.0), (2.0, 2.0))
 
 
 def test_the_points_on_the_map_are_kept_under_a_name(glass: Glass, robot: FakeRobot, tasks: Any) -> None:
@@ -125,7 +125,7 @@ def test_the_points_on_the_map_are_kept_under_a_name(glass: Glass, robot: FakeRo
     glass.stage.run_for(0.3)
     said = "There are no points on the map to save; set some on the mission screen."
     assert tasks.mission_pane.head.sentence == said
-    glass.app.mission.add(1.0, 2.0)
+    glass.app.session.mission.add(1.0, 2.0)
     tasks.mission_pane.field.text = "Yard"
     glass.stage.run_for(0.3)
     said = "The point on the map is kept as Yard, and the robot patrols it from now on."

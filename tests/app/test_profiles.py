@@ -212,5 +212,5 @@ def test_a_layout_that_is_asked_for_is_kept_whatever_the_robot_is() -> None:
     from app.application import PilothouseApp
 
     app = PilothouseApp(layout="minnow", discover=False)
-    assert app.layout_for("ardrone", "quadrotor").name == "minnow"
-    assert PilothouseApp(discover=False).layout_for("ardrone", "quadrotor").name == "ardrone"
+    assert app.layouts.of("ardrone", "quadrotor").name == "minnow"
+    assert PilothouseApp(discover=False).layouts.of("ardrone", "quadrotor").name == "ardrone"

@@ -40,12 +40,14 @@ def test_a_patrol_is_planned_started_paused_stopped_and_released_by_two_keys(
         keys.find(lambda target: target.key is app.screens["mission"].map, "the map")
         for count, place in enumerate(POINTS, 1):
             keys.point(*place)
-            glass.until(lambda count=count: len(app.mission.draft.points) == count, f"point {count}")
+            glass.until(lambda count=count: len(app.session.mission.draft.points) == count, f"point {count}")
         keys.choose("Left")
         keys.choose("Set or choose here")
         keys.choose("Undo")
-        glass.until(lambda: len(app.mission.draft.points) == len(POINTS), "the third point taken back")
-        for set_, meant in zip(app.mission.draft.points, POINTS, strict=True):
+        glass.until(
+            lambda: len(app.session.mission.draft.points) == len(POINTS), "the third point taken back"
+        )
+        for set_, meant in zip(app.session.mission.draft.points, POINTS, strict=True):
             assert math.dist(set_, meant) < NEAR
         keys.choose("Done")
 

@@ -142,7 +142,7 @@ Builder.load_string("""
                 spacing: dp(8) if self.text else 0
                 pressable: True
                 pos_hint: {'center_y': .5}
-                on_release: root.app.next_theme()
+                on_release: root.app.themes.choose_next()
         BoxLayout:
             id: page
             orientation: 'vertical'
@@ -169,7 +169,7 @@ Builder.load_string("""
                     text: 'Add by address'
                     size_hint_x: None
                     width: root.action_width
-                    on_release: root.app.ask_address()
+                    on_release: root.app.robot_list.ask_address()
                 QuietButton:
                     id: simulate
                     icon: 'play_circle'
@@ -339,7 +339,7 @@ class ConnectScreen(FloatLayout):
         card = RobotCard(width=self.card_width)
         card.bind(
             on_connect=lambda one: self.app.open(one.entry.url, watch=one.action == "Watch"),
-            on_remove=lambda one: self.app.forget(one.entry.url),
+            on_remove=lambda one: self.app.robot_list.forget(one.entry.url),
         )
         return card
 

@@ -136,8 +136,8 @@ class Shell(FloatLayout):
     def _press(self, name: str) -> None:
         acts: dict[str, Callable[[], object]] = {
             "control_nav": self.toggle_control,
-            "record": self.app.toggle_recording,
-            "theme": self.app.next_theme,
+            "record": self.app.visit.toggle_recording,
+            "theme": self.app.themes.choose_next,
         }
         acts.get(name, lambda: self.app.show(name))()
 
@@ -232,7 +232,7 @@ class Shell(FloatLayout):
             self.unsay(post.value.kind)
             news = self.session.logbook.is_news(post.value, self.session.link.robot_time())
             if post.value.level == "alarm" and news and not self.reset.take(post.value):
-                self.app.alarm(post.value)
+                self.say(post.value.text, "danger", about=post.value.kind)
 
     def _look(self) -> None:
         """Say in the same frame what the robot is and who has it, as soon as that is another."""

@@ -47,7 +47,8 @@ class Robot(Asked):
         self.corner = SimpleNamespace(button=SimpleNamespace(robots=1))
         self.shown: list[str] = []
         self.show = self.shown.append
-        self.next_theme = self.back = self.show_inputs = lambda: None
+        self.themes = SimpleNamespace(choose_next=lambda: None)
+        self.back = self.show_inputs = lambda: None
         speed = SimpleNamespace(maximum_speed=0.5, ids=SimpleNamespace(fader=Fader()))
         form = SimpleNamespace(complete=False, task="")
         pane = SimpleNamespace(scheduled=None, form=form, order=TaskOrder(task="go_to", places=["Lab"]))

@@ -52,7 +52,7 @@ class Asked:
         self.resets: list[bool] = []
         self.records = SimpleNamespace(recorder=None, clock="00:07", frame=None, snapshot=lambda: None)
         self.recorded: list[bool] = []
-        self.toggle_recording = lambda: self.recorded.append(True)
+        self.visit = SimpleNamespace(toggle_recording=lambda: self.recorded.append(True))
         self.shell = SimpleNamespace(reset=SimpleNamespace(ask=lambda: self.resets.append(True)))
         self.session.robot.capabilities = Offer(
             {"/control/status": "pilothouse_msgs/ControlStatus"}, services, rosapi=True

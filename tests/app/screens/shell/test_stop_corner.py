@@ -118,7 +118,7 @@ def test_the_connected_robot_is_asked_once_over_its_own_link(
 
 def test_a_question_over_the_page_does_not_keep_it_from_a_finger(glass: Glass, robot: FakeRobot) -> None:
     hear(glass, robot)
-    glass.app.ask_address()
+    glass.app.robot_list.ask_address()
     press(glass)
     glass.until(lambda: glass.app.fleet.stopped == 1, "not stopped")
 

@@ -112,7 +112,7 @@ def test_a_refusal_is_said_whole_and_what_was_chosen_stays(
 def test_a_patrol_sends_its_points_first_and_starts_when_they_are_stored(
     glass: Glass, robot: FakeRobot, tasks: Any
 ) -> None:
-    glass.app.mission.add(1.0, 2.0)
+    glass.app.session.mission.add(1.0, 2.0)
     tasks.begin("patrol")
     glass.stage.run_for(0.2)
     assert tasks.pane.sentence.endswith("The points on the map are sent to the robot first.")
@@ -124,7 +124,7 @@ def test_a_patrol_sends_its_points_first_and_starts_when_they_are_stored(
 
 def test_a_patrol_whose_points_are_refused_does_not_start(glass: Glass, robot: FakeRobot, tasks: Any) -> None:
     robot.refusals["/mission/set"] = "Point 1 is in a wall."
-    glass.app.mission.add(1.0, 2.0)
+    glass.app.session.mission.add(1.0, 2.0)
     tasks.begin("patrol")
     press(glass, tasks, "start")
     glass.until(lambda: any("Point 1 is in a wall." in text for text in glass.banners()), glass.banners())
@@ -136,7 +136,7 @@ def test_what_a_patrol_does_about_an_intruder_belongs_to_the_mission(
     glass: Glass, robot: FakeRobot, tasks: Any
 ) -> None:
     robot.publish("/mission", Mission(waypoints=[Waypoint(1.0, 1.0)]))
-    glass.until(lambda: glass.app.mission.state == "stored", "no mission")
+    glass.until(lambda: glass.app.session.mission.state == "stored", "no mission")
     tasks.begin("patrol")
     tasks.pane.form.dispatch("on_react", "circle")
     press(glass, tasks, "start")
@@ -450,9 +450,11 @@ def test_the_points_of_a_running_patrol_are_changed(glass: Glass, robot: FakeRob
     robot.publish(
         "/task/status", TaskStatus(task_id=1, task="patrol", state="RUNNING", waypoint=1, waypoints=2)
     )
-    glass.until(lambda: glass.app.session.running and glass.app.mission.state == "stored", "no patrol")
+    glass.until(
+        lambda: glass.app.session.running and glass.app.session.mission.state == "stored", "no patrol"
+    )
     glass.app.show("mission")
-    glass.app.mission.add(4.0, 4.0)
+    glass.app.session.mission.add(4.0, 4.0)
     send = glass.app.screens["mission"].ids["send"]
     glass.until(lambda: send.text == "Change the patrol: 3 points" and not send.disabled, send.text)
     glass.tap(send)

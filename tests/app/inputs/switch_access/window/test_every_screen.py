@@ -171,7 +171,7 @@ def test_whatever_takes_a_finger_is_reached_by_switches(
         walk.check(f"{form}, STOP ALL's list")
         driving.app.leave()
         walk.check(f"{form}, connect")
-        driving.app.ask_address()
+        driving.app.robot_list.ask_address()
         driving.stage.frames(3)
         (dialog,) = [one for one in driving.app.root.children if hasattr(one, "answer")]
         walk.check(f"{form}, address", dialog.ids.card)

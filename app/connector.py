@@ -1,0 +1,64 @@
+"""New connections to robots, each with what this handheld is called and what it knows of the robot's events."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.core.settings_store import Settings
+from app.link.event_order import Known
+from app.link.feeds import Feeds, Mailbox
+from app.link.link import Link
+from app.session.logbook import marks
+from app.session.session import Session
+from bridge.core.camera_frames import Frame
+from bridge.core.network_thread import NetworkThread
+
+__all__ = ["Connector"]
+
+
+class Connector:
+    """Makes links and sessions; each link is started."""
+
+    def __init__(
+        self,
+        settings: Settings,
+        mailbox: Mailbox,
+        network: NetworkThread,
+        *,
+        client_id: str,
+        client_name: str,
+        on_frame: Callable[[Frame, float], None],
+        now: Callable[[], float],
+    ) -> None:
+        """`on_frame` is called in the network thread with each camera frame and when it came [s]; `now` is our clock [s]."""
+        self._settings, self._mailbox, self._network = settings, mailbox, network
+        self._client_id, self._client_name = client_id, client_name
+        self._on_frame, self._now = on_frame, now
+
+    def link(self, url: str, known: Known | None = None) -> Link:
+        """A link to the robot at `url`; `known` is how far its events are known."""
+        link = Link(
+            url,
+            self._mailbox,
+            self._network,
+            client_id=self._client_id,
+            client_name=self._client_name,
+            known=known,
+            marks=marks(self._settings),
+            on_picture=self._on_frame,
+            now=self._now,
+        )
+        link.start()
+        return link
+
+    def session(self, url: str, *, wants_control: bool) -> Session:
+        """A session with the robot at `url`."""
+        return Session(
+            self.link(url),
+            Feeds(self._now),
+            self._settings,
+            now=self._now,
+            client_id=self._client_id,
+            client_name=self._client_name,
+            wants_control=wants_control,
+        )

@@ -1,0 +1,74 @@
+"""Everything that works in the network thread, and the mailbox by which it reaches the UI thread."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from app.connector import Connector
+from app.core.settings_store import Settings
+from app.discovery.beacon_listener import Nearby
+from app.link.camera_decoder import Camera
+from app.link.feeds import Mailbox, Post
+from app.session.recordings import Records
+from app.timers import GLASS_PERIOD, wake_trigger
+from bridge.core.camera_frames import Frame
+from bridge.core.network_thread import NetworkThread
+
+__all__ = ["NetworkSide"]
+
+
+class NetworkSide:
+    """Made when the app starts and closed when it stops."""
+
+    def __init__(
+        self,
+        settings: Settings,
+        records: Records,
+        *,
+        client_id: str,
+        client_name: str,
+        deliver: Callable[[str, Post], object],
+        discover: bool,
+        now: Callable[[], float],
+    ) -> None:
+        """`deliver` is called in the UI thread with each channel and post; `discover` listens to robots saying HELLO."""
+        self._records, self._deliver, self._now = records, deliver, now
+        self._drained = -math.inf
+        self.mailbox = Mailbox(wake_trigger(self.drain))
+        self._network = NetworkThread()
+        self._camera = Camera(self.mailbox)
+        self.nearby = Nearby(self.mailbox, self._network, now=now)
+        if discover:
+            self.nearby.start()
+        self.connector = Connector(
+            settings,
+            self.mailbox,
+            self._network,
+            client_id=client_id,
+            client_name=client_name,
+            on_frame=self._on_frame,
+            now=now,
+        )
+
+    def drain(self) -> None:
+        """Deliver everything that came."""
+        self._drained = self._now()
+        for channel, post in self.mailbox.drain():
+            self._deliver(channel, post)
+
+    def drain_if_due(self) -> None:
+        """The same, unless something urgent has just brought it along: each time is a drawing."""
+        if self._now() - self._drained >= GLASS_PERIOD * 0.6:
+            self.drain()
+
+    def _on_frame(self, frame: Frame, received: float) -> None:
+        """In the network thread: keep the frame for a snapshot and have it decoded."""
+        self._records.frame = frame
+        self._camera.show(frame, received)
+
+    def close(self) -> None:
+        """Stop listening, and end every thread."""
+        self.nearby.close()
+        self._camera.close()
+        self._network.close()

@@ -1,0 +1,87 @@
+"""Robots that can be connected to: those that are heard, those that are saved, and their cards on the connect screen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Protocol
+
+from app.core.settings_store import Settings
+from app.discovery.beacon_listener import HELLO, LATENCY, Nearby
+from app.discovery.known_robots import Robots, check_address
+from app.link.feeds import Post
+from app.screens.connect.connect import ConnectScreen
+from app.screens.parts.dialogs import AddressDialog
+from bridge.msgs.pilothouse_msgs import RobotInfo
+
+__all__ = ["RobotDirectory"]
+
+
+class Host(Protocol):
+    """The app, as far as the list of robots needs it."""
+
+    root: Any
+    connect: ConnectScreen
+
+    def open(self, url: str) -> None:
+        """Connect to a robot."""
+
+
+class RobotDirectory:
+    """Everything here happens in the UI thread."""
+
+    def __init__(self, app: Host, settings: Settings, client_id: str, now: Callable[[], float]) -> None:
+        """`client_id` is who this handheld is; `now` is our clock [s]."""
+        self._app, self._settings, self._client_id = app, settings, client_id
+        self.robots = Robots(now, settings.get("robots") or ())
+        """Every robot that is heard or saved."""
+        self._unproven = ""
+        """The address that was typed last, until something answers there."""
+
+    def on_post(self, channel: str, post: Post) -> bool:
+        """Take in a HELLO or a measured latency; False for any other channel."""
+        if channel.startswith(HELLO):
+            self.robots.heard(post.value, post.received)
+        elif channel.startswith(LATENCY):
+            self.robots.measured(*post.value)
+        else:
+            return False
+        return True
+
+    def on_info(self, url: str, info: RobotInfo) -> None:
+        """A robot introduced itself: remember it where its address is saved."""
+        self.robots.name(url, info.name, info.kind, info.description, info.icon)
+        self._save()
+
+    def show(self, nearby: Nearby) -> None:
+        """Bring the cards up to date, and have `nearby` measure the robots on them."""
+        entries = self.robots.entries()
+        self._app.connect.show_entries(entries, self._client_id)
+        nearby.measure(entries)
+
+    def ask_address(self) -> None:
+        """Ask for an address to connect to."""
+        dialog = AddressDialog(self.open_typed)
+        self._app.root.add_widget(dialog)
+        dialog.ids.field.focus = True
+
+    def open_typed(self, text: str) -> None:
+        """Connect to an address that was typed, and save it once something answers there. ValueError for no address."""
+        url = check_address(text)
+        self._app.open(url)
+        self._unproven = url
+
+    def on_answer(self, url: str) -> None:
+        """Something has answered at `url`: save an address that was typed."""
+        if self._unproven == url:
+            self.robots.add(url)
+            self._save()
+        self._unproven = ""
+
+    def forget(self, url: str) -> None:
+        """Take a saved address off the list."""
+        self.robots.remove(url)
+        self._save()
+        self._app.connect.show_entries(self.robots.entries(), self._client_id)
+
+    def _save(self) -> None:
+        self._settings.set("robots", self.robots.save())

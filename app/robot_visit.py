@@ -1,0 +1,129 @@
+"""The robot that the app is connected to, from Connect to Back: its session, its screens, its pictures and recordings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from app.connector import Connector
+from app.link.camera_decoder import PICTURE
+from app.link.feeds import Post
+from app.pages import Pages
+from app.screens.connect.connect import ConnectScreen
+from app.session.connecting import connecting_words, has_failed
+from app.session.picture_feed import Pictures
+from app.session.recordings import Records
+from app.session.session import Session
+
+if TYPE_CHECKING:
+    from app.screens.shell.shell import Shell  # made when there is a robot, for a quick start
+
+__all__ = ["RobotVisit"]
+
+
+class RobotVisit:
+    """At most one robot at a time. Everything here happens in the UI thread."""
+
+    def __init__(
+        self,
+        pages: Pages,
+        connect: ConnectScreen,
+        records: Records,
+        *,
+        connector: Callable[[], Connector],
+        make_shell: Callable[[Session], Shell],
+        rest: Callable[[], object],
+        on_cut: Callable[[Shell | None], object],
+        on_left: Callable[[], object],
+        now: Callable[[], float],
+    ) -> None:
+        """`connector` gives what makes links, `make_shell` the screens of a robot that answered; `now` is our clock [s].
+
+        `rest` is called when every control has to let go, `on_cut` with the robot's screens before its link is closed, `on_left` afterwards.
+        """
+        self._pages, self._connect, self._records = pages, connect, records
+        self._connector, self._make_shell = connector, make_shell
+        self._rest, self._on_cut, self._on_left = rest, on_cut, on_left
+        self._pictures = Pictures(now)
+        self.session: Session | None = None
+        """None while no robot is wanted."""
+
+    def open(self, url: str, *, wants_control: bool, on_rest: Callable[[], object]) -> None:
+        """Connect to a robot, leaving the one before; its screens come when it answers."""
+        self.leave()
+        self.session = self._connector().session(url, wants_control=wants_control)
+        self.session.on_rest = on_rest
+        self._connect.say(f"Connecting to {url} …", "info", self.leave)
+
+    def suspend(self) -> None:
+        """The app is put away: let go of the robot, and keep what is known of it."""
+        if self.session is not None:
+            self.session.link.close(0.3)
+
+    def resume(self) -> None:
+        """The app is back: connect again."""
+        if self.session is not None:
+            link = self._connector().link(self.session.link.url, self.session.logbook.known)
+            self.session.resume(link)
+            self._pictures.ask_again()
+
+    def leave(self) -> None:
+        """Back to the connect screen; the robot goes on with what it does."""
+        if self.session is None:
+            return
+        self._rest()
+        self._on_cut(self._pages.close_shell())
+        self.session.link.close()
+        self.session = None
+        self._records.frame = None
+        self._pictures.forget()
+        self._connect.say("")
+        self._records.stop()
+        self._pages.show_connect()
+        self._on_left()
+
+    def deliver(self, channel: str, post: Post) -> None:
+        """Something came from the robot."""
+        if channel == PICTURE:
+            self._pictures.show(post.value, post.received, self._pages.shell, self.session)
+        elif self.session is not None:
+            self.session.deliver(channel, post)
+            self._records.put(channel, post.value)
+
+    def tick(self) -> None:
+        """Bring everything up to date that time changes."""
+        session, shell = self.session, self._pages.shell
+        if session is not None and shell is None:
+            self._tick_connecting(session)
+        elif session is not None and shell is not None:
+            shell.tick()
+            self._pictures.judge(shell)
+            self._pictures.watch(session)
+            self._tick_recording()
+
+    def _tick_connecting(self, session: Session) -> None:
+        if session.ever_connected:
+            self.enter()
+            return
+        self._connect.say(*connecting_words(session), self.leave)
+        if has_failed(session):
+            self.leave()
+            self._connect.say(session.link_state.sentence, "danger")
+
+    def enter(self) -> None:
+        """The robot has answered: put its screens on the glass."""
+        if self.session is not None:
+            self._connect.say("")
+            self._pages.enter(self._make_shell(self.session), self.session)
+
+    def toggle_recording(self) -> None:
+        """Start recording, or finish the one that runs."""
+        self._records.toggle(self.session)
+        self._tick_recording()
+
+    def _tick_recording(self) -> None:
+        self._records.check()
+        shell = self._pages.shell
+        if shell is not None:
+            shell.recording = self._records.recorder is not None
+            shell.ids.record.text = self._records.clock

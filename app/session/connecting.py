@@ -1,0 +1,26 @@
+"""The sentence that the operator reads while a robot is being connected to."""
+
+from __future__ import annotations
+
+import math
+
+from app.session.session import Session
+from bridge.client.client import Phase
+
+__all__ = ["connecting_words", "has_failed"]
+
+
+def connecting_words(session: Session) -> tuple[str, str]:
+    """A sentence and its level: the first attempt is news, a later one a warning."""
+    state = session.link_state
+    waiting = f" Trying again in {math.ceil(session.retry_in)} s." if session.retry_in > 0 else ""
+    sentence = state.sentence + ("" if "Trying again" in state.sentence else waiting)
+    if state.attempt > 1 or state.retry_in > 0:
+        return f"{sentence} Tap to cancel.", "warn"
+    return sentence, "info"
+
+
+def has_failed(session: Session) -> bool:
+    """The link was given up after at least one attempt."""
+    state = session.link_state
+    return state.phase is Phase.CLOSED and bool(state.attempt)

@@ -1,0 +1,55 @@
+"""The app's rhythm: how often it looks at its mailbox, its hands and its lists."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from kivy.clock import Clock
+from kivy.core.window import Window
+
+__all__ = ["BEAT_PERIOD", "GLASS_PERIOD", "LIST_PERIOD", "TICK_EVERY", "Timers", "wake_trigger"]
+
+GLASS_PERIOD = 1 / 30
+"""Between two looks at what came that is not urgent [s]."""
+TICK_EVERY = 3
+"""Every so many of them what only time changes is brought up to date as well."""
+BEAT_PERIOD = 0.03
+"""Between two heartbeats of the user interface [s]; without one for 0.15 s the robot rests."""
+LIST_PERIOD = 0.5
+"""Between two looks at the list of robots [s]."""
+
+
+def wake_trigger(act: Callable[[], object]) -> Callable[[], object]:
+    """A function for any thread, after which `act` is called in the UI thread as soon as that is free."""
+    make: Any = (
+        getattr(Clock, "create_trigger_free", None) if hasattr(Clock, "get_min_free_timeout") else None
+    )
+    trigger: Callable[[], object] = (make or Clock.create_trigger)(lambda _: act(), 0)
+    return trigger
+
+
+class Timers:
+    """Calls what is due in the UI thread until it is closed."""
+
+    def __init__(
+        self,
+        *,
+        look: Callable[[], object],
+        beat: Callable[[], object],
+        refresh_list: Callable[[], object],
+        poll: bool,
+    ) -> None:
+        """`poll` looks for fingers once more a frame."""
+        self._events = [
+            Clock.schedule_interval(lambda _: look(), GLASS_PERIOD),
+            Clock.schedule_interval(lambda _: beat(), BEAT_PERIOD),
+            Clock.schedule_interval(lambda _: refresh_list(), LIST_PERIOD),
+        ]
+        if poll:  # Kivy hands a touch on two frames after it came; this saves one of them
+            self._events.append(Clock.schedule_interval(lambda _: Window.mainloop(), 0))
+
+    def close(self) -> None:
+        """Call nothing any more."""
+        for event in self._events:
+            event.cancel()
