@@ -61,6 +61,11 @@ class CallbackConnection(ServerConnection):
     """All of one server, the oldest first; set by the server."""
     _handler: MessageHandler | None = None
     _direct = False
+    """Messages go to the handler as they come: none waits in the library."""
+    _queued = 0
+    """Messages that the library has and `recv` did not give yet."""
+    _incomplete = False
+    """The library has some frames of a message, and not the last one."""
     _closed = False
     _kind = Opcode.TEXT
     _pieces: list[bytes]
@@ -94,11 +99,13 @@ class CallbackConnection(ServerConnection):
         self.transport.set_write_buffer_limits(high=0)
         self._handler = handler
         try:
-            while not self._is_direct():
+            while self._queued or self._incomplete:
                 message = await self.recv()
+                self._queued -= 1
                 self._deliver(handler, message)
                 if self._behind and not self._waits:  # the next one may be long in coming
                     self._wait()
+            self._direct = True
         except ConnectionClosed:
             pass  # what was heard before it is done all the same
         try:
@@ -211,22 +218,25 @@ class CallbackConnection(ServerConnection):
     def process_event(self, event: Event) -> None:
         """Take one frame."""
         handler = self._handler
-        if handler is None or not isinstance(event, Frame):
+        if not isinstance(event, Frame):
             super().process_event(event)
+        elif handler is None:
+            self._to_library(event)
         elif event.opcode is Opcode.PONG:
             handler.on_pong(bytes(event.data))
         elif not self._direct or event.opcode not in _DATA:
-            super().process_event(event)
+            self._to_library(event)
         elif event.opcode is not Opcode.CONT and event.fin:
             self._complete(handler, event.opcode, bytes(event.data))
         else:
             self._piece(handler, event)
 
-    def _is_direct(self) -> bool:
-        """Whether from now on messages are heard as they come: nothing waits in the library's queue."""
-        # a message in several frames of which some went there ends there
-        self._direct = not self.recv_messages.frames and self.protocol.current_size is None
-        return self._direct
+    def _to_library(self, frame: Frame) -> None:
+        """Leave a frame to the library; `recv` gives the messages that it makes of data."""
+        if frame.opcode in _DATA:
+            self._incomplete = not frame.fin
+            self._queued += frame.fin
+        super().process_event(frame)
 
     def _piece(self, handler: MessageHandler, frame: Frame) -> None:
         """One frame of a message in several; the library bounds them all together."""

@@ -19,7 +19,8 @@ PAIRS = pytest.mark.parametrize(
 async def test_the_robots_own_services_answer(library):
     async with server() as robot, peer(library, robot.port) as client:
         answer = await client.do("call", **STOP, args={"command_id": "c1"})
-        assert answer == {"values": {"success": True, "message": "Accepted c1."}}
+        told = {"success": True, "message": "Accepted c1.", "code": "", "actor_id": "", "parameters": []}
+        assert answer == {"values": told}
         assert (await client.do("call", name="/stop", type="std_srvs/Trigger"))["values"]["success"]
 
 
