@@ -168,7 +168,7 @@ class ActionColumn(Outlined, Control, BoxLayout):
 
     # what a finger does
 
-    def _ask(self, name: str) -> None:
+    def _press(self, name: str) -> None:
         self.dispatch("on_action", name)
         self.dispatch("on_command", name)
 
@@ -188,15 +188,15 @@ class ActionColumn(Outlined, Control, BoxLayout):
             button.name, button.icon, button.said = action.text, action.icon, action.said
             button.meaning = action.meaning or action.text
             button.disabled = not action.able or self.state == "disabled"
-        self._say()
+        self._update()
 
     def _make(self, name: str) -> ActionKey:
         button = ActionKey()
-        button.bind(on_release=lambda _: self._ask(name))
+        button.bind(on_release=lambda _: self._press(name))
         self.grid.add_widget(button)
         return button
 
-    def _say(self) -> None:
+    def _update(self) -> None:
         count = max(1, round(self.across))
         room = (self.roll.width - (count - 1) * self.grid.spacing[0]) / count - dp(20)
         for button in self._buttons.values():
@@ -218,7 +218,7 @@ class ActionColumn(Outlined, Control, BoxLayout):
         wide = (self.roll.width - (across - 1) * between) / across
         for button in self._buttons.values():
             button.high, button.flow = high, "vertical" if wide < dp(MIN_ROW_WIDTH) else "horizontal"
-        self._say()
+        self._update()
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

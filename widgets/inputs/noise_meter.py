@@ -1,7 +1,7 @@
 """How loud it is where one speaks: level, noise, how far a voice has to stand over it, and what was understood last.
 
 meter = NoiseMeter()
-meter.tell(level=-28.0, noise=-52.0, snr=24.0)           # dB over full scale, and dB of speech over noise
+meter.update(level=-28.0, noise=-52.0, snr=24.0)           # dB over full scale, and dB of speech over noise
 meter.answer("go home", 0.91, understood=True)
 """
 
@@ -67,7 +67,7 @@ class NoiseMeter(Drawing):
         """What is written."""
         return self._words.texts
 
-    def tell(
+    def update(
         self, *, level: float, noise: float, snr: float, speaking: bool = False, clipped: bool = False
     ) -> None:
         """Show how loud it is, as of the properties."""
@@ -167,7 +167,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     ) -> Callable[[], Widget]:
         def build() -> Widget:
             meter = NoiseMeter(size_hint=(None, None), width=dp(width), state=state)
-            meter.tell(**{"level": -48.0, "noise": -54.0, "snr": 28.0, **told})
+            meter.update(**{"level": -48.0, "noise": -54.0, "snr": 28.0, **told})
             if answer is not None:
                 meter.answer(answer[0], answer[1], understood=answer[2])
             return meter

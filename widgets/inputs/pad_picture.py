@@ -1,7 +1,7 @@
 """A gamepad as it is now: how far its sticks and triggers are pushed, which buttons are down, and how wide its dead zone is.
 
 picture = PadPicture()
-picture.tell(left=(0.5, 0.0), triggers=(0.0, 1.0), down={"a"}, dead_zone=0.12)
+picture.update(left=(0.5, 0.0), triggers=(0.0, 1.0), down={"a"}, dead_zone=0.12)
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ class PadPicture(Control, Drawing):
         self.canvas.add(self._ink)
         self.canvas.add(self._words.canvas)
 
-    def tell(
+    def update(
         self,
         *,
         left: tuple[float, float] = (0.0, 0.0),
@@ -87,9 +87,9 @@ class PadPicture(Control, Drawing):
         self.down, self.stops, self.dead_zone = sorted(down), sorted(stops), dead_zone
         self.state = "live"
 
-    def lose(self) -> None:
+    def clear(self) -> None:
         """There is none any more."""
-        self.tell()
+        self.update()
         self.state = "never"
 
     # drawing
@@ -182,7 +182,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         def build() -> Widget:
             picture = PadPicture(size_hint=(None, None), size=("360dp", "210dp"))
             if kwargs:
-                picture.tell(**kwargs)
+                picture.update(**kwargs)
             return picture
 
         return build

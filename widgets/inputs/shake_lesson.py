@@ -1,7 +1,7 @@
 """How to shake, as a moving picture: a phone that goes to and fro the way the hand should, how far the lesson is, and its words.
 
 lesson = ShakeLesson()
-lesson.tell("lr", doing=True, progress=0.2, beat=0.7)     # beat [s]: where the phone is drawn, from the clock
+lesson.update("lr", doing=True, progress=0.2, beat=0.7)     # beat [s]: where the phone is drawn, from the clock
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ class ShakeLesson(Drawing):
         """What is written."""
         return self._words.texts
 
-    def tell(self, axis: str, *, doing: bool, progress: float, beat: float = 0.0) -> None:
+    def update(self, axis: str, *, doing: bool, progress: float, beat: float = 0.0) -> None:
         """Show that movement; `beat` is any clock [s] that the picture moves by."""
         self.axis, self.doing, self.progress = axis, doing, min(1.0, max(0.0, progress))
         self.offset = math.sin(math.tau * BEAT * beat) if doing and axis else 0.0
@@ -84,12 +84,12 @@ class ShakeLesson(Drawing):
         self._phone(shapes, (x + shift[0], y + shift[1]), half * scale, colour)
         if not self.axis:
             words.append(Word(icon("check"), x, y, half * 0.5, colour, font="Icons"))
-        words.append(self._said(foot))
+        words.append(self._caption(foot))
         self._bar(shapes, colour)
         self._ink.fill(shapes)
         self._words.write(words, 1.0)
 
-    def _said(self, foot: float) -> Word:
+    def _caption(self, foot: float) -> Word:
         texts = [f"{text} …" if self.doing else text for text in WORDS[self.axis]]
         if self.axis and not self.doing:
             texts = [f"Hold still. Next: {texts[1].lower()}", f"Next: {texts[1].lower()}", texts[1]]
@@ -168,7 +168,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     def make(axis: str, beat: float = 0.0, **kwargs: Any) -> Callable[[], Widget]:
         def build() -> Widget:
             lesson = ShakeLesson(size_hint=(None, None), size=("330dp", "230dp"))
-            lesson.tell(axis, beat=beat, **kwargs)
+            lesson.update(axis, beat=beat, **kwargs)
             return lesson
 
         return build

@@ -79,8 +79,8 @@ class OptionList(Listing):
             self.ids.column.add_widget(row)
             self._rows[name] = row, toggle
         for name in ("values", "asked", "disabled"):
-            self.fbind(name, self._tell)
-        self._tell()
+            self.fbind(name, self._update)
+        self._update()
 
     def show(self, msg: ControlStatus) -> None:
         """Take over how they stand."""
@@ -92,18 +92,18 @@ class OptionList(Listing):
             value = "off" if self.values[name] else "on"
             self.asked = {**self.asked, name: value}
             self.dispatch("on_command", name, value)
-        self._tell()
+        self._update()
 
     def answered(self, name: str) -> None:
         """The robot has answered, or will not: it stands as it says."""
         self.asked = {one: value for one, value in self.asked.items() if one != name}
-        self._tell()
+        self._update()
 
     def forget(self) -> None:
         """The link is another one now: nothing is under way."""
         self.asked = {}
 
-    def _tell(self, *_: object) -> None:
+    def _update(self, *_: object) -> None:
         for name, (row, toggle) in self._rows.items():
             option, known = OPTIONS[name], name in self.values
             toggle.active = bool(self.values.get(name))

@@ -113,7 +113,7 @@ class Fader(Widget):
 
     knob_y = AliasProperty(_knob_y, bind=["value_normalized", "low", "high"], cache=True)
 
-    def _take(self, y: float) -> None:
+    def _set_from(self, y: float) -> None:
         share = max(0.0, min(1.0, (y - self.low) / max(1.0, self.high - self.low)))
         value = self.minimum + share * (self.maximum - self.minimum)
         if self.step:
@@ -128,13 +128,13 @@ class Fader(Widget):
             return bool(super().on_touch_down(touch))
         touch.grab(self)
         self._finger = touch
-        self._take(touch.y)
+        self._set_from(touch.y)
         return True
 
     def on_touch_move(self, touch: Any) -> bool:
         """And follows it."""
         if touch.grab_current is self:
-            self._take(touch.y)
+            self._set_from(touch.y)
             return True
         return bool(super().on_touch_move(touch))
 

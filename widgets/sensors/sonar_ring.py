@@ -77,7 +77,7 @@ class SonarRingView(Gauge):
     """Closer than this is a danger [m]."""
 
     @property
-    def told(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def echoes(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Bearings [rad] and ranges [m] of the newest ring, as many as there are of both."""
         if self.ring is None:
             return np.zeros(0), np.zeros(0)
@@ -89,7 +89,7 @@ class SonarRingView(Gauge):
     @property
     def nearest(self) -> int:
         """Number of the sonar whose echo is nearest; -1 when none has told anything."""
-        ranges = self.told[1]
+        ranges = self.echoes[1]
         return -1 if np.isnan(ranges).all() else int(np.nanargmin(ranges))
 
     def __init__(self, **kwargs: Any) -> None:
@@ -113,7 +113,7 @@ class SonarRingView(Gauge):
         """The nearest distance in words: `0.42 m`, `<15 cm`, `clear`, or a dash."""
         if self.nearest < 0:
             return DASH
-        away = float(self.told[1][self.nearest])
+        away = float(self.echoes[1][self.nearest])
         if math.isinf(away):
             return "clear" if away > 0 else f"<{(self.ring or SonarRing()).range_min * 100:.0f} cm"
         return away_text(away)
@@ -123,7 +123,7 @@ class SonarRingView(Gauge):
         """Which way the nearest is, as in `45° left`; `all around` where all is clear."""
         if self.nearest < 0:
             return ""
-        return "all around" if self.figure == "clear" else side_text(float(self.told[0][self.nearest]))
+        return "all around" if self.figure == "clear" else side_text(float(self.echoes[0][self.nearest]))
 
     @property
     def bump(self) -> str:
@@ -141,7 +141,7 @@ class SonarRingView(Gauge):
     @property
     def nearest_role(self) -> str:
         """Role of the nearest distance's figure."""
-        role = self.role(float(self.told[1][self.nearest]) if self.nearest >= 0 else math.nan)
+        role = self.role(float(self.echoes[1][self.nearest]) if self.nearest >= 0 else math.nan)
         return {"accent": "text", "faint": "muted"}.get(role, role)
 
     def marks(self, shapes: Shapes) -> Iterator[Word]:
@@ -153,7 +153,7 @@ class SonarRingView(Gauge):
         place = self._place(beside)
         for ring in range(1, RINGS + 1):
             shapes.ring(place.x, place.y, self._ring_radius(place, ring), dp(1.2), theme.line)
-        for bearing, away in zip(*self.told, strict=True):
+        for bearing, away in zip(*self.echoes, strict=True):
             self._cone(shapes, place, bearing + AHEAD, away)
         self._robot(shapes, place)
         words = [*self._ring_words(place)]
@@ -167,7 +167,7 @@ class SonarRingView(Gauge):
         radius = max(min(self.width - 2 * edge, self.height - 2 * edge - head) / 2, dp(10))
         x = self.right - edge - radius if beside else self.center_x
         ring = self.ring or SonarRing(range_max=3.0)
-        ranges = self.told[1]
+        ranges = self.echoes[1]
         seen = ranges[np.isfinite(ranges)]
         farthest = float(np.percentile(seen, 60)) if len(seen) else min(max(ring.range_max, 1.0), 3.0)
         self._reach = self.reach or scan_reach(farthest, self._reach)
@@ -181,7 +181,7 @@ class SonarRingView(Gauge):
             return
         half = min(
             max((self.ring or SonarRing()).field_of_view / 2, math.radians(4)),
-            math.pi / max(len(self.told[0]), 4),
+            math.pi / max(len(self.echoes[0]), 4),
         )
         if math.isnan(away):
             shapes.sector(x, y, radius, yaw=yaw, half_angle=half * 0.9, colour=tint(theme.muted, 0.12))

@@ -60,7 +60,7 @@ class UltrasoundView(Gauge):
 
     def _nearest(self) -> str:
         known = {
-            frame: echo.range for frame, echo in self.echoes.items() if not math.isnan(self._told(frame))
+            frame: echo.range for frame, echo in self.echoes.items() if not math.isnan(self._distance(frame))
         }
         return min(known, key=lambda frame: known[frame], default="")
 
@@ -87,7 +87,7 @@ class UltrasoundView(Gauge):
         if before is None or _differ(before.range, msg.range):
             self.echoes[frame] = msg
 
-    def _told(self, frame: str) -> float:
+    def _distance(self, frame: str) -> float:
         """What a ranger says now [m]; NaN when it has been silent while others were not."""
         return math.nan if frame in self.silent else float(self.echoes[frame].range)
 
@@ -97,7 +97,7 @@ class UltrasoundView(Gauge):
 
     def figure(self, frame: str, *, brief: bool = False) -> str:
         """A ranger's distance in words; `brief` in metres without saying so, as far as it reaches where it is clear."""
-        told, echo = self._told(frame), self.echoes[frame]
+        told, echo = self._distance(frame), self.echoes[frame]
         if math.isnan(told):
             return DASH
         if brief:
@@ -110,7 +110,7 @@ class UltrasoundView(Gauge):
 
     def role(self, frame: str) -> str:
         """Role of the colour of a ranger's distance."""
-        told = self._told(frame)
+        told = self._distance(frame)
         if math.isnan(told):
             return "faint"
         return "danger" if told < self.close else "warn" if told < self.near else "accent"
@@ -134,7 +134,7 @@ class UltrasoundView(Gauge):
 
     def _cone(self, shapes: Shapes, frame: str, place: tuple[float, float, float, float]) -> Word:
         x, y, longest, across = place
-        yaw, told, echo = aim(frame) + AHEAD, self._told(frame), self.echoes[frame]
+        yaw, told, echo = aim(frame) + AHEAD, self._distance(frame), self.echoes[frame]
         half = max(echo.field_of_view / 2, MIN_HALF_ANGLE)
         inner, role = dp(9), self.role(frame)
         colour = theme.roles[role]

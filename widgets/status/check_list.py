@@ -161,13 +161,13 @@ class CheckList(Outlined, RobotWidget, BoxLayout):
     ready = AliasProperty(_ready, bind=["checks"], cache=True)
     """All is good."""
 
-    def _look(self) -> tuple[str, str]:
+    def _appearance(self) -> tuple[str, str]:
         if self.ready:
             return LOOKS["ok"]
         return LOOKS["bad" if any(check.state == "bad" for check in self.checks) else "unknown"]
 
-    icon = AliasProperty(lambda self: self._look()[0], bind=["checks"], cache=True)
-    role = AliasProperty(lambda self: self._look()[1], bind=["checks"], cache=True)
+    icon = AliasProperty(lambda self: self._appearance()[0], bind=["checks"], cache=True)
+    role = AliasProperty(lambda self: self._appearance()[1], bind=["checks"], cache=True)
 
     def _border(self) -> str:
         return "line" if self.ready else self.role

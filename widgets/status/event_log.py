@@ -191,7 +191,7 @@ class EventLog(RobotWidget, FloatLayout):
 
     def _write_times(self, *_: object) -> None:
         for row in self.ids.rows.children:
-            row.tell(self.now)
+            row.update(self.now)
 
 
 def _place(event: Event) -> tuple[float, int, str]:

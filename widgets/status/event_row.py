@@ -109,7 +109,7 @@ Builder.load_string("""
         opacity: 1 if root.act else 0
         disabled: not root.act
         pos_hint: {'center_y': .5}
-        on_release: root.see()
+        on_release: root.acknowledge()
 
 <EventHead>:
     role: 'accent'
@@ -229,13 +229,13 @@ class EventRow(RecycleDataViewBehavior, BoxLayout):
     def refresh_view_attrs(self, rv: Any, index: int, data: dict[str, Any]) -> None:
         """Take over a row of the list."""
         super().refresh_view_attrs(rv, index, data)
-        self.tell(rv.now)
+        self.update(rv.now)
 
-    def tell(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """Say when it was, at `now` [s]; nothing while that is not known."""
         self.when = when_words(self.stamp, now, brief=True)
 
-    def see(self) -> None:
+    def acknowledge(self) -> None:
         """A finger says that it has been seen to."""
         if self.act is not None:
             self.act()
@@ -244,7 +244,7 @@ class EventRow(RecycleDataViewBehavior, BoxLayout):
 class EventHead(RecycleDataViewBehavior, Text):
     """A line between events."""
 
-    def tell(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """It has no time."""
 
 

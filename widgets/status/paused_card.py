@@ -33,7 +33,7 @@ class PausedCard(NoticeCard):
     def __init__(self, **kwargs: Any) -> None:
         self._why = ""
         super().__init__(icon="pause_fill", role="warn", **kwargs)
-        self.fbind("name", self._tell)
+        self.fbind("name", self._update)
         self.resume = self.add_beside("Resume", "play_arrow")
         self.resume.bind(on_release=lambda _: self.dispatch("on_command", "resume"))
         self.cross = self.add_close()
@@ -48,10 +48,10 @@ class PausedCard(NoticeCard):
             return
         self.headline = f"{title(TaskOrder(task=msg.task, places=list(msg.places)))} is paused"
         self._why = msg.reason.removeprefix("Paused: ")
-        self._tell()
+        self._update()
         self.resume.meaning = self.headline
 
-    def _tell(self, *_: object) -> None:
+    def _update(self, *_: object) -> None:
         mine = {
             f"{self.name} took the stick.": "You took the stick.",
             f"Stopped by {self.name}.": "You pressed STOP.",

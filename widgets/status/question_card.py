@@ -126,12 +126,12 @@ class QuestionCard(Outlined, Control, BoxLayout):
 
     icon = AliasProperty(_icon, bind=["cut"], cache=True)
 
-    def _said(self) -> str:
+    def _sentence(self) -> str:
         if self.old:
             return f"Asked before the link was lost; {self.old}."
         return self.why or self.reason
 
-    said = AliasProperty(_said, bind=["why", "reason", "old"], cache=True)
+    said = AliasProperty(_sentence, bind=["why", "reason", "old"], cache=True)
 
     def _said_role(self) -> str:
         return "danger" if self.why and not self.old else "muted"

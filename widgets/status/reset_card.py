@@ -1,7 +1,7 @@
 """Putting a robot back to where it started: offered when something has gone wrong with it, done after a second press.
 
 card = ResetCard(name="Aqua-1")
-card.tell("Aqua-1 has sunk.")
+card.notify("Aqua-1 has sunk.")
 card.bind(on_command=lambda _, name: name == "reset" and robot.reset())
 """
 
@@ -50,9 +50,9 @@ class ResetCard(NoticeCard):
     def show(self, msg: Event) -> None:
         """Tell of a mishap; of an event that is no alarm nothing."""
         if msg.level == "alarm":
-            self.tell(msg.text)
+            self.notify(msg.text)
 
-    def tell(self, mishap: str) -> None:
+    def notify(self, mishap: str) -> None:
         """Offer it, since something has gone wrong; what is being asked or done already is left as it stands."""
         busy = self.open and (self.asked or self.sent)
         self.mishap = mishap
@@ -107,7 +107,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     def make(width: str = "420dp", *, asks: bool = False, **kwargs: Any) -> Callable[[], Widget]:
         def build() -> Widget:
             card = ResetCard(name="Aqua-1", size_hint_x=None, width=width)
-            card.ask() if asks else card.tell("Aqua-1 has left tank.")
+            card.ask() if asks else card.notify("Aqua-1 has left tank.")
             for name, value in kwargs.items():
                 setattr(card, name, value)
             return card

@@ -69,12 +69,12 @@ class AnswerSheet(Control, Column):
         """Question to answer, of those that have one."""
         return {key: int(row.value) for key, row in self.rows.items() if math.isfinite(row.value)}
 
-    def put_away(self) -> None:
+    def pause(self) -> None:
         """Nobody sees it until `take_up`."""
         if math.isnan(self._away):
             self._away = self._now()
 
-    def take_up(self) -> None:
+    def resume(self) -> None:
         """It is gone on with; nothing where it was not put away."""
         if not math.isnan(self._away):
             self._shown += self._now() - self._away
@@ -86,7 +86,7 @@ class AnswerSheet(Control, Column):
         self.seconds[key] = round(self._now() - self._shown, 3)
         self.dispatch("on_command", key, int(value))
 
-    def miss(self) -> list[str]:
+    def mark_unanswered(self) -> list[str]:
         """Mark the questions without an answer, and name them in words."""
         for row in self.rows.values():
             row.lacking = math.isnan(row.value)

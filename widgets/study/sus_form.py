@@ -96,7 +96,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
             for number, item in enumerate(list(form.rows.values())[:some]):
                 item.answer((4, 2, 5, 1, 3)[number % 5])
             if lacking:
-                form.miss()
+                form.mark_unanswered()
             return form
 
         return build

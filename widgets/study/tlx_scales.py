@@ -200,7 +200,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
             for number, scale in enumerate(list(form.rows.values())[:some]):
                 scale.answer((35, 10, 60, 25, 100, 0)[number])
             if lacking:
-                form.miss()
+                form.mark_unanswered()
             return form
 
         return build

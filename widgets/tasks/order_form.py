@@ -112,7 +112,7 @@ class OrderForm(OrderDraft, BoxLayout):
     def show(self, msg: Msg) -> None:
         """Take over places, mission or pose, or an order to be changed; nothing is dispatched."""
         if isinstance(msg, TaskOrder):
-            self._take(msg)
+            self._load(msg)
         elif isinstance(msg, Mission):
             self.mission = msg
             if self.task == "patrol" and not self.picking:
@@ -127,9 +127,9 @@ class OrderForm(OrderDraft, BoxLayout):
 
     def begin(self, task: str, places: tuple[str, ...] = ()) -> None:
         """Ask for what `task` needs, with nothing said but `places`."""
-        self._take(TaskOrder(task=task, places=list(places)))
+        self._load(TaskOrder(task=task, places=list(places)))
 
-    def _take(self, order: TaskOrder) -> None:
+    def _load(self, order: TaskOrder) -> None:
         self.fill(order)
         self.dial.value = order.heading
         self.picking = ""

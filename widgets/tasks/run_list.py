@@ -79,11 +79,11 @@ class RunList(Listing):
         )
         brief = run_words(run, self.now)
 
-        def tell(*_: object) -> None:
+        def update(*_: object) -> None:
             row.detail = f"{brief}\n{run.reason}" if row.whole and run.reason else brief
 
-        row.bind(on_release=lambda _: setattr(row, "whole", not row.whole), whole=tell)
-        tell()
+        row.bind(on_release=lambda _: setattr(row, "whole", not row.whole), whole=update)
+        update()
         return row
 
 

@@ -41,7 +41,7 @@ class ScheduleList(Listing):
     def __init__(self, **kwargs: Any) -> None:
         self._rows: list[tuple[ScheduledTask, ListRow]] = []
         super().__init__(**kwargs)
-        self.bind(tasks=self._build, now=self._tell)
+        self.bind(tasks=self._build, now=self._update)
         self._build()
 
     def show(self, msg: Schedule) -> None:
@@ -54,7 +54,7 @@ class ScheduleList(Listing):
     def _build(self, *_: object) -> None:
         self._rows = [(task, self._row(task)) for task in self.tasks]
         self.fill(row for _, row in self._rows)
-        self._tell()
+        self._update()
 
     def _row(self, task: ScheduledTask) -> ListRow:
         words = TASKS.get(task.order.task)
@@ -74,7 +74,7 @@ class ScheduleList(Listing):
         switched = ScheduledTask(task.id, on, task.order, task.at, task.days, task.every, task.next)
         self.dispatch("on_command", switched)
 
-    def _tell(self, *_: object) -> None:
+    def _update(self, *_: object) -> None:
         for task, row in self._rows:
             left = task.next.seconds - self.now
             soon = task.enabled and task.next.seconds > 0 and math.isfinite(left)

@@ -97,7 +97,7 @@ class TaskCard(Outlined, RobotWidget, Column):
     """Takes little room: the reason on one line, no figures."""
     status: ObjectProperty[TaskStatus] = ObjectProperty(TaskStatus())
     """The newest TaskStatus."""
-    told: ObjectProperty[TaskProgress | None] = ObjectProperty(None, allownone=True)
+    task_progress: ObjectProperty[TaskProgress | None] = ObjectProperty(None, allownone=True)
     """The newest TaskProgress of that task; None before the first."""
 
     def _active(self) -> bool:
@@ -122,21 +122,21 @@ class TaskCard(Outlined, RobotWidget, Column):
 
     icon = AliasProperty(_icon, bind=["status"], cache=True)
 
-    def _look(self) -> tuple[str, str, str]:
+    def _appearance(self) -> tuple[str, str, str]:
         return STATES.get(self.status.state, STATES["IDLE"])
 
     def _state_icon(self) -> str:
-        return self._look()[0]
+        return self._appearance()[0]
 
     state_icon = AliasProperty(_state_icon, bind=["status"], cache=True)
 
     def _state_role(self) -> str:
-        return self._look()[1]
+        return self._appearance()[1]
 
     state_role = AliasProperty(_state_role, bind=["status"], cache=True)
 
     def _phase_words(self) -> str:
-        return self.status.phase or self._look()[2]
+        return self.status.phase or self._appearance()[2]
 
     phase_words = AliasProperty(_phase_words, bind=["status"], cache=True)
     """What it does just now in one word: the phase, else the state."""
@@ -153,15 +153,17 @@ class TaskCard(Outlined, RobotWidget, Column):
         """Take over a status or the progress of its task."""
         if isinstance(msg, TaskStatus):
             if msg.task_id != self.status.task_id or msg.state == "INTERRUPTED":
-                self.told = None  # what was cut short drives a part of it once more
+                self.task_progress = None  # what was cut short drives a part of it once more
             self.status = msg
         elif isinstance(msg, TaskProgress):
             counts = msg.task_id == self.status.task_id and self.status.state != "INTERRUPTED"
-            self.told = msg if counts else self.told
+            self.task_progress = msg if counts else self.task_progress
         else:
             super().show(msg)
-        self.progress = self.told.progress if self.active and self.told is not None else math.nan
-        self.figures = figures_words(self.status, self.told) if self.active else ""
+        self.progress = (
+            self.task_progress.progress if self.active and self.task_progress is not None else math.nan
+        )
+        self.figures = figures_words(self.status, self.task_progress) if self.active else ""
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

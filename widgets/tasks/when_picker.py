@@ -133,10 +133,10 @@ class WhenPicker(Control, Column):
         self.hour = self.hour % 24 if self.way == "at" else max(0, self.hour)
         if self.way == "every" and not self.hour and not self.minute:
             self.minute = 5
-        self.task = self._told()
+        self.task = self._scheduled()
         self.dispatch("on_command", self.task)
 
-    def _told(self) -> ScheduledTask:
+    def _scheduled(self) -> ScheduledTask:
         at = f"{int(self.hour):02d}:{int(self.minute):02d}" if self.way == "at" else ""
         every = 0.0 if at else self.hour * 3600.0 + self.minute * 60.0
         was = self.task

@@ -36,7 +36,7 @@ class Resetting:
         """Offer it after an alarm about the robot itself; False when that is none, or cannot be helped so."""
         if event.kind != "robot" or event.level != "alarm" or not self.possible:
             return False
-        self.card.tell(event.text)
+        self.card.notify(event.text)
         self.tick()
         return True
 

@@ -75,7 +75,7 @@ class StopCorner:
             self._show(self.list, shown=False)
         elif self.list.parent is not None:
             since = fleet.since(self._app.robots.entries())
-            self.list.tell(fleet.rows, fleet.stopped, fleet.total, untried=fleet.untried, since=since)
+            self.list.update(fleet.rows, fleet.stopped, fleet.total, untried=fleet.untried, since=since)
         elif not fleet.sending:
             self._finish()
         self._place()

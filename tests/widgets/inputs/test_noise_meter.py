@@ -14,7 +14,7 @@ QUIET = {"level": -48.0, "noise": -54.0, "snr": 28.0}
 
 def shown(stage: Stage, width: float = 420, state: str = "live", **told: object) -> NoiseMeter:
     meter = stage.show(NoiseMeter(state=state), (width, 96))
-    meter.tell(**{**QUIET, **told})
+    meter.update(**{**QUIET, **told})
     stage.frames(2)
     return meter
 

@@ -19,7 +19,7 @@ from widgets.inputs.shake_lesson import ShakeLesson
 )
 def test_it_says_what_to_do(stage: Stage, axis: str, doing: bool, words: str) -> None:
     lesson = stage.show(ShakeLesson(), (360, 260))
-    lesson.tell(axis, doing=doing, progress=0.4)
+    lesson.update(axis, doing=doing, progress=0.4)
     stage.frames(2)
     assert words in lesson.texts
 
@@ -30,7 +30,7 @@ def test_the_phone_moves_only_while_the_hand_is_to_move(stage: Stage) -> None:
     places = {True: set[float](), False: set[float]()}
     for doing, seen in places.items():
         for beat in beats:
-            lesson.tell("lr", doing=doing, progress=0.1, beat=beat)
+            lesson.update("lr", doing=doing, progress=0.1, beat=beat)
             seen.add(round(lesson.offset, 3))
     assert min(places[True]) < -0.9
     assert max(places[True]) > 0.9
@@ -39,7 +39,7 @@ def test_the_phone_moves_only_while_the_hand_is_to_move(stage: Stage) -> None:
 
 def test_words_that_do_not_fit_give_way_to_shorter_ones(stage: Stage) -> None:
     lesson = stage.show(ShakeLesson(), (190, 200))
-    lesson.tell("lr", doing=False, progress=0.0)
+    lesson.update("lr", doing=False, progress=0.0)
     stage.frames(2)
     assert "Next: left and right" in lesson.texts
 
@@ -47,5 +47,5 @@ def test_words_that_do_not_fit_give_way_to_shorter_ones(stage: Stage) -> None:
 def test_progress_stays_within_its_bar(stage: Stage) -> None:
     lesson = stage.show(ShakeLesson(), (360, 260))
     for told, shown in ((-1.0, 0.0), (7.0, 1.0)):
-        lesson.tell("lr", doing=True, progress=told)
+        lesson.update("lr", doing=True, progress=told)
         assert lesson.progress == shown

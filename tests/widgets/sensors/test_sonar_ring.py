@@ -105,7 +105,7 @@ def test_the_same_ring_again_is_not_drawn_anew(view):
 def test_a_ring_of_any_number_of_sonars_is_drawn(stage, view, count):
     view.show(ring(*[1.0] * count, bearings=[0.1 * i for i in range(count + 2)]))
     stage.frames(2)
-    assert len(view.told[0]) == min(count, MAX_SONARS)
+    assert len(view.echoes[0]) == min(count, MAX_SONARS)
 
 
 def test_a_sonar_without_a_bearing_is_left_out(stage, view):

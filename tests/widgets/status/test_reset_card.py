@@ -44,7 +44,7 @@ def test_of_one_that_flies_it_is_said_that_its_rotors_are_off_then(card: Any) ->
 
 
 def test_a_second_tap_at_once_is_not_the_confirmation(stage: Stage, card: Any) -> None:
-    card.tell("Aqua-1 has sunk.")
+    card.notify("Aqua-1 has sunk.")
     stage.run_for(0.6)
     tap(stage, card.go)
     tap(stage, card.go)
@@ -76,7 +76,7 @@ def test_it_is_gone_when_the_robot_was_put_back(card: Any) -> None:
 
 
 def test_left_as_it_is_it_sends_nothing(stage: Stage, card: Any) -> None:
-    card.tell("Aqua-1 has sunk.")
+    card.notify("Aqua-1 has sunk.")
     stage.run_for(0.6)
     tap(stage, card.leave)
     assert (card.heard, card.open) == (["close"], False)
@@ -98,22 +98,22 @@ def test_an_event_that_is_no_alarm_opens_nothing(card: Any) -> None:
 def test_a_mishap_that_is_told_again_leaves_a_question_that_is_being_answered(
     stage: Stage, card: Any
 ) -> None:
-    card.tell("Aqua-1 has sunk.")
+    card.notify("Aqua-1 has sunk.")
     stage.run_for(0.6)
     tap(stage, card.go)
-    card.tell("Aqua-1 has sunk.")
+    card.notify("Aqua-1 has sunk.")
     assert card.headline == "Put Aqua-1 back to where it started?"
     stage.run_for(0.6)
     tap(stage, card.go)
     assert card.heard == ["reset"]
     card.answer("sent")
-    card.tell("Aqua-1 has sunk.")
+    card.notify("Aqua-1 has sunk.")
     assert card.sent
 
 
 def test_after_it_was_left_the_next_mishap_is_offered_anew(stage: Stage, card: Any) -> None:
-    card.tell("Aqua-1 has sunk.")
+    card.notify("Aqua-1 has sunk.")
     card.press()
     card.close()
-    card.tell("Aqua-1 has left tank.")
+    card.notify("Aqua-1 has left tank.")
     assert (card.open, card.asked, card.headline) == (True, False, "Aqua-1 has left tank.")

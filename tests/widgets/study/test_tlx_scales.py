@@ -82,20 +82,20 @@ def test_each_answer_is_told_with_its_order_and_its_time(tlx, clock):
 
 def test_the_time_for_which_it_was_put_away_is_in_no_answers_time(tlx, clock):
     clock.now = 101.0
-    tlx.put_away()
+    tlx.pause()
     clock.now = 150.0
-    tlx.put_away()
+    tlx.pause()
     clock.now = 161.0
-    tlx.take_up()
+    tlx.resume()
     clock.now = 163.0
-    tlx.take_up()
+    tlx.resume()
     tlx.rows["effort"].answer(20)
     assert tlx.seconds == {"effort": 3.0}
 
 
 def test_scales_without_an_answer_are_marked_and_named(tlx):
     tlx.rows["mental"].answer(0)
-    assert tlx.miss() == [name for key, (name, *_) in SCALES.items() if key != "mental"]
+    assert tlx.mark_unanswered() == [name for key, (name, *_) in SCALES.items() if key != "mental"]
     assert tlx.rows["effort"].figure == "no answer"
     tlx.rows["effort"].answer(5)
     assert not tlx.rows["effort"].lacking
@@ -113,7 +113,7 @@ def test_sentences_without_an_answer_are_told_by_their_number(clock):
     form = SusForm(clock)
     for item in list(form.rows.values())[1:]:
         item.answer(3)
-    assert form.miss() == ["1"]
+    assert form.mark_unanswered() == ["1"]
     assert form.rows["1"].lacking
 
 

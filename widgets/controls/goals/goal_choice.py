@@ -22,7 +22,7 @@ from bridge.msgs.geometry_msgs import (
 from bridge.msgs.nav_msgs import Path
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from bridge.msgs.std_msgs import Header
-from widgets.controls.goals.goal_status import Errand
+from widgets.controls.goals.goal_status import GoalStatus
 from widgets.core.base import Control
 from widgets.core.geometry import Points
 
@@ -84,7 +84,7 @@ class GoalChoice(Control):
     """By which a press moves the goal [m]."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self._errand = Errand()
+        self._status = GoalStatus()
         self._end: list[float] = []
         self._left: tuple[int, list[float]] = 0, []
         self._taken = False
@@ -108,7 +108,7 @@ class GoalChoice(Control):
 
     def _show_way(self, path: Path) -> None:
         places = [(one.pose.position.x, one.pose.position.y) for one in path.poses]
-        if not places and len(self.way) and not self._errand.heard and self.outcome == "accepted":
+        if not places and len(self.way) and not self._status.is_reported and self.outcome == "accepted":
             self.outcome = ""  # who says nothing of its tasks says only so that it has ended
         self.way = np.array(places, dtype=np.float64).reshape(-1, 2)
         yaw = path.poses[-1].pose.orientation.yaw if places else 0.0
@@ -117,27 +117,27 @@ class GoalChoice(Control):
         self._take_end()
 
     def _show_task(self, status: TaskStatus) -> None:
-        outcome = self._errand.hear(status)
+        outcome = self._status.on_status(status)
         if outcome is not None:
             self.outcome = outcome
         self._take_end()
 
     def _take_end(self) -> None:
         """Where the robot goes by somebody else's order is its goal here too, until one is set by a finger."""
-        if self._end and (self._taken or not self.wanted) and self._errand.adopt():
+        if self._end and (self._taken or not self.wanted) and self._status.adopt():
             self.wanted, self._taken = self._end, True
             if self.outcome not in UNDER_WAY:
                 self.outcome = "accepted"
 
     def _follow_up(self) -> None:
         """Keep in sight where the robot goes: the end of its way, or the goal that it had when another one was begun here."""
-        going = self._errand.going
+        going = self._status.going
         run, left = self._left
         now = (self._end or (left if run == going else [])) if going and self.wanted else []
         other = (
             bool(now)
             and self.outcome != "sent"
-            and going != self._errand.run
+            and going != self._status.run
             and math.dist(now[:2], self.wanted[:2]) > self.step / 2
         )
         self.followed = now if other else []
@@ -175,8 +175,8 @@ class GoalChoice(Control):
     def answer(self, outcome: str) -> None:
         """What became of the goal that was sent: `sent`, `accepted`, `refused` or `no_reply`; what the robot says of it comes by `show`."""
         if outcome == "refused":
-            self._errand.drop()
-        if outcome != "accepted" or not self._errand.run:  # what it does may be heard before its answer
+            self._status.forget()
+        if outcome != "accepted" or not self._status.run:  # what it does may be heard before its answer
             self.outcome = outcome
         self._follow_up()
 
@@ -186,7 +186,7 @@ class GoalChoice(Control):
             return
         if name == "go":
             self.outcome, self._taken = "sent", False
-            self._errand.ask()
+            self._status.on_sent()
             self.dispatch("on_command", self.goal)
         elif name == "here":
             self._want(self._snapped())
@@ -202,9 +202,9 @@ class GoalChoice(Control):
 
     def _want(self, place: list[float]) -> None:
         x, y = (max(-MAX_COORDINATE, min(MAX_COORDINATE, value)) + 0.0 for value in place[:2])
-        if self._errand.run:
-            self._left = self._errand.run, list(self.wanted)
-        self._errand.drop()
+        if self._status.run:
+            self._left = self._status.run, list(self.wanted)
+        self._status.forget()
         self._taken = False
         self.wanted, self.outcome = [x, y, math.remainder(place[2], math.tau)], ""
         self._follow_up()

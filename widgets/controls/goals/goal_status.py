@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bridge.msgs.pilothouse_msgs import TaskStatus
 
-__all__ = ["Errand"]
+__all__ = ["GoalStatus"]
 
 TASK = "go_to"
 OUTCOMES = {
@@ -18,7 +18,7 @@ OUTCOMES = {
 """State of a run to what it means for its goal."""
 
 
-class Errand:
+class GoalStatus:
     """One goal at a time. A run is its own when it began after the goal was sent, or was adopted."""
 
     def __init__(self) -> None:
@@ -29,16 +29,16 @@ class Errand:
         """Number of the run that is for the goal; 0 without one."""
 
     @property
-    def heard(self) -> bool:
+    def is_reported(self) -> bool:
         """The robot tells what it does."""
         return self._newest is not None
 
-    def ask(self) -> None:
+    def on_sent(self) -> None:
         """The goal was sent: the next run is for it, and the one of now is not."""
         self._before = self._newest.task_id if self._newest is not None else 0
         self._asked, self.run = True, 0
 
-    def drop(self) -> None:
+    def forget(self) -> None:
         """No run is for the goal: it was refused, or it is another goal now."""
         self._asked, self.run = False, 0
 
@@ -57,7 +57,7 @@ class Errand:
         self._asked, self.run = False, self.going
         return True
 
-    def hear(self, status: TaskStatus) -> str | None:
+    def on_status(self, status: TaskStatus) -> str | None:
         """How the goal stands: a value of `OUTCOMES`, `waiting`, or empty when the robot does something else by now.
 
         None: this tells nothing of the goal.

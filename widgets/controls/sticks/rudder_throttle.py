@@ -125,7 +125,7 @@ class RudderThrottle(Stick, Gauge):
     @property
     def throttle_words(self) -> str:
         """What is commanded, as in `60 % ahead`; `idle` at rest."""
-        if self._told:
+        if self._has_report:
             return f"task {self.throttle * 100:.0f} %" if math.isfinite(self.throttle) else "task"
         percent = round(self.forward * self.most * 100)
         return f"{abs(percent)} % {'ahead' if percent > 0 else 'astern'}" if percent else "idle"
@@ -134,13 +134,13 @@ class RudderThrottle(Stick, Gauge):
     def rudder_words(self) -> str:
         """What is commanded, as in `12° port`; `set amidships` at rest, where the rudder itself may still be on its way."""
         turned = self.left * self.max_steering
-        if self._told:
+        if self._has_report:
             turned = self.angle if math.isfinite(self.angle) else 0.0
         degrees = round(math.degrees(turned))
         return f"{abs(degrees)}° {'port' if degrees > 0 else 'starboard'}" if degrees else "set amidships"
 
     @property
-    def _told(self) -> bool:
+    def _has_report(self) -> bool:
         """What the boat does is said, and not what the hand does."""
         return bool(self.led) and not (self.forward or self.left)
 
@@ -205,7 +205,7 @@ class RudderThrottle(Stick, Gauge):
     def _figures(self) -> Iterator[Word]:
         left, top = self.x + self.edge, self.top - self.edge
         right = self.right - self.edge - (dp(18) if self.alarmed else 0)
-        colour = theme.plan if self._told else theme.text
+        colour = theme.plan if self._has_report else theme.text
         colour = colour if self.state != "disabled" else theme.faint
         size = sp(14)
         if self.roomy:
@@ -224,7 +224,7 @@ class RudderThrottle(Stick, Gauge):
             throttle.replace("ahead", "").replace("astern", "back"),
             rudder.replace("set amidships", "set 0°").replace("starboard", "stbd"),
         )
-        least = throttle if self._told else figure(self.forward * self.most * 100, 0) + " %", brief[1]
+        least = throttle if self._has_report else figure(self.forward * self.most * 100, 0) + " %", brief[1]
         for words in ((throttle, rudder), brief, least):
             for height in (size, sp(14), sp(12), sp(10.5)):
                 if height <= size and sum(wide(text, height, bold=True) for text in words) <= room:

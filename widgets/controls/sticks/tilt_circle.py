@@ -165,7 +165,7 @@ class TiltCircle(TiltStick, Gauge):
     def _below(self, shapes: Shapes, x: float, y: float) -> Iterator[Word]:
         """What it commands in a line, or its name."""
         room = self.width - 2 * self.edge - dp(6)
-        told = self._told()
+        told = self._command_words()
         words = (told,) if told else self._idle_words()
         size = sp(13)
         role = (
@@ -180,7 +180,7 @@ class TiltCircle(TiltStick, Gauge):
             ground(shapes, word, tint(theme.bg, 0.7))
         yield word
 
-    def _told(self) -> str:
+    def _command_words(self) -> str:
         """What it commands, as in `12° ahead · 5° left` or `40\u00a0% ahead`; empty where that is nothing, or next to it."""
         if self.in_shares:
             shares = (100 * self.forward, "ahead", "back"), (-100 * self.left, "right", "left")

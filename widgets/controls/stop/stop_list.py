@@ -1,7 +1,7 @@
 """What became of STOP ALL, robot by robot: SENT, STOPPED, NO ANSWER, and how many of them are stopped.
 
 result = StopList()
-result.tell(fleet.rows, fleet.stopped, fleet.total)
+result.update(fleet.rows, fleet.stopped, fleet.total)
 result.bind(on_command=lambda _: fleet.let_go(), on_close=lambda _: fold())
 """
 
@@ -166,8 +166,8 @@ class StopRow(BoxLayout):
     role = StringProperty("muted")
     icon = StringProperty("lock")
 
-    def take(self, robot: Stopped) -> None:
-        """Say what is known of it."""
+    def update(self, robot: Stopped) -> None:
+        """Show what is known of it."""
         self.title, self.detail = robot.name, robot.sentence
         self.word, self.role, self.icon = WORDS[robot.phase]
 
@@ -239,7 +239,7 @@ class StopList(Control, BoxLayout):
                 card.add_widget(part)
         self._measure()
 
-    def tell(
+    def update(
         self, robots: Iterable[Stopped], stopped: int, total: int, *, untried: int = 0, since: int = 0
     ) -> None:
         """Take over what is known, worst first; `untried` were too many, `since` came after the press."""
@@ -250,7 +250,7 @@ class StopList(Control, BoxLayout):
             self._rows.append(StopRow())
             self.ids.column.add_widget(self._rows[-1])
         for row, robot in zip(self._rows, robots, strict=True):
-            row.take(robot)
+            row.update(robot)
         self.title, self.all_stopped = f"STOPPED {stopped} of {total}", stopped == total
         worst = robots[0] if robots and robots[0].phase != "stopped" else None
         self.worst = f"{worst.name}: {WORDS[worst.phase][0]}" if worst is not None else ""
@@ -324,7 +324,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         def build() -> Widget:
             widget = StopList(size_hint=(None, None), size=("388dp", height))
             stopped = sum(robot.phase == "stopped" for robot in robots)
-            widget.tell(robots, stopped, len(robots) + kwargs.get("untried", 0), **kwargs)
+            widget.update(robots, stopped, len(robots) + kwargs.get("untried", 0), **kwargs)
             return widget
 
         return build
@@ -340,5 +340,5 @@ def samples() -> dict[str, Callable[[], Widget]]:
 
 def _folded() -> StopList:
     widget = StopList(size_hint=(None, None), size=("388dp", "69dp"), cramped=True, folded=True)
-    widget.tell(SOME, 2, 6)
+    widget.update(SOME, 2, 6)
     return widget

@@ -138,7 +138,7 @@ class PadPane(BoxLayout):
         state = states.get(self._name)
         self.standing.text = self._standing(state)
         if state is None:
-            self.picture.lose()
+            self.picture.clear()
         else:
             self._show(state)
 
@@ -160,7 +160,7 @@ class PadPane(BoxLayout):
         for button in state.buttons - set(self.buttons):
             self._row(button)
             self._write()
-        self.picture.tell(
+        self.picture.update(
             left=(state.forward, state.left),
             right=state.right,
             triggers=state.triggers,

@@ -146,7 +146,7 @@ class ShakePane(BoxLayout):
         if lesson is None:  # the app was in the background
             self.back()
             return
-        self.picture.tell(lesson.axis or "", doing=lesson.doing, progress=lesson.progress, beat=now)
+        self.picture.update(lesson.axis or "", doing=lesson.doing, progress=lesson.progress, beat=now)
         self.told.role = "warn" if self.shaking.problem or lesson.sentence else "muted"
         if lesson.over:
             self.told.text = "Done: that is how you shake. It is kept."

@@ -225,7 +225,7 @@ class VoicePane(BoxLayout):
         open_ = speaking.ready and speaking.listening
         meter.state = "alarm" if speaking.loud else "live" if open_ else "never"
         told = level if open_ else Level(-math.inf, math.nan, math.nan)
-        meter.tell(
+        meter.update(
             level=told.level, noise=told.noise, snr=told.snr, speaking=told.speaking, clipped=told.clipped
         )
         last = speaking.last

@@ -65,7 +65,7 @@ class FormView(Column):
             self.dispatch("on_done", math.nan)
 
     def _done(self) -> None:
-        lacking = self.sheet.miss()
+        lacking = self.sheet.mark_unanswered()
         if lacking:
             what = ", ".join(lacking)
             self.said.text = f"No answer yet: {what if self.form == 'tlx' else 'number ' + what}."

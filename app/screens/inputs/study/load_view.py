@@ -56,14 +56,14 @@ class LoadView(Column):
         self.form = begun or FormView(form, self._log, self._now)
         if begun is None:
             self.form.bind(on_done=lambda _, score: self._done(form, score))
-        self.form.sheet.take_up()
+        self.form.sheet.resume()
         self._lay()
 
     def back(self) -> bool:
         """Close the form that is open, which keeps its answers; False where none is."""
         if self.form is None:
             return False
-        self.form.sheet.put_away()
+        self.form.sheet.pause()
         if self.form.begun:
             self._begun[self.form.form] = self.form
         self.form = None

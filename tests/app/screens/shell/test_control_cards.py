@@ -344,7 +344,7 @@ def test_on_a_phone_one_card_at_a_time_is_shown_and_what_cannot_wait_comes_first
         anna_asks(driving, robot)
         driving.stage.run_for(0.3, COARSE)
         assert (shell.cards.mode.parent is None) == alone, size
-        shell.reset.card.tell("Patrol-1 has turned over.")
+        shell.reset.card.notify("Patrol-1 has turned over.")
         shell.cards.mode.open = False
         tell(robot, speed_cap=0.4, requested_by="", requested_by_id="")
         driving.until(lambda: shell.cards.handover.parent is None, "still asked")

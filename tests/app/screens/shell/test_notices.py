@@ -20,7 +20,7 @@ def test_a_card_is_neither_seen_nor_touched_before_it_has_its_place(stage: Stage
     notices.width = 560
     stage.frames(2)
     card = ResetCard(name="Aqua-1")
-    card.tell("Aqua-1 has sunk.")
+    card.notify("Aqua-1 has sunk.")
     for _ in range(2):  # the second time it is as it was left
         notices.keep(card, shown=True)
         assert off_the_glass(card)

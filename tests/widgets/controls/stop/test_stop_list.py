@@ -23,7 +23,7 @@ def rows(result):
 
 
 def test_each_robot_is_named_with_its_word_the_worst_first(stage, result):
-    result.tell(SOME, 2, 6)
+    result.update(SOME, 2, 6)
     assert result.title == "STOPPED 2 of 6"
     assert rows(result) == [
         ("Commander", "MOVES"),
@@ -37,8 +37,8 @@ def test_each_robot_is_named_with_its_word_the_worst_first(stage, result):
 
 
 def test_rows_leave_with_their_robots(stage, result):
-    result.tell(SOME, 2, 6)
-    result.tell(SOME[:1], 1, 1)
+    result.update(SOME, 2, 6)
+    result.update(SOME[:1], 1, 1)
     assert (rows(result), result.all_stopped) == ([("Patrol-1", "STOPPED")], True)
 
 
@@ -53,12 +53,12 @@ def test_rows_leave_with_their_robots(stage, result):
     ids=["stopped", "released", "no answer", "held by zero speed"],
 )
 def test_what_can_be_let_go_is_what_is_still_sent(result, robots, offer):
-    result.tell(robots, 0, 1)
+    result.update(robots, 0, 1)
     assert result.offer == offer
 
 
 def test_it_says_what_goes_on_and_who_was_too_many(result):
-    result.tell([SOME[3], SOME[5]], 1, 4, untried=2, since=1)
+    result.update([SOME[3], SOME[5]], 1, 4, untried=2, since=1)
     assert result.footnote == (
         "1 more came since: press STOP ALL again."
         " 2 more were too many to be tried. STOP goes on being sent until each one rests."
@@ -67,12 +67,12 @@ def test_it_says_what_goes_on_and_who_was_too_many(result):
 
 
 def test_when_nothing_is_sent_any_more_it_says_how_to_release(result):
-    result.tell(SOME[:1], 1, 1)
+    result.update(SOME[:1], 1, 1)
     assert result.footnote == "Release each one separately: connect to it, take control, and hold STOP."
 
 
 def test_letting_go_takes_a_hold_of_a_second(stage, result):
-    result.tell(SOME, 2, 6)
+    result.update(SOME, 2, 6)
     stage.frames(3)
     button = result.ids.release
     finger = stage.touch(*button.to_window(*button.center))
@@ -88,7 +88,7 @@ def test_letting_go_takes_a_hold_of_a_second(stage, result):
 
 
 def test_the_cross_folds_it_and_nothing_behind_it_gets_a_finger(stage, result):
-    result.tell(SOME, 2, 6)
+    result.update(SOME, 2, 6)
     stage.frames(3)
     beside = stage.touch(6, 6)  # within it, on nothing that can be pressed
     beside.touch_down()
@@ -100,7 +100,7 @@ def test_the_cross_folds_it_and_nothing_behind_it_gets_a_finger(stage, result):
 
 
 def test_it_knows_the_height_that_shows_every_row(stage, result):
-    result.tell(SOME, 2, 6)
+    result.update(SOME, 2, 6)
     stage.frames(3)
     result.height = result.wanted
     stage.frames(3)
@@ -108,7 +108,7 @@ def test_it_knows_the_height_that_shows_every_row(stage, result):
 
 
 def test_folded_it_is_one_line_that_names_the_worst(stage, result):
-    result.tell(SOME, 2, 6)
+    result.update(SOME, 2, 6)
     result.cramped = result.folded = True
     stage.frames(2)
     assert result.worst == "Commander: MOVES"
@@ -121,7 +121,7 @@ def test_folded_it_is_one_line_that_names_the_worst(stage, result):
 
 
 def test_a_frame_that_takes_long_is_no_hold(stage, result):
-    result.tell(SOME, 2, 6)
+    result.update(SOME, 2, 6)
     stage.frames(3)
     finger = stage.touch(*result.ids.release.to_window(*result.ids.release.center))
     finger.touch_down()
