@@ -119,7 +119,7 @@ class SendQueue:
             stream.waiting
             or self._writer.paused
             or room <= 0
-            or now >= window.late
+            or now >= window.stalls_at
             or (lanes.held and stream.lane >= lanes.holding)
         ):
             lanes.offer(stream, message)  # what those before it wait for lets it go as well

@@ -1,52 +1,47 @@
-"""How much may be on its way to one client, judged by WebSocket pings; without I/O.
+"""The number of bytes that may be under way to one client, judged by WebSocket pings; without I/O.
 
-A pong acknowledges everything that was sent before its ping, whoever the client is: browsers, roslibjs and roslibpy
-answer pings by themselves. What is sent and not acknowledged waits somewhere, mostly in buffers of kernels and
-routers, and a reply to STOP would wait behind it. So the window follows the delay: it grows while pongs come about as
-fast as they ever do and falls to what the link was seen to deliver once they come later. The same pings are the
-server's heartbeat.
+A pong acknowledges everything that was sent before its ping, whatever the client is: browsers, roslibjs and roslibpy answer
+pings by themselves. Bytes that are sent and not acknowledged wait somewhere, mostly in buffers of kernels and routers, and a
+reply to STOP would wait behind them. So the window follows the delay: it grows while pongs come about as fast as they ever do
+and falls to the link's measured throughput when they come later. The same pings are the server's heartbeat.
 """
 
 from __future__ import annotations
 
 import math
-import struct
-from collections import deque
 from typing import NamedTuple
 
-__all__ = ["CEILING", "DEAD", "FLOOR", "START", "SendWindow"]
+from bridge.server.flow.pending_pings import PendingPings
 
-START = 16_384
+__all__ = ["DEAD_TIMEOUT", "MAX_WINDOW", "MIN_WINDOW", "START_WINDOW", "SendWindow"]
+
+START_WINDOW = 16_384
 """The window before anything is known [byte]."""
-FLOOR = 4_096
+MIN_WINDOW = 4_096
 """The smallest window [byte]."""
-CEILING = 2_097_152
+MAX_WINDOW = 2_097_152
 """The largest window [byte]."""
-QUEUE = 0.012
-"""How long what is sent may wait on its way beyond what the way takes anyhow [s]."""
-SILENCE = 0.25
-"""A ping this much later than usual means that the client stands still [s]: it gets nothing until it answers."""
-PAUSE = 0.25
-"""Between two pings when little is sent [s]."""
-BEAT = 5.0
-"""Between two pings when nothing is sent [s]."""
-DEAD = 15.0
+MAX_QUEUE_DELAY = 0.012
+"""Longest time that bytes may wait on their way beyond the link's own delay [s]."""
+STALL_TIME = 0.25
+"""A ping that is this much later than usual means that the client stalls [s]: it gets nothing until it answers."""
+BUSY_PING_PERIOD = 0.25
+"""Time between two pings when little is sent [s]."""
+IDLE_PING_PERIOD = 5.0
+"""Time between two pings when nothing is sent [s]."""
+DEAD_TIMEOUT = 15.0
 """A client that leaves a ping unanswered for this long is gone [s]."""
-MEMORY = 30.0
-"""For how long the shortest way seen is believed in [s]; the way may have changed."""
-GENTLY = 0.125
-"""What of the bytes that arrive is added to the window once its end was met; before, all of them."""
-MAX_PINGS = 64
-"""How many may be unanswered at a time."""
-
-_NUMBER = struct.Struct("!Q")
+MIN_DELAY_LIFETIME = 30.0
+"""How long the shortest delay counts as the link's own [s]; the link may have changed."""
+CAREFUL_GAIN = 0.125
+"""Part of the acknowledged bytes that the window grows by once it has met its limit; before that, all of them."""
 
 
-class _Ping(NamedTuple):
-    number: int
+class _Sent(NamedTuple):
+    """The counters when a ping was sent."""
+
     sent: int
     acknowledged: int
-    at: float
 
 
 class SendWindow:
@@ -54,22 +49,21 @@ class SendWindow:
 
     def __init__(self, now: float) -> None:
         """`now` [s] is of any clock that only goes forward; the same for all methods."""
-        self.limit = START
+        self.limit = START_WINDOW
         """How much may be on its way [byte]."""
         self.sent = 0
         """All that was sent [byte]."""
         self.acknowledged = 0
         """Of that, what is known to have arrived [byte]."""
-        self._pings: deque[_Ping] = deque()
-        self._numbers = 0
+        self._pings: PendingPings[_Sent] = PendingPings()
         self._marked = 0
         self._last = -math.inf
-        self.late = math.inf
+        self.stalls_at = math.inf
         """From when on the client counts as standing still [s]: it gets nothing until it answers."""
-        self._way = math.inf
-        self._way_seen = now
-        self._usual = 0.0
-        self._settled = 0
+        self._min_delay = math.inf
+        self._min_delay_time = now
+        self._usual_rtt = 0.0
+        self._settled_bytes = 0
         self._gain = 1.0
 
     @property
@@ -79,7 +73,7 @@ class SendWindow:
 
     def has_room(self, now: float) -> bool:
         """Whether anything may be sent."""
-        return self.sent - self.acknowledged < self.limit and now < self.late
+        return self.sent - self.acknowledged < self.limit and now < self.stalls_at
 
     def fits(self, size: int) -> bool:
         """Whether a message of `size` [byte] may be sent: within the limit, or larger and with hardly any before it."""
@@ -90,60 +84,58 @@ class SendWindow:
         """Whether a ping must follow what was sent, or is due for its own sake; `waiting` is for what does not fit."""
         fresh = self.sent - self._marked
         if waiting and fresh > 0:
-            return len(self._pings) < MAX_PINGS
-        if fresh >= FLOOR and fresh >= self.limit >> 2:
-            return len(self._pings) < MAX_PINGS
+            return not self._pings.is_full
+        if fresh >= MIN_WINDOW and fresh >= self.limit >> 2:
+            return not self._pings.is_full
         if self._pings:
             return False
-        return now - self._last >= (PAUSE if fresh > 0 else BEAT)
+        return now - self._last >= (BUSY_PING_PERIOD if fresh > 0 else IDLE_PING_PERIOD)
 
     def ping(self, now: float) -> bytes:
         """Note that a ping is sent now, behind everything else; gives its content, 8 bytes."""
-        self._numbers += 1
         if not self._pings:
-            self.late = now + SILENCE + 4 * self._usual
-        self._pings.append(_Ping(self._numbers, self.sent, self.acknowledged, now))
+            self.stalls_at = now + STALL_TIME + 4 * self._usual_rtt
         self._marked = self.sent
         self._last = now
-        return _NUMBER.pack(self._numbers)
+        return self._pings.send(now, _Sent(self.sent, self.acknowledged))
 
     def on_pong(self, content: bytes, now: float) -> bool:
         """Take the answer to a ping in, which answers all before it as well; False when it is none of ours."""
-        number = _NUMBER.unpack(content)[0] if len(content) == _NUMBER.size else 0
-        if not self._pings or not self._pings[0].number <= number <= self._pings[-1].number:
+        ping = self._pings.on_pong(content)
+        if ping is None:
             return False
-        ping = self._pings.popleft()
-        while ping.number != number:
-            ping = self._pings.popleft()
+        then = ping.note
         full = 2 * self.under_way >= self.limit
-        fresh = ping.sent - self.acknowledged
-        self.acknowledged = ping.sent
-        took = max(now - ping.at, 1e-6)
-        self._usual += (took - self._usual) / 8 if self._usual else took
-        self.late = self._pings[0].at + SILENCE + 4 * self._usual if self._pings else math.inf
-        self._update_minimum(took, now)
-        self._adjust(ping, took, fresh if full else 0)
+        fresh = then.sent - self.acknowledged
+        self.acknowledged = then.sent
+        took = max(now - ping.sent, 1e-6)
+        self._usual_rtt += (took - self._usual_rtt) / 8 if self._usual_rtt else took
+        self.stalls_at = self._pings.oldest + STALL_TIME + 4 * self._usual_rtt if self._pings else math.inf
+        self._update_min_delay(took, now)
+        self._adjust(then, took, fresh if full else 0)
         return True
 
     def is_dead(self, now: float) -> bool:
         """Whether a ping went unanswered for too long."""
-        return bool(self._pings) and now - self._pings[0].at >= DEAD
+        return bool(self._pings) and now - self._pings.oldest >= DEAD_TIMEOUT
 
-    def _update_minimum(self, took: float, now: float) -> None:
+    def _update_min_delay(self, took: float, now: float) -> None:
         """Keep the shortest time that a ping ever took; after a while drain the way and look anew."""
-        if took <= self._way:
-            self._way, self._way_seen = took, now
-        elif now - self._way_seen > MEMORY:
-            self._way, self._way_seen = took, now
-            self.limit, self._gain = FLOOR, 1.0
+        if took <= self._min_delay:
+            self._min_delay, self._min_delay_time = took, now
+        elif now - self._min_delay_time > MIN_DELAY_LIFETIME:
+            self._min_delay, self._min_delay_time = took, now
+            self.limit, self._gain = MIN_WINDOW, 1.0
 
-    def _adjust(self, ping: _Ping, took: float, fresh: int) -> None:
-        waited = took - self._way
-        if waited > QUEUE:
-            self._gain = GENTLY
-            if ping.acknowledged >= self._settled:
-                arrived = ping.sent - ping.acknowledged
-                self.limit = max(FLOOR, min(self.limit, int(arrived / took * (self._way + QUEUE / 2))))
-                self._settled = self.sent
-        elif waited < QUEUE / 2:
-            self.limit = min(CEILING, self.limit + int(fresh * self._gain))
+    def _adjust(self, then: _Sent, took: float, fresh: int) -> None:
+        waited = took - self._min_delay
+        if waited > MAX_QUEUE_DELAY:
+            self._gain = CAREFUL_GAIN
+            if then.acknowledged >= self._settled_bytes:
+                arrived = then.sent - then.acknowledged
+                self.limit = max(
+                    MIN_WINDOW, min(self.limit, int(arrived / took * (self._min_delay + MAX_QUEUE_DELAY / 2)))
+                )
+                self._settled_bytes = self.sent
+        elif waited < MAX_QUEUE_DELAY / 2:
+            self.limit = min(MAX_WINDOW, self.limit + int(fresh * self._gain))

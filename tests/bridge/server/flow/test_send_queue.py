@@ -12,7 +12,7 @@ from bridge.protocol import Subscribed
 from bridge.server.flow.outgoing_messages import OutgoingMessage
 from bridge.server.flow.priority_lanes import MAX_FRAMES, Lane, Stream
 from bridge.server.flow.send_queue import SendQueue, WriteBatch
-from bridge.server.flow.send_window import DEAD, PAUSE, START
+from bridge.server.flow.send_window import BUSY_PING_PERIOD, DEAD_TIMEOUT, START_WINDOW
 from tests.bridge.wires import Clock
 from tests.bridge.ws_frames import frames
 
@@ -240,7 +240,7 @@ async def test_what_is_under_way_stays_within_the_window(bench):
     for value in range(2000):
         bench.queue.offer(odom, number(value))
         bench.step()
-    assert bench.queue.window.under_way < START + 200
+    assert bench.queue.window.under_way < START_WINDOW + 200
 
 
 async def test_a_throttled_topic_comes_with_its_newest_message_by_itself(bench):
@@ -282,7 +282,7 @@ async def test_what_is_forgotten_is_not_sent(bench):
 async def test_who_gives_no_sign_of_life_is_cut_off(bench):
     bench.queue.check_alive()
     assert len(bench.writer.unanswered) == 1
-    bench.clock.time += DEAD - 1
+    bench.clock.time += DEAD_TIMEOUT - 1
     bench.queue.check_alive()
     assert bench.writer.is_open
     bench.clock.time += 2
@@ -315,7 +315,7 @@ async def test_what_no_longer_fits_when_the_window_falls_is_pinged_for(bench):
     bench.clock.time += 0.001
     bench.answer()  # a quick way
     bench.queue.window.limit = 40_000
-    bench.clock.time += PAUSE
+    bench.clock.time += BUSY_PING_PERIOD
     for length in (6000, 7000):
         bench.queue.send(Lane.REPLY, text_of(length))
         bench.step()
@@ -335,7 +335,7 @@ async def test_what_does_not_fit_waits_until_the_way_is_nearly_empty_and_is_ping
     for _ in range(3):
         bench.queue.send(Lane.REPLY, text_of(1000))
     grid, odom = stream("/map", Lane.BULK), stream(queue=9)
-    bench.queue.offer(grid, OutgoingMessage("/map", String("x" * 2 * START)))
+    bench.queue.offer(grid, OutgoingMessage("/map", String("x" * 2 * START_WINDOW)))
     bench.step()
     assert len(bench.writer.heard) == 3
     bench.queue.send(Lane.REPLY, text_of(300))
@@ -353,7 +353,7 @@ async def test_a_sample_passes_a_map_that_waits_for_room_and_other_maps_do_not(b
     for length in (2000, 2000):
         bench.queue.send(Lane.REPLY, text_of(length))
     first, second = stream("/map", Lane.BULK), stream("/costs", Lane.BULK)
-    bench.queue.offer(first, OutgoingMessage("/map", String("x" * 2 * START)))
+    bench.queue.offer(first, OutgoingMessage("/map", String("x" * 2 * START_WINDOW)))
     bench.queue.offer(second, number(1))
     bench.queue.offer(stream(), number(2))
     bench.step()
@@ -366,11 +366,11 @@ async def test_a_map_gets_its_turn_among_samples_without_end(bench):
     grid, odom = stream("/map", Lane.BULK), stream()
     bench.queue.offer(odom, number(0))
     bench.queue.send(Lane.REPLY, text_of(4000))
-    bench.queue.offer(grid, OutgoingMessage("/map", String("x" * 2 * START)))
+    bench.queue.offer(grid, OutgoingMessage("/map", String("x" * 2 * START_WINDOW)))
     for value in range(40):
         bench.queue.offer(odom, number(value))
         bench.step()
         if bench.writer.unanswered:
             bench.queue.on_pong(bench.writer.unanswered.pop(0))
             bench.step()
-    assert max(map(len, bench.writer.heard)) > START
+    assert max(map(len, bench.writer.heard)) > START_WINDOW

@@ -6,7 +6,14 @@ from collections import deque
 
 import pytest
 
-from bridge.server.flow.send_window import CEILING, DEAD, FLOOR, MEMORY, START, SendWindow
+from bridge.server.flow.send_window import (
+    DEAD_TIMEOUT,
+    MAX_WINDOW,
+    MIN_DELAY_LIFETIME,
+    MIN_WINDOW,
+    START_WINDOW,
+    SendWindow,
+)
 
 
 class Link:
@@ -71,7 +78,7 @@ def test_a_pong_that_nobody_asked_for_changes_nothing(content):
 
 def test_there_is_no_room_once_the_window_is_full_and_again_when_it_is_acknowledged():
     window = SendWindow(0.0)
-    window.sent += START
+    window.sent += START_WINDOW
     assert not window.has_room(0.0)
     assert window.needs_ping(0.0)
     window.on_pong(window.ping(0.0), 0.001)
@@ -94,13 +101,13 @@ def test_on_a_slow_link_no_more_than_the_floor_waits():
     link.flood(5.0)
     link.worst = 0.0
     link.flood(5.0)
-    assert link.worst * 100_000 < FLOOR + 1000
+    assert link.worst * 100_000 < MIN_WINDOW + 1000
 
 
 def test_there_is_an_end_to_the_window_of_a_fast_link():
     link = Link(1e12, 0.00001)
     link.flood(0.01)
-    assert link.window.limit == CEILING
+    assert link.window.limit == MAX_WINDOW
 
 
 def test_a_window_that_is_not_full_does_not_grow():
@@ -111,7 +118,7 @@ def test_a_window_that_is_not_full_does_not_grow():
             link.now, content = link.pongs.popleft()
             link.window.on_pong(content, link.now)
         link.now += 0.3
-    assert link.window.limit == START
+    assert link.window.limit == START_WINDOW
 
 
 def test_a_link_that_became_longer_for_good_is_used_again():
@@ -151,16 +158,16 @@ def test_who_leaves_a_ping_unanswered_for_long_is_dead():
     window = SendWindow(0.0)
     assert not window.is_dead(100.0)
     window.ping(100.0)
-    assert not window.is_dead(100.0 + DEAD - 0.1)
-    assert window.is_dead(100.0 + DEAD)
+    assert not window.is_dead(100.0 + DEAD_TIMEOUT - 0.1)
+    assert window.is_dead(100.0 + DEAD_TIMEOUT)
 
 
 def test_a_message_beyond_the_limit_goes_only_when_hardly_anything_is_before_it():
     window = SendWindow(0.0)
-    assert window.fits(10 * START)
-    window.sent += START // 4
-    assert window.fits(START // 2)
-    assert not window.fits(START)
+    assert window.fits(10 * START_WINDOW)
+    window.sent += START_WINDOW // 4
+    assert window.fits(START_WINDOW // 2)
+    assert not window.fits(START_WINDOW)
     assert not window.needs_ping(0.0) or window.ping(0.0)
     window.sent += 10
     assert window.needs_ping(0.0, waiting=True)
@@ -179,8 +186,8 @@ def test_after_a_while_of_longer_ways_the_way_is_drained_and_looked_at_anew():
         window.on_pong(content, now)
         return full
 
-    while now < MEMORY:
+    while now < MIN_DELAY_LIFETIME:
         fill()
-        assert window.limit < START
-    assert fill() + FLOOR == window.limit
+        assert window.limit < START_WINDOW
+    assert fill() + MIN_WINDOW == window.limit
     assert 2 * fill() == window.limit

@@ -12,7 +12,7 @@ from bridge.msgs.arrays import Float32Array
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header
-from bridge.server.flow.send_window import START
+from bridge.server.flow.send_window import START_WINDOW
 from tests.bridge.peers import peer
 from tests.bridge.server.test_rosbridge_session import House, said
 from tests.bridge.wires import server, wire
@@ -35,7 +35,7 @@ async def test_stop_is_answered_before_the_samples_that_had_to_wait():
         while (heard := await far.hear()).get("id") != "stop":
             before += 1
             assert heard["op"] == "publish"
-        assert before < 2 * START // 700
+        assert before < 2 * START_WINDOW // 700
 
 
 async def test_who_stood_still_continues_with_the_newest():
@@ -50,7 +50,7 @@ async def test_who_stood_still_continues_with_the_newest():
         numbers = [-1]
         while numbers[-1] != 2999:
             numbers.append(int((await far.hear())["msg"]["header"]["frame_id"]))
-        assert len(numbers) < 2 * START // 700
+        assert len(numbers) < 2 * START_WINDOW // 700
 
 
 async def test_pictures_for_who_stands_still_are_not_piled_up():
