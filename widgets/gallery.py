@@ -1,4 +1,4 @@
-"""Every widget in every state: in a window to try, or as pictures with a page that shows them."""
+"""Gallery of every widget in every state: a window to try them in, or pictures with a page that shows them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What can be done with a robot at once, as a column of large buttons.
+"""Column of large buttons for what a robot can do at once.
 
 column = ActionColumn(actions=[Action("task.surface", "Surface", "water"), Action("lights", "Lights", "lightbulb")])
 column.bind(on_action=lambda _, name: commands.ask(name))

@@ -1,4 +1,4 @@
-"""The course that a boat keeps: commanded against actual heading, north up.
+"""Course dial of a boat: commanded against actual heading, north up.
 
 A finger drags its mark, or rests on the rim until there is one, and lets go to set it; a touch in passing sets nothing.
 

@@ -1,4 +1,4 @@
-"""A cross that says where a finger would touch, moved in steps by who has none free.
+"""Crosshair that moves in steps and marks the place of the next touch, for hands that cannot point.
 
 cross = Crosshair(at=(120, 80), holds=True)
 """

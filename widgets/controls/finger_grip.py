@@ -1,4 +1,4 @@
-"""A control that one finger holds: it follows the finger that came down on it and no other, and knows when that is lost.
+"""Base of controls that one finger holds: they follow the finger that came down on them and no other.
 
 class Slider(Grip, Drawing):
     def holds(self, x, y): return True

@@ -1,4 +1,4 @@
-"""A dial for a direction: a finger turns the needle, the robot's own heading is drawn beside it.
+"""Dial for a direction: a finger turns the needle, the robot's own heading is drawn beside it.
 
 dial = HeadingDial()
 robot.on("/pose", dial.show)

@@ -1,4 +1,4 @@
-"""Something that is done by holding: how long a finger has stayed, counted by the frames that were really drawn.
+"""Progress of a press that has to be held, counted by the frames that were really drawn.
 
 class Release(Hold, QuietButton): ...
 release.bind(on_held_long=lambda _: unlatch())

@@ -1,4 +1,4 @@
-"""How to patrol: the motion, the dwell, the laps, and whether an intruder stops it.
+"""Settings of a patrol: the motion, the dwell, the laps, and whether an intruder stops it.
 
 motion = MotionSelector()
 motion.show(mission)

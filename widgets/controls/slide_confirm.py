@@ -1,4 +1,4 @@
-"""A knob to slide to the other end: for what must not be done by a touch in passing, as taking off.
+"""Knob to slide to the other end, for what must not start by a touch in passing, such as taking off.
 
 take_off = SlideToConfirm(text="take off", icon="arrow_upward")
 take_off.bind(on_confirm=lambda _: commands.give("task.take_off"))

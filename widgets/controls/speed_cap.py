@@ -1,4 +1,4 @@
-"""How much of its speed the robot is left by the driver's link, and the switch for that.
+"""Speed that the link's latency leaves to the driver, and the switch for that limit.
 
 cap = SpeedCap()
 robot.on("/control/status", cap.show)

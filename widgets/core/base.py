@@ -1,4 +1,4 @@
-"""What every robot widget has: a state with a look of its own, an age, and the message types it takes or gives.
+"""Base of every robot widget: a state with an appearance of its own, an age, and the message types it takes or sends.
 
 class Altimeter(RobotWidget):
     accepts = (Range,)

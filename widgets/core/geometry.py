@@ -1,4 +1,4 @@
-"""The arithmetic behind the instruments: dials, tapes, laser sweeps, views of a map. No Kivy in here.
+"""Geometry of the instruments: dials, tapes, laser sweeps, views of a map. No Kivy in here.
 
 Screen coordinates are Kivy's: pixels, x to the right, y up. World coordinates are the `map` frame's: metres,
 x east, y north. A colour is four floats, red, green, blue, alpha, 0 to 1.

@@ -1,4 +1,4 @@
-"""The arithmetic behind the small sensors: where a line is, which way a ranger looks, how a place lies. No Kivy in here."""
+"""Geometry of the small sensors: the offset of a line, the aim of a ranger, distances in words. No Kivy in here."""
 
 from __future__ import annotations
 

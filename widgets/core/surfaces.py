@@ -1,4 +1,4 @@
-"""What cards, rows, buttons and bars lie on: a ground within a border, or glass over a picture. Colours are named by role.
+"""Surfaces of cards, rows, buttons and bars: a ground within a border, or glass over a picture.
 
 class Tile(Outlined, BoxLayout): ...
 <Tile>:

@@ -1,4 +1,4 @@
-"""Tasks in words: what each is called, what it needs, and the sentence that says what will happen. Knows no Kivy.
+"""Words of tasks: their names, what each needs, and the sentence about what will happen. Knows no Kivy.
 
 will(TaskOrder(task="go_to", places=["Lab"]))  # 'Goes to Lab and stays there.'
 """

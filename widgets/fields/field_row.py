@@ -1,4 +1,4 @@
-"""One line of a tree of fields, and how much room its texts take."""
+"""Row of a tree of fields, and the room that its texts take."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Messages to show what a tree of fields looks like: from small to large, and one of a type that nobody knew."""
+"""Sample messages for a tree of fields: from small to large, and one of a type that was unknown."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Any message as a tree of its fields: names, values with their units, types; a tap folds what has parts.
+"""Any message as a tree of its fields: names, values with their units, types; a tap folds a branch.
 
 view = FieldView(type=Imu)
 robot.on("/imu/data", view.show)

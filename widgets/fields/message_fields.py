@@ -1,4 +1,4 @@
-"""What the fields of a message look like in words: rows of a tree, figures, summaries of arrays. No Kivy."""
+"""Fields of a message in words: rows of a tree, figures, summaries of arrays. No Kivy."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Keys, pads, switches, shakes and voices, as pictures and tests."""
+"""Input methods as pictures, help, tests and lessons: keys, pads, switches, shakes, voices."""

@@ -1,4 +1,4 @@
-"""What the keys of a keyboard and the buttons of a gamepad do, as caps beside words, in columns that fit the room.
+"""Help for the keys of a keyboard and the buttons of a gamepad: caps beside words, in columns that fit the room.
 
 help = KeyHelp()
 help.groups = [("Driving", [(["W", "A", "S", "D"], "Drive while held")])]

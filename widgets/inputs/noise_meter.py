@@ -1,4 +1,4 @@
-"""How loud it is where one speaks: level, noise, how far a voice has to stand over it, and what was understood last.
+"""Noise where one speaks: level, noise, the distance that a voice needs from it, and the words understood last.
 
 meter = NoiseMeter()
 meter.update(level=-28.0, noise=-52.0, snr=24.0)           # dB over full scale, and dB of speech over noise

@@ -1,4 +1,4 @@
-"""A gamepad as it is now: how far its sticks and triggers are pushed, which buttons are down, and how wide its dead zone is.
+"""Picture of a gamepad as it is now: sticks, triggers, pressed buttons, and the width of its dead zone.
 
 picture = PadPicture()
 picture.update(left=(0.5, 0.0), triggers=(0.0, 1.0), down={"a"}, dead_zone=0.12)

@@ -1,4 +1,4 @@
-"""A sign to press a switch at, as large as the eye cannot miss, and what came of the press.
+"""Sign to press a switch at, too large to be missed, and the result of the press.
 
 test = ReactionTest()
 test.phase, test.count, test.total = "go", 3, 8

@@ -1,4 +1,4 @@
-"""A keyboard for two switches: rows of letters, the frequent ones first, and whole words that are likely.
+"""Keyboard for two switches: rows of letters, the frequent ones first, and whole words that are likely.
 
 keyboard = ScanKeyboard(title="Search", text="of", words=["Office 12", "Lab"])
 keyboard.bind(on_type=lambda _, text: field.setter("text")(field, text), on_enter=lambda _: field.dispatch("on_text_validate"))

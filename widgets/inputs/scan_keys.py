@@ -1,4 +1,4 @@
-"""What the keyboard for switches has on its keys: the frequent letters where few steps lead, and words that are likely.
+"""Layout of the keyboard for switches: the frequent letters few steps away, and words that are likely.
 
 A row and a key in it are stepped to: the key in row r and column c costs r + c steps and two presses.
 """

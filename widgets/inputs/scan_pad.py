@@ -1,4 +1,4 @@
-"""Steps for what takes more than a press, as large buttons on a card: what two switches need to work a map or a stick.
+"""Steps for what takes more than a press, as large buttons: two switches work a map or a stick with them.
 
 pad = ScanPad(title="Map", rows=[[PadKey("up", "Up", "arrow_upward", repeats=True)], [PadKey("done", "Done", "check")]])
 pad.bind(on_key=lambda _, name: print(name))

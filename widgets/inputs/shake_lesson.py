@@ -1,4 +1,4 @@
-"""How to shake, as a moving picture: a phone that goes to and fro the way the hand should, how far the lesson is, and its words.
+"""Lesson in shaking as a moving picture: a phone that goes to and fro as the hand should, and the progress.
 
 lesson = ShakeLesson()
 lesson.update("lr", doing=True, progress=0.2, beat=0.7)     # beat [s]: where the phone is drawn, from the clock

@@ -1,1 +1,1 @@
-"""A robot's motion, attitude and condition."""
+"""Instruments: motion, attitude and condition of a robot."""

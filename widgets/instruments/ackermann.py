@@ -1,4 +1,4 @@
-"""How a truck drives, seen from above: the steered wheels, how fast each one rolls, the way it goes with them.
+"""Steering of a truck seen from above: the steered wheels, the speed of each, and the path they lead to.
 
 drive = AckermannView(title="Steering")
 robot.on("/ackermann", drive.show)

@@ -1,4 +1,4 @@
-"""The battery: how full, for how long still, and whether that is enough.
+"""Battery: charge, time left, and whether that is enough.
 
 battery = Battery()
 robot.on("/battery_state", battery.show)

@@ -1,4 +1,4 @@
-"""What a robot follows now, in figures: how fast ahead, up and round, and what it is to hold.
+"""Commanded motion in figures: speed ahead, up and round, and what is held.
 
 motion = CommandedMotion()
 robot.on("/manoeuvre", motion.show)

@@ -1,4 +1,4 @@
-"""A compass card: it turns under a fixed pointer, and says the heading in the middle.
+"""Compass card that turns under a fixed pointer, with the heading in the middle.
 
 compass = Compass()
 robot.on("/imu/data", compass.show)

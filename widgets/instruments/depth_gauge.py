@@ -1,4 +1,4 @@
-"""How deep a vehicle is, between the surface and the end of a scale, and how deep it is to be.
+"""Depth of a vehicle between the surface and the end of a scale, and the depth that is commanded.
 
 depth = DepthGauge()
 robot.on("/depth", depth.show)

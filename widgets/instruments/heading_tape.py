@@ -1,4 +1,4 @@
-"""A strip of headings that runs past a fixed pointer, for the top of a video picture.
+"""Strip of headings that runs past a fixed pointer, for the top of a video picture.
 
 tape = HeadingTape()
 robot.on("/imu/data", tape.show)

@@ -1,4 +1,4 @@
-"""How high something flies above the ground under it, how fast it climbs, and whether it is in the air at all.
+"""Height above the ground, climb rate, and whether the vehicle is in the air at all.
 
 height = HeightTape()
 robot.on("/flight", height.show)

@@ -1,4 +1,4 @@
-"""An artificial horizon: what roll and pitch look like from the cockpit.
+"""Artificial horizon: roll and pitch as seen from the cockpit.
 
 horizon = ArtificialHorizon()
 robot.on("/imu/data", horizon.show)

@@ -1,4 +1,4 @@
-"""The legs of a walker or swimmer: where each one points and how warm its motor is.
+"""Legs of a walker or swimmer: the angle of each one and the temperature of its motor.
 
 legs = LegPanel()
 robot.on("/joint_states", legs.show)

@@ -1,4 +1,4 @@
-"""The link to the robot in one chip: round trip, how many answers were lost, in words when it is down.
+"""Link to the robot in one chip: round trip, lost answers, and a word when it is down.
 
 link = LinkQuality()
 link.rtt, link.lost, link.state = client.rtt, client.lost, "live"

@@ -1,4 +1,4 @@
-"""One figure of a robot: its name, the value big, the unit small.
+"""Single figure of a robot: its name, the value big, the unit small.
 
 speed = Readout(name="Speed", unit="m/s", path="twist.twist.linear.x")
 robot.on("/odom", speed.show)

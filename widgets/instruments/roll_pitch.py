@@ -1,4 +1,4 @@
-"""How a boat lies in the waves: from astern for roll, from its right side for pitch, and how far both went lately.
+"""Attitude of a boat in the waves: roll from astern, pitch from its right side, and the range of both lately.
 
 lie = RollPitch()
 robot.on("/compass", lie.show)

@@ -1,4 +1,4 @@
-"""The rotors of something that flies, seen from above: how fast each turns and how warm its motor is.
+"""Rotors seen from above: the speed of each and the temperature of its motor.
 
 rotors = RotorSpeeds()
 robot.on("/motors", rotors.show)

@@ -1,1 +1,1 @@
-"""Maps and what is drawn on them."""
+"""Maps and the marks on them."""

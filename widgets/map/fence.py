@@ -1,4 +1,4 @@
-"""The fence that a robot reports: its lines on a map, and the places that the robot would refuse. No Kivy in here.
+"""Fence that a robot reports: its lines on a map, and the places that the robot would refuse. No Kivy in here.
 
 The robot judges by itself (`/limits`, docs/bridge.md); this says beforehand, in its words, what it is going to say.
 """

@@ -1,4 +1,4 @@
-"""How the fence is drawn on a map: an edge with teeth towards where the robot never is, hatching where it never enters.
+"""Drawing of a fence: an edge with teeth towards where the robot never goes, hatching where it never enters.
 
 Shape tells the two apart and not colour, in every theme. Sizes on the screen do not depend on the zoom.
 """

@@ -1,4 +1,4 @@
-"""A map over aerial pictures from an MBTiles file; nothing is ever asked of the internet.
+"""Map over aerial pictures from an MBTiles file; nothing is requested from the internet.
 
 map = GeoMap(tiles="parking_lot.mbtiles", datum=Datum(45.5069, -73.579))
 robot.on("/pose", map.show)

@@ -1,4 +1,4 @@
-"""A map of the robot's own world in metres: its occupancy grid, or a plain squared ground where it has none.
+"""Map of the robot's own world in metres: its occupancy grid, or a plain squared ground where it has none.
 
 map = GridMap(mode="points")
 robot.on("/map", map.show), robot.on("/pose", map.show)

@@ -1,4 +1,4 @@
-"""What fingers do on a map: pan, pinch, wheel, tap, and drag what can be dragged.
+"""Gestures on a map: pan, pinch, wheel, tap, and drag what can be dragged.
 
 A mixin for `MapOverlay`. It follows its own fingers only: one that came down elsewhere is not its business.
 """

@@ -1,4 +1,4 @@
-"""What is drawn on a map: robot, trail, plan, waypoints, home, intruders, laser points, scale bar.
+"""Marks on a map: robot, trail, plan, waypoints, home, intruders, laser points, scale bar.
 
 Each function puts one kind of mark into `Shapes` or gives its `Word`s. Places are in `map` [m], sizes on
 the screen do not depend on the zoom.

@@ -1,4 +1,4 @@
-"""What every map shows above its ground, and how it is looked at; `GridMap` and `GeoMap` add the ground.
+"""Overlay of every map: all that is drawn above its ground; `GridMap` and `GeoMap` add the ground.
 
 map.waypoints = [(2.0, 1.0), (8.0, 1.0)]
 map.bind(on_add=lambda _, x, y: map.waypoints.append((x, y)))

@@ -1,1 +1,1 @@
-"""The kit of buttons, rows, cards, labels and fields that widgets and screens are built of."""
+"""Parts that widgets and screens are built of: buttons, rows, cards, labels, fields."""

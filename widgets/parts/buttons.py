@@ -1,4 +1,4 @@
-"""Things to press: one main button on a card, quiet ones beside it, icons, the entries of a navigation rail."""
+"""Buttons: one main button on a card, quiet ones beside it, icons, the entries of a navigation rail."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What holds other things: cards, banners that say one sentence, the sheet for the thumb."""
+"""Cards that hold other things, banners with one sentence, and the sheet for the thumb."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Things to choose: one of several, on or off."""
+"""Choices: one of several, on or off."""
 
 from __future__ import annotations
 

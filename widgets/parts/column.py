@@ -1,4 +1,4 @@
-"""Things one below the other, or in columns side by side, as high as they are together."""
+"""Columns: widgets one below the other, or side by side, as high as they are together."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The kit that screens are built of, in one place: `from widgets.kit import Card, Chip, PrimaryButton`."""
+"""Kit that screens are built of, in one place: `from widgets.parts.kit import Card, Chip, PrimaryButton`."""
 
 from __future__ import annotations
 

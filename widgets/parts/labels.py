@@ -1,4 +1,4 @@
-"""Text on the glass: plain text, icons, section labels, values with their unit, chips."""
+"""Labels: plain text, icons, section labels, values with their unit, chips."""
 
 from __future__ import annotations
 

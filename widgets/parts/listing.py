@@ -1,4 +1,4 @@
-"""Rows in a column that scrolls, or a sentence where there are none: what the lists of one kind of thing are made of.
+"""Rows in a column that scrolls, or a sentence where there are none: the base of lists of one kind of thing.
 
 class MissionList(Listing):
     def _build(self, *_): self.fill(self._row(mission) for mission in self.missions)

@@ -1,4 +1,4 @@
-"""The robot's own settings: a switch each, with what it does.
+"""Settings of the robot itself: a switch each, with what it does.
 
 options = OptionList()
 robot.on("/control/status", options.show)

@@ -1,4 +1,4 @@
-"""What the small sensors' pictures have in common: a card, a name, and a brief form for where there is little height.
+"""Base of the small sensors' pictures: a card, a name, and a brief form for little height.
 
 class LineSensorView(Gauge):
     def marks(self, shapes): yield Word(…)

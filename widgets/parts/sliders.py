@@ -1,4 +1,4 @@
-"""How far something is, and how much of something is wanted."""
+"""Sliders: the progress of something, or an amount to set."""
 
 from __future__ import annotations
 

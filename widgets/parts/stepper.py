@@ -1,4 +1,4 @@
-"""A number that is counted up and down."""
+"""Stepper: a number that is counted up and down."""
 
 from __future__ import annotations
 

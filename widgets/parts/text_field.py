@@ -1,4 +1,4 @@
-"""A line to type into."""
+"""Line of text to type into."""
 
 from __future__ import annotations
 

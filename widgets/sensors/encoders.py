@@ -1,4 +1,4 @@
-"""Wheel encoders: how fast each wheel turns, and how far it has turned.
+"""Wheel encoders: the speed of each wheel, and how far it has turned.
 
 wheels = EncodersView(title="Encoders")
 robot.on("/joint_states", wheels.show)

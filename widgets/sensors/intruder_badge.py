@@ -1,4 +1,4 @@
-"""How many intruders were found, and the last one: how far, where, when.
+"""Intruders found: their number, and the distance, direction and age of the last one.
 
 badge = IntruderBadge()
 robot.on("/intruders", badge.show)

@@ -1,4 +1,4 @@
-"""A laser sweep seen from above: what is free, what is near, and how near.
+"""Laser sweep seen from above: free space, near obstacles, and the least distance.
 
 laser = LaserScanView(title="Front laser")
 robot.on("/scan", laser.show)

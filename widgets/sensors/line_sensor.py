@@ -1,4 +1,4 @@
-"""The cells of a line sensor as bright as the ground under them, and where the line is.
+"""Cells of a line sensor as bright as the ground under them, and the offset of the line.
 
 line = LineSensorView(title="Line")
 robot.on("/line_sensor", line.show)

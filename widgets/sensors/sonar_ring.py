@@ -1,4 +1,4 @@
-"""A ring of sonars seen from above, with the bumper ring round the robot: how far it is clear on every side.
+"""Ring of sonars seen from above, with the bumper ring round the robot: free distance on every side.
 
 sonars = SonarRingView(title="Sonars")
 robot.on("/sonar", sonars.show)

@@ -1,4 +1,4 @@
-"""Ultrasonic rangers seen from above: how far it is clear on each side.
+"""Ultrasonic rangers seen from above: free distance on each side.
 
 echoes = UltrasoundView(title="Ultrasound")
 robot.on("/range/front", echoes.show)

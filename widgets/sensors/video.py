@@ -1,4 +1,4 @@
-"""A camera's live picture, with what was recognised in it.
+"""Live picture of a camera, with what was recognised in it.
 
 video = Video()
 video.show_frame(640, 480, rgba)

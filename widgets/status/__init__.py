@@ -1,1 +1,1 @@
-"""Events, checks and the cards that say what needs attention."""
+"""Status: events, checks, and cards for what needs attention."""

@@ -1,4 +1,4 @@
-"""What is looked at before a robot first moves: what is not good yet and what to do about it; folded, how many are good.
+"""Checks before a robot first moves: what is not good yet and what to do about it; folded, how many are good.
 
 checks = CheckList(open=True)
 robot.on("/checklist", checks.show)

@@ -1,4 +1,4 @@
-"""What happened, newest first: an icon, one sentence, how long ago, and who has seen to it.
+"""Events, newest first: an icon, one sentence, their age, and who acknowledged them.
 
 log = EventLog()
 robot.on("/events", log.show)

@@ -1,4 +1,4 @@
-"""One event in a list: an icon, one sentence, who has seen to it, how long ago."""
+"""Row of an event: an icon, one sentence, who acknowledged it, and its age."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Somebody asks for control: the driver hands it over or keeps it, who asks sees how long still and can take it back.
+"""Request for control: the driver hands over or keeps it; who asks sees the time left and can withdraw.
 
 card = HandoverCard(me=client_id)
 robot.on("/control/status", card.show)

@@ -1,4 +1,4 @@
-"""What was understood and is not done yet: a bar that acts unless it is cancelled, or a question that waits for a yes.
+"""Command that was understood and not yet done: a bar that acts unless cancelled, or a question that waits for a yes.
 
 card = IntentCard()
 card.ask(words="Go home", who="mic", heard="Voice: go home, 82 %", question=True)

@@ -1,4 +1,4 @@
-"""Who steers: a person or the robot's task. Two large buttons, the one that is in force is marked.
+"""Choice of who steers: a person or the robot's task. Two large buttons; the active one is marked.
 
 card = ModeCard()
 robot.on("/control/status", card.show)

@@ -1,4 +1,4 @@
-"""What lies over every screen until it is dealt with: an icon, a headline, a sentence, and what can be done about it.
+"""Notice over every screen until it is dealt with: an icon, a headline, a sentence, and what can be done about it.
 
 class AlarmCard(NoticeCard):
     def show(self, msg): self.headline, self.said = "Alarm", msg.text

@@ -1,4 +1,4 @@
-"""A task that was paused by a hand on the stick, and Resume: letting go of the stick does not resume it.
+"""Task that a hand on the stick paused, and Resume: letting go of the stick does not resume it.
 
 card = PausedCard(name="tablet-A")
 robot.on("/task/status", card.show)

@@ -1,4 +1,4 @@
-"""What the robot wants to know, large: a question that one tap answers, or a task that a restart cut short.
+"""Question of the robot, large: one tap answers it; or a task that a restart cut short.
 
 card = QuestionCard()
 robot.on("/task/status", card.show)

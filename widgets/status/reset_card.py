@@ -1,4 +1,4 @@
-"""Putting a robot back to where it started: offered when something has gone wrong with it, done after a second press.
+"""Reset of a robot to where it started: offered when something has gone wrong, done after a second press.
 
 card = ResetCard(name="Aqua-1")
 card.notify("Aqua-1 has sunk.")

@@ -1,4 +1,4 @@
-"""Bars lying one below the other, each with an icon, a name, its spread and a figure: what charts of methods are made of.
+"""Bars one below the other, each with an icon, a name, its spread and a figure: the base of charts of methods.
 
 class HeightChart(BarRows):
     def rows(self): return [Group("stairs", [Bar("person", "Ada", 1.2, 0.9, 1.4, "1.2 m")])]

@@ -1,4 +1,4 @@
-"""What somebody is asked to do just now, to be read from an arm's length while walking.
+"""Prompt of a trial, to be read from an arm's length while walking.
 
 card = PromptCard(icon="pause", words="Pause", how="Say it", share=0.4)
 """

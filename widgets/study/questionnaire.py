@@ -1,4 +1,4 @@
-"""A sheet of questions, none answered beforehand: what was answered, in which order, and how long that took.
+"""Sheet of questions, none answered beforehand: the answers, their order, and the time they took.
 
 class Sheet(AnswerSheet): ...
 sheet = Sheet({"effort": Scale("effort")}, now)

@@ -1,4 +1,4 @@
-"""Response times: for each command one bar a method, to its median, with the middle half of all times as a line on it.
+"""Response times: a bar for each method of a command, to its median, with the middle half of all times as a line.
 
 chart = ResponseChart(title="Until it was sent")
 chart.times = [("STOP", "mic", "Voice", 0.52, 0.41, 0.77, 10)]

@@ -1,4 +1,4 @@
-"""Success of each method: a bar to the share, the interval that it lies in as a line on it, and what a paper found.
+"""Success of each method: a bar to the share, its interval as a line on it, and the result of a paper.
 
 bars = SuccessBars(title="Understood")
 bars.rates = [("mic", "Voice", 46, 50, 0.812, 0.968, 0.775)]

@@ -1,4 +1,4 @@
-"""The system usability scale: ten sentences, each agreed to or not in five steps, none answered beforehand.
+"""System usability scale: ten sentences with five steps of agreement, none answered beforehand.
 
 form = SusForm()
 form.answers  # {"1": 4, "2": 1, …}

@@ -1,4 +1,4 @@
-"""The six scales of the NASA task load index, each in 21 steps, none with an answer before a hand gives one.
+"""Six scales of the NASA task load index, each in 21 steps, none answered beforehand.
 
 form = TlxScales()
 form.bind(on_command=lambda form, name, value: …)

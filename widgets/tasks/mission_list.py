@@ -1,4 +1,4 @@
-"""The missions that the robot keeps under names: points, motion, revisions, when each was stored.
+"""Missions that the robot keeps under names: points, motion, revisions, and the time each was stored.
 
 missions = MissionList()
 missions.show(await robot.call("/missions/get", GetMissionsRequest(), GetMissionsResponse))

@@ -1,4 +1,4 @@
-"""What a task needs, asked one by one: places by name, a message, a direction, how fast and how long.
+"""Form of an order: places by name, a message, a direction, speed and duration, as the task needs them.
 
 form = OrderForm()
 robot.on("/places", form.show), robot.on("/mission", form.show)

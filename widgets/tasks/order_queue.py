@@ -1,4 +1,4 @@
-"""What comes after the task that runs: drag a row by its handle to another place, or take it out.
+"""Queue behind the running task: drag a row by its handle to another place, or take it out.
 
 queue = OrderQueue()
 robot.on("/task/queue", queue.show)

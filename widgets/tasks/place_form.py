@@ -1,4 +1,4 @@
-"""A place with its name, kind, floor, note and tag, to be made or changed; where it lies is pointed at, never typed.
+"""Place with its name, kind, floor, note and tag, to be made or changed; its position is pointed at, never typed.
 
 form = PlaceForm()
 form.show(Place(name="Office 12", kind="office", x=3.0, y=1.0))

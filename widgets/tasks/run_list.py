@@ -1,4 +1,4 @@
-"""What was done, newest first: each task with its outcome, distance, when and by whom.
+"""Runs of tasks, newest first: each with its outcome, distance, time and operator.
 
 history = RunList()
 history.show(await robot.call("/history/get", GetHistoryRequest(), GetHistoryResponse))

@@ -1,4 +1,4 @@
-"""What starts by itself, and when: a row each, with a switch.
+"""Scheduled tasks and their times: a row each, with a switch.
 
 schedule = ScheduleList()
 robot.on("/schedule", schedule.show)

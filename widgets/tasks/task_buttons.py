@@ -1,4 +1,4 @@
-"""What to do with the task: start it, pause and resume it, end it, go home; and what became of the last command.
+"""Buttons of a task: start, pause, resume, end, go home; and the outcome of the last command.
 
 buttons = TaskButtons()
 robot.on("/task/status", buttons.show)

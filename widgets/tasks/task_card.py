@@ -1,4 +1,4 @@
-"""What the robot is doing for the operator: task, phase, reason, how far and how long still.
+"""Task that runs now: its name, phase, reason, progress and time left.
 
 card = TaskCard()
 robot.on("/task/status", card.show), robot.on("/task/progress", card.show)

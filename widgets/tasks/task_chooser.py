@@ -1,4 +1,4 @@
-"""What the robot can be asked to do, one tile each.
+"""Tasks that the robot offers, one tile each.
 
 chooser = TaskChooser()
 chooser.bind(on_command=lambda _, task: form.begin(task))

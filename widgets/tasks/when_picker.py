@@ -1,4 +1,4 @@
-"""When something starts by itself: at a time of day on some days, or every so often.
+"""Time of a scheduled task: a time of day on some days, or an interval.
 
 when = WhenPicker()
 when.show(ScheduledTask(at="22:00"))

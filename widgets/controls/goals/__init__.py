@@ -1,1 +1,1 @@
-"""Goals and poses that are set and sent: where the robot goes, where its arm points."""
+"""Goals and poses: set here, and sent to the robot or its arm."""

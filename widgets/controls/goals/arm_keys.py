@@ -1,4 +1,4 @@
-"""The buttons of an arm's panel: one for each pose that has a name, and one for its gripper."""
+"""Buttons of an arm's panel: one for each named pose, and one for its gripper."""
 
 from __future__ import annotations
 

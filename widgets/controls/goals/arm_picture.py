@@ -1,4 +1,4 @@
-"""The picture of an arm from the side: where its joints are, and how they are drawn.
+"""Picture of an arm from the side: places of its joints, and their drawing.
 
 points = side_points((0.0, -1.05, 0.35, 0.70), Links())
 """

@@ -1,4 +1,4 @@
-"""Where a robot is to go: buttons move the goal by a quarter of a metre and turn it by 15°, and Go sends it there.
+"""Goal of a robot: buttons move it by a quarter of a metre and turn it by 15°, and Go sends it.
 
 pad = GoalPad()
 robot.on("/pose", pad.show)

@@ -1,4 +1,4 @@
-"""What became of a goal that was sent: which run of the robot's is for it, and how that stands."""
+"""Status of a goal that was sent: the run that drives to it, and how that run stands."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A stick for one thumb: pushed forward it drives, pushed aside it turns, let go it springs back.
+"""Stick for one thumb: forward drives, sideways turns; it springs back when released.
 
 stick = Joystick(max_speed=0.5, max_yaw_rate=1.5)
 stick.bind(on_command=lambda _, twist: drive.command(twist))

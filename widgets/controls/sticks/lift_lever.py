@@ -1,4 +1,4 @@
-"""A lever for one thumb: pushed up what swims or flies goes up, pulled down it goes down, let go it springs back.
+"""Lever for one thumb: up climbs, down descends; it springs back when released.
 
 lever = LiftLever(max_climb=0.3)
 lever.bind(on_command=lambda _, twist: drive.command(twist))

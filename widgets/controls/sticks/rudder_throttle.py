@@ -1,4 +1,4 @@
-"""The hand of a boat's helmsman: pushed forward it gives way, pushed aside it lays the rudder, let go it springs back.
+"""Rudder and throttle of a boat on one stick; it springs back when released.
 
 helm = RudderThrottle(max_steering=0.61)
 robot.on("/rudder", helm.show)

@@ -1,4 +1,4 @@
-"""What every control has that one finger or a gamepad pushes and that springs back: `Joystick`, `RudderThrottle`.
+"""Base of controls that one finger or a gamepad pushes and that spring back: `Joystick`, `RudderThrottle`.
 
 class Lever(Stick):
     def shaped(self, forward, left): return forward, 0.0

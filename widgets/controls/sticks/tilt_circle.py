@@ -1,4 +1,4 @@
-"""The red circle: where a finger holds it, or how the tablet is tilted, so the robot is to tilt. In the green ring it is level.
+"""Red circle that leans the robot, moved by a finger or by the tablet's tilt; in the green ring the robot is level.
 
 tilt = TiltCircle(max_tilt=0.35)
 tilt.bind(on_command=lambda _, manoeuvre: drive.command(manoeuvre))

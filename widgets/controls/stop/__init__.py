@@ -1,1 +1,1 @@
-"""STOP, STOP ALL and the list of what they stopped."""
+"""STOP, STOP ALL and the list of their outcome."""

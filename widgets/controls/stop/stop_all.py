@@ -1,4 +1,4 @@
-"""STOP ALL: the small one beside STOP, for every robot that is known; afterwards it counts how many are stopped.
+"""STOP ALL: the small button beside STOP, for every known robot; afterwards it counts how many are stopped.
 
 stop_all = StopAll(robots=3)
 stop_all.bind(on_command=lambda _: fleet.press(robots.entries()))

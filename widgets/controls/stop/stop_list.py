@@ -1,4 +1,4 @@
-"""What became of STOP ALL, robot by robot: SENT, STOPPED, NO ANSWER, and how many of them are stopped.
+"""Outcome of STOP ALL, robot by robot: SENT, STOPPED, NO ANSWER, and the number of stopped ones.
 
 result = StopList()
 result.update(fleet.rows, fleet.stopped, fleet.total)
