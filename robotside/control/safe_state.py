@@ -72,7 +72,7 @@ class SafeState:
         usual = kind_of(kind).safe_state
         self._action = settings.action or usual.action
         self._usual_then: str = settings.then or usual.then
-        self._then = self._usual_then
+        self._then: str = self._usual_then
         self._hold_for = usual.hold_for if settings.hold_for is None else settings.hold_for
         if settings.then and settings.hold_for is None and math.isinf(self._hold_for):
             self._hold_for = 30.0
