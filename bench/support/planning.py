@@ -51,26 +51,26 @@ def trap() -> Grid:
 def longest(robot: Robot, grid: Grid, way: tuple[tuple[float, float], tuple[float, float]]) -> float:
     """CPU time of the longest update until there is a way, with something on it that the map does not know [s]."""
     (x, y), (to_x, to_y) = way
-    guide = Navigator(robot, grid, lambda _: None)
+    navigator = Navigator(robot, grid, lambda _: None)
     pose = Pose2(x, y, math.atan2(to_y - y, to_x - x))
     ahead = np.column_stack([np.full(20, 2.0), np.linspace(-1.0, 1.0, 20)])
-    guide.obstacles.see(pose.apply(ahead), LIFETIME)
-    guide.head_for(Goal("The goal", to_x, to_y))
+    navigator.obstacles.see(pose.apply(ahead), LIFETIME)
+    navigator.head_for(Goal("The goal", to_x, to_y))
     gc.collect()
     gc.freeze()  # what else the bench holds is nothing that the robot's collector looks through
     try:
-        return _longest(guide, pose)
+        return _longest(navigator, pose)
     finally:
         gc.unfreeze()
 
 
-def _longest(guide: Navigator, pose: Pose2) -> float:
+def _longest(navigator: Navigator, pose: Pose2) -> float:
     spent, now, nothing = 0.0, 0.0, np.empty((0, 2))
-    while not guide.going.under_way:
+    while not navigator.controller.under_way:
         now += PERIOD
         began = time.process_time()
-        leg = guide.update(pose, nothing, now)
+        leg = navigator.update(pose, nothing, now)
         spent = max(spent, time.process_time() - began)
         if leg is LegState.BLOCKED or now > LONGEST:
-            raise RuntimeError(guide.reason or f"No way was found in {LONGEST:.0f} s.")
+            raise RuntimeError(navigator.reason or f"No way was found in {LONGEST:.0f} s.")
     return spent

@@ -71,7 +71,7 @@ class StationDoor(Door):
             station.events.boot,
             status.task,
             status.state,
-            station.autonomy.whereabouts.sure,
+            station.autonomy.pose_estimator.sure,
         )
 
     def last(self, topic: str) -> Msg | None:

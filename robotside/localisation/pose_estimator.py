@@ -174,14 +174,14 @@ class PoseEstimator:
             return math.nan
         return math.sqrt(_worst(self._localiser.covariance) + self._doubt.variance)
 
-    def take_map(self, grid: Grid) -> None:
+    def set_map(self, grid: Grid) -> None:
         """Localise on `grid` from now on: from the pose that it has, if any."""
         known = self.pose
         self._localiser = Localiser(grid)
         if known is not None:
             self._localiser.place(known, spread=0.3, turn=0.2)
 
-    def take_fix(self, fix: NavSatFix) -> None:
+    def on_fix(self, fix: NavSatFix) -> None:
         """Remember a position by satellite for the first guess."""
         if self._datum and fix.status.status >= 0 and math.isfinite(fix.latitude + fix.longitude):
             self._fixes.append(self._datum.to_local(fix.latitude, fix.longitude))
@@ -189,7 +189,7 @@ class PoseEstimator:
                 self._localiser.hear(*self._fixes[-1], FIX_SPREAD)
                 self._doubt.fix(_variance(fix))
 
-    def take_imu(self, imu: Imu) -> None:
+    def on_imu(self, imu: Imu) -> None:
         """Remember the compass for the first guess; a robot that has no laser goes on by it."""
         if not imu.orientation_covariance[0] >= 0:
             return
@@ -204,7 +204,7 @@ class PoseEstimator:
             self._faced = stamp
             self._localiser.face(self._compass, COMPASS_SPREAD)
 
-    def take_echoes(self, arcs: NDArray[np.float64]) -> None:
+    def on_sonar(self, arcs: NDArray[np.float64]) -> None:
         """Without a laser, correct the pose by sonars, a few rings at a time; `arcs` are ends of cones in `base_link`."""
         localiser, odom = self._localiser, self._odom
         if localiser is None or odom is None or self._swept:
@@ -220,7 +220,7 @@ class PoseEstimator:
             localiser.echo(odom.inverse().apply(ends.reshape(-1, 2)).reshape(ends.shape))
             self._watch(localiser, _UNHEARD)
 
-    def take_bumper(self, bumper: Bumper) -> None:
+    def on_bumper(self, bumper: Bumper) -> None:
         """Remember what is in touch: without a laser it cannot be seen that the wheels turn in vain."""
         self._touch = bumper if bumper.pressed and self._rolls else None
 
@@ -239,7 +239,7 @@ class PoseEstimator:
             self._localiser.lift()
         self.told(pose)
 
-    def take_odom(self, msg: Odometry) -> None:
+    def on_odometry(self, msg: Odometry) -> None:
         """Move on by the wheels and tell everyone the new pose."""
         odom = Pose2.from_msg(msg.pose.pose)
         stamp = msg.header.stamp
@@ -291,7 +291,7 @@ class PoseEstimator:
             self._doubt.settle()
         self._say("localisation", _NO_LASER)
 
-    def take_sweep(self, points: Points, stamp: float) -> None:
+    def on_scan(self, points: Points, stamp: float) -> None:
         """Correct the pose by what the laser saw at `stamp` [s], in `base_link`."""
         localiser, self._swept = self._localiser, True
         self._doubt.see()

@@ -84,7 +84,7 @@ def bend_of(info: RobotInfo) -> float:
 
 
 class AckermannController(GroundBound):
-    """`going.Going` of a robot that turns only by driving, and drives backwards too."""
+    """`controller.Going` of a robot that turns only by driving, and drives backwards too."""
 
     stands = True
     keeps_courses = False

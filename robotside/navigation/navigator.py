@@ -99,10 +99,10 @@ class Navigator:
         self._robot, self._show = robot, show
         self.kind = info.kind
         """Of robot, as its information calls it."""
-        self.going: PathController = path_controller_of(robot)
+        self.controller: PathController = path_controller_of(robot)
         """How it goes along a way."""
         self._radius = required_radius(info)
-        self.take_map(grid)
+        self.set_map(grid)
         self._goal: Goal | None = None
         self.reason: Problem = ""
         """Why the way is blocked, as one sentence; empty when it is not."""
@@ -119,7 +119,7 @@ class Navigator:
         self._search: Search | None = None
         self._seen: tuple[Pose2, float] | None = None
 
-    def take_map(self, grid: Grid) -> None:
+    def set_map(self, grid: Grid) -> None:
         """Plan on `grid` from now on; only between two tasks."""
         self.planner = Planner(grid, self._radius)
         """What plans the ways on the map."""
@@ -136,7 +136,7 @@ class Navigator:
     @property
     def cruise(self) -> float:
         """The speed that it travels with [m/s]."""
-        return self.going.cruise
+        return self.controller.cruise
 
     @property
     def radius(self) -> float:
@@ -159,24 +159,24 @@ class Navigator:
 
     def measured(self, height: float) -> None:
         """The robot is at a `height` above the map's origin [m]."""
-        self.going.measured = height
+        self.controller.measured = height
 
     def flies(self, phase: str) -> None:
         """What it does in the air, of a robot that flies, as its `FlightState` says."""
-        self.going.aloft = phase in ("flying", "landing")
+        self.controller.aloft = phase in ("flying", "landing")
 
     @property
     def height(self) -> float:
         """Of the robot above the map's origin [m]; NaN while not known."""
-        return self.going.measured
+        return self.controller.measured
 
     def keep_height(self, height: float) -> None:
         """Go at a `height` above the map's origin [m] from now on; NaN for the one that it is at."""
-        self.going.height = height
+        self.controller.height = height
 
     def take_off(self, height: float) -> None:
         """Rise from the ground to a `height` above the map's origin [m], NaN for the usual one."""
-        self.going.take_off(height)
+        self.controller.take_off(height)
 
     def command(self, manoeuvre: Manoeuvre) -> None:
         """The same for what a twist does not say, of a robot that knows manoeuvres; others stay as they are."""
@@ -186,7 +186,7 @@ class Navigator:
     def head_for(self, goal: Goal) -> None:
         """Begin a new leg; the path is planned with the next `update`."""
         self._goal, self.reason = goal, ""
-        self.going.forget()
+        self.controller.forget()
         self._drop()
         self._waits_since = math.inf
         self._stuck, self._left, self._moved = 0, math.nan, -math.inf
@@ -194,7 +194,7 @@ class Navigator:
     def rest(self) -> None:
         """Stand still and forget the path; a leg that goes on later is planned from wherever it is then."""
         self._robot.stop()
-        self.going.forget()
+        self.controller.forget()
         self._drop()
         self._waits_since = math.inf
         self._left = math.nan
@@ -212,32 +212,32 @@ class Navigator:
         self._turning = False
         if goal is None:
             return LegState.ARRIVED
-        going = self.going
+        controller = self.controller
         self.waits_for = self.ready(now)
         if self.waits_for:
             return LegState.BLOCKED if self.reason else LegState.UNDER_WAY
-        if not going.under_way and not self.planning:
+        if not controller.under_way and not self.planning:
             self._ask(now)
         looks = self.planning and not self._look(pose, goal, now)
-        if looks and (going.stands or not going.under_way):
+        if looks and (controller.stands or not controller.under_way):
             self._robot.stop()  # it may be rolling still, with no way to roll along
             return LegState.BLOCKED if self.reason else LegState.UNDER_WAY
-        if going.arrived(pose):
+        if controller.arrived(pose):
             return self._face(pose, goal)
-        self._left = going.remaining(pose)
+        self._left = controller.remaining(pose)
         if not self._progresses(pose, now):
             return LegState.BLOCKED
         if now - self._planned >= REPLAN_PERIOD and self._in_the_way(now):
             self._ask(now)
         if self.planning and not looks:
             looks = not self._look(pose, goal, now)
-        if not looks or not going.stands:
-            going.steer(pose, points, sure=self.sure)
+        if not looks or not controller.stands:
+            controller.steer(pose, points, sure=self.sure)
         return LegState.UNDER_WAY
 
     def ready(self, now: float) -> str:
         """Get ready to go: what it does for that, as one sentence, empty when it goes. After too long there is a `reason`."""
-        waits = self.going.ready()
+        waits = self.controller.ready()
         if not waits:
             self._waits_since = math.inf
             return ""
@@ -250,31 +250,33 @@ class Navigator:
     def _ask(self, now: float) -> None:
         """A way is to be looked for; what cannot do that on the way stands for it."""
         self._asked, self._seen = now, None
-        if self.going.stands:
+        if self.controller.stands:
             self._robot.stop()
 
     def _look(self, pose: Pose2, goal: Goal, now: float) -> bool:
         """Look for the way that was asked for, as long as one update may take; True when there is one to go on."""
-        if self._search is None and self.going.stands and not self._stands(pose, now):
+        if self._search is None and self.controller.stands and not self._stands(pose, now):
             return False
         if self._search is None:
             known = self.obstacles.points(now)
-            self._search = self.going.search(self.planner, pose, (goal.x, goal.y, goal.yaw), goal.name, known)
+            self._search = self.controller.search(
+                self.planner, pose, (goal.x, goal.y, goal.yaw), goal.name, known
+            )
         try:
             for _ in range(SEARCH_STEPS):
                 next(self._search)
         except StopIteration as found:
-            self._left = self.going.remaining(pose)
+            self._left = self.controller.remaining(pose)
             self._show(found.value)
         except Unreachable as problem:
             # an old path stays; standing still on it is noticed
-            self.reason = "" if self.going.under_way else Notice(Code.WAY_MISSING, str(problem))
+            self.reason = "" if self.controller.under_way else Notice(Code.WAY_MISSING, str(problem))
         else:
             return False
         self._moved += now - self._asked
         self._planned = now
         self._drop()
-        return self.going.under_way
+        return self.controller.under_way
 
     def _stands(self, pose: Pose2, now: float) -> bool:
         before, self._seen = self._seen, (pose, now)
@@ -289,13 +291,13 @@ class Navigator:
         self._asked, self._search, self._seen = math.inf, None, None
 
     def _in_the_way(self, now: float) -> bool:
-        ahead = self.going.ahead[: int(self.going.look / STEP)]
-        return bool(len(self.obstacles.near(ahead, self.going.clear, now)))
+        ahead = self.controller.ahead[: int(self.controller.look / STEP)]
+        return bool(len(self.obstacles.near(ahead, self.controller.clear, now)))
 
     def _face(self, pose: Pose2, goal: Goal) -> LegState:
         """At the place: turn to the direction asked for, if any."""
         self._left = 0.0
-        if math.isnan(goal.yaw) or self.going.face(pose, goal.yaw):
+        if math.isnan(goal.yaw) or self.controller.face(pose, goal.yaw):
             return LegState.ARRIVED
         self._turning = True
         return LegState.UNDER_WAY

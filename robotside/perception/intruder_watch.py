@@ -71,11 +71,11 @@ class IntruderWatch:
         self._points: Points = np.empty((0, 2))
         self._points_stamp = -math.inf
 
-    def take_sweep(self, points: Points, stamp: float) -> None:
+    def on_scan(self, points: Points, stamp: float) -> None:
         """Keep the laser's end points, in `map`, measured at `stamp` [s]."""
         self._points, self._points_stamp = points, stamp
 
-    def take_image(self, image: CompressedImage, *, placing: bool) -> None:
+    def on_image(self, image: CompressedImage, *, placing: bool) -> None:
         """Search a picture, if it is time; `placing` is False while the position is not to be trusted."""
         stamp = image.header.stamp.seconds
         if stamp < self._next:

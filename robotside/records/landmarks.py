@@ -11,14 +11,14 @@ from robotside.core.notice import Notice
 from robotside.records import NotRecorded, Records
 from robotside.records.events import Say
 
-__all__ = ["Landmarked", "take_over"]
+__all__ = ["PlaceSource", "take_over"]
 
 _DONE = "places of the world"
 """Setting that says that it was done: what people delete does not come back."""
 
 
 @runtime_checkable
-class Landmarked(Protocol):
+class PlaceSource(Protocol):
     """A robot that knows the names of places where it is."""
 
     @property
@@ -28,7 +28,7 @@ class Landmarked(Protocol):
 
 def take_over(robot: object, records: Records, say: Say) -> None:
     """Keep the places that `robot` knows, if it knows any, nobody has kept one yet, and it was never done before."""
-    if not isinstance(robot, Landmarked) or records.setting(_DONE) or records.places.all():
+    if not isinstance(robot, PlaceSource) or records.setting(_DONE) or records.places.all():
         return
     places = robot.places
     if not places:

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 from bridge.core.codes import Code
 from robotside.core.notice import Notice
 from robotside.records.database.jobs import Job, NotRecorded
-from robotside.records.database.memory import Memory
+from robotside.records.database.memory import RowMemory
 from robotside.records.database.rows import Content, Key, Put
 
 __all__ = ["Ledger", "Writer"]
@@ -29,7 +29,7 @@ class Ledger:
     """All rows; every call comes from one thread."""
 
     def __init__(self, stored: Content, writer: Writer) -> None:
-        self.memory = Memory(stored)
+        self.memory = RowMemory(stored)
         self.watchers: dict[str, list[Callable[[], None]]] = {}
         """Of each table who is called when what is on the disk of it has changed."""
         self.on_trouble: Callable[[str], None] = lambda _: None

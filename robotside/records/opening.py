@@ -11,14 +11,14 @@ from pathlib import Path
 from sqlalchemy.engine import URL, make_url
 from sqlalchemy.exc import ArgumentError, NoSuchModuleError
 
-from robotside.records.database.files import LOCK_TIMEOUT, MAX_BACKUPS, Files
+from robotside.records.database.files import LOCK_TIMEOUT, MAX_BACKUPS, DatabaseFiles
 from robotside.records.database.legacy import left_behind, put_away
 from robotside.records.database.postgresql_store import PostgresqlStore
 from robotside.records.database.rows import Put
 from robotside.records.database.sqlite_store import SqliteStore
 from robotside.records.database.storage import NotWritten
 from robotside.records.database.store import CannotOpen, Opened, Store
-from robotside.records.database.writer import CallSoon, Threaded
+from robotside.records.database.writer import CallSoon, WriterThread
 from robotside.records.records import Records
 
 __all__ = ["CannotOpen", "open_records"]
@@ -45,7 +45,9 @@ def open_records(
     does. Of a SQLite file `backups` are kept. `patience` [s] is waited for another program that has the records. Anything
     unusual is in `problems`.
     """
-    store = _store(directory, url, partial(Files, now=now, patience=patience, backups=backups), patience)
+    store = _store(
+        directory, url, partial(DatabaseFiles, now=now, patience=patience, backups=backups), patience
+    )
     try:
         opened = store.open()
         puts, said = _first_words(opened, directory)
@@ -56,7 +58,7 @@ def open_records(
     except BaseException:
         store.close()
         raise
-    writer = Threaded(store, call_soon)
+    writer = WriterThread(store, call_soon)
     records = Records(opened.content, writer, writer.close)
     records.problems += [*opened.problems, *said]
     if trouble:
@@ -70,7 +72,9 @@ def open_records(
     return records
 
 
-def _store(directory: Path, url: str | None, files: Callable[[Path], Files], patience: float) -> Store:
+def _store(
+    directory: Path, url: str | None, files: Callable[[Path], DatabaseFiles], patience: float
+) -> Store:
     if not url:
         return SqliteStore(directory / "records.sqlite3", files, patience)
     parsed = _parsed(url)

@@ -14,7 +14,7 @@ from robotside.records.database.jobs import NotRecorded
 from robotside.records.database.rows import Key, Queued
 from robotside.records.ledger import Ledger, within
 
-__all__ = ["Queue", "Timetable"]
+__all__ = ["OrderQueue", "Schedule"]
 
 MAX_QUEUED = 100
 """Orders that may wait."""
@@ -22,7 +22,7 @@ MAX_SCHEDULED = 200
 """Scheduled tasks that are kept."""
 
 
-class Queue:
+class OrderQueue:
     """Orders that wait, the next one first; every change counts as a revision."""
 
     def __init__(self, ledger: Ledger) -> None:
@@ -82,7 +82,7 @@ class Queue:
             change("facts", "queue revision", str(revision))
 
 
-class Timetable:
+class Schedule:
     """Tasks that start by themselves."""
 
     def __init__(self, ledger: Ledger) -> None:

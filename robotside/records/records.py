@@ -18,12 +18,12 @@ from robotside.records.answers import Answers
 from robotside.records.database.jobs import Job
 from robotside.records.database.rows import Content, Put, empty
 from robotside.records.database.storage import Storage
-from robotside.records.database.writer import AtOnce
+from robotside.records.database.writer import ImmediateWriter
 from robotside.records.eventlog import EventLog
 from robotside.records.ledger import Ledger, Writer
 from robotside.records.missions import Missions
 from robotside.records.places import Places
-from robotside.records.plans import Queue, Timetable
+from robotside.records.plans import OrderQueue, Schedule
 from robotside.records.runs import Runs
 
 __all__ = ["Records"]
@@ -39,9 +39,9 @@ class Records:
         """Named poses."""
         self.missions = Missions(self._ledger)
         """What to patrol, and home."""
-        self.queue = Queue(self._ledger)
+        self.queue = OrderQueue(self._ledger)
         """Orders that wait."""
-        self.schedule = Timetable(self._ledger)
+        self.schedule = Schedule(self._ledger)
         """Tasks that start by themselves."""
         self.runs = Runs(self._ledger)
         """What was done, and what is under way."""
@@ -59,7 +59,7 @@ class Records:
         `stored` is what is there at first; it is brought up to date with each write.
         """
         storage = Storage.in_memory()
-        return cls(empty() if stored is None else stored, AtOnce(storage), storage.close)
+        return cls(empty() if stored is None else stored, ImmediateWriter(storage), storage.close)
 
     def together(self) -> AbstractContextManager[Job]:
         """Have all changes within written as one, or none of them; the job tells what came of it."""

@@ -12,10 +12,10 @@ from robotside.core.notice import Notice
 from robotside.records import Records
 from robotside.records.events import Say
 
-__all__ = ["Shown"]
+__all__ = ["RecordsPublisher"]
 
 
-class Shown:
+class RecordsPublisher:
     """What is kept on the topics that tell of it."""
 
     def __init__(self, records: Records, publish: Publish, say: Say, clock: Callable[[], float]) -> None:

@@ -75,7 +75,7 @@ class _Equipment:
         station.autonomy.engine.cancel(Notice(Code.TASK_RESET, ended, actor_id=who, name=name))
         station.helm.put_back()
         pose = Pose2.from_msg(place)
-        station.autonomy.whereabouts.put(pose)
+        station.autonomy.pose_estimator.put(pose)
         robot, x, y = station.info.name, pose.x, pose.y
         said = f"{name} put {robot} back to its start."
         reset = Notice(Code.ROBOT_RESET, said, actor_id=who, name=name, robot=robot, x=x, y=y)

@@ -67,7 +67,7 @@ class TaskOrders:
         permits.may_move(client)
         if not asked.instead:
             permits.idle()
-        task = station.autonomy.assignments.task(order, station.controls.name(client))
+        task = station.autonomy.task_factory.task(order, station.controls.name(client))
         permits.charged(task)
         if self._engine.active:
             station.agenda.hold("another task was asked for instead")
@@ -89,7 +89,7 @@ class TaskOrders:
         if under_way is None or under_way.name != "go_to" or under_way.order.places:
             permits.idle()
         order = TaskOrder(task="go_to", goals=[goal])
-        task = station.autonomy.assignments.task(order, station.controls.name(client))
+        task = station.autonomy.task_factory.task(order, station.controls.name(client))
         permits.charged(task)
         if under_way is not None:
             station.agenda.hold("the robot was sent elsewhere")
@@ -101,7 +101,7 @@ class TaskOrders:
         """Go to the stored home, whatever it is doing; the queue waits then."""
         station = self._station
         self._permits.may_move(client)
-        home = station.autonomy.assignments.task(TaskOrder(task="go_home"), station.controls.name(client))
+        home = station.autonomy.task_factory.task(TaskOrder(task="go_home"), station.controls.name(client))
         station.agenda.manual.end()
         station.agenda.hold("the robot was sent home")
         station.controls.hold()
@@ -126,7 +126,7 @@ class TaskOrders:
         if engine.running:
             return "The task is running already."
         if engine.interrupted and station.interrupted:
-            task = station.interrupted.task(station.autonomy.assignments)
+            task = station.interrupted.task(station.autonomy.task_factory)
             self._permits.charged(task)
             self._begin()
             station.interrupted.resume(task, station.now)

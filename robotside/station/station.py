@@ -50,13 +50,13 @@ from robotside.motion.manoeuvres import Order
 from robotside.motion.measured import MeasuredState
 from robotside.records import Records
 from robotside.records.events import Events
-from robotside.records.records_publisher import Shown
+from robotside.records.records_publisher import RecordsPublisher
 from robotside.tasks.agenda import Agenda
 from robotside.tasks.autonomy import Autonomy
-from robotside.tasks.interrupted_task import Interrupted
+from robotside.tasks.interrupted_task import InterruptedTask
 from robotside.tasks.readiness import Readiness
 from robotside.tasks.task_factory import tasks_of
-from robotside.tasks.task_history import History
+from robotside.tasks.task_history import TaskHistory
 
 __all__ = ["NO_MAP", "Station"]
 
@@ -120,7 +120,7 @@ class Station:
         self.helm = self._helm(config)
         """Driving by hand, and what happens when nobody does."""
         self._show_beginning()
-        Shown(records, self.bus.publish, self.events.say, clock)
+        RecordsPublisher(records, self.bus.publish, self.events.say, clock)
         self.interrupted = self._take_up()
         """The task that a restart cut, if there was one."""
         self.agenda = self._agenda(civil or clock, zone)
@@ -134,7 +134,7 @@ class Station:
         self._mind(partial(self.helm.step, now))
         self._pass_on(self.robot.read(now))
         self._mind_trouble()
-        self.autonomy.telling.look()
+        self.autonomy.status_publisher.look()
         self._mind(lambda: self.autonomy.check(now))
         if not self._ending:
             self._mind(lambda: self.agenda.step(now))
@@ -239,7 +239,7 @@ class Station:
     @property
     def lost(self) -> Problem:
         """Why the robot cannot set out from where it is, as one sentence; empty when it can."""
-        pose = self.autonomy.whereabouts.pose
+        pose = self.autonomy.pose_estimator.pose
         if pose is None:
             said = "The robot does not know yet where it is; place it on the map."
             return Notice(Code.POSITION_UNKNOWN, said)
@@ -247,7 +247,7 @@ class Station:
 
     def fault(self, name: str, x: float, y: float) -> Problem:
         """Why the robot cannot or may not stand at a place, as one sentence that calls it `name`; empty when it can."""
-        return self.keeper.fault(name, x, y) or self.autonomy.guide.planner.fault(name, x, y)
+        return self.keeper.fault(name, x, y) or self.autonomy.navigator.planner.fault(name, x, y)
 
     @property
     def at_rest(self) -> bool:
@@ -257,7 +257,7 @@ class Station:
     @property
     def done(self) -> bool:
         """The robot stands, and everybody was told what became of the task."""
-        return self.at_rest and self.autonomy.telling.all_told
+        return self.at_rest and self.autonomy.status_publisher.all_told
 
     @property
     def stop_doubt(self) -> str:
@@ -283,7 +283,7 @@ class Station:
         self.robot.stop()
         self.robot.close()
 
-    def _take_up(self) -> Interrupted | None:
+    def _take_up(self) -> InterruptedTask | None:
         """Go on from how it was left: STOP stays pressed, a task that was cut is offered."""
         self._latch = Latch(self.records, self.events.say)
         by, cut, engine = self.records.stopped_by, self.records.runs.under_way, self.autonomy.engine
@@ -293,10 +293,10 @@ class Station:
             said = f"STOP, pressed by {by} before the restart, is still pressed."
             self.events.say("stop", Notice(Code.STOP_STILL_PRESSED, said, name=by), "alarm")
         engine.recall(self.records.runs.last, self.records.runs.newest)
-        history = History(self.records.runs, engine, self.clock)
+        history = TaskHistory(self.records.runs, engine, self.clock)
         self.bus.subscribe("/task/progress", history.hear)
-        self.autonomy.telling.note = history.note
-        return Interrupted(cut, engine) if cut else None
+        self.autonomy.status_publisher.note = history.note
+        return InterruptedTask(cut, engine) if cut else None
 
     def _show_beginning(self) -> None:
         """What there is to tell before anything has happened."""
@@ -312,7 +312,7 @@ class Station:
         return Agenda(
             self.records,
             self.autonomy.engine,
-            self.autonomy.assignments,
+            self.autonomy.task_factory,
             publish=self.bus.publish,
             say=self.events.say,
             clock=self.clock,
@@ -342,7 +342,7 @@ class Station:
                 self.events.say(msg.kind, Notice.of(msg.text, msg), msg.level)
                 continue
             self.bus.publish(topic, msg)
-            self.readiness.senses.take(topic, msg, self.now)
+            self.readiness.sensor_health.take(topic, msg, self.now)
             self._mind(partial(self.autonomy.take, topic, msg, self.now))
             if topic == "/odom":
                 self._mind(self.robot.again)
@@ -382,7 +382,7 @@ class Station:
             said = "The pose to place the robot at is not all numbers."
             problem = Notice(Code.POSITION_INVALID, said)
         problem = problem or self.mapless
-        problem = problem or self.autonomy.guide.planner.off_map("The place", pose.x, pose.y)
+        problem = problem or self.autonomy.navigator.planner.off_map("The place", pose.x, pose.y)
         if problem:
             self.events.say("command", problem, "warn")
             return
@@ -403,8 +403,8 @@ class Station:
         return done
 
     def _measured(self) -> MeasuredState:
-        where = self.autonomy.whereabouts
-        return self.readiness.senses.measured(where.pose, spread=where.spread, sure=where.sure)
+        where = self.autonomy.pose_estimator
+        return self.readiness.sensor_health.measured(where.pose, spread=where.spread, sure=where.sure)
 
     def _mind_drift(self) -> None:
         said = self.keeper.adrift(self._measured())
@@ -475,7 +475,7 @@ class Station:
         if self._barred(True):
             return False
         try:
-            task = self.autonomy.assignments.task(TaskOrder(task="go_home"))
+            task = self.autonomy.task_factory.task(TaskOrder(task="go_home"))
         except Refusal:
             return False
         self.controls.hold()
@@ -491,7 +491,7 @@ class Station:
 
     def _at_rest(self) -> bool:
         factor = 3.0 if self._control.at_rest else 1.0  # so that it does not change all the time
-        where = self.autonomy.whereabouts
+        where = self.autonomy.pose_estimator
         if not self.autonomy.measured(self.now, since=self._turned):
             return False
         if self.robot.trouble and not self._trouble:
@@ -500,7 +500,7 @@ class Station:
         return abs(where.speed) < speed * factor and abs(where.turn) < turn * factor
 
     def _diagnostics(self) -> DiagnosticArray:
-        where, low = self.autonomy.whereabouts, self.autonomy.low
+        where, low = self.autonomy.pose_estimator, self.autonomy.low
         status = [
             DiagnosticStatus(0 if where.sure else 1, "position", _fit_sentence(where.fit)),
             DiagnosticStatus(1 if low else 0, "battery", "low" if low else "good"),

@@ -21,9 +21,9 @@ from robotside.records import Job, NotRecorded, Records
 from robotside.records.events import Say
 from robotside.records.plans import MAX_QUEUED
 from robotside.tasks.engine import TO_CHARGE, Engine
-from robotside.tasks.manual_hold import Manual
-from robotside.tasks.schedule import Turn, fault, following, turns
-from robotside.tasks.task_factory import Assignments, words_for
+from robotside.tasks.manual_hold import ManualHold
+from robotside.tasks.schedule import ScheduledStart, fault, following, scheduled_starts
+from robotside.tasks.task_factory import TaskFactory, words_for
 
 __all__ = ["Agenda"]
 
@@ -43,7 +43,7 @@ class Agenda:
         self,
         records: Records,
         engine: Engine,
-        assignments: Assignments,
+        task_factory: TaskFactory,
         *,
         publish: Publish,
         say: Say,
@@ -56,10 +56,10 @@ class Agenda:
 
         `barred(drains)` tells why no task may start by itself just now, one that needs charge or not; empty when it may.
         """
-        self._records, self._engine, self._assignments = records, engine, assignments
+        self._records, self._engine, self._task_factory = records, engine, task_factory
         self._publish, self._say, self._clock = publish, say, clock
         self._civil, self._zone, self._barred = civil, zone, barred
-        self.manual = Manual(records, say)
+        self.manual = ManualHold(records, say)
         """Whether anything may start by itself at all."""
         self._next = -math.inf
         self._settled = 0
@@ -88,7 +88,7 @@ class Agenda:
         if self._records.undecided("queue", "schedule"):
             return  # what may be taken back yet sets nothing going
         self._next = now + PERIOD
-        for turn in turns(self._records.schedule.all(), self._civil(), self._zone):
+        for turn in scheduled_starts(self._records.schedule.all(), self._civil(), self._zone):
             self._records.schedule.note(turn.task)
             self._take_turn(turn, now)
         if not self._engine.active and self._records.queue.current.orders:
@@ -131,7 +131,7 @@ class Agenda:
         tidy = []
         for number, order in enumerate(orders[:MAX_QUEUED], 1):
             try:
-                tidy.append(self._assignments.task(order).order)
+                tidy.append(self._task_factory.task(order).order)
             except Refusal as problem:
                 raise Refusal(problem.notice.reworded(f"Task {number} of the queue: {problem}")) from problem
         fresh = not (orders and self._records.queue.current.orders)
@@ -155,7 +155,7 @@ class Agenda:
         problem = fault(task)
         if problem:
             raise Refusal(problem)
-        order = msgspec.structs.replace(self._assignments.task(task.order).order, id=0)
+        order = msgspec.structs.replace(self._task_factory.task(task.order).order, id=0)
         start = following(task, self._civil(), self._zone)
         return self._records.schedule.set(
             msgspec.structs.replace(task, order=order, next=Time.at(start) if start else Time())
@@ -197,13 +197,13 @@ class Agenda:
 
     def _start(self, order: TaskOrder, now: float, code: Code, otherwise: str) -> None:
         try:
-            task = self._assignments.task(order)
+            task = self._task_factory.task(order)
         except Refusal as problem:
             self._say("task", Notice(code, f"{otherwise}: {problem}", task=order.task), "warn")
             return
         self._engine.start(task, now)
 
-    def _take_turn(self, turn: Turn, now: float) -> None:
+    def _take_turn(self, turn: ScheduledStart, now: float) -> None:
         """Start what is due, have it wait for the task that runs, or say why it is skipped."""
         order = turn.task.order
         title = f"{_title(order)} that was due"

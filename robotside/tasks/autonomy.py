@@ -47,8 +47,8 @@ from robotside.tasks.behaviours.patrol import patrol_route
 from robotside.tasks.behaviours.situation import Seen, Situation
 from robotside.tasks.engine import TO_CHARGE, Engine
 from robotside.tasks.sensor_health import needed
-from robotside.tasks.task_factory import Assignments
-from robotside.tasks.task_status_publisher import Telling
+from robotside.tasks.task_factory import TaskFactory
+from robotside.tasks.task_status_publisher import TaskStatusPublisher
 
 __all__ = ["CAMERA", "LOW_BELOW", "Autonomy"]
 
@@ -107,19 +107,21 @@ class Autonomy:
         self.battery = math.nan
         """0 empty to 1 full; NaN while unknown."""
         self._records = records
-        self.whereabouts = PoseEstimator(info, events.say, bus.publish)
+        self.pose_estimator = PoseEstimator(info, events.say, bus.publish)
         self.has_map = False
         """There is a map to localise and plan on."""
-        self.guide = Navigator(robot, Grid.unknown(), self._show_plan)
+        self.navigator = Navigator(robot, Grid.unknown(), self._show_plan)
         if chart is not None:
             self._take_map(chart)
         self.situation = Situation()
-        self.watch = IntruderWatch(self.whereabouts.track, info.camera_fov, bus.publish, self._found)
-        self.telling = Telling(records, lambda status: bus.publish("/task/status", status), clock)
+        self.watch = IntruderWatch(self.pose_estimator.track, info.camera_fov, bus.publish, self._found)
+        self.status_publisher = TaskStatusPublisher(
+            records, lambda status: bus.publish("/task/status", status), clock
+        )
         """Tells everybody how the task is."""
         self.engine = self._engine(clock)
-        self.assignments = Assignments(
-            self.guide,
+        self.task_factory = TaskFactory(
+            self.navigator,
             self.situation,
             info,
             say=events.say,
@@ -134,13 +136,13 @@ class Autonomy:
 
     def _engine(self, clock: Callable[[], float]) -> Engine:
         return Engine(
-            self.guide,
+            self.navigator,
             self.situation,
             show=self._show_status,
             progress=lambda progress: self._bus.publish("/task/progress", progress),
             say=self._events.say,
             clock=clock,
-            cruise=self.guide.cruise,
+            cruise=self.navigator.cruise,
         )
 
     _chart: OccupancyGrid | None = None
@@ -186,8 +188,8 @@ class Autonomy:
             "/scan": self._scan,
             "/sonar": self._sonar,
             "/flight": self._flight,
-            "/fix": self.whereabouts.take_fix,
-            "/imu/data": self.whereabouts.take_imu,
+            "/fix": self.pose_estimator.on_fix,
+            "/imu/data": self.pose_estimator.on_imu,
             "/battery_state": self._battery,
             "/bumper": self._bumper,
             "/tag": self._tag,
@@ -214,8 +216,8 @@ class Autonomy:
 
     def place(self, pose: Pose2) -> None:
         """The operator says where it is; what was seen from the wrong place is forgotten."""
-        self.whereabouts.told(pose)
-        self.guide.obstacles.forget()
+        self.pose_estimator.told(pose)
+        self.navigator.obstacles.forget()
         self.watch.intruders.forget()
 
     def _map(self, msg: OccupancyGrid) -> None:
@@ -238,53 +240,53 @@ class Autonomy:
             self._events.say("localisation", Notice(Code.MAP_UNUSABLE, problem), "warn")
 
     def _use(self, grid: Grid) -> None:
-        self.guide.take_map(self._fit(grid))
-        self.whereabouts.take_map(grid)
+        self.navigator.set_map(self._fit(grid))
+        self.pose_estimator.set_map(grid)
         self.has_map = True
 
     def _odom(self, msg: Odometry) -> None:
         if not math.isfinite(sum(Pose2.from_msg(msg.pose.pose))):
             return  # as good as none: one pose that is no number would spoil all later ones
         self._heard["/odom"] = self._now
-        self.whereabouts.take_odom(msg)
-        self.guide.measured(msg.pose.pose.position.z)
-        pose = self.whereabouts.pose
+        self.pose_estimator.on_odometry(msg)
+        self.navigator.measured(msg.pose.pose.position.z)
+        pose = self.pose_estimator.pose
         if pose is None:
             return
-        self.guide.sure = self.whereabouts.sure
-        if self.whereabouts.pushes and self.engine.running and self.engine.status.phase != "docking":
+        self.navigator.sure = self.pose_estimator.sure
+        if self.pose_estimator.pushes and self.engine.running and self.engine.status.phase != "docking":
             said = "Paused: the wheels turn, but something holds the robot."
             self.engine.pause(Notice(Code.TASK_HELD_FAST, said), "alarm")
         points = self._points
         if self._swept is not None and self.engine.running:
             points = pose.inverse().apply(self._swept.apply(points))
-        self.engine.tick(pose, points, self.whereabouts.odometer, self._now)
+        self.engine.tick(pose, points, self.pose_estimator.odometer, self._now)
 
     def _scan(self, scan: LaserScan) -> None:
         self._heard["/scan"] = self._now
         stamp = scan.header.stamp.seconds
         points = self._laser.points(scan)
-        self.whereabouts.take_sweep(points, stamp)
+        self.pose_estimator.on_scan(points, stamp)
         placed = self._see(points, stamp)
         if placed is not None:
-            self.watch.take_sweep(placed, stamp)
+            self.watch.on_scan(placed, stamp)
 
     def _sonar(self, ring: SonarRing) -> None:
         """Where there is no laser, sonars keep off what is near and help to say where it is."""
         self._heard["/sonar"] = self._now
         if "/scan" not in self._heard:
-            self.whereabouts.take_echoes(self._sonars.arcs(ring))
+            self.pose_estimator.on_sonar(self._sonars.arcs(ring))
             self._see(self._sonars.points(ring), ring.header.stamp.seconds, vague=True)
 
     def _see(self, points: Points, stamp: float, *, vague: bool = False) -> Points | None:
         """Take in what stands round it, in `base_link`; where that is in `map`, None while nobody knows for sure."""
         self._points = points
-        self._swept = self.whereabouts.track.at(stamp)
-        if self._swept is None or not self.whereabouts.sure:
+        self._swept = self.pose_estimator.track.at(stamp)
+        if self._swept is None or not self.pose_estimator.sure:
             return None
         placed = self._swept.apply(points)
         if self.engine.active:
-            obstacles = self.guide.obstacles
+            obstacles = self.navigator.obstacles
             fresh, moved = obstacles.fresh(placed, vague=vague), self._movers.moving(placed, stamp)
             obstacles.see(placed[~moved], self._now, vague=vague)
             # sonars are too coarse to tell what moves: whatever is not on the map may
@@ -294,7 +296,7 @@ class Autonomy:
 
     def _image(self, image: CompressedImage) -> None:
         """Pictures come while a task runs and while somebody looks: who drives by hand is told what is in them."""
-        self.watch.take_image(image, placing=self.whereabouts.sure)
+        self.watch.on_image(image, placing=self.pose_estimator.sure)
 
     def _battery(self, msg: BatteryState) -> None:
         if msg.percentage < LOW_BELOW <= self.battery:
@@ -312,7 +314,7 @@ class Autonomy:
             return
         said = f"Battery at {self.battery:.0%}"
         try:
-            home = self.assignments.task(TaskOrder(task="go_home"))
+            home = self.task_factory.task(TaskOrder(task="go_home"))
         except Refusal as problem:
             why = f"{said}: the {task.spoken} ends here. {problem}"
             ends = Notice(Code.TASK_BATTERY, why, charge=self.battery)
@@ -325,7 +327,7 @@ class Autonomy:
 
     def _flight(self, msg: FlightState) -> None:
         self.situation.flight = msg.phase
-        self.guide.flies(msg.phase)
+        self.navigator.flies(msg.phase)
 
     def _tag(self, msg: TagRead) -> None:
         if msg.tag:
@@ -337,7 +339,7 @@ class Autonomy:
     def _bumper(self, msg: Bumper) -> None:
         was, self._bumped = self._bumped, msg.pressed
         self.situation.touched = msg.pressed
-        self.whereabouts.take_bumper(msg)
+        self.pose_estimator.on_bumper(msg)
         if was and not msg.pressed:
             self._let_go = self._now
         if not msg.pressed or was or self.engine.status.phase == "docking":
@@ -345,7 +347,7 @@ class Autonomy:
         self.engine.pause(Notice(Code.TASK_BUMPED, "Paused: the bumper touched something."), "alarm")
         if self._now - self._let_go < CONTACT_TIME:
             return
-        pose = self.whereabouts.pose
+        pose = self.pose_estimator.pose
         at = (pose.x, pose.y) if pose else None
         side = _side(msg.bearing)
         touched = Notice(Code.BUMPER_TOUCHED, f"The bumper touched something {side}.", side=side)
@@ -367,7 +369,7 @@ class Autonomy:
 
     def _show_status(self, status: TaskStatus) -> None:
         self._demand.set(CAMERA, "task", status.state == "RUNNING")
-        self.telling.show(status)
+        self.status_publisher.show(status)
 
     def _show_plan(self, path: Points) -> None:
         header = Header(Time.at(self._now), "map")

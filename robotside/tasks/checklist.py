@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from bridge.msgs.pilothouse_msgs import Check
 from robotside.core.text import number
 
-__all__ = ["MAX_OFFSET", "Looked", "checks"]
+__all__ = ["MAX_OFFSET", "CheckInputs", "checks"]
 
 MAX_OFFSET = 1.0
 """As far a handheld's clock may be from the robot's, the way included [s]."""
 
 
 @dataclass(frozen=True, slots=True)
-class Looked:
+class CheckInputs:
     """What was found."""
 
     battery: float
@@ -37,12 +37,12 @@ class Looked:
     """Why the robot cannot be reached, as one sentence; empty when it can."""
 
 
-def checks(looked: Looked) -> list[Check]:
+def checks(looked: CheckInputs) -> list[Check]:
     """The list, always the same lines in the same order."""
     return [_battery(looked), _sensors(looked), _position(looked), _stop(looked), _clock(looked)]
 
 
-def _battery(looked: Looked) -> Check:
+def _battery(looked: CheckInputs) -> Check:
     if math.isnan(looked.battery):
         return Check("battery", "unknown", "The battery has not told its charge yet.")
     if looked.battery < looked.low_below:
@@ -51,7 +51,7 @@ def _battery(looked: Looked) -> Check:
     return Check("battery", "ok", "The battery is charged.")
 
 
-def _sensors(looked: Looked) -> Check:
+def _sensors(looked: CheckInputs) -> Check:
     if looked.trouble:
         return Check("sensors", "bad", looked.trouble)
     if looked.silent:
@@ -59,7 +59,7 @@ def _sensors(looked: Looked) -> Check:
     return Check("sensors", "ok", "All sensors are alive.")
 
 
-def _position(looked: Looked) -> Check:
+def _position(looked: CheckInputs) -> Check:
     if not looked.placed:
         return Check("position", "unknown", "The robot does not know yet where it is; place it on the map.")
     if not looked.sure:
@@ -68,13 +68,13 @@ def _position(looked: Looked) -> Check:
     return Check("position", "ok", "The robot knows where it is.")
 
 
-def _stop(looked: Looked) -> Check:
+def _stop(looked: CheckInputs) -> Check:
     if looked.stop_tested:
         return Check("stop", "ok", "STOP was tested.")
     return Check("stop", "unknown", "STOP was not tested since the start; press it once.")
 
 
-def _clock(looked: Looked) -> Check:
+def _clock(looked: CheckInputs) -> Check:
     if math.isnan(looked.offset):
         return Check("clock", "unknown", "No handheld has told its clock yet.")
     if abs(looked.offset) > MAX_OFFSET:

@@ -63,7 +63,7 @@ class Engine:
 
     def __init__(
         self,
-        guide: Navigator,
+        navigator: Navigator,
         situation: Situation,
         *,
         show: Callable[[TaskStatus], None],
@@ -73,7 +73,7 @@ class Engine:
         cruise: float,
     ) -> None:
         """`clock` is the operators' [s], by which messages are stamped; `cruise` is the usual speed [m/s]."""
-        self._guide, self._situation = guide, situation
+        self._navigator, self._situation = navigator, situation
         self._show, self._progress, self._say = show, progress, say
         self._clock, self._cruise = clock, cruise
         self.task: Task | None = None
@@ -147,7 +147,7 @@ class Engine:
         self._next_progress = self._ticked = now
         self._situation.begin()
         self._situation.now = now
-        self._guide.keep_height(task.order.height)
+        self._navigator.keep_height(task.order.height)
         course = task.course
         code, verb = (Code.TASK_GOES_ON, "goes on") if task_id else (Code.TASK_STARTED, "started")
         begun = Notice(code, f"{task.title} {verb}.", task=task.name)
@@ -179,13 +179,13 @@ class Engine:
         if self.running:
             self._tell("PAUSED", reason)
             self._say("task", reason, level)
-            self._guide.rest()  # last: the robot may fail to obey, and the task is held all the same
+            self._navigator.rest()  # last: the robot may fail to obey, and the task is held all the same
 
     def resume(self) -> None:
         """Go on with the paused task, from wherever the robot is now."""
         if self.paused and self.task:
-            self._guide.rest()
-            self._situation.unhear()
+            self._navigator.rest()
+            self._situation.forget_confirmation()
             self._tell("RUNNING", self._situation.doing.text or f"{self.task.title} goes on.")
             resumed = Notice(Code.TASK_RESUMED, f"{self.task.title} resumed.", task=self.task.name)
             self._say("task", resumed, "info")
@@ -220,7 +220,7 @@ class Engine:
         self._ticked = now
         here.now, here.pose, here.points = now, pose, points
         task.root.tick_once()
-        here.unhear()
+        here.forget_confirmation()
         if task.root.status is Status.RUNNING:
             self._tell("RUNNING", here.doing.text)
             self._report(task.course, now)
@@ -228,13 +228,13 @@ class Engine:
             self._end("SUCCEEDED", Notice(Code.TASK_DONE, task.done(), task=task.name), "ok")
         else:
             failed = Notice(Code.TASK_FAILED, f"{task.title} failed.", task=task.name)
-            self._end("FAILED", self._guide.reason or failed, "alarm")
+            self._end("FAILED", self._navigator.reason or failed, "alarm")
 
     def _end(self, state: str, reason: Notice, level: str) -> None:
         task, self.task = self.task, None
         if task is not None:
             task.root.stop(Status.INVALID)
-            self._guide.finish()
+            self._navigator.finish()
         self._count(task.course if task else None, state, reason)
         self._say("task", reason, level)
 
@@ -273,7 +273,7 @@ class Engine:
             return
         self._next_progress = max(self._next_progress + PROGRESS_PERIOD, now - PROGRESS_PERIOD)
         here = self._situation
-        left = self._guide.remaining if here.doing.phase in ON_THE_WAY else 0.0
+        left = self._navigator.remaining if here.doing.phase in ON_THE_WAY else 0.0
         self._progress(
             TaskProgress(
                 Time.at(self._clock()),

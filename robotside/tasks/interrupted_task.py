@@ -10,12 +10,12 @@ from robotside.core.notice import Notice, coded
 from robotside.records.runs import UnderWay
 from robotside.tasks.behaviours.course import Noted
 from robotside.tasks.engine import Engine, Task
-from robotside.tasks.task_factory import Assignments, words_for
+from robotside.tasks.task_factory import TaskFactory, words_for
 
-__all__ = ["Interrupted"]
+__all__ = ["InterruptedTask"]
 
 
-class Interrupted:
+class InterruptedTask:
     """The one task that was cut, as long as nobody has decided about it."""
 
     def __init__(self, cut: UnderWay, engine: Engine) -> None:
@@ -37,10 +37,10 @@ class Interrupted:
             )
         )
 
-    def task(self, assignments: Assignments) -> Task:
+    def task(self, task_factory: TaskFactory) -> Task:
         """The task as it goes on from where it was; Refusal when it cannot be done any more."""
         run = self._cut.run
-        task = assignments.task(run.order, run.by)
+        task = task_factory.task(run.order, run.by)
         task.course.take_up(_noted(self._cut.course))
         return task
 

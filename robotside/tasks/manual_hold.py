@@ -7,13 +7,13 @@ from robotside.core.notice import Notice
 from robotside.records import Records
 from robotside.records.events import Say
 
-__all__ = ["Manual"]
+__all__ = ["ManualHold"]
 
 _SETTING = "manual by"
 """Name of the setting that says who chose it."""
 
 
-class Manual:
+class ManualHold:
     """Who chose it, kept with the settings; whatever the disk says it holds, as the motion does that ends it."""
 
     def __init__(self, records: Records, say: Say) -> None:

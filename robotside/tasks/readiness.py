@@ -9,8 +9,8 @@ from bridge.msgs.pilothouse_msgs import Check, Checklist
 from bridge.msgs.std_msgs import Time
 from robotside.core.bus import Publish
 from robotside.tasks.autonomy import LOW_BELOW, Autonomy
-from robotside.tasks.checklist import Looked, checks
-from robotside.tasks.sensor_health import Senses
+from robotside.tasks.checklist import CheckInputs, checks
+from robotside.tasks.sensor_health import SensorHealth
 
 __all__ = ["Readiness"]
 
@@ -21,7 +21,7 @@ class Readiness:
     def __init__(self, clock: Callable[[], float], publish: Publish, kind: str = "wheels") -> None:
         """Of a robot of a `kind`, as its information calls it."""
         self._clock, self._publish = clock, publish
-        self.senses = Senses(kind)
+        self.sensor_health = SensorHealth(kind)
         """What the robot measures of itself."""
         self.stop_tested = Time()
         """When STOP, pressed since the start, last brought the robot to rest; 0 when never."""
@@ -46,12 +46,12 @@ class Readiness:
 
     def look(self, autonomy: Autonomy, trouble: str, now: float) -> None:
         """Look through everything at `now` [s, robot clock]; `trouble` is why the robot cannot be reached."""
-        where = autonomy.whereabouts
+        where = autonomy.pose_estimator
         found = checks(
-            Looked(
+            CheckInputs(
                 battery=autonomy.battery,
                 low_below=LOW_BELOW,
-                silent=self.senses.silent(now),
+                silent=self.sensor_health.silent(now),
                 placed=where.pose is not None,
                 sure=where.sure,
                 stop_tested=self.stop_tested.seconds > 0,

@@ -21,7 +21,15 @@ from bridge.msgs.pilothouse_msgs import ScheduledTask
 from bridge.msgs.std_msgs import Time
 from robotside.core.notice import Notice, Problem
 
-__all__ = ["MAX_LATENESS", "MIN_PERIOD", "Turn", "fault", "following", "local_zone", "turns"]
+__all__ = [
+    "MAX_LATENESS",
+    "MIN_PERIOD",
+    "ScheduledStart",
+    "fault",
+    "following",
+    "local_zone",
+    "scheduled_starts",
+]
 
 MAX_LATENESS = 60.0
 """A start that is later than this is missed [s]."""
@@ -38,7 +46,7 @@ MAX_PERIOD = 31 * 86400.0
 _AT = re.compile(r"([01]\d|2[0-3]):([0-5]\d)")
 
 
-class Turn(NamedTuple):
+class ScheduledStart(NamedTuple):
     """A scheduled task whose `next` has changed."""
 
     task: ScheduledTask
@@ -83,7 +91,7 @@ def following(task: ScheduledTask, after: float, zone: dt.tzinfo) -> float:
     return 0.0
 
 
-def turns(tasks: Iterable[ScheduledTask], now: float, zone: dt.tzinfo) -> list[Turn]:
+def scheduled_starts(tasks: Iterable[ScheduledTask], now: float, zone: dt.tzinfo) -> list[ScheduledStart]:
     """What has changed about `tasks` up to `now` [s since the epoch]: those that start, that were missed, that have no time yet.
 
     However many starts were missed, only the last one is told. A clock that goes back a little starts nothing a second
@@ -96,14 +104,16 @@ def turns(tasks: Iterable[ScheduledTask], now: float, zone: dt.tzinfo) -> list[T
             continue
         first = following(task, now, zone)
         if due > 0 and first <= 0:
-            found.append(Turn(_at(task, 0.0), due=False))
+            found.append(ScheduledStart(_at(task, 0.0), due=False))
         elif due <= 0 or due > _latest(task, first, zone) + 1.0:
             if first > 0:
-                found.append(Turn(_at(task, first), due=False))
+                found.append(ScheduledStart(_at(task, first), due=False))
         elif due <= now:
             late = now - due > MAX_LATENESS
             found.append(
-                Turn(_at(task, _after(task, due, now, first)), due=not late, missed=due if late else 0.0)
+                ScheduledStart(
+                    _at(task, _after(task, due, now, first)), due=not late, missed=due if late else 0.0
+                )
             )
     return found
 

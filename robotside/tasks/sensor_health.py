@@ -15,7 +15,7 @@ from robotside.kinds.registry import kind_of
 from robotside.motion.measured import MeasuredState
 from robotside.motion.stopping_path import PlanarVelocity
 
-__all__ = ["SENSOR_TIMEOUT", "Senses", "needed"]
+__all__ = ["SENSOR_TIMEOUT", "SensorHealth", "needed"]
 
 _NAMES = {"/odom": "odometry", "/scan": "laser", "/sonar": "sonars"}
 
@@ -50,7 +50,7 @@ SENSOR_TIMEOUT = 1.0
 """A sensor that was silent for longer than this is not alive [s]."""
 
 
-class Senses:
+class SensorHealth:
     """Takes the robot's messages; times are of the robot's clock [s]."""
 
     def __init__(self, kind: str = "wheels") -> None:

@@ -30,7 +30,7 @@ from robotside.tasks.behaviours.patrol import at_place, patrol, patrol_course, s
 from robotside.tasks.behaviours.situation import Situation
 from robotside.tasks.engine import Task
 
-__all__ = ["Assignments", "tasks_of", "words_for"]
+__all__ = ["TaskFactory", "tasks_of", "words_for"]
 
 MAX_PLACES = 100
 """That one task may name."""
@@ -78,12 +78,12 @@ def tasks_of(info: RobotInfo) -> list[str]:
     return [task for task in TASKS if task not in unknown]
 
 
-class Assignments:
+class TaskFactory:
     """Makes tasks for one robot. Every method raises Refusal with one sentence when the task cannot be done."""
 
     def __init__(
         self,
-        guide: Navigator,
+        navigator: Navigator,
         situation: Situation,
         info: RobotInfo,
         *,
@@ -98,7 +98,7 @@ class Assignments:
         `heights` are the lowest and the highest at which it can and may be, above the map's origin [m].
         """
         self._heights = heights
-        self._guide, self._situation, self._info = guide, situation, info
+        self._navigator, self._situation, self._info = navigator, situation, info
         self._say, self._rng, self._records, self._fault = say, rng, records, fault
         self._makers: dict[str, Callable[[TaskOrder], Task]] = {
             "patrol": self._patrol,
@@ -156,7 +156,9 @@ class Assignments:
             course = patrol_course(mission, self._rng)
         else:
             raise Refusal(Notice(Code.MISSION_EMPTY, "The mission has no points; set at least one."))
-        tree = patrol(course, self._guide, self._situation, self._say, lambda x, y: self._fault("It", x, y))
+        tree = patrol(
+            course, self._navigator, self._situation, self._say, lambda x, y: self._fault("It", x, y)
+        )
 
         def done() -> str:
             return f"Patrol done: {course.visited} {_points(course.visited)} visited."
@@ -167,12 +169,12 @@ class Assignments:
         rule = "A delivery needs two places, from and to, and may have a third to go on to"
         places = self._places(order, 2, 3, rule)
         tag = order.recipient_tag
-        course, tree = deliver(places, order.message, tag, self._guide, self._situation, self._say)
+        course, tree = deliver(places, order.message, tag, self._navigator, self._situation, self._say)
         return Task("deliver", "Delivery", tree, course, done=lambda: f"Delivered at {places[1].name}.")
 
     def _lead(self, order: TaskOrder) -> Task:
         places = self._places(order, 1, MAX_PLACES, "A guided tour needs at least one place")
-        course, tree = lead(places, order.message, self._guide, self._situation, self._say)
+        course, tree = lead(places, order.message, self._navigator, self._situation, self._say)
 
         def done() -> str:
             return (
@@ -186,7 +188,7 @@ class Assignments:
             return self._to_points(order.goals)
         place = self._places(order, 1, 1, "go_to needs one place, or points")[0]
         course = Course([at_place(place)])
-        tree = way(course, self._guide, self._situation)
+        tree = way(course, self._navigator, self._situation)
         title = f"Way to {place.name}"
         return Task("go_to", title, tree, course, done=lambda: f"{place.name} reached.")
 
@@ -200,7 +202,7 @@ class Assignments:
             self._check(name, goal.x, goal.y)
         points = [Goal(name, goal.x, goal.y, goal.yaw) for name, goal in zip(names, goals, strict=True)]
         course = Course(points)
-        tree = way(course, self._guide, self._situation, self._say if len(goals) > 1 else None)
+        tree = way(course, self._navigator, self._situation, self._say if len(goals) > 1 else None)
         return Task("go_to", "Way to the goal", tree, course, done=lambda: "Way to the goal done.")
 
     def _go_home(self, _: TaskOrder) -> Task:
@@ -208,15 +210,15 @@ class Assignments:
         if home is None:
             raise Refusal(Notice(Code.HOME_UNSET, "Home is not set; set it on the map first."))
         self._check("Home", home.x, home.y)
-        course, tree = single("Home", home, self._guide, self._situation)
+        course, tree = single("Home", home, self._navigator, self._situation)
         if "land" in tasks_of(self._info):
-            down = Land(self._guide, self._situation)
+            down = Land(self._navigator, self._situation)
             tree = Chain("home and down", memory=True, children=[tree, down])
         return Task("go_home", "Way home", tree, course, done=lambda: "Home.")
 
     def _hold(self, order: TaskOrder) -> Task:
         span = self._span(order)
-        tree = Hold(span, self._guide, self._situation, order.height)
+        tree = Hold(span, self._navigator, self._situation, order.height)
         done = f"Held for {order.duration:.0f} s."
         return Task("hold", "Holding", tree, span, done=lambda: done, moves=kind_of(self._info.kind).flies)
 
@@ -233,21 +235,21 @@ class Assignments:
             said = f"The throttle must be a part from -1 to 1 and not 0, not {order.throttle:g}."
             raise Refusal(Notice(Code.THROTTLE_INVALID, said, throttle=order.throttle))
         tree = FollowHeading(
-            order.heading, order.speed, span, self._guide, self._situation, throttle=order.throttle
+            order.heading, order.speed, span, self._navigator, self._situation, throttle=order.throttle
         )
         done = f"Followed the heading for {order.duration:.0f} s."
         return Task("follow_heading", "Following a heading", tree, span, done=lambda: done)
 
     def _take_off(self, order: TaskOrder) -> Task:
-        tree = TakeOff(self._guide, self._situation, order.height)
+        tree = TakeOff(self._navigator, self._situation, order.height)
         return Task("take_off", "Take-off", tree, self._moment(), done=lambda: "In the air.")
 
     def _land(self, _: TaskOrder) -> Task:
-        tree = Land(self._guide, self._situation)
+        tree = Land(self._navigator, self._situation)
         return Task("land", "Landing", tree, self._moment(), done=lambda: "Landed.", moves=False)
 
     def _surface(self, _: TaskOrder) -> Task:
-        tree = Surface(self._guide, self._situation)
+        tree = Surface(self._navigator, self._situation)
         return Task("surface", "Surfacing", tree, self._moment(), done=lambda: "At the surface.", moves=False)
 
     def _moment(self) -> Span:
@@ -281,7 +283,7 @@ class Assignments:
         self._check(f"The place before {dock.name}", start.x, start.y)
         course = Course([start])
         course.index = 0
-        tree = Dock(dock, course, self._guide, self._situation)
+        tree = Dock(dock, course, self._navigator, self._situation)
         done = f"Docked at {dock.name}: the battery takes charge."
         return Task("dock", "Docking", tree, course, done=lambda: done)
 

@@ -12,7 +12,7 @@ from bridge.msgs.std_msgs import Time
 from robotside.records.runs import Runs
 from robotside.tasks.engine import Engine
 
-__all__ = ["History"]
+__all__ = ["TaskHistory"]
 
 _OVER = ("SUCCEEDED", "CANCELED", "FAILED")
 
@@ -20,7 +20,7 @@ NOTE_PERIOD = 5.0
 """A task that takes a time is noted so often beside its changes [s], operators' clock."""
 
 
-class History:
+class TaskHistory:
     """Hears how the task is and keeps what is new of it; the number of a run is that of its TaskStatus."""
 
     def __init__(self, runs: Runs, engine: Engine, clock: Callable[[], float]) -> None:

@@ -8,13 +8,13 @@ from collections.abc import Callable
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from robotside.records import Job, Records
 
-__all__ = ["DISK_TIMEOUT", "Telling"]
+__all__ = ["DISK_TIMEOUT", "TaskStatusPublisher"]
 
 DISK_TIMEOUT = 2.0
 """How long a disk that does not answer may keep back what the robot does [s]: who stands beside it must know."""
 
 
-class Telling:
+class TaskStatusPublisher:
     """Passes each status on in its turn."""
 
     def __init__(

@@ -107,7 +107,7 @@ class Hand:
     @property
     def error(self) -> float:
         """Of the believed position [m]."""
-        pose = self.station.autonomy.whereabouts.pose
+        pose = self.station.autonomy.pose_estimator.pose
         x, y, _ = self.state.position
         return pose.distance(x, y) if pose else math.inf
 

@@ -40,7 +40,7 @@ class Run:
             robot, records_at(state), now=self.now, clock=lambda: self.now, rng=random.Random(1)
         )
         self.door = StationDoor(self.station)
-        self.until(lambda: self.station.autonomy.whereabouts.pose is not None, 10.0)
+        self.until(lambda: self.station.autonomy.pose_estimator.pose is not None, 10.0)
 
     def until(self, done: Callable[[], bool], limit: float) -> None:
         end = self.now + limit
@@ -89,5 +89,5 @@ class Run:
     @property
     def error(self) -> float:
         """Of the believed position [m]."""
-        pose = self.station.autonomy.whereabouts.pose
+        pose = self.station.autonomy.pose_estimator.pose
         return pose.distance(*self.place) if pose else math.inf

@@ -57,7 +57,7 @@ def test_a_boat_is_steered_by_rudder_and_throttle_and_keeps_to_its_speed(hand: M
 def test_a_boat_at_full_throttle_does_not_cross_its_fence(hand: Make) -> None:
     run = hand("minnow", keep_in=(box(-33.0, -24.0, 12.0),))
     run.push(steer(0.0, throttle=1.0), 14.0)
-    pose = run.station.autonomy.whereabouts.pose
+    pose = run.station.autonomy.pose_estimator.pose
     assert pose is not None
     assert max(pose.x + 33.0, pose.y + 24.0) == pytest.approx(9.8, abs=0.4)  # a fix may be off by 1.7 m
     assert any("The robot's fence" in event for event in run.events)

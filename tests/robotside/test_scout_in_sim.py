@@ -58,7 +58,7 @@ def test_a_scout_that_pushes_against_a_wall_stays_where_it_is_and_says_that_it_i
     run.station.bus.subscribe("/events", lambda _, event: said.append(event.text))
     push(run, 0.6, 8.0)
     pushes = [text for text in said if text.startswith("Position unsure: the wheels turn")]
-    where = run.station.autonomy.whereabouts
+    where = run.station.autonomy.pose_estimator
     spread, sure, error = where.spread, where.sure, run.error
     push(run, -0.3, 2.0)
     run.wait(4.0)

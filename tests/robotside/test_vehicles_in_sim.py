@@ -112,7 +112,7 @@ def test_one_without_a_laser_tells_where_it_is_by_satellite_or_by_its_own_reckon
 ) -> None:
     run = hand(name, tmp_path)
     run.push(Twist(Vector3(0.4, 0.0, 0.3 if name == "ardrone" else 0.0), Vector3(0.0, 0.0, -0.1)), 12.0)
-    error, sure = run.error, run.station.autonomy.whereabouts.sure
+    error, sure = run.error, run.station.autonomy.pose_estimator.sure
     run.robot.close()
     assert error < near
     assert sure
@@ -121,9 +121,9 @@ def test_one_without_a_laser_tells_where_it_is_by_satellite_or_by_its_own_reckon
 def test_a_boat_does_not_stray_from_its_satellite_fixes(tmp_path: Path) -> None:
     run = hand("minnow", tmp_path)
     x, y, yaw = run.robot.simulation.pose()
-    run.station.autonomy.whereabouts.told(Pose2(x + 6.0, y, yaw))
+    run.station.autonomy.pose_estimator.told(Pose2(x + 6.0, y, yaw))
     run.wait(30.0)
-    error, pose = run.error, run.station.autonomy.whereabouts.pose
+    error, pose = run.error, run.station.autonomy.pose_estimator.pose
     run.robot.close()
     assert error < 3.0
     assert pose is not None

@@ -12,7 +12,7 @@ from contextlib import closing, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 
-__all__ = ["MAX_BACKUPS", "LOCK_TIMEOUT", "Files", "Taken"]
+__all__ = ["MAX_BACKUPS", "LOCK_TIMEOUT", "DatabaseFiles", "InUse"]
 
 LOCK_TIMEOUT = 5.0
 """How long to wait for another program that has the database [s]."""
@@ -24,11 +24,11 @@ MAX_BACKUPS = 5
 _PARTS = ("", "-wal", "-shm", "-journal")
 
 
-class Taken(Exception):
+class InUse(Exception):
     """Another process has the records."""
 
 
-class Files:
+class DatabaseFiles:
     """The records in one file, and what lies beside it."""
 
     def __init__(
@@ -68,7 +68,7 @@ class Files:
             except BlockingIOError:
                 if time.monotonic() > end:
                     os.close(lock)
-                    raise Taken from None
+                    raise InUse from None
                 time.sleep(0.05)
             else:
                 self._lock = lock

@@ -9,10 +9,10 @@ from typing import Any
 from robotside.records.database.jobs import Job
 from robotside.records.database.rows import Content, Key, Put
 
-__all__ = ["Memory"]
+__all__ = ["RowMemory"]
 
 
-class Memory:
+class RowMemory:
     """Two views of the same rows. A job that fails takes its orders back and leaves its facts to be tried again."""
 
     def __init__(self, stored: Content) -> None:

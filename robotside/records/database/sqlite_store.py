@@ -8,7 +8,7 @@ from pathlib import Path
 
 from sqlalchemy.engine import URL
 
-from robotside.records.database.files import Files, Taken
+from robotside.records.database.files import DatabaseFiles, InUse
 from robotside.records.database.rows import Put
 from robotside.records.database.schema import upgrade
 from robotside.records.database.storage import NotWritten, Storage, engine_of, not_written
@@ -23,7 +23,7 @@ SKIPPED_AFTER_RESTORE = 100_000
 class SqliteStore(Store):
     """One SQLite file."""
 
-    def __init__(self, path: Path, files: Callable[[Path], Files], patience: float) -> None:
+    def __init__(self, path: Path, files: Callable[[Path], DatabaseFiles], patience: float) -> None:
         self._patience = patience
         directory = path.parent
         try:
@@ -33,7 +33,7 @@ class SqliteStore(Store):
             why = (error.strerror or str(error)).lower()
             said = f"Nothing can be kept in {str(directory)!r}: {why}; --state names another directory."
             raise CannotOpen(said) from error
-        except Taken:
+        except InUse:
             said = (
                 f"Another robot side keeps its records in {str(directory)!r}; end it or name another --state."
             )

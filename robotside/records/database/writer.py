@@ -16,11 +16,11 @@ from robotside.records.database.rows import Put
 from robotside.records.database.storage import NotWritten, Storage
 from robotside.records.database.store import Store
 
-__all__ = ["AtOnce", "CallSoon", "Threaded"]
+__all__ = ["ImmediateWriter", "CallSoon", "WriterThread"]
 
 CallSoon = Callable[..., object]
 """Has a function called with its arguments in the thread of the records; may be called from any thread."""
-Told = Callable[[Job, str], None]
+OnWritten = Callable[[Job, str], None]
 """Hears of a job why it is not written, empty when it is."""
 
 MAX_WAITING = 500
@@ -45,10 +45,10 @@ class _Nothing(Enum):
     YET = 0
 
 
-_Work: TypeAlias = tuple[Job, Told] | _Rebuild | None
+_Work: TypeAlias = tuple[Job, OnWritten] | _Rebuild | None
 
 
-class Threaded:
+class WriterThread:
     """Writes in a thread of its own, what waits together in one transaction."""
 
     def __init__(self, store: Store, call_soon: CallSoon) -> None:
@@ -64,14 +64,14 @@ class Threaded:
         self._thread = threading.Thread(target=self._run, name="records", daemon=True)
         self._changed = True
         self._broken = False
-        self._held: list[tuple[Job, Told]] = []
+        self._held: list[tuple[Job, OnWritten]] = []
         self._next_backup = self._next_retry = -math.inf
 
     def start(self) -> None:
         """Begin to write."""
         self._thread.start()
 
-    def submit(self, job: Job, told: Told) -> bool:
+    def submit(self, job: Job, told: OnWritten) -> bool:
         """Write `job` when its turn comes; False when too many wait."""
         try:
             self._waiting.put_nowait((job, told))
@@ -105,7 +105,7 @@ class Threaded:
     def _turn(self) -> bool:
         """Do what waits; True when it was told to end."""
         work = self._next(RETRY_PERIOD)
-        batch: list[tuple[Job, Told]] = []
+        batch: list[tuple[Job, OnWritten]] = []
         while isinstance(work, tuple):
             batch.append(work)
             work = self._next(0.0) if len(batch) < MAX_BATCH else _Nothing.YET
@@ -136,7 +136,7 @@ class Threaded:
             self._next_backup = now + BACKUP_PERIOD
             self._back_up()
 
-    def _write(self, batch: list[tuple[Job, Told]]) -> None:
+    def _write(self, batch: list[tuple[Job, OnWritten]]) -> None:
         """Write all together; when that fails each alone, so that none suffers for another."""
         try:
             self._store.write([put for job, _ in batch for put in job.puts])
@@ -171,7 +171,7 @@ class Threaded:
             self._tell(told, job, "")
         self._tell(work.told, said, "")
 
-    def _hold(self, batch: list[tuple[Job, Told]]) -> None:
+    def _hold(self, batch: list[tuple[Job, OnWritten]]) -> None:
         if len(self._held) < MAX_WAITING:
             self._held += batch
             return
@@ -198,13 +198,13 @@ class Threaded:
             return  # the loop has ended: nobody is left who waits
 
 
-class AtOnce:
+class ImmediateWriter:
     """Writes in the caller's step."""
 
     def __init__(self, storage: Storage) -> None:
         self._storage = storage
 
-    def submit(self, job: Job, told: Told) -> bool:
+    def submit(self, job: Job, told: OnWritten) -> bool:
         """Write `job` and tell."""
         try:
             self._storage.write(job.puts)

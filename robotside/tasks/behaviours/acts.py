@@ -8,10 +8,10 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 from py_trees.decorators import Decorator
 
-__all__ = ["Act", "Rounds"]
+__all__ = ["Action", "Rounds"]
 
 
-class Act(Behaviour):
+class Action(Behaviour):
     """One thing done at once; its result is whether it succeeded."""
 
     def __init__(self, name: str, act: Callable[[], bool]) -> None:

@@ -41,7 +41,7 @@ class AskAt(Behaviour):
 
     def initialise(self) -> None:
         """Answers that were given before count no more."""
-        self._situation.unhear()
+        self._situation.forget_confirmation()
         self._strange = ""
         question = self._question
         if question and question.message:

@@ -30,11 +30,11 @@ class Circle(Behaviour):
     """
 
     def __init__(
-        self, guide: Navigator, situation: Situation, say: Say, fault: Callable[[float, float], str]
+        self, navigator: Navigator, situation: Situation, say: Say, fault: Callable[[float, float], str]
     ) -> None:
         """`fault` tells why the robot cannot or may not stand at a place; empty when it can."""
         super().__init__("circle intruders")
-        self._guide, self._situation, self._say, self._fault = guide, situation, say, fault
+        self._navigator, self._situation, self._say, self._fault = navigator, situation, say, fault
         self._round: Seen | None = None
         self._sides: list[Goal] = []
         self._looked = 0
@@ -51,13 +51,13 @@ class Circle(Behaviour):
         left = SIDES - self._looked
         now.tell("circling", f"Going round intruder {seen.id} and looking at it.", still=4.0 * left)
         if self._sides:
-            leg = self._guide.update(now.pose, now.points, now.now)
+            leg = self._navigator.update(now.pose, now.points, now.now)
             if leg is LegState.UNDER_WAY:
                 return Status.RUNNING
             self._looked += leg is LegState.ARRIVED
             self._sides.pop(0)
         if self._sides:
-            self._guide.head_for(self._sides[0])
+            self._navigator.head_for(self._sides[0])
             return Status.RUNNING
         self._tell_end(seen)
         self._next()
@@ -66,7 +66,7 @@ class Circle(Behaviour):
     def terminate(self, new_status: Status) -> None:
         """Stand still."""
         if self._round is not None or new_status is Status.INVALID:
-            self._guide.rest()
+            self._navigator.rest()
         self._round, self._sides = None, []
 
     def _next(self) -> None:
@@ -76,11 +76,11 @@ class Circle(Behaviour):
             return
         self._sides, self._looked = self._ring(self._round), 0
         if self._sides:
-            self._guide.head_for(self._sides[0])
+            self._navigator.head_for(self._sides[0])
 
     def _ring(self, seen: Seen) -> list[Goal]:
         """The sides that can be stood at, beginning with the nearest, each looking inwards."""
-        pose, reach = self._situation.pose, self._guide.radius + CLEARANCE
+        pose, reach = self._situation.pose, self._navigator.radius + CLEARANCE
         first = math.atan2(pose.y - seen.y, pose.x - seen.x)
         sides = []
         for number in range(SIDES):

@@ -19,7 +19,7 @@ from bridge.msgs.pilothouse_msgs import Place
 from robotside.core.notice import Notice
 from robotside.navigation.navigator import Navigator
 from robotside.records.events import Say
-from robotside.tasks.behaviours.acts import Act, Rounds
+from robotside.tasks.behaviours.acts import Action, Rounds
 from robotside.tasks.behaviours.ask import AskAt, Question
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.drive_to import DriveTo
@@ -30,7 +30,7 @@ __all__ = ["deliver"]
 
 
 def deliver(
-    places: Places[Place], message: str, tag: str, guide: Navigator, situation: Situation, say: Say
+    places: Places[Place], message: str, tag: str, navigator: Navigator, situation: Situation, say: Say
 ) -> tuple[Course, Behaviour]:
     """From the first of `places` to the second, and on to the third if there is one.
 
@@ -57,11 +57,11 @@ def deliver(
         "leg",
         memory=True,
         children=[
-            Act("choose", lambda: bool(course.advance())),
-            DriveTo(course, guide, situation),
-            Act("arrived", arrived),
+            Action("choose", lambda: bool(course.advance())),
+            DriveTo(course, navigator, situation),
+            Action("arrived", arrived),
             AskAt(course, questions, situation, say),
-            Act("count", count),
+            Action("count", count),
         ],
     )
     return course, Rounds("deliver", leg, lambda: course.finished)

@@ -47,10 +47,10 @@ def before(dock: Place) -> Goal:
 class Dock(Behaviour):
     """Succeeds when the battery takes charge; fails when there is no way or no charge in time, and says which."""
 
-    def __init__(self, dock: Place, course: Course, guide: Navigator, situation: Situation) -> None:
+    def __init__(self, dock: Place, course: Course, navigator: Navigator, situation: Situation) -> None:
         """`course` has the one point that `before` gives."""
         super().__init__("dock")
-        self._dock, self._course, self._guide, self._situation = dock, course, guide, situation
+        self._dock, self._course, self._navigator, self._situation = dock, course, navigator, situation
         self._place = Pose2(dock.x, dock.y, dock.yaw)
         self._began = math.nan
 
@@ -66,23 +66,23 @@ class Dock(Behaviour):
 
     def terminate(self, new_status: Status) -> None:
         """Stand still."""
-        self._guide.rest()
+        self._navigator.rest()
 
     def _set_out(self) -> None:
         self._began = math.nan
-        self._guide.head_for(self._course.goal)
+        self._navigator.head_for(self._course.goal)
 
     def _approach(self) -> Status:
         now, name = self._situation, self._dock.name
         if now.charging and now.pose.distance(self._dock.x, self._dock.y) < APPROACH_DISTANCE / 2:
             self._course.reached()
             return Status.SUCCESS
-        leg = self._guide.update(now.pose, now.points, now.now)
-        phase = "turning" if self._guide.turning else "driving"
-        text = f"Turning to {name}." if self._guide.turning else f"Heading for {name}."
+        leg = self._navigator.update(now.pose, now.points, now.now)
+        phase = "turning" if self._navigator.turning else "driving"
+        text = f"Turning to {name}." if self._navigator.turning else f"Heading for {name}."
         now.tell(phase, text, place=name, still=APPROACH_DISTANCE / CREEP_SPEED)
         if LEG_STATUS[leg] is Status.SUCCESS:
-            self._guide.finish()
+            self._navigator.finish()
             self._began = now.worked
             return Status.RUNNING
         return LEG_STATUS[leg]
@@ -99,11 +99,11 @@ class Dock(Behaviour):
         left = CHARGE_TIMEOUT - (now.worked - self._began)
         if left <= 0:
             said = f"No charge was seen at {name} within {CHARGE_TIMEOUT:.0f} s; the robot stands there."
-            self._guide.reason = Notice(Code.DOCK_DEAD, said, place=name, seconds=CHARGE_TIMEOUT)
+            self._navigator.reason = Notice(Code.DOCK_DEAD, said, place=name, seconds=CHARGE_TIMEOUT)
             return Status.FAILURE
         at_end = now.touched or here.x > MAX_BEYOND
         text = f"Waiting for the charge at {name}." if at_end else f"Creeping to {name}."
         now.tell("docking", text, place=name, still=left)
         turn = -1.5 * here.yaw - 2.0 * here.y
-        self._guide.move(Twist() if at_end else Twist.planar(CREEP_SPEED, max(-0.3, min(0.3, turn))))
+        self._navigator.move(Twist() if at_end else Twist.planar(CREEP_SPEED, max(-0.3, min(0.3, turn))))
         return Status.RUNNING

@@ -33,35 +33,35 @@ class DriveTo(Behaviour):
     def __init__(
         self,
         course: Course,
-        guide: Navigator,
+        navigator: Navigator,
         situation: Situation,
         words: Callable[[Goal], str] = lambda goal: f"Heading for {goal.spoken}.",
     ) -> None:
         """`words` say where it goes, as one sentence."""
         super().__init__("drive to point")
-        self._course, self._guide, self._situation, self._words = course, guide, situation, words
+        self._course, self._navigator, self._situation, self._words = course, navigator, situation, words
         self._was, self._since = situation.pose, situation.worked
 
     def initialise(self) -> None:
         """Set out for the course's point."""
-        self._guide.head_for(self._course.goal)
+        self._navigator.head_for(self._course.goal)
         self._was, self._since = self._situation.pose, self._situation.worked
 
     def update(self) -> Status:
         """Drive on."""
         now, goal = self._situation, self._course.goal
-        leg = self._guide.update(now.pose, now.points, now.now)
+        leg = self._navigator.update(now.pose, now.points, now.now)
         self.feedback_message = self._sentence(leg)
-        if self._guide.waits_for or self._guide.planning:
+        if self._navigator.waits_for or self._navigator.planning:
             self._was, self._since = now.pose, now.worked
-        if self._guide.waits_for:
-            now.tell("taking off", self._guide.waits_for, place=goal.place)
+        if self._navigator.waits_for:
+            now.tell("taking off", self._navigator.waits_for, place=goal.place)
             return LEG_STATUS[leg]
-        if self._guide.planning:
+        if self._navigator.planning:
             now.tell("planning", f"Looking for a way to {goal.spoken}.", place=goal.place)
             return LEG_STATUS[leg]
         said = f"Makes no way to {goal.spoken}; it goes on trying." if self._stands() else self._words(goal)
-        now.tell("turning" if self._guide.turning else "driving", said, place=goal.place)
+        now.tell("turning" if self._navigator.turning else "driving", said, place=goal.place)
         return LEG_STATUS[leg]
 
     def _stands(self) -> bool:
@@ -74,14 +74,14 @@ class DriveTo(Behaviour):
 
     def terminate(self, new_status: Status) -> None:
         """Stand still, whatever the reason."""
-        self._guide.rest()
+        self._navigator.rest()
 
     def _sentence(self, leg: LegState) -> str:
         goal = self._course.goal
         if leg is LegState.BLOCKED:
-            return self._guide.reason
+            return self._navigator.reason
         if leg is LegState.ARRIVED:
             return f"{goal.name} reached."
-        if self._guide.planning:
+        if self._navigator.planning:
             return f"Looking for a way to {goal.spoken}."
-        return f"Heading for {goal.name[0].lower()}{goal.name[1:]}, {self._guide.remaining:.0f} m to go."
+        return f"Heading for {goal.name[0].lower()}{goal.name[1:]}, {self._navigator.remaining:.0f} m to go."

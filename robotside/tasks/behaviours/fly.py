@@ -33,10 +33,10 @@ class _UpAndDown(Behaviour):
 
     title, order, lasts = "", "", math.inf
 
-    def __init__(self, guide: Navigator, situation: Situation, height: float = math.nan) -> None:
+    def __init__(self, navigator: Navigator, situation: Situation, height: float = math.nan) -> None:
         """`height` is that of the order [m], NaN for none."""
         super().__init__(self.order.replace("_", " "))
-        self._guide, self._situation, self._height = guide, situation, height
+        self._navigator, self._situation, self._height = navigator, situation, height
         self._began = 0.0
 
     def initialise(self) -> None:
@@ -50,7 +50,7 @@ class _UpAndDown(Behaviour):
             return Status.SUCCESS
         if now.worked - self._began > self.lasts:
             said = f"{self.title} took longer than {self.lasts:.0f} s; the robot stays where it is."
-            self._guide.reason = Notice(Code.TASK_SLOW, said, seconds=self.lasts)
+            self._navigator.reason = Notice(Code.TASK_SLOW, said, seconds=self.lasts)
             return Status.FAILURE
         now.tell(self.title.lower(), f"{self.title}.", still=math.nan)
         self.tell_robot()
@@ -59,7 +59,7 @@ class _UpAndDown(Behaviour):
     def terminate(self, new_status: Status) -> None:
         """Stay there."""
         if new_status is not Status.SUCCESS:
-            self._guide.rest()
+            self._navigator.rest()
 
     def done(self) -> bool:
         """It is up, or down."""
@@ -67,7 +67,7 @@ class _UpAndDown(Behaviour):
 
     def tell_robot(self) -> None:
         """Give the order."""
-        self._guide.command(Manoeuvre(kind=self.order))
+        self._navigator.command(Manoeuvre(kind=self.order))
 
 
 class TakeOff(_UpAndDown):
@@ -85,28 +85,28 @@ class TakeOff(_UpAndDown):
     def update(self) -> Status:
         """Go on, as long as it gets on."""
         status, now = super().update(), self._situation.worked
-        off = abs(self._guide.height - self._height)
+        off = abs(self._navigator.height - self._height)
         if off < self._nearest - MIN_RISE:
             self._nearest, self._since = off, now
         if status is not Status.RUNNING or math.isnan(off) or now - self._since < RISE_TIMEOUT:
             return status
-        reached = self._guide.height
+        reached = self._navigator.height
         said = f"It comes no nearer to {self._height:g} m than {reached:.1f} m; it stays there."
-        self._guide.reason = Notice(Code.HEIGHT_UNREACHED, said, height=self._height, reached=reached)
+        self._navigator.reason = Notice(Code.HEIGHT_UNREACHED, said, height=self._height, reached=reached)
         return Status.FAILURE
 
     def done(self) -> bool:
         """It flies, as high as it should."""
         if self._situation.flight not in ("flying", "landing"):
             return False
-        return math.isnan(self._height) or not abs(self._guide.height - self._height) > HEIGHT_TOLERANCE
+        return math.isnan(self._height) or not abs(self._navigator.height - self._height) > HEIGHT_TOLERANCE
 
     def tell_robot(self) -> None:
         """Take off, or climb."""
         if self._situation.flight in ("flying", "landing"):
-            self._guide.command(Manoeuvre(kind="hover", height=self._height))
+            self._navigator.command(Manoeuvre(kind="hover", height=self._height))
         else:
-            self._guide.take_off(self._height)
+            self._navigator.take_off(self._height)
 
 
 class Land(_UpAndDown):
@@ -126,4 +126,4 @@ class Surface(_UpAndDown):
 
     def done(self) -> bool:
         """It lies at the surface."""
-        return self._guide.height >= SURFACE_HEIGHT
+        return self._navigator.height >= SURFACE_HEIGHT

@@ -48,7 +48,7 @@ class FollowHeading(Behaviour):
         heading: float,
         speed: float,
         span: Span,
-        guide: Navigator,
+        navigator: Navigator,
         situation: Situation,
         *,
         throttle: float = math.nan,
@@ -59,16 +59,16 @@ class FollowHeading(Behaviour):
         """
         super().__init__("follow heading")
         self._heading, self._speed, self._span, self._throttle = heading, speed, span, throttle
-        self._braking = min(BRAKING, kind_of(guide.kind).handling.braking)
-        fastest = guide.cruise if math.isnan(speed) else speed
+        self._braking = min(BRAKING, kind_of(navigator.kind).handling.braking)
+        fastest = navigator.cruise if math.isnan(speed) else speed
         self._horizon = max(HORIZON, fastest * fastest / (2 * self._braking) + 1.0)
-        self._guide, self._situation = guide, situation
+        self._navigator, self._situation = navigator, situation
         self._blocked_since = math.nan
 
     def initialise(self) -> None:
         """Take the direction."""
-        self._guide.finish()
-        self._guide.reason = ""
+        self._navigator.finish()
+        self._navigator.reason = ""
         self._span.begin()
         if math.isnan(self._heading):
             self._heading = self._situation.pose.yaw
@@ -79,13 +79,13 @@ class FollowHeading(Behaviour):
         if self._span.over:
             return Status.SUCCESS
         now = self._situation
-        waits = self._guide.ready(now.now)
+        waits = self._navigator.ready(now.now)
         if waits:
             now.tell("taking off", waits)
-            return Status.FAILURE if self._guide.reason else Status.RUNNING
+            return Status.FAILURE if self._navigator.reason else Status.RUNNING
         error = math.remainder(self._heading - now.pose.yaw, math.tau)
         towards = heading(self._heading)
-        bends = self._guide.going.turning > 0
+        bends = self._navigator.controller.turning > 0
         if abs(error) > MAX_BEARING and not bends:
             now.tell("turning", f"Turning to {towards}.")
             self._go(0.0, error)
@@ -103,26 +103,26 @@ class FollowHeading(Behaviour):
 
     def terminate(self, new_status: Status) -> None:
         """Stand still."""
-        self._guide.rest()
+        self._navigator.rest()
 
     def _go(self, speed: float, error: float) -> None:
         """Ahead at `speed` [m/s] and round by `error` [rad]."""
-        going = self._guide.going
-        if isinstance(going, CourseController):
+        controller = self._navigator.controller
+        if isinstance(controller, CourseController):
             full = speed >= self._wanted and math.isnan(self._speed) and not math.isnan(self._throttle)
-            going.along(self._heading, math.nan if full else speed, self._throttle if full else math.nan)
+            controller.along(self._heading, math.nan if full else speed, self._throttle if full else math.nan)
             return
-        most = min(MAX_YAW_RATE, speed / going.turning) if going.turning else MAX_YAW_RATE
-        self._guide.move(Twist.planar(speed, max(-most, min(most, 1.5 * error))))
+        most = min(MAX_YAW_RATE, speed / controller.turning) if controller.turning else MAX_YAW_RATE
+        self._navigator.move(Twist.planar(speed, max(-most, min(most, 1.5 * error))))
 
     @property
     def _wanted(self) -> float:
-        return self._guide.cruise if math.isnan(self._speed) else self._speed
+        return self._navigator.cruise if math.isnan(self._speed) else self._speed
 
     def _pace(self, room: float) -> float:
         wanted = self._wanted
         safe = math.sqrt(2.0 * self._braking * max(0.0, room - MIN_ROOM / 2))
-        return min(wanted, safe, wanted if self._guide.sure else UNSURE_SPEED)
+        return min(wanted, safe, wanted if self._navigator.sure else UNSURE_SPEED)
 
     def _stand(self, wall: bool) -> Status:
         now = self._situation
@@ -134,18 +134,18 @@ class FollowHeading(Behaviour):
         if wall or waits <= 0:
             what = "a wall, the fence or the end of the map" if wall else "something that does not go away"
             said = f"The way straight on ended {where} before {what}."
-            self._guide.reason = Notice(Code.WAY_ENDED, said, x=now.pose.x, y=now.pose.y)
+            self._navigator.reason = Notice(Code.WAY_ENDED, said, x=now.pose.x, y=now.pose.y)
             return Status.FAILURE
         now.tell("waiting", f"Waiting {where}: something is in the way.", still=waits)
         return Status.RUNNING
 
     def _wall(self) -> float:
         """Free way ahead as the map, fence included, tells [m], up to the horizon."""
-        need = self._guide.radius + MARGIN
+        need = self._navigator.radius + MARGIN
         along = np.arange(0.0, self._horizon, 0.05)
         places, yaws = self._way(along)
         looks = np.column_stack([np.cos(yaws), np.sin(yaws)])
-        grid, discs = self._guide.planner.grid, self._guide.going.discs
+        grid, discs = self._navigator.planner.grid, self._navigator.controller.discs
         room = np.min([grid.clearance(places + disc * looks) for disc in discs], axis=0)
         # who stands too close already may go where there is more room
         closed = np.flatnonzero((room < need) & (room < room[0] + 0.01))
@@ -153,7 +153,7 @@ class FollowHeading(Behaviour):
 
     def _way(self, along: Points) -> tuple[Points, Points]:
         """Places so far along the way [m] and where it looks there [rad]: round to the heading, if it has to drive a bend for that, and straight on."""
-        pose, radius = self._situation.pose, self._guide.going.turning
+        pose, radius = self._situation.pose, self._navigator.controller.turning
         error = math.remainder(self._heading - pose.yaw, math.tau)
         yaw = np.full(len(along), self._heading)
         if radius:
@@ -164,12 +164,12 @@ class FollowHeading(Behaviour):
 
     def _thing(self) -> float:
         """Free way ahead as the laser sees it [m], up to the horizon."""
-        going, points = self._guide.going, self._situation.points
-        if isinstance(going, AckermannController):
+        controller, points = self._navigator.controller, self._situation.points
+        if isinstance(controller, AckermannController):
             error = math.remainder(self._heading - self._situation.pose.yaw, math.tau)
-            bend = max(-1.0, min(1.0, 2.0 * error)) / going.turning
-            return going.free(bend, points)
+            bend = max(-1.0, min(1.0, 2.0 * error)) / controller.turning
+            return controller.free(bend, points)
         near = points[np.hypot(points[:, 0], points[:, 1]) < HORIZON]
         if not len(near):
             return self._horizon
-        return float(free_lengths(np.zeros(1), near, self._guide.radius + GAP)[0])
+        return float(free_lengths(np.zeros(1), near, self._navigator.radius + GAP)[0])

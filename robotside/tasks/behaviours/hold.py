@@ -23,18 +23,20 @@ class Hold(Behaviour):
     What swims or flies keeps its heading and its height, or goes to the one that is asked for; what drifts comes back.
     """
 
-    def __init__(self, span: Span, guide: Navigator, situation: Situation, height: float = math.nan) -> None:
+    def __init__(
+        self, span: Span, navigator: Navigator, situation: Situation, height: float = math.nan
+    ) -> None:
         """`height` above the map's origin [m]; NaN for the present one."""
         super().__init__("hold")
-        self._span, self._guide, self._situation, self._height = span, guide, situation, height
-        self._rise = TakeOff(guide, situation, height)
+        self._span, self._navigator, self._situation, self._height = span, navigator, situation, height
+        self._rise = TakeOff(navigator, situation, height)
         self._place: Goal | None = None
         self._returns = False
 
     def initialise(self) -> None:
         """Come to rest."""
         pose = self._situation.pose
-        self._guide.rest()
+        self._navigator.rest()
         self._place, self._returns = Goal("The place to hold", pose.x, pose.y), False
         self._span.begin()
 
@@ -43,7 +45,7 @@ class Hold(Behaviour):
         lasts = self._span.duration
         text = "until it is stopped" if math.isnan(lasts) else f"for {lasts:.0f} s"
         self.feedback_message = f"Holding here {text}."
-        if self._guide.going.keeps_courses:
+        if self._navigator.controller.keeps_courses:
             self._keep()
         if not self._returns:
             self._situation.tell("holding", self.feedback_message)
@@ -51,24 +53,24 @@ class Hold(Behaviour):
 
     def terminate(self, new_status: Status) -> None:
         """Rest, whatever it was about."""
-        if self._guide.going.keeps_courses:
-            self._guide.rest()
+        if self._navigator.controller.keeps_courses:
+            self._navigator.rest()
 
     def _keep(self) -> None:
         """Keep heading and height, and the place as far as the kind can."""
-        guide, now, place = self._guide, self._situation, self._place
+        navigator, now, place = self._navigator, self._situation, self._place
         if now.flight in ("landed", "taking_off"):
             if not math.isnan(self._height):
                 self._rise.tell_robot()
             return  # it stands on the ground
-        astray = kind_of(guide.kind).astray
+        astray = kind_of(navigator.kind).astray
         if place and not self._returns and now.pose.distance(place.x, place.y) > astray:
             self._returns = True
-            guide.head_for(place)
+            navigator.head_for(place)
         if self._returns:
             now.tell("driving", "Coming back to where it holds: it was carried away.")
-            self._returns = guide.update(now.pose, now.points, now.now) is LegState.UNDER_WAY
+            self._returns = navigator.update(now.pose, now.points, now.now) is LegState.UNDER_WAY
             if not self._returns:
-                guide.rest()
+                navigator.rest()
             return
-        guide.command(Manoeuvre(kind="hover", height=self._height))
+        navigator.command(Manoeuvre(kind="hover", height=self._height))

@@ -14,7 +14,7 @@ from bridge.msgs.pilothouse_msgs import Place
 from robotside.core.notice import Notice
 from robotside.navigation.navigator import Goal, Navigator
 from robotside.records.events import Say
-from robotside.tasks.behaviours.acts import Act, Rounds
+from robotside.tasks.behaviours.acts import Action, Rounds
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.drive_to import DriveTo
 from robotside.tasks.behaviours.patrol import at_place
@@ -35,8 +35,8 @@ STAY_TIME = 6.0
 class _Lead(DriveTo):
     """Drives to the course's point, no faster than who follows."""
 
-    def __init__(self, course: Course, guide: Navigator, situation: Situation, say: Say) -> None:
-        super().__init__(course, guide, situation, self._doing)
+    def __init__(self, course: Course, navigator: Navigator, situation: Situation, say: Say) -> None:
+        super().__init__(course, navigator, situation, self._doing)
         self._say = say
         self._alone_since = math.nan
         self._waits = self._blind = False
@@ -52,7 +52,7 @@ class _Lead(DriveTo):
             return super().update()
         if not self._waits:
             self._waits = True
-            self._guide.rest()
+            self._navigator.rest()
             at = (now.pose.x, now.pose.y)
             said = f"Waiting on the way to {goal.spoken}: nobody follows."
             self._say("task", Notice(Code.FOLLOWER_LOST, said, place=goal.place), "warn", at=at)
@@ -106,7 +106,7 @@ class _Tell(Behaviour):
 
 
 def lead(
-    places: Places[Place], message: str, guide: Navigator, situation: Situation, say: Say
+    places: Places[Place], message: str, navigator: Navigator, situation: Situation, say: Say
 ) -> tuple[Course, Behaviour]:
     """Along `places` in their order; `message` is told at the start, empty when there is nothing to tell."""
     course = Course([at_place(place) for place in places])
@@ -125,10 +125,10 @@ def lead(
         "leg",
         memory=True,
         children=[
-            Act("choose", choose),
-            _Lead(course, guide, situation, say),
+            Action("choose", choose),
+            _Lead(course, navigator, situation, say),
             _Tell(course, [place.note for place in places], situation, say),
-            Act("count", count),
+            Action("count", count),
         ],
     )
     return course, Rounds("guide", leg, lambda: course.finished)

@@ -21,7 +21,7 @@ from bridge.msgs.pilothouse_msgs import Mission, Place, Waypoint
 from robotside.core.notice import Notice
 from robotside.navigation.navigator import Goal, Navigator
 from robotside.records.events import Say
-from robotside.tasks.behaviours.acts import Act, Rounds
+from robotside.tasks.behaviours.acts import Action, Rounds
 from robotside.tasks.behaviours.circle import Circle
 from robotside.tasks.behaviours.course import Course, Route
 from robotside.tasks.behaviours.drive_to import DriveTo
@@ -46,7 +46,7 @@ def patrol_course(mission: Mission, rng: random.Random) -> Course:
 
 def patrol(
     course: Course,
-    guide: Navigator,
+    navigator: Navigator,
     situation: Situation,
     say: Say,
     fault: Callable[[float, float], str] = lambda *_: "",
@@ -55,7 +55,7 @@ def patrol(
 
     What waits in `situation.intruders` is gone round on the way; `fault` tells where the robot cannot stand.
     """
-    drive = DriveTo(course, guide, situation)
+    drive = DriveTo(course, navigator, situation)
 
     def take_over() -> None:
         if course.take_over():
@@ -81,16 +81,18 @@ def patrol(
         say("waypoint", skipped, "warn", at=(goal.x, goal.y))
         return goes_on
 
-    circle = Circle(guide, situation, say, fault)
+    circle = Circle(navigator, situation, say, fault)
     drives = Selector("drive", memory=False, children=[circle, drive])
-    arrive = Sequence("arrive", memory=True, children=[drives, Act("reached", lambda: _reached(course, say))])
-    either = Selector("try", memory=True, children=[arrive, Act("skip", skip)])
+    arrive = Sequence(
+        "arrive", memory=True, children=[drives, Action("reached", lambda: _reached(course, say))]
+    )
+    either = Selector("try", memory=True, children=[arrive, Action("skip", skip)])
     dwell = Dwell(course.dwell, situation, course)
-    visit = Sequence("visit", memory=True, children=[Act("choose", choose), either, dwell])
+    visit = Sequence("visit", memory=True, children=[Action("choose", choose), either, dwell])
     return Rounds("patrol", visit, finished)
 
 
-def way(course: Course, guide: Navigator, situation: Situation, say: Say | None = None) -> Behaviour:
+def way(course: Course, navigator: Navigator, situation: Situation, say: Say | None = None) -> Behaviour:
     """The tree that visits the points of `course` once, and fails where one cannot be reached."""
 
     def reached() -> bool:
@@ -99,13 +101,15 @@ def way(course: Course, guide: Navigator, situation: Situation, say: Say | None 
         course.reached()
         return True
 
-    drive = DriveTo(course, guide, situation)
-    choose = Act("choose", lambda: bool(course.advance()))
-    leg = Sequence("leg", memory=True, children=[choose, drive, Act("reached", reached)])
+    drive = DriveTo(course, navigator, situation)
+    choose = Action("choose", lambda: bool(course.advance()))
+    leg = Sequence("leg", memory=True, children=[choose, drive, Action("reached", reached)])
     return Rounds("way", leg, lambda: course.finished)
 
 
-def single(name: str, place: Waypoint, guide: Navigator, situation: Situation) -> tuple[Course, Behaviour]:
+def single(
+    name: str, place: Waypoint, navigator: Navigator, situation: Situation
+) -> tuple[Course, Behaviour]:
     """The way to one place, as `Home`: its course and its tree, which fails when the place cannot be reached."""
     course = Course([_goal(name, place)])
 
@@ -116,8 +120,8 @@ def single(name: str, place: Waypoint, guide: Navigator, situation: Situation) -
     def words(goal: Goal) -> str:
         return "Heading home." if name == "Home" else f"Heading for {goal.spoken}."
 
-    drive = DriveTo(course, guide, situation, words)
-    return course, Sequence(name, memory=True, children=[drive, Act("reached", reached)])
+    drive = DriveTo(course, navigator, situation, words)
+    return course, Sequence(name, memory=True, children=[drive, Action("reached", reached)])
 
 
 def at_place(place: Place) -> Goal:

@@ -88,8 +88,8 @@ class Situation:
         """Forget what belonged to the task before."""
         self.doing, self.still, self.idle = Doing(), 0.0, 0.0
         self.intruders.clear()
-        self.unhear()
+        self.forget_confirmation()
 
-    def unhear(self) -> None:
+    def forget_confirmation(self) -> None:
         """Forget the answers that were given up to now."""
         self.confirmed_by = self.tag = ""

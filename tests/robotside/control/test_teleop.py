@@ -311,7 +311,7 @@ def test_the_cap_rises_again_with_the_link_though_nobody_drives(scene: Scene) ->
 def test_who_drove_and_is_gone_leaves_a_robot_that_goes_home_by_itself_alone(scene: Scene) -> None:
     scene.set(home=[Waypoint(-1.0, 0.0)])
     scene.drive(AHEAD)
-    home = scene.station.autonomy.assignments.task(TaskOrder(task="go_home"))
+    home = scene.station.autonomy.task_factory.task(TaskOrder(task="go_home"))
     scene.station.autonomy.engine.start(home, scene.now)
     before = len(scene.robot.commands)
     scene.clients.remove(scene.anna)

@@ -170,7 +170,7 @@ def begin_by_itself(far: Station) -> None:
     far.autonomy.place(ORIGIN)
     far.keep(Mission(waypoints=[Waypoint(4.0, 0.0)]))
     far.controls.release(far.controls.driver.client)  # type: ignore[union-attr]
-    far.autonomy.engine.start(far.autonomy.assignments.task(TaskOrder(task="patrol")), far.now)
+    far.autonomy.engine.start(far.autonomy.task_factory.task(TaskOrder(task="patrol")), far.now)
     far.show_control()
 
 

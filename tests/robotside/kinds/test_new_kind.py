@@ -71,9 +71,9 @@ def near_its_fence(kind: str) -> float:
 
 
 def test_it_goes_brakes_and_rests_by_its_record(scene: Scene) -> None:
-    going = scene.station.autonomy.guide.going
-    assert isinstance(going, CourseController)
-    assert going.turning > 0.0
+    controller = scene.station.autonomy.navigator.controller
+    assert isinstance(controller, CourseController)
+    assert controller.turning > 0.0
     safe = SafeState("airboat", DEFAULT_CONFIG.safe_state)
     safe.enter(0.0, MeasuredState())
     assert safe.step(0.0, MeasuredState(), lost=True).phase == "idles and holds its heading"

@@ -169,5 +169,5 @@ def test_an_unknown_kind_is_said_once_and_goes_as_if_on_wheels(tmp_path: Path) -
     told = run.station.events.since(0, run.station.events.boot)
     events = [event.text for event in told if event.text.startswith(said)]
     assert len(events) == 1
-    assert isinstance(run.station.autonomy.guide.going, DifferentialController)
+    assert isinstance(run.station.autonomy.navigator.controller, DifferentialController)
     assert "dock" not in run.station.info.tasks

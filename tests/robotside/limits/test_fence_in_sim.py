@@ -37,7 +37,7 @@ def rooms(run: Hand, order: Order | None, seconds: float) -> tuple[float, float]
     believed = true = math.inf
     for _ in range(round(seconds / 0.5)):
         run.wait(0.5) if order is None else run.push(order, 0.5)
-        pose = run.station.autonomy.whereabouts.pose
+        pose = run.station.autonomy.pose_estimator.pose
         assert pose is not None
         believed = min(believed, keeper.room(pose.x, pose.y) - run.robot.info.radius)
         true = min(true, keeper.room(*run.state.position[:2]) - run.robot.info.radius)

@@ -50,4 +50,4 @@ def test_a_wild_stick_never_gets_the_body_over_the_fence(robot: SimRobot, tmp_pa
         rooms.append(float(fence.clearance(np.array([[x, y]]))[0]) - robot.info.radius)
     assert min(rooms) > 0.0
     assert sum(room < 0.2 for room in rooms) > 300
-    assert station.autonomy.whereabouts.odometer > 5.0
+    assert station.autonomy.pose_estimator.odometer > 5.0

@@ -28,15 +28,15 @@ def truck(start: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> tuple[FakeRobo
 
 def drive(goal: tuple[float, float, float], things: Points = NOTHING) -> tuple[FakeRobot, float]:
     """To the end of its way; and its tightest bend [1/m]."""
-    robot, going = truck()
-    list(going.search(Planner(GRID, 0.9), Pose2(*robot.pose), goal, "The goal", NOTHING))
+    robot, controller = truck()
+    list(controller.search(Planner(GRID, 0.9), Pose2(*robot.pose), goal, "The goal", NOTHING))
     now, tightest = 0.0, 0.0
     list(robot.read(now))
-    while not going.arrived(Pose2(*robot.pose)) and now < 120.0:
+    while not controller.arrived(Pose2(*robot.pose)) and now < 120.0:
         pose = Pose2(*robot.pose)
-        if not going.under_way:
-            list(going.search(Planner(GRID, 0.9), pose, goal, "The goal", NOTHING))
-        going.steer(pose, pose.inverse().apply(things), sure=True)
+        if not controller.under_way:
+            list(controller.search(Planner(GRID, 0.9), pose, goal, "The goal", NOTHING))
+        controller.steer(pose, pose.inverse().apply(things), sure=True)
         if abs(robot.twist.linear.x) > 0.2:
             tightest = max(tightest, abs(robot.twist.angular.z / robot.twist.linear.x))
         now += 0.05
@@ -63,21 +63,25 @@ def test_it_stands_before_what_lies_in_its_way() -> None:
 
 
 def test_its_body_needs_room_ahead_of_the_axle_and_beside_it_no_more_than_it_is_wide() -> None:
-    _, going = truck()
-    assert going.free(0.0, NOTHING) == HORIZON
-    assert going.free(0.0, np.array([[5.0, 0.0]])) == pytest.approx(1.75, abs=0.3)
-    assert going.free(0.0, np.array([[5.0, 1.2]])) == HORIZON
-    assert going.free(0.25, np.array([[4.0, 1.6]])) < 3.0
+    _, controller = truck()
+    assert controller.free(0.0, NOTHING) == HORIZON
+    assert controller.free(0.0, np.array([[5.0, 0.0]])) == pytest.approx(1.75, abs=0.3)
+    assert controller.free(0.0, np.array([[5.0, 1.2]])) == HORIZON
+    assert controller.free(0.25, np.array([[4.0, 1.6]])) < 3.0
 
 
 def test_who_stands_close_to_something_may_go_away_from_it() -> None:
-    _, going = truck()
+    _, controller = truck()
     close = np.array([[3.2, 0.0]])
-    assert going.free(0.0, close) == 0.0
-    assert going.free(0.0, close, -1.0) == HORIZON
+    assert controller.free(0.0, close) == 0.0
+    assert controller.free(0.0, close, -1.0) == HORIZON
 
 
 def test_a_goal_off_the_map_is_named() -> None:
-    robot, going = truck()
+    robot, controller = truck()
     with pytest.raises(Unreachable, match=r"Point 3 at \(50.0, 0.0\) is off the map"):
-        list(going.search(Planner(GRID, 0.9), Pose2(*robot.pose), (50.0, 0.0, math.nan), "Point 3", NOTHING))
+        list(
+            controller.search(
+                Planner(GRID, 0.9), Pose2(*robot.pose), (50.0, 0.0, math.nan), "Point 3", NOTHING
+            )
+        )

@@ -39,9 +39,9 @@ class Course(FakeRobot):
 def steered(kind: str, yaw: float, *, fastest: float = 1.5, sure: bool = True) -> Manoeuvre:
     """What one that looks to `yaw` [rad] is told, with its goal 15 m to the east."""
     robot = Course(kind, fastest)
-    going, pose = CourseController(robot), Pose2(0.0, 0.0, yaw)
-    list(going.search(PLANNER, pose, (15.0, 0.0, math.nan), "The goal", NOTHING))
-    going.steer(pose, NOTHING, sure=sure)
+    controller, pose = CourseController(robot), Pose2(0.0, 0.0, yaw)
+    list(controller.search(PLANNER, pose, (15.0, 0.0, math.nan), "The goal", NOTHING))
+    controller.steer(pose, NOTHING, sure=sure)
     return robot.told[-1]
 
 

@@ -25,15 +25,15 @@ AHEAD = 0.45 * np.column_stack([np.cos(RING), np.sin(RING)])
 def steered(points: Points, times: int) -> list[float]:
     """How fast it was told to go each time, with something at `points`, wherever it is [m/s]."""
     robot = FakeRobot()
-    going = DifferentialController(robot)
+    controller = DifferentialController(robot)
     list(
-        going.search(
+        controller.search(
             Planner(GRID, 0.18), Pose2(0.0, 0.0, 0.0), (4.0, 0.0, math.nan), "The goal", np.empty((0, 2))
         )
     )
     speeds = []
     for _ in range(times):
-        going.steer(Pose2(0.0, 0.0, 0.0), points, sure=True)
+        controller.steer(Pose2(0.0, 0.0, 0.0), points, sure=True)
         speeds.append(robot.twist.linear.x)
     return speeds
 

@@ -24,28 +24,28 @@ class Trip:
         self.robot = robot
         self.now = 0.0
         self.plans: list[np.ndarray] = []
-        self.guide = Navigator(robot, Grid.from_msg(robot.map()), self.plans.append)
+        self.navigator = Navigator(robot, Grid.from_msg(robot.map()), self.plans.append)
         self._laser = LaserProjection()
         self._points = np.empty((0, 2))
         self.room = math.inf
         self._read()
 
     def go(self, goal: Goal, limit: float = 120.0) -> LegState:
-        self.guide.head_for(goal)
+        self.navigator.head_for(goal)
         end = self.now + limit
         leg = LegState.UNDER_WAY
         while leg is LegState.UNDER_WAY and self.now < end:
-            leg = self.guide.update(Pose2(*self.robot.pose), self._points, self.now)
+            leg = self.navigator.update(Pose2(*self.robot.pose), self._points, self.now)
             self.now += PERIOD
             self._read()
-        self.guide.rest()
+        self.navigator.rest()
         return leg
 
     def _read(self) -> None:
         for topic, msg in self.robot.read(self.now):
             if topic == "/scan":
                 self._points = self._laser.points(msg)  # type: ignore[arg-type]
-                self.guide.obstacles.see(Pose2(*self.robot.pose).apply(self._points), self.now)
+                self.navigator.obstacles.see(Pose2(*self.robot.pose).apply(self._points), self.now)
                 self.room = min(self.room, self.robot.room())
 
 
@@ -117,7 +117,7 @@ def test_it_passes_a_gap_that_is_not_much_wider_than_itself() -> None:
 
 def test_a_pillar_that_appears_right_ahead_is_not_hit() -> None:
     run = trip()
-    run.guide.head_for(Goal("Point 1", 6.0, 0.0))
+    run.navigator.head_for(Goal("Point 1", 6.0, 0.0))
     run.go(Goal("Point 1", 6.0, 0.0), limit=4.0)
     x, y, _ = run.robot.pose
     run.robot.pillars.append(Pillar(x + 0.8, y))
@@ -129,7 +129,7 @@ def test_a_pillar_that_appears_right_ahead_is_not_hit() -> None:
 def test_a_way_that_is_closed_by_something_new_is_given_up_with_a_sentence() -> None:
     run = trip(pillars=[Pillar(0.0, y) for y in np.arange(-6.0, 6.1, 0.2).tolist()])
     assert run.go(Goal("Point 2", 6.0, 0.0), limit=200.0) is LegState.BLOCKED
-    assert "point 2 at (6.0, 0.0)" in run.guide.reason.lower()
+    assert "point 2 at (6.0, 0.0)" in run.navigator.reason.lower()
     assert run.room > 0.05
     assert run.robot.at_rest
 
@@ -143,12 +143,12 @@ def test_a_goal_behind_closed_walls_is_unreachable_at_once() -> None:
     ]
     run = trip(boxes=walls)
     assert run.go(Goal("Point 4", 4.0, 0.0)) is LegState.BLOCKED
-    assert run.guide.reason == "There is no way to Point 4 at (4.0, 0.0)."
+    assert run.navigator.reason == "There is no way to Point 4 at (4.0, 0.0)."
 
 
 def test_with_an_unsure_position_it_creeps() -> None:
     run = trip()
-    run.guide.sure = False
+    run.navigator.sure = False
     run.go(Goal("Point 1", 6.0, 0.0), limit=5.0)
     speeds = [twist.linear.x for twist in run.robot.commands if twist is not None]
     assert max(speeds) <= 0.15
@@ -166,5 +166,5 @@ def test_a_leg_goes_on_after_a_rest_from_wherever_the_robot_is_then() -> None:
 def test_after_the_last_leg_there_is_no_plan_to_show() -> None:
     run = trip()
     run.go(Goal("Point 1", -3.0, 0.0))
-    run.guide.finish()
+    run.navigator.finish()
     assert len(run.plans[-1]) == 0

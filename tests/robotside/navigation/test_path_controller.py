@@ -26,29 +26,34 @@ class Hopping(GroundBound):
         self.rose.append(height)
 
 
-def guide(kind: str = "wheels") -> Navigator:
+def navigator(kind: str = "wheels") -> Navigator:
     robot = FakeRobot()
     robot.info = msgspec.structs.replace(robot.info, kind=kind)
     return Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
 
 
 def test_heights_and_taking_off_reach_any_way_of_going() -> None:
-    guide_, going = guide(), Hopping()
-    guide_.going = going  # type: ignore[assignment]
-    guide_.measured(0.4)
-    guide_.keep_height(1.5)
-    guide_.flies("taking_off")
-    guide_.take_off(2.5)
-    assert (guide_.height, going.height, going.aloft, going.rose) == (0.4, 1.5, False, [2.5])
+    navigator_, controller = navigator(), Hopping()
+    navigator_.controller = controller  # type: ignore[assignment]
+    navigator_.measured(0.4)
+    navigator_.keep_height(1.5)
+    navigator_.flies("taking_off")
+    navigator_.take_off(2.5)
+    assert (navigator_.height, controller.height, controller.aloft, controller.rose) == (
+        0.4,
+        1.5,
+        False,
+        [2.5],
+    )
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_kind_hears_of_its_height(kind: str) -> None:
-    guide_ = guide(kind)
-    going: PathController = guide_.going
-    assert math.isnan(guide_.height)
-    guide_.measured(-2.0)
-    guide_.keep_height(-3.0)
-    assert (guide_.height, going.height) == (-2.0, -3.0)
-    guide_.take_off(1.0)
-    assert going.ready() == ""
+    navigator_ = navigator(kind)
+    controller: PathController = navigator_.controller
+    assert math.isnan(navigator_.height)
+    navigator_.measured(-2.0)
+    navigator_.keep_height(-3.0)
+    assert (navigator_.height, controller.height) == (-2.0, -3.0)
+    navigator_.take_off(1.0)
+    assert controller.ready() == ""

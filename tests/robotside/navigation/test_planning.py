@@ -59,19 +59,19 @@ def test_the_hardest_search_takes_no_more_than_its_share_of_each_update(
 ) -> None:
     monkeypatch.setattr(lattice, "MAX_POSES", 10 * SEARCH_STEPS)
     robot = truck(*CLOSED)
-    guide = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
-    guide.head_for(GOAL)
+    navigator = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
+    navigator.head_for(GOAL)
     shares = []
     for tick in range(100):
         before = looks.count
-        leg = guide.update(Pose2(*robot.pose), np.empty((0, 2)), tick * 0.05)
+        leg = navigator.update(Pose2(*robot.pose), np.empty((0, 2)), tick * 0.05)
         shares.append(looks.count - before)
         if leg is LegState.BLOCKED:
             break
-        assert guide.planning
+        assert navigator.planning
         assert robot.at_rest
     assert leg is LegState.BLOCKED
-    assert guide.reason == "There is no way to Point 1 at (5.0, 0.0) that it can drive."
+    assert navigator.reason == "There is no way to Point 1 at (5.0, 0.0) that it can drive."
     assert max(shares) <= SEARCH_STEPS
     assert 9 * SEARCH_STEPS < sum(shares) <= 10 * SEARCH_STEPS
 
@@ -82,10 +82,10 @@ def test_it_finds_bit_by_bit_what_it_finds_in_one_go() -> None:
 
     def drawn() -> list[list[list[float]]]:
         ways: list[list[list[float]]] = []
-        guide = Navigator(robot, grid, lambda way: ways.append(way.tolist()))
-        guide.head_for(GOAL)
+        navigator = Navigator(robot, grid, lambda way: ways.append(way.tolist()))
+        navigator.head_for(GOAL)
         for tick in range(1000):
-            guide.update(Pose2(-4.0, 0.0, 0.0), np.empty((0, 2)), tick * 0.05)
+            navigator.update(Pose2(-4.0, 0.0, 0.0), np.empty((0, 2)), tick * 0.05)
             if ways:
                 break
         return ways
@@ -108,7 +108,7 @@ def searching(state: Path, looks: Looks) -> Scene:
         run.run(0.1)
     status = run.task
     assert (status.phase, status.reason) == ("planning", "Looking for a way to the goal.")
-    assert run.station.autonomy.guide.planning
+    assert run.station.autonomy.navigator.planning
     return run
 
 
@@ -120,7 +120,7 @@ def test_whoever_stops_or_pauses_it_meanwhile_is_obeyed_at_once(
     answer = run.ask(service)
     assert answer.success, answer.message
     so_far = looks.count
-    assert not run.station.autonomy.guide.planning
+    assert not run.station.autonomy.navigator.planning
     run.run(1.0)
     assert looks.count == so_far
     assert run.robot.at_rest
@@ -133,7 +133,7 @@ def test_resumed_it_looks_anew(tmp_path: Path, looks: Looks) -> None:
     so_far = looks.count
     run.ask("/task/resume")
     run.run(0.5)
-    assert run.station.autonomy.guide.planning
+    assert run.station.autonomy.navigator.planning
     assert looks.count > so_far
 
 
@@ -142,7 +142,7 @@ def test_another_place_takes_the_place_of_the_one_that_it_looks_for(tmp_path: Pa
     run.go_to(-1.0, 0.0)
     run.run(1.0)
     status = run.task
-    assert (status.phase, run.station.autonomy.guide.planning) == ("driving", False)
+    assert (status.phase, run.station.autonomy.navigator.planning) == ("driving", False)
 
 
 @pytest.mark.parametrize("kind", ["wheels", "boat", "hexapod", "quadrotor"])
@@ -152,14 +152,14 @@ def test_every_kind_looks_for_a_way_a_bit_at_a_time_and_stands_meanwhile(
     monkeypatch.setattr("robotside.navigation.navigator.SEARCH_STEPS", 1)
     robot = truck(Box(0.0, -2.0, 0.4, 2.0))
     robot.info = msgspec.structs.replace(robot.info, kind=kind)
-    guide = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
+    navigator = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
     robot.drive(Twist.planar(0.5, 0.0))
-    guide.head_for(GOAL)
+    navigator.head_for(GOAL)
     ticks = 0
-    while guide.going.under_way is False and ticks < 500:
-        assert guide.update(Pose2(*robot.pose), np.empty((0, 2)), ticks * 0.05) is LegState.UNDER_WAY
+    while navigator.controller.under_way is False and ticks < 500:
+        assert navigator.update(Pose2(*robot.pose), np.empty((0, 2)), ticks * 0.05) is LegState.UNDER_WAY
         ticks += 1
-        assert guide.going.under_way or (guide.planning and robot.at_rest)
+        assert navigator.controller.under_way or (navigator.planning and robot.at_rest)
     assert 5 < ticks < 500
 
 
@@ -168,25 +168,25 @@ def test_while_it_looks_for_another_way_it_goes_on_along_the_one_that_it_has(
 ) -> None:
     robot = truck()
     robot.info = msgspec.structs.replace(robot.info, kind="wheels")
-    guide = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
-    guide.head_for(GOAL)
+    navigator = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
+    navigator.head_for(GOAL)
     nothing = np.empty((0, 2))
-    guide.update(Pose2(-4.0, 0.0, 0.0), nothing, 0.0)
-    assert guide.going.under_way
+    navigator.update(Pose2(-4.0, 0.0, 0.0), nothing, 0.0)
+    assert navigator.controller.under_way
     monkeypatch.setattr("robotside.navigation.navigator.SEARCH_STEPS", 1)
-    guide.obstacles.see(np.array([[1.0, 0.0]]), 2.0)
+    navigator.obstacles.see(np.array([[1.0, 0.0]]), 2.0)
     told = len(robot.commands)
-    guide.update(Pose2(-4.0, 0.0, 0.0), nothing, 2.0)
-    assert guide.planning
+    navigator.update(Pose2(-4.0, 0.0, 0.0), nothing, 2.0)
+    assert navigator.planning
     for tick in range(3):
-        guide.update(Pose2(-4.0, 0.0, 0.0), nothing, 2.05 + 0.05 * tick)
-        assert guide.planning
+        navigator.update(Pose2(-4.0, 0.0, 0.0), nothing, 2.05 + 0.05 * tick)
+        assert navigator.planning
     speeds = [twist.linear.x for twist in robot.commands[told:] if twist is not None]
     assert len(speeds) == 4
     assert min(speeds) > 0.05
     # right before it something turns up: it brakes for that as ever
     for tick in range(4):
-        guide.update(Pose2(-4.0, 0.0, 0.0), np.array([[0.22, 0.0]]), 2.2 + 0.05 * tick)
-        assert guide.planning
+        navigator.update(Pose2(-4.0, 0.0, 0.0), np.array([[0.22, 0.0]]), 2.2 + 0.05 * tick)
+        assert navigator.planning
     last = robot.commands[-1]
     assert last is None or last.linear.x == 0.0

@@ -76,7 +76,7 @@ class Scene:
         self._jpeg = jpeg(image)
 
     def look(self, stamp: float, *, placing: bool = True) -> None:
-        self.watch.take_image(
+        self.watch.on_image(
             CompressedImage(Header(Time.at(stamp), "camera"), "jpeg", self._jpeg), placing=placing
         )
 
@@ -89,7 +89,7 @@ def test_a_cone_is_placed_on_the_map_by_the_laser_or_by_the_ground(laser: bool) 
     scene = Scene()
     for n in range(MIN_SIGHTINGS):
         if laser:
-            scene.watch.take_sweep(np.array([[0.5, 4.97], [0.52, 4.95], [5.0, 2.0]]), 0.2 * n)
+            scene.watch.on_scan(np.array([[0.5, 4.97], [0.52, 4.95], [5.0, 2.0]]), 0.2 * n)
         scene.look(0.2 * n)
     assert len(scene.found) == 1
     place = scene.found[0].position

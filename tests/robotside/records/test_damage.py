@@ -15,7 +15,7 @@ from sqlalchemy import event
 from bridge.msgs.pilothouse_msgs import Event, Place
 from robotside.records import Records
 from robotside.records.database import storage as storage_module
-from robotside.records.database.files import Files
+from robotside.records.database.files import DatabaseFiles
 from robotside.records.database.sqlite_store import SKIPPED_AFTER_RESTORE
 from robotside.records.opening import CannotOpen, open_records
 
@@ -60,9 +60,9 @@ async def with_backup(state: Path) -> int:
     records = await opened(state)
     assert await keep(records, OFFICE) == ""
     records.events.add(Event(text="before"), lambda _: None)
-    await until(lambda: Files(state / "records.sqlite3").backups())
+    await until(lambda: DatabaseFiles(state / "records.sqlite3").backups())
     records.close()
-    Files(state / "records.sqlite3").back_up()
+    DatabaseFiles(state / "records.sqlite3").back_up()
     records = await opened(state)
     assert await keep(records, LAB) == ""
     records.close()
@@ -72,7 +72,7 @@ async def with_backup(state: Path) -> int:
 async def test_a_broken_database_is_set_aside_and_its_newest_backup_put_in_its_place(tmp_path: Path) -> None:
     last = await with_backup(tmp_path)
     path = tmp_path / "records.sqlite3"
-    newest = Files(path).backups()[-1]
+    newest = DatabaseFiles(path).backups()[-1]
     spoil(path)
     broken = path.read_bytes()
     records = await opened(tmp_path)
@@ -120,7 +120,7 @@ async def test_what_a_power_cut_left_empty_or_nothing_of_starts_from_its_backup_
     (problem,) = records.problems
     assert problem.startswith(f"The database was damaged ({why}) and ")
     assert problem.endswith(
-        f"; the backup {Files(path).backups()[-1].name} was put in its place, what was stored after it is lost."
+        f"; the backup {DatabaseFiles(path).backups()[-1].name} was put in its place, what was stored after it is lost."
     )
     assert records.places.named("Office 12") is not None
     records.close()
@@ -153,10 +153,10 @@ async def test_a_file_that_is_taken_away_while_it_is_used_is_noticed_before_anyt
 
 async def test_a_broken_backup_is_passed_over_for_an_older_one(tmp_path: Path) -> None:
     await with_backup(tmp_path)
-    spoil(Files(tmp_path / "records.sqlite3").backups()[-1])
+    spoil(DatabaseFiles(tmp_path / "records.sqlite3").backups()[-1])
     spoil(tmp_path / "records.sqlite3")
     records = await opened(tmp_path)
-    assert Files(tmp_path / "records.sqlite3").backups()[-2].name in records.problems[0]
+    assert DatabaseFiles(tmp_path / "records.sqlite3").backups()[-2].name in records.problems[0]
     records.close()
 
 

@@ -195,10 +195,10 @@ def test_what_one_client_was_answered_is_no_answer_for_another(scene: Scene) -> 
 
 @pytest.mark.parametrize(("x", "shown"), [(12.0, "12.0"), (1e6, "1e+06"), (-1e308, "-1e+308")])
 def test_a_place_off_the_map_is_refused_with_what_the_map_holds(scene: Scene, x: float, shown: str) -> None:
-    before = scene.station.autonomy.whereabouts.pose
+    before = scene.station.autonomy.pose_estimator.pose
     far = PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(x, 0.0))))
     scene.station.hear(scene.anna, "/initialpose", far, None)
-    assert scene.station.autonomy.whereabouts.pose == before
+    assert scene.station.autonomy.pose_estimator.pose == before
     assert scene.events("command") == [
         f"The place at ({shown}, 0.0) is off the map, which is x -11.0 to 11.0 m, y -7.0 to 7.0 m."
     ]

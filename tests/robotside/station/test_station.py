@@ -91,7 +91,7 @@ def test_with_stop_pressed_the_robot_brakes_even_if_a_task_runs(scene: Scene) ->
     scene.ask("/stop")
     before = len(scene.robot.commands)
     mind = scene.station.autonomy
-    mind.engine.start(mind.assignments.task(TaskOrder(task="go_to", goals=[Waypoint(3.0, -2.0)])), scene.now)
+    mind.engine.start(mind.task_factory.task(TaskOrder(task="go_to", goals=[Waypoint(3.0, -2.0)])), scene.now)
     scene.run(1.0)
     assert scene.task.state == "RUNNING"
     assert scene.robot.commands[before:]
@@ -122,10 +122,10 @@ def test_a_goal_in_a_wall_is_said_and_not_driven_to(scene: Scene) -> None:
 
 
 def test_a_pose_that_is_no_number_is_said_and_ignored(scene: Scene) -> None:
-    before = scene.station.autonomy.whereabouts.pose
+    before = scene.station.autonomy.pose_estimator.pose
     bad = PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(math.nan, 0.0))))
     scene.station.hear(scene.anna, "/initialpose", bad, None)
-    assert scene.station.autonomy.whereabouts.pose == before
+    assert scene.station.autonomy.pose_estimator.pose == before
     assert scene.events("command")
 
 
@@ -240,10 +240,10 @@ def test_stop_is_obeyed_when_it_cannot_be_noted_and_that_is_said(
 
 def test_only_who_has_control_may_place_the_robot_while_somebody_has_it(scene: Scene) -> None:
     scene.ask("/control/acquire", CommandRequest(client_name="Anna"))
-    before = scene.station.autonomy.whereabouts.pose
+    before = scene.station.autonomy.pose_estimator.pose
     there = PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(3.0, 3.0))))
     scene.station.hear(scene.client("bert"), "/initialpose", there, None)
-    assert scene.station.autonomy.whereabouts.pose == before
+    assert scene.station.autonomy.pose_estimator.pose == before
     assert scene.events("command")[-1].startswith("Anna has control")
 
 

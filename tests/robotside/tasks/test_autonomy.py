@@ -68,10 +68,10 @@ def test_a_robot_that_was_placed_by_a_finger_finds_its_exact_pose(tmp_path: Path
         scene.anna, "/initialpose", PoseWithCovarianceStamped(pose=PoseWithCovariance(told)), None
     )
     scene.run(2.0)
-    pose = scene.station.autonomy.whereabouts.pose
+    pose = scene.station.autonomy.pose_estimator.pose
     assert pose is not None
     assert pose == pytest.approx((-6.0, 2.0, 0.8), abs=0.08)
-    assert scene.station.autonomy.whereabouts.sure
+    assert scene.station.autonomy.pose_estimator.sure
 
 
 def test_the_camera_is_wanted_only_while_a_task_runs(scene: Scene) -> None:
@@ -174,7 +174,7 @@ def test_a_pose_told_by_a_finger_half_a_metre_off_is_put_right_by_the_next_sweep
         stamped = PoseWithCovarianceStamped(pose=PoseWithCovariance(told))
         scene.station.hear(scene.anna, "/initialpose", stamped, None)
         scene.run(0.5)
-        pose = scene.station.autonomy.whereabouts.pose
+        pose = scene.station.autonomy.pose_estimator.pose
         assert pose is not None
         assert pose.distance(x, y) < 0.05
         assert pose.yaw == pytest.approx(yaw, abs=0.02)

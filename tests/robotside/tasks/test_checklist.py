@@ -7,9 +7,11 @@ from dataclasses import replace
 
 import pytest
 
-from robotside.tasks.checklist import Looked, checks
+from robotside.tasks.checklist import CheckInputs, checks
 
-WELL = Looked(battery=0.8, low_below=0.15, silent=(), placed=True, sure=True, stop_tested=True, offset=-0.02)
+WELL = CheckInputs(
+    battery=0.8, low_below=0.15, silent=(), placed=True, sure=True, stop_tested=True, offset=-0.02
+)
 
 
 def test_when_all_is_well_every_line_is_green() -> None:

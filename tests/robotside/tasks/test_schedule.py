@@ -11,7 +11,7 @@ import pytest
 
 from bridge.msgs.pilothouse_msgs import ScheduledTask, TaskOrder
 from bridge.msgs.std_msgs import Time
-from robotside.tasks.schedule import MAX_LATENESS, fault, following, local_zone, turns
+from robotside.tasks.schedule import MAX_LATENESS, fault, following, local_zone, scheduled_starts
 
 BERLIN = ZoneInfo("Europe/Berlin")
 DAY = 86400.0
@@ -34,7 +34,7 @@ def run(task: ScheduledTask, *instants: float) -> list[float]:
     """When it starts, looked at again and again at these instants."""
     starts = []
     for now in instants:
-        for turn in turns([task], now, BERLIN):
+        for turn in scheduled_starts([task], now, BERLIN):
             task = turn.task
             if turn.due:
                 starts.append(now)
@@ -85,16 +85,16 @@ def test_every_so_often_does_not_drift() -> None:
 
 def test_what_is_late_is_missed_once_and_the_next_one_counts() -> None:
     task = ScheduledTask(1, order=TaskOrder(task="hold"), every=600.0, next=Time.at(1000.0))
-    (turn,) = turns([task], 1000.0 + MAX_LATENESS + 1.0, BERLIN)
+    (turn,) = scheduled_starts([task], 1000.0 + MAX_LATENESS + 1.0, BERLIN)
     assert (turn.due, turn.missed, turn.task.next.seconds) == (False, 1000.0, 1600.0)
-    (turn,) = turns([task], 1000.0 + 5 * 600.0 + MAX_LATENESS + 1.0, BERLIN)
+    (turn,) = scheduled_starts([task], 1000.0 + 5 * 600.0 + MAX_LATENESS + 1.0, BERLIN)
     assert (turn.due, turn.missed, turn.task.next.seconds) == (False, 1000.0, 4600.0)
 
 
 def test_a_clock_that_jumps_ahead_over_a_start_tells_that_it_was_missed() -> None:
     task = daily("10:00")
-    task = turns([task], at("2026-06-03T09:00"), BERLIN)[0].task
-    (turn,) = turns([task], at("2026-06-03T13:00"), BERLIN)
+    task = scheduled_starts([task], at("2026-06-03T09:00"), BERLIN)[0].task
+    (turn,) = scheduled_starts([task], at("2026-06-03T13:00"), BERLIN)
     assert (turn.due, turn.missed) == (False, at("2026-06-03T10:00"))
     assert spoken(turn.task.next.seconds) == "Thu 04 10:00"
 
@@ -107,24 +107,24 @@ def test_a_clock_that_goes_back_a_little_starts_nothing_twice(days: tuple[int, .
 
 
 def test_a_clock_that_was_days_ahead_leaves_no_start_out_once_it_is_right() -> None:
-    task = turns([daily("10:00")], at("2027-06-03T12:00"), BERLIN)[0].task
-    (turn,) = turns([task], at("2026-06-03T12:00"), BERLIN)
+    task = scheduled_starts([daily("10:00")], at("2027-06-03T12:00"), BERLIN)[0].task
+    (turn,) = scheduled_starts([task], at("2026-06-03T12:00"), BERLIN)
     assert spoken(turn.task.next.seconds) == "Thu 04 10:00"
     task = ScheduledTask(1, order=TaskOrder(task="hold"), every=600.0, next=Time.at(9e8))
-    (turn,) = turns([task], 5e8, BERLIN)
+    (turn,) = scheduled_starts([task], 5e8, BERLIN)
     assert turn.task.next.seconds == 5e8 + 600.0
 
 
 def test_one_that_is_switched_off_never_starts_and_has_no_next() -> None:
     task = msgspec.structs.replace(daily("10:00"), enabled=False, next=Time.at(500.0))
-    (turn,) = turns([task], 500.0, BERLIN)
+    (turn,) = scheduled_starts([task], 500.0, BERLIN)
     assert (turn.due, turn.task.next) == (False, Time())
-    assert turns([turn.task], 600.0, BERLIN) == []
+    assert scheduled_starts([turn.task], 600.0, BERLIN) == []
 
 
 def test_nothing_changes_between_two_starts() -> None:
-    task = turns([daily("10:00")], at("2026-06-03T09:00"), BERLIN)[0].task
-    assert turns([task], at("2026-06-03T09:59"), BERLIN) == []
+    task = scheduled_starts([daily("10:00")], at("2026-06-03T09:00"), BERLIN)[0].task
+    assert scheduled_starts([task], at("2026-06-03T09:59"), BERLIN) == []
 
 
 @pytest.mark.parametrize(

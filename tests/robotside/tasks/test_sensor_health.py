@@ -18,18 +18,18 @@ from bridge.msgs.pilothouse_msgs import LineSensor
 from bridge.msgs.sensor_msgs import Imu, LaserScan, Range
 from robotside.core.pose2 import Pose2
 from robotside.motion.stopping_path import PlanarVelocity
-from robotside.tasks.sensor_health import SENSOR_TIMEOUT, Senses, needed
+from robotside.tasks.sensor_health import SENSOR_TIMEOUT, SensorHealth, needed
 
 MOVING = Twist(Vector3(0.3, 0.1), Vector3(0.0, 0.0, 0.2))
 ODOM = Odometry(pose=PoseWithCovariance(Pose(Point(0.0, 0.0, -2.0))), twist=TwistWithCovariance(MOVING))
 
 
 def test_odometry_tells_speed_and_height_and_the_imu_how_it_is_tilted() -> None:
-    senses = Senses()
-    assert math.isnan(senses.measured(None).height)
-    senses.take("/odom", ODOM, 1.0)
-    senses.take("/imu/data", Imu(orientation=Quaternion.from_rpy(0.1, -0.2, 3.0)), 1.0)
-    found = senses.measured(Pose2(1.0, 2.0, 3.0))
+    sensor_health = SensorHealth()
+    assert math.isnan(sensor_health.measured(None).height)
+    sensor_health.take("/odom", ODOM, 1.0)
+    sensor_health.take("/imu/data", Imu(orientation=Quaternion.from_rpy(0.1, -0.2, 3.0)), 1.0)
+    found = sensor_health.measured(Pose2(1.0, 2.0, 3.0))
     assert (found.moving, found.height) == (PlanarVelocity(0.3, 0.1, 0.2), -2.0)
     assert math.isclose(found.roll, 0.1)
     assert math.isclose(found.pitch, -0.2)
@@ -37,40 +37,40 @@ def test_odometry_tells_speed_and_height_and_the_imu_how_it_is_tilted() -> None:
 
 
 def test_what_is_no_number_changes_nothing() -> None:
-    senses = Senses()
-    senses.take("/odom", ODOM, 1.0)
+    sensor_health = SensorHealth()
+    sensor_health.take("/odom", ODOM, 1.0)
     wild = TwistWithCovariance(Twist(Vector3(math.inf), Vector3(0.0, 0.0, math.nan)))
-    senses.take("/odom", Odometry(twist=wild), 1.1)
-    assert senses.measured(None).moving == PlanarVelocity(0.3, 0.1, 0.2)
+    sensor_health.take("/odom", Odometry(twist=wild), 1.1)
+    assert sensor_health.measured(None).moving == PlanarVelocity(0.3, 0.1, 0.2)
 
 
 def test_an_imu_without_orientation_says_nothing_of_it() -> None:
-    senses = Senses()
+    sensor_health = SensorHealth()
     covariance = [-1.0, *[0.0] * 8]
     tilted = Quaternion.from_rpy(0.5, 0.5, 0.0)
-    senses.take("/imu/data", Imu(orientation=tilted, orientation_covariance=covariance), 1.0)
-    assert senses.measured(None).roll == 0.0
+    sensor_health.take("/imu/data", Imu(orientation=tilted, orientation_covariance=covariance), 1.0)
+    assert sensor_health.measured(None).roll == 0.0
 
 
 def test_what_it_drives_with_is_missed_from_the_start_and_the_rest_once_it_was_there() -> None:
-    senses = Senses()
-    assert senses.silent(0.0) == ["odometry", "laser"]
-    senses.take("/odom", ODOM, 0.0)
-    senses.take("/scan", LaserScan(), 0.0)
-    assert senses.silent(SENSOR_TIMEOUT) == []
-    senses.take("/imu/data", Imu(), 0.0)
-    senses.take("/odom", ODOM, 2.0)
-    assert senses.silent(2.0) == ["laser", "IMU"]
+    sensor_health = SensorHealth()
+    assert sensor_health.silent(0.0) == ["odometry", "laser"]
+    sensor_health.take("/odom", ODOM, 0.0)
+    sensor_health.take("/scan", LaserScan(), 0.0)
+    assert sensor_health.silent(SENSOR_TIMEOUT) == []
+    sensor_health.take("/imu/data", Imu(), 0.0)
+    sensor_health.take("/odom", ODOM, 2.0)
+    assert sensor_health.silent(2.0) == ["laser", "IMU"]
 
 
 def test_small_sensors_that_fell_silent_are_named() -> None:
-    senses = Senses()
+    sensor_health = SensorHealth()
     for topic, message in (("/odom", ODOM), ("/scan", LaserScan()), ("/line_sensor", LineSensor())):
-        senses.take(topic, message, 0.0)
-    senses.take("/range/rear", Range(), 0.0)
+        sensor_health.take(topic, message, 0.0)
+    sensor_health.take("/range/rear", Range(), 0.0)
     for topic, message in (("/odom", ODOM), ("/scan", LaserScan())):
-        senses.take(topic, message, 2.0)
-    assert senses.silent(2.0) == ["line sensor", "rear ultrasound"]
+        sensor_health.take(topic, message, 2.0)
+    assert sensor_health.silent(2.0) == ["line sensor", "rear ultrasound"]
 
 
 def test_which_sensors_it_needs_depends_on_its_kind_and_on_what_it_has() -> None:
@@ -83,23 +83,23 @@ def test_which_sensors_it_needs_depends_on_its_kind_and_on_what_it_has() -> None
 
 
 def test_a_boat_misses_no_laser() -> None:
-    senses = Senses("boat")
-    assert senses.silent(0.0) == ["odometry"]
-    senses.take("/odom", ODOM, 0.0)
-    assert senses.silent(SENSOR_TIMEOUT) == []
+    sensor_health = SensorHealth("boat")
+    assert sensor_health.silent(0.0) == ["odometry"]
+    sensor_health.take("/odom", ODOM, 0.0)
+    assert sensor_health.silent(SENSOR_TIMEOUT) == []
 
 
 def test_speed_is_over_ground_whichever_way_the_body_leans() -> None:
-    senses = Senses()
+    sensor_health = SensorHealth()
     for roll, pitch, body, ground in (
         (0.0, 0.5, Vector3(math.cos(0.5), 0.0, math.sin(0.5)), (1.0, 0.0)),
         (0.8, 0.0, Vector3(0.0, math.cos(0.8), -math.sin(0.8)), (0.0, 1.0)),
         (0.8, 0.0, Vector3(0.0, math.sin(0.8), math.cos(0.8)), (0.0, 0.0)),
     ):
         leans = Pose(Point(), Quaternion.from_rpy(roll, pitch, 2.0))
-        senses.take(
+        sensor_health.take(
             "/odom", Odometry(pose=PoseWithCovariance(leans), twist=TwistWithCovariance(Twist(body))), 1.0
         )
-        moving = senses.measured(None).moving
+        moving = sensor_health.measured(None).moving
         assert math.isclose(moving.x, ground[0], abs_tol=1e-9)
         assert math.isclose(moving.y, ground[1], abs_tol=1e-9)

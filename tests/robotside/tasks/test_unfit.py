@@ -83,14 +83,14 @@ def test_another_map_counts_when_the_task_is_over_and_the_position_stays(lost_ma
     lost_map.run(4.0)
     lost_map.set(*SQUARE)
     lost_map.start()
-    planner = lost_map.station.autonomy.guide.planner
+    planner = lost_map.station.autonomy.navigator.planner
     robot.more = [("/map", robot.map(0.05))]
     lost_map.run(1.0)
-    assert lost_map.station.autonomy.guide.planner is planner
+    assert lost_map.station.autonomy.navigator.planner is planner
     lost_map.ask("/task/cancel")
     lost_map.run(1.0)
-    assert lost_map.station.autonomy.guide.planner is not planner
-    pose = lost_map.station.autonomy.whereabouts.pose
+    assert lost_map.station.autonomy.navigator.planner is not planner
+    pose = lost_map.station.autonomy.pose_estimator.pose
     assert pose is not None
     assert pose.distance(robot.pose[0], robot.pose[1]) < 0.1
 
@@ -264,12 +264,12 @@ def test_odometry_that_is_no_number_counts_as_none_and_spoils_nothing(tmp_path: 
     scene.run(1.0)
     scene.station.autonomy.place(ORIGIN)
     scene.run(1.0)
-    odometer = scene.station.autonomy.whereabouts.odometer
+    odometer = scene.station.autonomy.pose_estimator.odometer
     nowhere = PoseWithCovariance(Pose(Point(math.nan, 0.0)))
     robot.more = [("/odom", Odometry(pose=nowhere))]
     scene.run(1.0)
-    assert scene.station.autonomy.whereabouts.odometer == odometer
-    assert scene.station.autonomy.whereabouts.sure
+    assert scene.station.autonomy.pose_estimator.odometer == odometer
+    assert scene.station.autonomy.pose_estimator.sure
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from robotside.records.database.files import MAX_DAMAGED, Files
+from robotside.records.database.files import MAX_DAMAGED, DatabaseFiles
 
 DAY = 86_400.0
 
@@ -30,7 +30,7 @@ def content(path: Path) -> list[str]:
 
 def test_the_newest_backups_and_one_of_each_day_are_kept(tmp_path: Path) -> None:
     now = [1_795_000_000.0]
-    files = Files(database(tmp_path / "records.sqlite3"), lambda: now[0], backups=7)
+    files = DatabaseFiles(database(tmp_path / "records.sqlite3"), lambda: now[0], backups=7)
     for _ in range(40):
         now[0] += DAY / 4
         files.back_up()
@@ -50,7 +50,7 @@ def test_a_backup_is_whole_while_somebody_writes(tmp_path: Path) -> None:
         writer.execute("INSERT INTO t VALUES ('kept')")
         writer.commit()
         writer.execute("INSERT INTO t VALUES ('on its way')")
-        backup = Files(path).back_up()
+        backup = DatabaseFiles(path).back_up()
     assert backup is not None
     assert content(backup) == ["x", "kept"]
     assert [each.name for each in backup.parent.iterdir()] == [backup.name]
@@ -62,7 +62,7 @@ def test_a_backup_that_cannot_be_made_leaves_nothing_half(
     def full(_: int) -> None:
         raise OSError(28, "No space left on device")
 
-    files = Files(database(tmp_path / "records.sqlite3"))
+    files = DatabaseFiles(database(tmp_path / "records.sqlite3"))
     monkeypatch.setattr("os.fsync", full)
     with pytest.raises(OSError, match="No space left"):
         files.back_up()
@@ -71,7 +71,7 @@ def test_a_backup_that_cannot_be_made_leaves_nothing_half(
 
 def test_of_broken_files_the_newest_are_kept(tmp_path: Path) -> None:
     now = [1_795_000_000.0]
-    files = Files(tmp_path / "records.sqlite3", lambda: now[0])
+    files = DatabaseFiles(tmp_path / "records.sqlite3", lambda: now[0])
     for number in range(MAX_DAMAGED + 2):
         now[0] += 1.0
         files.path.write_text(f"{number}")
@@ -81,7 +81,7 @@ def test_of_broken_files_the_newest_are_kept(tmp_path: Path) -> None:
 
 
 def test_a_whole_file_has_no_fault_and_neither_has_none(tmp_path: Path) -> None:
-    files = Files(tmp_path / "records.sqlite3")
+    files = DatabaseFiles(tmp_path / "records.sqlite3")
     assert files.fault() == ""
     database(files.path)
     assert files.fault() == ""
@@ -90,14 +90,14 @@ def test_a_whole_file_has_no_fault_and_neither_has_none(tmp_path: Path) -> None:
 
 
 def test_who_wants_no_backups_has_none(tmp_path: Path) -> None:
-    files = Files(database(tmp_path / "records.sqlite3"), backups=0)
+    files = DatabaseFiles(database(tmp_path / "records.sqlite3"), backups=0)
     assert files.back_up() is None
     assert files.backups() == []
 
 
 def test_how_old_the_newest_backup_is_tells_when_the_next_one_is_due(tmp_path: Path) -> None:
     now = [0.0]
-    files = Files(database(tmp_path / "records.sqlite3"), lambda: now[0])
+    files = DatabaseFiles(database(tmp_path / "records.sqlite3"), lambda: now[0])
     assert files.backup_age() == math.inf
     backup = files.back_up()
     assert backup is not None

@@ -12,7 +12,7 @@ import pytest
 from robotside.records.database.jobs import Job
 from robotside.records.database.rows import Put
 from robotside.records.database.storage import NotWritten
-from robotside.records.database.writer import MAX_WAITING, Store, Threaded
+from robotside.records.database.writer import MAX_WAITING, Store, WriterThread
 
 
 class Paper(Store):
@@ -82,8 +82,8 @@ def desk() -> Desk:
 
 
 @pytest.fixture
-def writer(paper: Paper, desk: Desk) -> Iterator[Threaded]:
-    writer = Threaded(paper, desk.soon)
+def writer(paper: Paper, desk: Desk) -> Iterator[WriterThread]:
+    writer = WriterThread(paper, desk.soon)
     writer.start()
     yield writer
     paper.go.set()
@@ -94,7 +94,7 @@ def job(value: object) -> Job:
     return Job(orders=[Put("settings", "a", value)])
 
 
-def test_what_waits_is_written_together_in_its_order(writer: Threaded, paper: Paper, desk: Desk) -> None:
+def test_what_waits_is_written_together_in_its_order(writer: WriterThread, paper: Paper, desk: Desk) -> None:
     paper.go.clear()
     jobs = [job(number) for number in range(5)]
     for each in jobs:
@@ -107,7 +107,7 @@ def test_what_waits_is_written_together_in_its_order(writer: Threaded, paper: Pa
 
 
 def test_one_that_cannot_be_written_costs_the_others_nothing(
-    writer: Threaded, paper: Paper, desk: Desk
+    writer: WriterThread, paper: Paper, desk: Desk
 ) -> None:
     paper.go.clear()
     paper.bad = 2
@@ -117,7 +117,9 @@ def test_one_that_cannot_be_written_costs_the_others_nothing(
     assert desk.look(5) == ["", "", "It is bad.", "", ""]
 
 
-def test_too_many_are_refused_and_none_waits_for_the_disk(writer: Threaded, paper: Paper, desk: Desk) -> None:
+def test_too_many_are_refused_and_none_waits_for_the_disk(
+    writer: WriterThread, paper: Paper, desk: Desk
+) -> None:
     paper.go.clear()
     taken = sum(writer.submit(job(number), desk.hear) for number in range(MAX_WAITING + 100))
     assert MAX_WAITING <= taken <= MAX_WAITING + 50
@@ -126,7 +128,7 @@ def test_too_many_are_refused_and_none_waits_for_the_disk(writer: Threaded, pape
 
 
 def test_a_broken_database_is_written_anew_with_what_came_meanwhile(
-    writer: Threaded, paper: Paper, desk: Desk
+    writer: WriterThread, paper: Paper, desk: Desk
 ) -> None:
     paper.problem = NotWritten("Broken.", damaged=True)
     said = list[str]()
@@ -141,7 +143,7 @@ def test_a_broken_database_is_written_anew_with_what_came_meanwhile(
 
 
 def test_what_waits_at_the_end_is_written_before_it_ends(paper: Paper, desk: Desk) -> None:
-    writer = Threaded(paper, desk.soon)
+    writer = WriterThread(paper, desk.soon)
     for number in range(3):
         writer.submit(job(number), desk.hear)
     writer.start()
@@ -150,7 +152,7 @@ def test_what_waits_at_the_end_is_written_before_it_ends(paper: Paper, desk: Des
     assert paper.closed
 
 
-def test_a_backup_is_made_soon_after_the_start(writer: Threaded, paper: Paper, desk: Desk) -> None:
+def test_a_backup_is_made_soon_after_the_start(writer: WriterThread, paper: Paper, desk: Desk) -> None:
     writer.submit(job(1), desk.hear)
     desk.look(1)
     writer.close()
@@ -159,7 +161,7 @@ def test_a_backup_is_made_soon_after_the_start(writer: Threaded, paper: Paper, d
 
 def test_a_backup_that_is_young_will_do_for_now(paper: Paper, desk: Desk) -> None:
     paper.age = 100.0
-    writer = Threaded(paper, desk.soon)
+    writer = WriterThread(paper, desk.soon)
     writer.start()
     writer.submit(job(1), desk.hear)
     desk.look(1)
@@ -171,7 +173,7 @@ def test_a_loop_that_has_ended_stops_nothing(paper: Paper) -> None:
     def ended(*_: object) -> None:
         raise RuntimeError("Event loop is closed")
 
-    writer = Threaded(paper, ended)
+    writer = WriterThread(paper, ended)
     writer.start()
     writer.submit(job(1), lambda *_: None)
     writer.close()

@@ -26,9 +26,9 @@ class Stage:
     def __init__(self, *boxes: Box, pillars: tuple[Pillar, ...] = ()) -> None:
         self.robot = FakeRobot(boxes=boxes, pillars=pillars)
         self.situation = Situation()
-        self.guide = Navigator(self.robot, Grid.from_msg(self.robot.map()), lambda _: None)
+        self.navigator = Navigator(self.robot, Grid.from_msg(self.robot.map()), lambda _: None)
         self.said: list[str] = []
-        self.fault: Callable[[float, float], str] = lambda x, y: self.guide.planner.fault("It", x, y)
+        self.fault: Callable[[float, float], str] = lambda x, y: self.navigator.planner.fault("It", x, y)
         list(self.robot.read(0.0))
 
     def say(
@@ -38,7 +38,7 @@ class Stage:
 
     def patrol(self, mission: Mission) -> tuple[Course, Behaviour]:
         course = patrol_course(mission, random.Random(3))
-        tree = patrol(course, self.guide, self.situation, self.say, self.fault)
+        tree = patrol(course, self.navigator, self.situation, self.say, self.fault)
         return course, tree
 
     def tick(self, tree: Behaviour, seconds: float = 0.05) -> Status:
@@ -46,7 +46,7 @@ class Stage:
         for _ in range(round(seconds / 0.05)):
             self.situation.pose = Pose2(*self.robot.pose)
             tree.tick_once()
-            self.situation.unhear()
+            self.situation.forget_confirmation()
             self.situation.now += 0.05
             list(self.robot.read(self.situation.now))
             if tree.status is not Status.RUNNING:
@@ -55,7 +55,7 @@ class Stage:
 
     def pause(self, seconds: float) -> None:
         """Let time pass with the task paused."""
-        self.guide.rest()
+        self.navigator.rest()
         self.situation.now += seconds
         self.situation.idle += seconds
         list(self.robot.read(self.situation.now))

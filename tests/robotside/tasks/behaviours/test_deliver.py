@@ -24,7 +24,7 @@ def until_asked(stage: Stage, tree: Behaviour, limit: float = 60.0) -> None:
 
 def test_a_delivery_asks_at_both_places_waits_for_a_tap_and_comes_back() -> None:
     stage = Stage()
-    course, tree = deliver([SHOP, LAB, HOME], "Two books", "", stage.guide, stage.situation, stage.say)
+    course, tree = deliver([SHOP, LAB, HOME], "Two books", "", stage.navigator, stage.situation, stage.say)
     until_asked(stage, tree)
     doing = stage.situation.doing
     assert (doing.phase, doing.place) == ("waiting", "Office 12")
@@ -60,7 +60,7 @@ def test_the_card_of_the_addressee_answers_and_another_one_is_told_of_once(
     recipient: str, card: str, answers: bool
 ) -> None:
     stage = Stage()
-    course, tree = deliver([SHOP, LAB], "", recipient, stage.guide, stage.situation, stage.say)
+    course, tree = deliver([SHOP, LAB], "", recipient, stage.navigator, stage.situation, stage.say)
     until_asked(stage, tree)
     stage.situation.tag = "card-12"
     stage.tick(tree, 0.1)
@@ -76,7 +76,7 @@ def test_the_card_of_the_addressee_answers_and_another_one_is_told_of_once(
 
 def test_an_answer_from_before_it_was_asked_does_not_count() -> None:
     stage = Stage()
-    course, tree = deliver([SHOP, LAB], "", "", stage.guide, stage.situation, stage.say)
+    course, tree = deliver([SHOP, LAB], "", "", stage.navigator, stage.situation, stage.say)
     while not stage.situation.doing.asks:
         stage.situation.confirmed_by, stage.situation.tag = "Anna", "card-12"
         assert stage.tick(tree) is Status.RUNNING
@@ -87,7 +87,7 @@ def test_an_answer_from_before_it_was_asked_does_not_count() -> None:
 def test_a_place_without_a_card_says_that_only_a_tap_answers() -> None:
     stage = Stage()
     shop = Place(1, "Office 12", x=2.0, y=0.0)
-    _, tree = deliver([shop, LAB], "", "", stage.guide, stage.situation, stage.say)
+    _, tree = deliver([shop, LAB], "", "", stage.navigator, stage.situation, stage.say)
     until_asked(stage, tree)
     stage.situation.tag = "card"
     stage.tick(tree)
@@ -96,16 +96,16 @@ def test_a_place_without_a_card_says_that_only_a_tap_answers() -> None:
 
 def test_a_delivery_fails_at_rest_where_there_is_no_way() -> None:
     stage = Stage(Box(1.0, -6.0, 1.3, 6.0))
-    course, tree = deliver([SHOP, LAB], "", "", stage.guide, stage.situation, stage.say)
+    course, tree = deliver([SHOP, LAB], "", "", stage.navigator, stage.situation, stage.say)
     assert stage.tick(tree, 10.0) is Status.FAILURE
-    assert stage.guide.reason == "There is no way to Office 12 at (2.0, 0.0)."
+    assert stage.navigator.reason == "There is no way to Office 12 at (2.0, 0.0)."
     assert stage.robot.at_rest
     assert course.visited == 0
 
 
 def test_a_delivery_goes_on_after_a_pause_on_the_way_and_at_the_question() -> None:
     stage = Stage()
-    course, tree = deliver([SHOP, LAB], "", "", stage.guide, stage.situation, stage.say)
+    course, tree = deliver([SHOP, LAB], "", "", stage.navigator, stage.situation, stage.say)
     stage.tick(tree, 2.0)
     stage.pause(100.0)
     until_asked(stage, tree)
@@ -117,11 +117,11 @@ def test_a_delivery_goes_on_after_a_pause_on_the_way_and_at_the_question() -> No
 
 def test_a_delivery_that_is_taken_up_again_heads_for_the_place_that_it_headed_for() -> None:
     stage = Stage()
-    first, _ = deliver([SHOP, LAB], "", "", stage.guide, stage.situation, stage.say)
+    first, _ = deliver([SHOP, LAB], "", "", stage.navigator, stage.situation, stage.say)
     first.advance()
     first.reached()
     first.advance()
-    course, tree = deliver([SHOP, LAB], "", "", stage.guide, stage.situation, stage.say)
+    course, tree = deliver([SHOP, LAB], "", "", stage.navigator, stage.situation, stage.say)
     course.take_up(first.noted())
     until_asked(stage, tree)
     assert stage.situation.doing.asks == "Has it been taken at Lab?"

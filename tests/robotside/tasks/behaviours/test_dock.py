@@ -17,7 +17,7 @@ DOCK = Place(1, "Dock", "dock", x=3.0, y=1.0, yaw=math.pi / 2)
 
 
 def make(stage: Stage) -> Dock:
-    return Dock(DOCK, Course([before(DOCK)]), stage.guide, stage.situation)
+    return Dock(DOCK, Course([before(DOCK)]), stage.navigator, stage.situation)
 
 
 def until(stage: Stage, tree: Dock, phase: str) -> None:
@@ -49,7 +49,7 @@ def test_without_a_charge_in_time_it_stands_and_says_so() -> None:
     began = stage.situation.now
     assert stage.tick(tree, 60.0) is Status.FAILURE
     assert stage.situation.now - began == pytest.approx(CHARGE_TIMEOUT, abs=0.2)
-    assert stage.guide.reason == "No charge was seen at Dock within 20 s; the robot stands there."
+    assert stage.navigator.reason == "No charge was seen at Dock within 20 s; the robot stands there."
     assert stage.robot.at_rest
     assert stage.robot.pose[1] < DOCK.y + MAX_BEYOND + 0.05
 
@@ -93,4 +93,4 @@ def test_who_is_charging_at_the_dock_stays_there() -> None:
 def test_a_dock_without_a_way_to_it_fails() -> None:
     stage = Stage(Box(1.0, -6.0, 1.3, 6.0))
     assert stage.tick(make(stage), 5.0) is Status.FAILURE
-    assert stage.guide.reason.startswith("There is no way to Dock at (3.0, 0.2)")
+    assert stage.navigator.reason.startswith("There is no way to Dock at (3.0, 0.2)")

@@ -12,7 +12,7 @@ from tests.robotside.tasks.behaviours.stage import Stage
 def test_a_robot_that_makes_no_way_says_so_and_ends_with_a_sentence() -> None:
     stage = Stage()
     course, _ = stage.patrol(Mission(waypoints=[Waypoint(5.0, 0.0)], home=[Waypoint(0.0, 0.0)]))
-    tree = DriveTo(course, stage.guide, stage.situation)
+    tree = DriveTo(course, stage.navigator, stage.situation)
     stage.tick(tree, 2.0)
     assert stage.situation.doing.text == "Heading for point 1 of 1."
     drive, stage.robot.drive = stage.robot.drive, lambda _: None  # type: ignore[method-assign]

@@ -16,7 +16,7 @@ from tests.robotside.tasks.behaviours.stage import Stage
 
 def make(stage: Stage, heading: float, speed: float = math.nan, duration: float = math.nan) -> FollowHeading:
     span = Span(duration, lambda: stage.situation.worked)
-    return FollowHeading(heading, speed, span, stage.guide, stage.situation)
+    return FollowHeading(heading, speed, span, stage.navigator, stage.situation)
 
 
 def test_it_turns_and_goes_at_the_speed_asked_for_until_the_time_is_over() -> None:
@@ -37,7 +37,7 @@ def test_it_turns_and_goes_at_the_speed_asked_for_until_the_time_is_over() -> No
 def test_without_a_heading_it_goes_where_it_points_at_its_own_speed() -> None:
     stage = Stage()
     assert stage.tick(make(stage, math.nan, duration=3.0), 5.0) is Status.SUCCESS
-    assert stage.robot.pose[0] == pytest.approx(3.0 * stage.guide.cruise, abs=0.2)
+    assert stage.robot.pose[0] == pytest.approx(3.0 * stage.navigator.cruise, abs=0.2)
 
 
 def test_it_stops_before_a_wall_and_says_where() -> None:
@@ -46,7 +46,7 @@ def test_it_stops_before_a_wall_and_says_where() -> None:
     assert stage.tick(tree, 60.0) is Status.FAILURE
     x = stage.robot.pose[0]
     assert 9.2 < x < 10.0 - stage.robot.info.radius - 0.05
-    assert stage.guide.reason == (
+    assert stage.navigator.reason == (
         f"The way straight on ended at ({x:.1f}, 0.0) before a wall, the fence or the end of the map."
     )
     assert stage.robot.contacts == 0
@@ -79,7 +79,7 @@ def test_it_fails_before_what_does_not_go_away() -> None:
     stage = Stage(pillars=(Pillar(3.0, 0.0),))
     tree = make(stage, 0.0)
     assert run(stage, tree, 12.0 + BLOCKED_TIMEOUT) is Status.FAILURE
-    assert "before something that does not go away." in stage.guide.reason
+    assert "before something that does not go away." in stage.navigator.reason
     assert stage.robot.contacts == 0
 
 

@@ -15,7 +15,7 @@ from tests.robotside.tasks.behaviours.stage import Stage
 def make(duration: float) -> tuple[Stage, Span, Hold]:
     stage = Stage()
     span = Span(duration, lambda: stage.situation.worked)
-    return stage, span, Hold(span, stage.guide, stage.situation)
+    return stage, span, Hold(span, stage.navigator, stage.situation)
 
 
 def test_it_holds_as_long_as_told_and_tells_how_far_it_is() -> None:

@@ -27,7 +27,7 @@ def go(stage: Stage, tree: Behaviour, seconds: float, follows: bool | None) -> S
 
 def test_a_tour_visits_its_places_in_order_and_tells_what_is_there() -> None:
     stage = Stage()
-    course, tree = lead(TOUR, "Please follow me.", stage.guide, stage.situation, stage.say)
+    course, tree = lead(TOUR, "Please follow me.", stage.navigator, stage.situation, stage.say)
     assert go(stage, tree, 60.0, follows=True) is Status.SUCCESS
     assert stage.said == [
         "Please follow me.",
@@ -39,7 +39,7 @@ def test_a_tour_visits_its_places_in_order_and_tells_what_is_there() -> None:
 
 def test_it_stays_while_the_note_is_told_and_only_there() -> None:
     stage = Stage()
-    _, tree = lead(TOUR, "", stage.guide, stage.situation, stage.say)
+    _, tree = lead(TOUR, "", stage.navigator, stage.situation, stage.say)
     while stage.phase != "dwelling":
         go(stage, tree, 0.05, follows=True)
     began = stage.situation.now
@@ -51,7 +51,7 @@ def test_it_stays_while_the_note_is_told_and_only_there() -> None:
 
 def test_it_waits_when_nobody_follows_and_goes_on_when_they_come() -> None:
     stage = Stage()
-    _, tree = lead(TOUR, "", stage.guide, stage.situation, stage.say)
+    _, tree = lead(TOUR, "", stage.navigator, stage.situation, stage.say)
     go(stage, tree, 1.0, follows=True)
     go(stage, tree, FOLLOWER_TIMEOUT - 0.2, follows=False)
     assert stage.phase == "driving"
@@ -66,7 +66,7 @@ def test_it_waits_when_nobody_follows_and_goes_on_when_they_come() -> None:
 
 def test_without_a_sensor_it_says_so_once_and_goes_on() -> None:
     stage = Stage()
-    _, tree = lead(TOUR, "", stage.guide, stage.situation, stage.say)
+    _, tree = lead(TOUR, "", stage.navigator, stage.situation, stage.say)
     assert go(stage, tree, 60.0, follows=None) is Status.SUCCESS
     said = "Nothing tells whether somebody follows; the robot goes on without waiting."
     assert stage.said.count(said) == 1
@@ -74,7 +74,7 @@ def test_without_a_sensor_it_says_so_once_and_goes_on() -> None:
 
 def test_its_sentence_says_for_the_whole_way_that_it_does_not_wait() -> None:
     stage = Stage()
-    _, tree = lead(TOUR, "", stage.guide, stage.situation, stage.say)
+    _, tree = lead(TOUR, "", stage.navigator, stage.situation, stage.say)
     go(stage, tree, 0.5, follows=None)
     said = stage.situation.doing.text
     assert said == "Leading the way to Reception, without waiting: nothing tells whether somebody follows."
@@ -84,7 +84,7 @@ def test_its_sentence_says_for_the_whole_way_that_it_does_not_wait() -> None:
 
 def test_a_sensor_that_falls_silent_while_it_waits_does_not_hold_it_for_ever() -> None:
     stage = Stage()
-    _, tree = lead(TOUR, "", stage.guide, stage.situation, stage.say)
+    _, tree = lead(TOUR, "", stage.navigator, stage.situation, stage.say)
     go(stage, tree, 4.0, follows=False)
     assert stage.phase == "waiting"
     go(stage, tree, SENSOR_TIMEOUT + 0.2, follows=None)
@@ -93,7 +93,7 @@ def test_a_sensor_that_falls_silent_while_it_waits_does_not_hold_it_for_ever() -
 
 def test_a_tour_goes_on_after_a_pause_from_where_it_is() -> None:
     stage = Stage()
-    course, tree = lead(TOUR, "", stage.guide, stage.situation, stage.say)
+    course, tree = lead(TOUR, "", stage.navigator, stage.situation, stage.say)
     go(stage, tree, 2.0, follows=True)
     stage.pause(50.0)
     assert go(stage, tree, 60.0, follows=True) is Status.SUCCESS

@@ -90,7 +90,7 @@ def test_a_patrol_of_which_nothing_can_be_reached_fails_at_rest() -> None:
 def test_driving_rests_at_every_ending(end: str) -> None:
     stage = Stage(Box(1.0, -6.0, 1.3, 6.0))
     course = Course([Goal("Point 1", 4.0 if end == "failure" else -2.0, 0.0)])
-    drive = DriveTo(course, stage.guide, stage.situation)
+    drive = DriveTo(course, stage.navigator, stage.situation)
     stage.tick(drive, 1.0)
     if end == "interruption":
         assert not stage.robot.at_rest
@@ -106,7 +106,7 @@ def test_the_feedback_says_how_far_it_is_and_then_that_it_arrived() -> None:
     stage = Stage()
     course = patrol_course(Mission(waypoints=[*POINTS, Waypoint(9.0, 0.0)]), random.Random(1))
     course.index = 3
-    drive = DriveTo(course, stage.guide, stage.situation)
+    drive = DriveTo(course, stage.navigator, stage.situation)
     stage.tick(drive)
     assert drive.feedback_message == "Heading for point 4 of 4, 9 m to go."
     stage.tick(drive, 60.0)
@@ -115,7 +115,7 @@ def test_the_feedback_says_how_far_it_is_and_then_that_it_arrived() -> None:
 
 def test_home_is_driven_to_and_turned_to() -> None:
     stage = Stage()
-    course, tree = single("Home", Waypoint(2.0, 1.0, math.pi), stage.guide, stage.situation)
+    course, tree = single("Home", Waypoint(2.0, 1.0, math.pi), stage.navigator, stage.situation)
     assert stage.tick(tree, 60.0) is Status.SUCCESS
     assert course.visited == 1
     assert abs(math.remainder(stage.robot.pose[2] - math.pi, math.tau)) < 0.1
