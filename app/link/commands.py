@@ -173,6 +173,8 @@ class Outcome:
     """By which method it was asked for, and when."""
     sent: float = math.nan
     """When it left for the robot, by our clock [s]."""
+    silent: bool = False
+    """Of STOP: the robot has not answered at all, and it is still being sent."""
 
     @property
     def label(self) -> str:
@@ -346,7 +348,7 @@ class Commands:
             if latency > STOP_DOUBT and not doubted:
                 doubted = True
                 reason = answer.message if answer is not None else STILL_SENDING
-                self._report(replace(outcome, phase="no_reply", reason=reason))
+                self._report(replace(outcome, phase="no_reply", reason=reason, silent=answer is None))
             await asyncio.sleep(STOP_PAUSE)
 
     async def _try_stop(self, request: Msg) -> CommandResponse | None:

@@ -14,7 +14,7 @@ def connecting_words(session: Session) -> tuple[str, str]:
     """A sentence and its level: the first attempt is news, a later one a warning."""
     state = session.link_state
     waiting = f" Trying again in {math.ceil(session.retry_in)} s." if session.retry_in > 0 else ""
-    sentence = state.sentence + ("" if "Trying again" in state.sentence else waiting)
+    sentence = state.sentence + waiting
     if state.attempt > 1 or state.retry_in > 0:
         return f"{sentence} Tap to cancel.", "warn"
     return sentence, "info"

@@ -92,6 +92,8 @@ class MissionEditor:
     """Under way to the robot; None when nothing is."""
     outcome: str = ""
     """What became of the last sending, in one sentence."""
+    failed: bool = False
+    """The last sending was refused or not answered."""
     _recall: str = ""
     """`asked` of the robot; then `told` or `accepted`, whichever it does first; empty when nothing is recalled."""
     _told: bool = False
@@ -222,7 +224,7 @@ class MissionEditor:
         """The message to send now; the draft counts as sent until it is `answered` or the robot tells that it has it."""
         if self.sent is None:
             self._told = False
-        self.sent, self.outcome = self.draft, ""
+        self.sent, self.outcome, self.failed = self.draft, "", False
         self.on_change()
         return self.draft.message()
 
@@ -235,7 +237,7 @@ class MissionEditor:
             self.stored = draft
         self._told = False
         if self.sent is not None and self.sent.same_as(draft):
-            self.sent, self.outcome = None, sentence
+            self.sent, self.outcome, self.failed = None, sentence, not accepted
         self.on_change()
 
     def robot_has(self, mission: Mission) -> None:

@@ -22,7 +22,6 @@ from app.session.initial_pose import initial_pose
 from app.session.logbook import Logbook
 from app.session.mission_drafts import MissionDrafts
 from app.session.mission_editor import Draft
-from app.session.own_events import OwnName
 from app.session.robot_profile import RobotProfile
 from app.session.stored_missions import KeptMissions
 from app.session.tasking import Tasking
@@ -45,13 +44,9 @@ class Session:
         *,
         now: Callable[[], float],
         client_id: str,
-        client_name: str = "",
         wants_control: bool,
     ) -> None:
-        """`wants_control` takes control whenever it is free; without it the robot is only watched.
-
-        `client_name` is what this handheld calls itself.
-        """
+        """`wants_control` takes control whenever it is free; without it the robot is only watched."""
         self.link, self.feeds = link, feeds
         self.client_id = client_id
         self._now = now
@@ -76,7 +71,7 @@ class Session:
         self.logbook = Logbook(settings, self.command)
         self.events = EventIntake(
             self,
-            OwnName(client_id, client_name, now),
+            client_id,
             self.logbook,
             lambda post: self._publish(EVENT, post),
         )
@@ -182,10 +177,6 @@ class Session:
 
     def _on_control(self, status: ControlStatus, received: float) -> None:
         self.robot_stop.on_status(status, received)
-        task = self.events.on_control(status)
-        if task is not None:
-            self.deliver("/task/status", task)
-        self.events.decide()
         self.authority.on_status(status)
 
     def _on_capabilities(self, capabilities: Offer) -> None:
@@ -217,7 +208,6 @@ class Session:
     def resume(self, link: Link) -> None:
         """Go on over a new link to the same robot; what was entered and heard stays."""
         self.link = link
-        self.events.decide()
         if self.robot_stop.local.latched:
             link.latch()
         stop = self.outcomes.get("stop")

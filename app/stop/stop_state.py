@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from app.link.commands import STILL_SENDING, STOP_DOUBT, Outcome
+from app.link.commands import STOP_DOUBT, Outcome
 from bridge.msgs.pilothouse_msgs import ControlStatus
 
 __all__ = ["COMES_TO_REST", "DOUBT", "Known", "StopState", "Verdict", "judge", "silence"]
@@ -174,7 +174,7 @@ class StopState:
             self._taken_at, self._refusal = self._now(), ""
             self._done = self._done or (self._status is not None and self._status.stopped)
         elif outcome.phase in ("refused", "no_reply"):
-            self._refusal = "" if outcome.reason == STILL_SENDING else outcome.reason
+            self._refusal = "" if outcome.silent else outcome.reason
 
     def on_status(self, status: ControlStatus, received: float) -> None:
         """What the robot says of it, `received` when it came [s].

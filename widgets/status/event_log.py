@@ -20,7 +20,10 @@ from kivy.properties import AliasProperty, BooleanProperty, ListProperty, Numeri
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.recycleview import RecycleView
 from kivy.uix.widget import Widget
+from msgspec.structs import replace
 
+from bridge.core.codes import Code
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
 from widgets.core.base import RobotWidget
@@ -198,37 +201,40 @@ def _place(event: Event) -> tuple[float, int, str]:
     return -event.stamp.seconds, -event.id, event.boot
 
 
+def _sample(stamp: int, level: str, kind: str, text: str, code: str = "", task: str = "") -> Event:
+    parameters = [KeyValue("task", task)] if task else []
+    return Event(stamp=Time(stamp), level=level, kind=kind, text=text, code=str(code), parameters=parameters)
+
+
 STORY = [
-    (100, "info", "mission", "6 waypoints sent, stored on robot"),
-    (138, "ok", "command", "Accepted: start patrol (18 ms)"),
-    (138, "info", "task", "Patrol started · loop · 6 points"),
-    (179, "info", "waypoint", "Waypoint 2 reached"),
-    (196, "warn", "battery", "Battery at 34 %, enough for about 51 min"),
-    (199, "alarm", "intruder", "Intruder at 12.4 m, bearing 131°"),
+    _sample(100, "info", "mission", "6 waypoints sent, stored on robot"),
+    _sample(138, "ok", "command", "Accepted: start patrol (18 ms)"),
+    _sample(138, "info", "task", "Patrol started · loop · 6 points", Code.TASK_STARTED),
+    _sample(179, "info", "waypoint", "Waypoint 2 reached"),
+    _sample(196, "warn", "battery", "Battery at 34 %, enough for about 51 min"),
+    _sample(199, "alarm", "intruder", "Intruder at 12.4 m, bearing 131°"),
 ]
 
 ORDERS = [
-    (150, "info", "task", "Patrol resumed."),
-    (152, "info", "task", "Paused by tablet-B."),
-    (154, "alarm", "stop", "STOP pressed by tablet-B."),
-    (156, "ok", "stop", "STOP released by tablet-B."),
-    (158, "info", "task", "Going home."),
-    (160, "info", "task", "Patrol ended: go home was asked for instead."),
+    _sample(150, "info", "task", "Patrol resumed.", Code.TASK_RESUMED),
+    _sample(152, "info", "task", "Paused by tablet-B.", Code.TASK_PAUSED),
+    _sample(154, "alarm", "stop", "STOP pressed by tablet-B.", Code.STOP_PRESSED),
+    _sample(156, "ok", "stop", "STOP released by tablet-B.", Code.STOP_RELEASED),
+    _sample(158, "info", "task", "Going home.", Code.TASK_STARTED, task="go_home"),
+    _sample(160, "info", "task", "Patrol ended: go home was asked for instead.", Code.TASK_REPLACED),
 ]
-"""Time, level, kind and sentence of events, for the samples."""
+"""Events of the samples, oldest first."""
 
 
 def samples() -> dict[str, Callable[[], Widget]]:
     """Empty, and a patrol's events in every state."""
 
-    def make(
-        story: list[tuple[int, str, str, str]] = STORY, high: str = "190dp", **kwargs: Any
-    ) -> Callable[[], Widget]:
+    def make(story: list[Event] = STORY, high: str = "190dp", **kwargs: Any) -> Callable[[], Widget]:
         def build() -> Widget:
             log = EventLog(size_hint=(None, None), size=("330dp", high), **kwargs)
             if log.state != "never":
-                for number, (stamp, level, kind, text) in enumerate(story):
-                    log.show(Event(id=number + 1, stamp=Time(stamp), level=level, kind=kind, text=text))
+                for number, event in enumerate(story, 1):
+                    log.show(replace(event, id=number))
                 log.now = 200.0
             return log
 

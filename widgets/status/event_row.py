@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable
 from datetime import UTC, datetime
 from functools import lru_cache
@@ -19,6 +18,8 @@ from kivy.uix.widget import Widget
 
 import widgets.parts.buttons
 import widgets.parts.column  # noqa: F401 - their rules draw a row
+from bridge.core.codes import Code
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.pilothouse_msgs import Event
 from widgets.core.theme import theme
 from widgets.parts.labels import Text
@@ -39,20 +40,39 @@ KINDS = {
 }
 """Kind of an event to its icon and the role of its colour."""
 
-WORDS = {
-    "started": "play_arrow",
-    "resumed": "play_arrow",
-    "paused": "pause",
-    "stopped": "pan_tool",
-    "released": "lock_open",
-    "home": "home",
-    "ended": "stop",
-    "cancelled": "stop",
-    "canceled": "stop",
-    "finished": "check_circle",
-    "done": "check_circle",
+_PAUSES = (
+    Code.TASK_PAUSED,
+    Code.TASK_TAKEN_OVER,
+    Code.TASK_LINK_LOST,
+    Code.TASK_OVERTURNED,
+    Code.TASK_SENSOR_SILENT,
+    Code.TASK_HELD_FAST,
+    Code.TASK_BUMPED,
+    Code.TASK_INTRUDER,
+    Code.TASK_ROBOT_LOST,
+)
+_ENDS = (
+    Code.TASK_REPLACED,
+    Code.TASK_CANCELED,
+    Code.TASK_DISCARDED,
+    Code.TASK_ASKER_GONE,
+    Code.TASK_RESET,
+    Code.TASK_ROBOT_ENDS,
+    Code.TASK_FAULT,
+)
+CODES: dict[str, str] = {
+    Code.TASK_STARTED: "play_arrow",
+    Code.TASK_RESUMED: "play_arrow",
+    Code.TASK_GOES_ON: "play_arrow",
+    Code.TASK_STOPPED: "pan_tool",
+    Code.TASK_DONE: "check_circle",
+    **dict.fromkeys(_PAUSES, "pause"),
+    **dict.fromkeys(_ENDS, "stop"),
+    Code.STOP_RELEASED: "lock_open",
 }
-"""Words in a sentence about a task or about STOP to the icon of what happened; the first one counts."""
+"""Code of an event to the icon of what happened, where its kind says less."""
+
+_GOES_HOME = KeyValue("task", "go_home")
 
 LEVELS = {"warn": "warn", "alarm": "danger"}
 """Levels that bring their own role."""
@@ -129,11 +149,11 @@ def is_open(event: Event) -> bool:
 
 
 def appearance(event: Event) -> tuple[str, str]:
-    """Icon and role of an event: by its kind and its words, the role by its level where that is grave."""
+    """Icon and role of an event: by its kind and its code, the role by its level where that is grave."""
     name, role = KINDS.get(event.kind, ("info", "muted"))
-    if event.kind in ("task", "stop"):
-        said = (WORDS[word] for word in re.findall("[a-z]+", event.text.lower()) if word in WORDS)
-        name = next(said, name)
+    name = CODES.get(event.code, name)
+    if event.code in (Code.TASK_STARTED, Code.TASK_DONE) and _GOES_HOME in event.parameters:
+        name = "home"
     if event.kind == "stop" and event.level == "ok":
         role = "ok"
     if event.kind == "command" and event.level in LEVELS:

@@ -68,14 +68,15 @@ class IntentCard(NoticeCard):
         self._drain = Drain()
         self.fbind("left", self._drain.setter("left"))
         self.fbind("role", self._drain.setter("role"))
+        no, yes = self.add_below(("No", "close", False), ("Yes", "check", True))
         self._rows: dict[bool, tuple[PushButton, ...]] = {
-            True: tuple(self.add_below(("No", "close", False), ("Yes", "check", True))),
+            True: (no, yes),
             False: tuple(self.add_below(("Cancel", "close", True))),
         }
         self.add_widget(self._drain)
         for buttons in self._rows.values():
             for button in buttons:
-                name = "yes" if button.text == "Yes" else "no"
+                name = "yes" if button is yes else "no"
                 button.bind(on_release=lambda _, name=name: self.dispatch("on_command", name))
         for name in ("question", "words", "heard", "seconds", "tiny"):
             self.fbind(name, self._write)

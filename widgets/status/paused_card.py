@@ -1,18 +1,20 @@
 """Task that a hand on the stick paused, and Resume: letting go of the stick does not resume it.
 
-card = PausedCard(name="tablet-A")
+card = PausedCard(client_id="a1b2")
 robot.on("/task/status", card.show)
 card.bind(on_command=lambda _, name: commands.ask(name))
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from kivy.properties import BooleanProperty, StringProperty
 from kivy.uix.widget import Widget
 
+from bridge.core.codes import Code
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskStatus
 from widgets.core.task_words import title
 from widgets.status.notice_card import NoticeCard
@@ -20,20 +22,35 @@ from widgets.status.notice_card import NoticeCard
 __all__ = ["PausedCard"]
 
 
+OWN_WORDS: Mapping[str, str] = {
+    Code.TASK_TAKEN_OVER: "You took the stick.",
+    Code.TASK_STOPPED: "You pressed STOP.",
+    Code.TASK_PAUSED: "You paused.",
+}
+"""Codes of what this handheld did, to what the card says."""
+WORDS: Mapping[str, str] = {
+    Code.TASK_TAKEN_OVER: "{name} took the stick.",
+    Code.TASK_LINK_LOST: "The link to {name} was lost.",
+    Code.TASK_BUMPED: "The bumper touched something.",
+    Code.TASK_HELD_FAST: "The wheels turn, but something holds the robot.",
+    Code.TASK_INTRUDER: "Intruder {id} was found.",
+    Code.TASK_OVERTURNED: "{robot} has turned over.",
+}
+"""Codes of what others did or what happened; of any other code the card says the robot's own reason."""
+
+
 class PausedCard(NoticeCard):
     """Open while the task is paused, until it is closed. Dispatches `on_command("resume" or "close")`."""
 
     accepts = (TaskStatus,)
 
-    name = StringProperty("")
-    """What the robot calls this handheld in its sentences; empty while that is not known."""
+    client_id = StringProperty("")
+    """Of this handheld, by which the robot knows it."""
     held = BooleanProperty(False)
     """The stick is pushed: nothing can be resumed under it."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self._why = ""
         super().__init__(icon="pause_fill", role="warn", **kwargs)
-        self.fbind("name", self._update)
         self.resume = self.add_beside("Resume", "play_arrow")
         self.resume.bind(on_release=lambda _: self.dispatch("on_command", "resume"))
         self.cross = self.add_close()
@@ -47,16 +64,19 @@ class PausedCard(NoticeCard):
         if not self.open:
             return
         self.headline = f"{title(TaskOrder(task=msg.task, places=list(msg.places)))} is paused"
-        self._why = msg.reason.removeprefix("Paused: ")
-        self._update()
+        self.said = self._words(msg)
         self.resume.meaning = self.headline
 
-    def _update(self, *_: object) -> None:
-        mine = {
-            f"{self.name} took the stick.": "You took the stick.",
-            f"Stopped by {self.name}.": "You pressed STOP.",
-        }
-        self.said = mine.get(self._why, self._why) if self.name else self._why
+    def _words(self, msg: TaskStatus) -> str:
+        """Why it is paused, shorter than the robot says it: that it is paused stands above."""
+        mine = self.client_id and msg.actor_id == self.client_id
+        words = OWN_WORDS.get(msg.code) if mine else WORDS.get(msg.code)
+        try:
+            return (
+                words.format_map({pair.key: pair.value for pair in msg.parameters}) if words else msg.reason
+            )
+        except KeyError:  # another program's robot leaves out what its code should name
+            return msg.reason
 
     def _block(self, *_: object) -> None:
         self.resume.disabled = self.held or self.blocked
@@ -64,7 +84,14 @@ class PausedCard(NoticeCard):
 
 def samples() -> dict[str, Callable[[], Widget]]:
     """Paused by us, with the stick still pushed, and by another."""
-    paused = TaskStatus(task="patrol", state="PAUSED", reason="Paused: tablet-A took the stick.")
+    paused = TaskStatus(
+        task="patrol",
+        state="PAUSED",
+        reason="Paused: tablet-A took the stick.",
+        code=Code.TASK_TAKEN_OVER.value,
+        actor_id="a",
+        parameters=[KeyValue("name", "tablet-A")],
+    )
 
     def make(**kwargs: Any) -> Callable[[], Widget]:
         def build() -> Widget:
@@ -75,7 +102,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         return build
 
     return {
-        "by us": make(name="tablet-A"),
-        "stick pushed": make(name="tablet-A", held=True),
+        "by us": make(client_id="a"),
+        "stick pushed": make(client_id="a", held=True),
         "by another": make(blocked=True),
     }

@@ -305,7 +305,7 @@ class MissionPanel(BoxLayout):
             else "Send to the robot"
         )
         note, role = STATES[state]
-        if state == "draft" and mission.outcome and not mission.outcome.startswith("Accepted"):
+        if state == "draft" and mission.failed:
             note, role = mission.outcome, "danger"
         elif state != "empty" and self.refused:
             note, role = self.refused, "danger"

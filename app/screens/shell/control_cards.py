@@ -39,7 +39,7 @@ class ControlCards:
         self.alone = False
         """There is room for one card, as on a phone: the others wait until it is answered or gone."""
         self.handover = HandoverCard(me=session.client_id)
-        self.mode, self.paused, self.cap = ModeCard(), PausedCard(), SpeedCap()
+        self.mode, self.paused, self.cap = ModeCard(), PausedCard(client_id=session.client_id), SpeedCap()
         self._closed = self._pause_asked = False
         for card in (self.handover, self.mode, self.cap):
             dashboard.bind(card, "/control/status", fresh=False)
@@ -85,7 +85,6 @@ class ControlCards:
         self.handover.left = authority.left
         self._tick_mode(other=other)
         self.paused.held = session.link.driving
-        self.paused.name = session.events.own_name.known
         self.cap.rtt = session.link.health.rtt
         self.cap.driver = authority.status.driver if other else ""
         self.cap.blocked = other

@@ -337,8 +337,7 @@ class Shell(FloatLayout):
             self.rest()
             wait = session.retry_in
             again = f" Trying again in {math.ceil(wait)} s." if wait > 0 else ""
-            sentence = session.link_state.sentence
-            self._banner.text = sentence + ("" if "Trying again" in sentence else again)
+            self._banner.text = session.link_state.sentence + again
         self.notices.keep(self._banner, shown=not session.connected, first=True)
 
     def _tick_stop(self) -> None:

@@ -46,7 +46,6 @@ class Watch:
             Settings(folder / "settings.json"),
             now=self.clock,
             client_id="me",
-            client_name="tablet",
             wants_control=wants_control,
         )
         self.authority = self.session.authority

@@ -8,31 +8,33 @@ from typing import Any
 
 import pytest
 
+from app.core.command_origin import Origin
 from app.core.settings_store import Settings
+from app.link.commands import Outcome
 from app.link.feeds import Post
-from app.session.event_intake import MAX_UNDECIDED, EventIntake
+from app.session.event_intake import EventIntake
 from app.session.logbook import Logbook
-from app.session.own_events import OwnName
-from bridge.msgs.pilothouse_msgs import ControlStatus, Event
+from bridge.msgs.pilothouse_msgs import Event
+from bridge.msgs.std_msgs import Time
 
 
 class Intake:
     def __init__(self, folder: Path) -> None:
         self.robot: Any = SimpleNamespace(
-            authority=SimpleNamespace(wanted=True),
             outcomes={},
             link=SimpleNamespace(robot_time=lambda: 100.0),
         )
         self.heard: list[str] = []
         self.events = EventIntake(
             self.robot,
-            OwnName("me", "tablet", lambda: 100.0),
+            "me",
             Logbook(Settings(folder / "settings.json"), lambda *_, **__: None),
             lambda post: self.heard.append(post.value.text),
         )
 
-    def tell(self, number: int, text: str, kind: str = "control") -> None:
-        self.events.on_event(Post(Event(id=number, kind=kind, text=text), 100.0, 1))
+    def tell(self, number: int, text: str, kind: str = "control", at: float = 100.0, **fields: Any) -> None:
+        event = Event(id=number, kind=kind, text=text, stamp=Time.at(at), **fields)
+        self.events.on_event(Post(event, 100.0, 1))
 
 
 @pytest.fixture
@@ -40,24 +42,28 @@ def intake(tmp_path: Path) -> Intake:
     return Intake(tmp_path)
 
 
-def test_an_event_that_may_be_about_us_waits_for_the_robots_word_of_control(intake: Intake) -> None:
-    intake.tell(1, "tablet has control.")
-    assert intake.heard == []
-    intake.events.on_control(ControlStatus(driver="tablet", driver_id="me"))
-    intake.events.decide()
-    assert intake.heard == ["You have control."]
+def test_what_is_about_us_is_told_in_our_words_at_once(intake: Intake) -> None:
+    intake.tell(1, "tablet has control.", code="control_taken", actor_id="me")
+    intake.tell(2, "tablet has control.", code="control_taken", actor_id="other")
+    assert intake.heard == ["You have control.", "tablet has control."]
 
 
-def test_only_so_many_events_wait(intake: Intake) -> None:
-    for number in range(1, MAX_UNDECIDED + 2):
-        intake.tell(number, "tablet has control.")
-    assert intake.heard == ["tablet has control."]
-
-
-def test_who_only_watches_waits_for_nothing(intake: Intake) -> None:
-    intake.robot.authority.wanted = False
-    intake.tell(1, "tablet has control.")
-    assert intake.heard == ["tablet has control."]
+@pytest.mark.parametrize(
+    ("at", "phase", "said"),
+    [
+        (100.0, "accepted", "A shake gave STOP: “left-right”, 97 % sure."),
+        (100.0, "sent", "A shake gave STOP: “left-right”, 97 % sure."),
+        (100.0, "refused", "You pressed STOP."),
+        (40.0, "accepted", "You pressed STOP."),
+    ],
+)
+def test_what_gave_a_stop_is_said_of_the_one_that_was_asked_for(
+    intake: Intake, at: float, phase: str, said: str
+) -> None:
+    shaken = Origin("shake", 0.97, said="left-right")
+    intake.robot.outcomes["stop"] = Outcome("stop", "1", phase, origin=shaken)
+    intake.tell(1, "STOP pressed by tablet.", "stop", at=at, code="stop_pressed", actor_id="me")
+    assert intake.heard == [said]
 
 
 def test_the_same_event_is_published_once(intake: Intake) -> None:

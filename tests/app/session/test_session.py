@@ -48,7 +48,7 @@ class Wire:
 class Watch:
     """A session, its clock and its link."""
 
-    def __init__(self, folder: Path, client_name: str = "") -> None:
+    def __init__(self, folder: Path) -> None:
         self.clock, self.link = Clock(), Wire()
         self.session = Session(
             self.link,  # type: ignore[arg-type]
@@ -56,7 +56,6 @@ class Watch:
             Settings(folder / "settings.json"),
             now=self.clock,
             client_id="me",
-            client_name=client_name,
             wants_control=False,
         )
 
@@ -127,7 +126,7 @@ def test_a_robot_side_that_cannot_reach_its_robot_has_not_stopped_it(watch: Watc
 
 
 def test_who_else_pressed_stop_is_said_though_it_has_the_same_name(tmp_path: Path) -> None:
-    watch = Watch(tmp_path, "tablet")
+    watch = Watch(tmp_path)
     for client_id, said in (("other", "Pressed by tablet."), ("me", "")):
         status = ControlStatus(stopped=True, stopped_by="tablet", stopped_by_id=client_id)
         watch.session.deliver("/control/status", Post(status, watch.clock.time, 1))
@@ -164,19 +163,18 @@ def test_a_link_that_is_lost_and_found_before_anybody_looks_brings_every_control
     assert rests == ["rest"]
 
 
-def test_what_paused_the_task_and_gave_stop_is_told_as_done_here_once_the_name_is_known(
-    tmp_path: Path,
-) -> None:
-    watch = Watch(tmp_path, client_name="vm")
-    paused = TaskStatus(task_id=1, state="PAUSED", reason="Paused by vm (2).")
-    watch.session.deliver("/task/status", Post(paused, watch.clock(), 1))
+def test_what_paused_the_task_and_gave_stop_is_told_as_done_here(watch: Watch) -> None:
+    reason = "Paused by vm (2)."
+    other = TaskStatus(task_id=1, state="PAUSED", reason=reason, code="task_paused", actor_id="other")
+    watch.session.deliver("/task/status", Post(other, watch.clock(), 1))
     assert watch.session.feeds.latest("/task/status").reason == "Paused by vm (2)."
-    mine = ControlStatus(driver="vm (2)", driver_id="me")
-    watch.session.deliver("/control/status", Post(mine, watch.clock(), 1))
+    mine = TaskStatus(task_id=1, state="PAUSED", reason=reason, code="task_paused", actor_id="me")
+    watch.session.deliver("/task/status", Post(mine, watch.clock(), 1))
     assert watch.session.feeds.latest("/task/status").reason == "You paused."
     shaken = Outcome("stop", "1", "accepted", origin=Origin("shake", 0.97, said="left-right"))
     watch.session.deliver(OUTCOME, Post(shaken, watch.clock(), 1))
-    stop = Event(id=1, kind="stop", level="alarm", text="STOP pressed by vm (2).")
+    text = "STOP pressed by vm (2)."
+    stop = Event(id=1, kind="stop", level="alarm", text=text, code="stop_pressed", actor_id="me")
     watch.session.deliver(EVENT, Post(stop, watch.clock(), 1))
     assert watch.session.logbook.events[-1].text == "A shake gave STOP: “left-right”, 97 % sure."
 

@@ -74,8 +74,8 @@ class Watch:
     def told(self, *, stopped: bool = True, at_rest: bool = True) -> None:
         self.stopping.on_status(ControlStatus(stopped=stopped, at_rest=at_rest), self.clock.time)
 
-    def outcome(self, phase: str, reason: str = "") -> None:
-        self.stopping.on_outcome(Outcome("stop", "1", phase, reason))
+    def outcome(self, phase: str, reason: str = "", *, silent: bool = False) -> None:
+        self.stopping.on_outcome(Outcome("stop", "1", phase, reason, silent=silent))
 
     @property
     def phase(self) -> str:
@@ -130,7 +130,7 @@ def test_pressing_again_while_it_is_sent_puts_no_doubt_off(watch: Watch) -> None
 def test_that_there_is_no_answer_is_no_reason(watch: Watch) -> None:
     watch.stopping.press()
     watch.clock.time += DOUBT
-    watch.outcome("no_reply", STILL_SENDING)
+    watch.outcome("no_reply", STILL_SENDING, silent=True)
     assert watch.stopping.verdict.sentence == "It does not answer; STOP is sent again and again."
 
 

@@ -5,12 +5,14 @@ import math
 import pytest
 from kivy.base import EventLoop
 
+from bridge.core.codes import Code
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
 from widgets.core.icons import ICONS
 from widgets.core.theme import theme
 from widgets.status.event_log import MAX_EVENTS, EventLog, ago, appearance
-from widgets.status.event_row import KINDS, WORDS, is_open, note, row_height
+from widgets.status.event_row import CODES, KINDS, is_open, note, row_height
 
 
 def event(number, stamp=0.0, **kwargs):
@@ -94,22 +96,31 @@ def test_ages_are_short(seconds, text):
 
 
 @pytest.mark.parametrize(
-    ("kind", "text", "name"),
+    ("kind", "code", "name"),
     [
-        ("task", "Patrol started.", "play_arrow"),
-        ("task", "Patrol resumed.", "play_arrow"),
-        ("task", "Paused: the bumper touched something.", "pause"),
-        ("task", "Paused by Home tablet.", "pause"),
-        ("task", "Stopped by tablet-B.", "pan_tool"),
-        ("task", "Going home.", "home"),
-        ("task", "Patrol ended: go home was asked for instead.", "stop"),
-        ("stop", "STOP pressed by tablet-B.", "pan_tool"),
-        ("stop", "STOP released by tablet-B.", "lock_open"),
-        ("battery", "Battery at 12 %: going home.", "battery_alert"),
+        ("task", Code.TASK_STARTED, "play_arrow"),
+        ("task", Code.TASK_RESUMED, "play_arrow"),
+        ("task", Code.TASK_BUMPED, "pause"),
+        ("task", Code.TASK_PAUSED, "pause"),
+        ("task", Code.TASK_STOPPED, "pan_tool"),
+        ("task", Code.TASK_REPLACED, "stop"),
+        ("stop", Code.STOP_PRESSED, "pan_tool"),
+        ("stop", Code.STOP_RELEASED, "lock_open"),
+        ("battery", Code.BATTERY_GOING_HOME, "battery_alert"),
     ],
 )
-def test_what_happened_to_a_task_has_an_icon_of_its_own(kind, text, name):
-    assert appearance(event(1, kind=kind, text=text))[0] == name
+def test_what_happened_to_a_task_has_an_icon_of_its_own(kind, code, name):
+    assert appearance(event(1, kind=kind, text="Patrol stopped at home.", code=code.value))[0] == name
+
+
+def test_the_way_home_has_an_icon_of_its_own():
+    home = [KeyValue("task", "go_home")]
+    assert appearance(event(1, kind="task", code="task_started", parameters=home))[0] == "home"
+    assert appearance(event(1, kind="task", code="task_resumed", parameters=home))[0] == "play_arrow"
+
+
+def test_without_a_code_an_event_has_the_icon_of_its_kind():
+    assert appearance(event(1, kind="task", text="Paused by Ben."))[0] == KINDS["task"][0]
 
 
 @pytest.mark.parametrize("state", ["stale", "alarm"])
@@ -133,7 +144,7 @@ def test_a_grave_level_colours_any_kind():
 
 def test_every_kind_has_an_icon_that_the_font_has():
     assert all(name in ICONS for name, _ in KINDS.values())
-    assert set(WORDS.values()) <= set(ICONS)
+    assert set(CODES.values()) <= set(ICONS)
 
 
 def test_a_long_sentence_is_given_a_taller_row(stage, log):

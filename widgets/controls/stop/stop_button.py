@@ -47,11 +47,14 @@ PHASES = {
 }
 """Phase to its word, its sentence and its icon."""
 LOCAL = {
-    "sent": "zero speed is sent",
-    "moves": "still moves · hold 3 s to release",
-    "no_answer": "not confirmed · hold 3 s to release",
+    "sent": ("", "zero speed is sent"),
+    "moves": ("still moves · ", "hold 3 s to release"),
+    "no_answer": ("not confirmed · ", "hold 3 s to release"),
 }
-"""Sentences of a STOP that this handheld alone holds, or that is pressed and not obeyed, where they are others."""
+"""Sentences of a STOP that this handheld alone holds, or that is pressed and not obeyed, where they are others.
+
+In two parts: a small button has room for the second alone.
+"""
 
 Builder.load_string("""
 <StopButton>:
@@ -131,11 +134,12 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
     """Fingers on it."""
 
     def _sentence(self) -> str:
-        sentence = PHASES[self.phase][1]
+        head, sentence = "", PHASES[self.phase][1]
         if self.local:
-            sentence = LOCAL.get(self.phase, sentence)
+            head, sentence = LOCAL.get(self.phase, (head, sentence))
         if self.width * self.height < dp(MIN_AGE_SIDE) * dp(MIN_AGE_SIDE):
-            return sentence.rpartition(" · ")[2]
+            return sentence
+        sentence = head + sentence
         if self.phase == "lost" and self.ago:
             return f"{sentence} " + f"{self.ago} ago".replace(" ", NO_BREAK)
         return sentence

@@ -14,7 +14,6 @@ from app.link.capabilities import Offer
 from app.link.channels import EVENT
 from app.link.feeds import Feeds, Post
 from app.session.dashboard import Dashboard
-from app.session.own_events import OwnName
 from app.session.session import Session
 from bridge.client.client import LinkState, Phase
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskProgress, TaskStatus
@@ -161,23 +160,21 @@ def test_with_stop_pressed_nothing_that_moves_can_be_asked_for(
 
 
 @pytest.mark.parametrize(
-    ("driver", "who", "wants", "said"),
+    ("driver", "who", "said"),
     [
-        ("tablet", "me", True, "You have control."),
-        ("tablet (2)", "me", True, "You have control."),
-        ("Ben", "other", True, "Ben has control."),
-        ("tablet", "other", False, "tablet has control."),
-        ("tablet", "other", True, "tablet has control."),
+        ("tablet", "me", "You have control."),
+        ("tablet (2)", "me", "You have control."),
+        ("Ben", "other", "Ben has control."),
+        ("tablet", "other", "tablet has control."),
     ],
 )
 def test_who_has_control_is_told_so_and_nobody_of_the_same_name(
-    session: Session, driver: str, who: str, wants: bool, said: str
+    session: Session, driver: str, who: str, said: str
 ) -> None:
-    session.events.own_name, session.authority.wanted = OwnName("me", "tablet", lambda: 100.0), wants
     heard: list[Any] = []
     session.listeners.append(lambda name, post: name == EVENT and heard.append(post.value.text))
-    tell(session, EVENT, Event(id=1, kind="control", text=f"{driver} has control."))
-    tell(session, "/control/status", ControlStatus(driver=driver, driver_id=who))
+    taken = Event(id=1, kind="control", text=f"{driver} has control.", code="control_taken", actor_id=who)
+    tell(session, EVENT, taken)
     assert heard == [said]
 
 

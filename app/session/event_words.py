@@ -1,0 +1,50 @@
+"""Words for what this handheld did itself, chosen by a code and an actor's id.
+
+A robot tells what somebody did by that one's name. Whoever did it reads "you" instead. What has no code, as from a robot
+that is not ours or runs an older program, stays in the robot's own words.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from msgspec.structs import replace
+
+from bridge.core.codes import Code
+from bridge.msgs.pilothouse_msgs import Event, TaskStatus
+
+__all__ = ["own_event", "own_reason"]
+
+_EVENTS: Mapping[str, str] = {
+    Code.CONTROL_TAKEN: "You have control.",
+    Code.STOP_PRESSED: "You pressed STOP.",
+    Code.STOP_RELEASED: "You released STOP.",
+    Code.TASK_STOPPED: "STOP paused the task.",
+    Code.TASK_PAUSED: "You paused.",
+    Code.TASK_TAKEN_OVER: "You took the stick.",
+    Code.TASK_CANCELED: "You canceled it.",
+    Code.TASK_DISCARDED: "You discarded it.",
+}
+"""Codes of what an actor did, to the words for that actor."""
+_REASONS: Mapping[str, str] = {**_EVENTS, Code.TASK_STOPPED: _EVENTS[Code.STOP_PRESSED]}
+"""The same where they stand for why a task is as it is."""
+
+
+def own_event(event: Event, client_id: str, gave_stop: str = "") -> Event:
+    """`event` as it reads on the handheld with this `client_id`.
+
+    `gave_stop` says what gave its STOP, as of `command_origin.gave_stop`; empty for a hand on a button.
+    """
+    words = _EVENTS.get(event.code) if client_id and event.actor_id == client_id else None
+    if words is None:
+        return event
+    if event.code == Code.STOP_PRESSED:
+        words = gave_stop or words
+    # its STOP is the alarm; that it paused the task takes nobody's eye from that
+    return replace(event, text=words, level="info" if event.code == Code.TASK_STOPPED else event.level)
+
+
+def own_reason(status: TaskStatus, client_id: str) -> TaskStatus:
+    """`status` with its reason as it reads on the handheld with this `client_id`."""
+    words = _REASONS.get(status.code) if client_id and status.actor_id == client_id else None
+    return status if words is None else replace(status, reason=words)
