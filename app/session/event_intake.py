@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Protocol
 
@@ -17,7 +17,7 @@ from bridge.msgs.pilothouse_msgs import Event
 
 __all__ = ["EventIntake"]
 
-_COMMANDS = {Code.STOP_PRESSED: "stop", Code.STOP_RELEASED: "stop_release"}
+_COMMANDS: Mapping[str, str] = {Code.STOP_PRESSED: "stop", Code.STOP_RELEASED: "stop_release"}
 """Codes of what STOP's commands do, to the name of each."""
 
 

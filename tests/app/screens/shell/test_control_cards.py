@@ -6,6 +6,7 @@ from typing import Any
 
 from app.inputs.occlusion import covered
 from app.layout.arrange import Rect
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.pilothouse_msgs import Check, Checklist, ControlStatus, TaskStatus
 from bridge.msgs.std_msgs import Time
 from tests.app.fakes import FakeRobot
@@ -45,11 +46,14 @@ def anna_asks(glass: Glass, robot: FakeRobot) -> Any:
     return glass.app.shell.cards.handover
 
 
-def paused(glass: Glass, robot: FakeRobot, reason: str) -> Any:
+def paused(glass: Glass, robot: FakeRobot, name: str, client_id: str) -> Any:
+    """The card once the stick of `name`, who has that `client_id`, has paused the task."""
     robot.publish("/task/status", PATROL)
     glass.until(lambda: glass.app.session.running and not glass.app.shell.cards.paused.open, "not running")
     tell(robot, mode="PAUSED", driver=f"{glass.app.client_name} (2)")
-    robot.publish("/task/status", TaskStatus(task="patrol", state="PAUSED", reason=reason))
+    reason, names = f"Paused: {name} took the stick.", [KeyValue("name", name)]
+    taken = {"code": "task_taken_over", "actor_id": client_id, "parameters": names}
+    robot.publish("/task/status", TaskStatus(task="patrol", state="PAUSED", reason=reason, **taken))
     glass.until(lambda: glass.app.shell.cards.paused.open, "not paused")
     glass.stage.run_for(0.4, COARSE)
     return glass.app.shell.cards.paused
@@ -126,7 +130,7 @@ def test_the_mode_is_a_command_whose_answer_is_said(driving: Glass, robot: FakeR
     driving.until(lambda: card.parent is not None, "no choice")
     assert card.auto.disabled
     assert card.said == "You drive. For AUTO start a task."
-    paused(driving, robot, "Paused by tablet-B.")
+    paused(driving, robot, "tablet-B", "b")
     driving.until(lambda: not card.auto.disabled, "no AUTO")
     robot.refusals["/mode/set"] = "The battery is empty."
     press(driving, card.auto)
@@ -145,7 +149,7 @@ def test_with_stop_pressed_or_another_driving_the_mode_is_not_to_be_changed(
     driving: Glass, robot: FakeRobot
 ) -> None:
     card = driving.app.shell.cards.mode
-    paused(driving, robot, "Paused by tablet-B.")
+    paused(driving, robot, "tablet-B", "b")
     driving.app.shell.cards.ask_mode()
     driving.until(lambda: not card.auto.disabled, "no AUTO")
     tell(robot, stopped=True, mode="STOPPED")
@@ -157,7 +161,7 @@ def test_with_stop_pressed_or_another_driving_the_mode_is_not_to_be_changed(
 
 
 def test_taking_the_stick_pauses_the_task_and_offers_to_resume_it(driving: Glass, robot: FakeRobot) -> None:
-    card = paused(driving, robot, f"Paused: {driving.app.client_name} (2) took the stick.")
+    card = paused(driving, robot, f"{driving.app.client_name} (2)", driving.app.client_id)
     assert cards(driving) == ["Patrol is paused"]
     assert card.said == "You took the stick."
     stick = driving.app.screens["drive"].stick
@@ -183,12 +187,12 @@ def test_what_was_paused_by_the_button_is_not_offered_twice(driving: Glass, robo
 
 
 def test_an_offer_to_resume_is_put_away_until_the_next_pause(driving: Glass, robot: FakeRobot) -> None:
-    card = paused(driving, robot, "Paused: Bob took the stick.")
+    card = paused(driving, robot, "Bob", "b")
     assert card.said == "Bob took the stick."
     driving.tap(card.cross)
     driving.stage.run_for(0.4, COARSE)
     assert cards(driving) == []
-    paused(driving, robot, "Paused: Bob took the stick.")
+    paused(driving, robot, "Bob", "b")
     assert cards(driving) == ["Patrol is paused"]
 
 
@@ -218,7 +222,7 @@ def test_a_capped_speed_is_shown_where_one_drives_and_switched_off_and_on(
 def test_no_card_lies_over_the_stick_or_over_stop(driving: Glass, robot: FakeRobot) -> None:
     anna_asks(driving, robot)
     tell(robot, speed_cap=0.4)
-    paused(driving, robot, "Paused: Bob took the stick.")
+    paused(driving, robot, "Bob", "b")
     driving.app.shell.cards.ask_mode()
     before = tuple(driving.app.root.size)
     for size in ((412, 892), (892, 412), (1280, 800), (1920, 1200)):
