@@ -59,6 +59,5 @@ class Connector:
             self._settings,
             now=self._now,
             client_id=self._client_id,
-            client_name=self._client_name,
             wants_control=wants_control,
         )

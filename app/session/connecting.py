@@ -13,7 +13,8 @@ __all__ = ["connecting_words", "has_failed"]
 def connecting_words(session: Session) -> tuple[str, str]:
     """A sentence and its level: the first attempt is news, a later one a warning."""
     state = session.link_state
-    waiting = f" Trying again in {math.ceil(session.retry_in)} s." if session.retry_in > 0 else ""
+    waits = state.phase is Phase.WAITING and session.retry_in > 0
+    waiting = f" Trying again in {math.ceil(session.retry_in)} s." if waits else ""
     sentence = state.sentence + waiting
     if state.attempt > 1 or state.retry_in > 0:
         return f"{sentence} Tap to cancel.", "warn"

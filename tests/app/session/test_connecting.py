@@ -25,8 +25,8 @@ def session(phase: Phase, sentence: str, attempt: int, retry_in: float) -> Any:
         ),
         (session(Phase.CONNECTING, "Connecting …", 2, 0.0), ("Connecting … Tap to cancel.", "warn")),
         (
-            session(Phase.WAITING, "Cut. Trying again soon.", 2, 1.0),
-            ("Cut. Trying again soon. Tap to cancel.", "warn"),
+            session(Phase.CONNECTING, "Cut. Trying again.", 2, 1.0),
+            ("Cut. Trying again. Tap to cancel.", "warn"),
         ),
     ],
 )
