@@ -1,1 +1,1 @@
-"""Measurements of Pilothouse: every figure with its target and with what it was measured against."""
+"""Measurements of Pilothouse: every figure with its target and the program that it is compared with."""

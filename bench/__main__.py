@@ -1,4 +1,4 @@
-"""`python -m bench [NAME…] [--data DIR] [--json FILE] [--doc [CONDITIONS]]`: measures, prints a table, writes out/bench/."""
+"""Command line of the benches, `python -m bench [NAME…] [--data DIR] [--json FILE] [--doc [CONDITIONS]]`: measures, prints a table, writes out/bench/."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def options(arguments: Sequence[str], known: Sequence[str]) -> argparse.Namespac
         nargs="?",
         const="",
         metavar="CONDITIONS",
-        help="write docs/performance.md from out/bench, with what is to be said of the machine; measures what is named",
+        help="write docs/performance.md from out/bench, with these remarks on the machine; measures the named benches",
     )
     asked = parser.parse_args(arguments)
     unknown = [name for name in asked.name if name not in known]
@@ -57,7 +57,7 @@ def conditions() -> str:
 
 
 def run(name: str, context: Context) -> Result | None:
-    """Measure one bench and tell of it; None when it crashed, which is told, too."""
+    """Measure one bench and print its results; None when it crashed, which is printed too."""
     try:
         result = measure(name, load(name), context, Noise())
     except Exception:  # noqa: BLE001 - one broken bench must not hide the others' figures
@@ -70,7 +70,7 @@ def run(name: str, context: Context) -> Result | None:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """0 whatever the figures are; 1 when a bench crashed."""
+    """0 for any figures; 1 when a bench crashed."""
     known = names()
     asked = options(arguments, known)
     chosen = asked.name or (known if asked.doc is None else [])

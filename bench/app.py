@@ -3,7 +3,7 @@
 The first frame counts from just before the process is made. "Live" counts from Connect until every widget of the drive
 screen shows something fresh and the first picture is there. The main thread's share is its own CPU time
 (`time.thread_time` in the UI thread) over 15 s with all streams of the drive screen; what the software GL's thread
-spends on pixels, which a GPU does on a device, is not in it and is told as the process's share. Memory is the resident
+spends on pixels, which a GPU does on a device, is not in it and is given as the process's share. Memory is the resident
 set after that; with the drawing left out it is without the buffers and compiled shaders of the software GL, which has
 every call swallowed. The other way is a Kivy app with one button.
 """

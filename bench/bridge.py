@@ -1,4 +1,4 @@
-"""What a message costs the server, and how long a command takes there and back.
+"""Cost of a message to the server, and round-trip time of a command.
 
 Server CPU is user and system time of the server's whole process for each message published; clients are in a process of
 their own. *Relayed*: a client publishes JSON. *Made on the robot*: the server itself publishes. Either way 80 follow each
@@ -82,7 +82,7 @@ FIGURES = (
 REPEATS = 3
 
 STEP = 5
-"""Messages that the robot publishes in one step of its loop where no other number is said; ours publishes pose, odometry, IMU,
+"""Messages that the robot publishes in one step of its loop where no other number is given; ours publishes pose, odometry, IMU,
 wheels and tf in one."""
 
 MESSAGES_A_ROW = 800
@@ -114,7 +114,7 @@ def prepare(_: Context) -> Iterator[Sides]:
 def costs(kind: str) -> dict[str, float]:
     """CPU of a server a message [µs]."""
     with child("bench.support.rosbridge", kind) as process:
-        server = Server(process, f"ws://127.0.0.1:{process.hear()['port']}")
+        server = Server(process, f"ws://127.0.0.1:{process.receive()['port']}")
         found = {
             "relay_odom_1": relayed(server, ODOM, 1),
             "relay_odom_10": relayed(server, ODOM, 10),
@@ -148,7 +148,7 @@ class Server(NamedTuple):
 def watched(server: Server, topic: str, **asked: object) -> Iterator[Child]:
     """Clients that watch `topic`."""
     with child("bench.support.crowd", server.url) as crowd:
-        crowd.hear()
+        crowd.receive()
         crowd.ask({"do": "watch", "topic": topic, "queue_length": 100, **asked})
         time.sleep(0.2)  # they are known now
         yield crowd
@@ -187,7 +187,7 @@ def made(server: Server, topic: str, clients: int, compression: str = "none", st
 def trips(kind: str) -> dict[str, float]:
     """Round trips [ms] through a server of ours, or the naive one."""
     with child("bench.support.rosbridge", kind) as server:
-        url = f"ws://127.0.0.1:{server.hear()['port']}"
+        url = f"ws://127.0.0.1:{server.receive()['port']}"
         idle = quietly(lean_trips(url, (), TRIPS, HERTZ))
         server.ask({"do": "flow", "rates": RATES})
         return {**shares("idle", idle), **shares("loaded", quietly(lean_trips(url, LOAD, TRIPS, HERTZ)))}
@@ -198,7 +198,7 @@ def foreign(client: Callable[[str], Coroutine[Any, Any, list[float]]]) -> dict[s
     with child("tests.bridge.client.foreign_server", "--port", "0") as server:
         url = server.line().split()[-1]
         with child("bench.support.crowd", url) as crowd:
-            crowd.hear()
+            crowd.receive()
             crowd.ask({"do": "feed", "rates": RATES, "prefix": PREFIX})
             return shares("nagle", quietly(client(url)))
 
@@ -219,7 +219,7 @@ def shares(name: str, seconds: list[float]) -> dict[str, float]:
 
 
 def quietly(work: Coroutine[Any, Any, list[float]]) -> list[float]:
-    """Run it here, with what is older left alone by Python's garbage collector."""
+    """Run it here, with older objects frozen for Python's garbage collector."""
     gc.freeze()
     try:
         return asyncio.run(work)

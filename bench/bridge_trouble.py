@@ -1,15 +1,15 @@
-"""STOP on a link that carries a tenth of what is offered, and what happens to commands when the link is away for 4 s.
+"""STOP on a link that carries a tenth of the offered load, and commands over an outage of 4 s.
 
 STOP is a service call, timed from sending it to its answer at a plain `websockets` client, at odd moments. The link is
 a TCP proxy of 2 Mbit/s in each direction that keeps 8 kB at most. On it the client subscribes to samples of 0.9 kB that come ten
 times as fast as they fit; the growth is against the same link with nothing else on it. *With scans* means that messages of 20 kB,
 which take 82 ms over that link each, are a part of the load. The other way is a server that sends by `websockets.broadcast`.
 
-In the outage the link freezes (nothing passes and nobody is told; what its sender has not given up arrives late) or breaks
+In the outage the link freezes (nothing passes and neither end is informed; data that its sender has not given up arrives late) or breaks
 (connections are reset, new ones refused). A program drives 20 times a second all the while. It has healed when telemetry comes
 again and the first new command is at the robot's server. Stale are the commands that arrive there over 0.3 s old, whether
-the robot would still refuse them or not. The other way is roslibpy on the same server and link; what is stated of
-it are 9.5 s from the beginning of an outage of 4 s.
+the robot would still refuse them or not. The other way is roslibpy on the same server and link; the value stated
+for it is 9.5 s from the beginning of an outage of 4 s.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ OUTAGE = 4.0
 """[s]"""
 STALE = 0.3
 """The robot's own bound for a drive command [s]."""
-PATIENCE = 15.0
+HEAL_TIMEOUT = 15.0
 """How long healing is waited for [s]."""
 
 _dice = random.Random(3)
@@ -89,7 +89,7 @@ def prepare(_: Context) -> Iterator[Sides]:
 def stopping(kind: str) -> dict[str, float]:
     """STOP's figures [ms]."""
     with child("bench.support.rosbridge", kind) as server:
-        port = server.hear()["port"]
+        port = server.receive()["port"]
         idle = asyncio.run(stops(port, ()))
         found = {}
         for name, topics in (("small", (ODOM,)), ("scans", (ODOM, SCAN))):
@@ -151,7 +151,7 @@ def outages(kind: str) -> dict[str, float]:
     found: dict[str, float] = {}
     for name, freeze in (("frozen", True), ("broken", False)):
         with child("bench.support.rosbridge", "ours") as server:
-            port = server.hear()["port"]
+            port = server.receive()["port"]
             server.ask({"do": "flow", "rates": {ODOM: 20.0}})
             healed, stale = asyncio.run(outage(kind, server, port, freeze=freeze))
         found |= {name: healed, f"{name}_stale": stale}
@@ -167,12 +167,12 @@ async def outage(kind: str, server: Child, port: int, *, freeze: bool) -> tuple[
             await away(link, freeze=freeze)
             back = time.monotonic()
             healed = math.inf
-            while math.isinf(healed) and time.monotonic() < back + PATIENCE:
+            while math.isinf(healed) and time.monotonic() < back + HEAL_TIMEOUT:
                 await asyncio.sleep(0.25)
                 heard = (await asyncio.to_thread(driver.ask, {}))["heard"]
                 commands = await asyncio.to_thread(server.ask, {"do": "commands"})
                 healed = healing(back, heard, commands["commands"])
-            await asyncio.sleep(1.0)  # whatever else was kept for later
+            await asyncio.sleep(1.0)  # anything else that was kept for later
             commands = await asyncio.to_thread(server.ask, {"do": "commands"})
     return healed, float(sum(arrived - given > STALE for arrived, given in commands["commands"]))
 

@@ -31,8 +31,8 @@ FIGURES = (
 )
 REPEATS = 3
 
-TIMED = 0.1
-"""How long each codec row is repeated [s]."""
+TIMING_TIME = 0.1
+"""Time for which each codec row is repeated [s]."""
 
 SCAN = sensor_msgs.LaserScan(
     angle_min=-math.pi,
@@ -85,7 +85,7 @@ def prepare(_: Context) -> Iterator[Sides]:
 def micros(work: Callable[[], object]) -> float:
     """CPU time of one call [µs]."""
     calls, started = 0, time.thread_time()
-    while time.thread_time() - started < TIMED:
+    while time.thread_time() - started < TIMING_TIME:
         for _ in range(20):
             work()
         calls += 20

@@ -1,9 +1,9 @@
-"""Two hundred times `kill -9` of the whole robot side while four clients have it write, each time at a random instant.
+"""Two hundred times `kill -9` of the whole robot side while four clients make it write, each time at a random instant.
 
-The process is the one that users start; what it keeps is in a SQLite file on this machine's disk. After each kill it is
+The process is the one that users start; its records are in a SQLite file on this machine's disk. After each kill it is
 started again, and everything that was ever acknowledged is looked for: places, their changes and deletions, the mission,
 events that were heard and their acknowledgements; then SQLite checks the file. One round in seven kills it while it
-opens the database. What is not where it should be counts as lost.
+opens the database. Anything that is missing counts as lost.
 
 The delay is measured in this process: a place that is changed, from the call to its commit, with a thousand kept.
 """
@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from bench.support.crash import Ledger, crash, look
+from bench.support.crash import Ledger, crash, find_losses
 from bench.support.figures import Figure, percentile
 from bench.support.harness import Context, Sides
 from bridge.msgs.pilothouse_msgs import Place
@@ -50,7 +50,7 @@ async def _kills(folder: Path) -> dict[str, float]:
     ledger, rng, lost = Ledger(), random.Random(9), list[str]()
     for _ in range(KILLS):
         lost += (await crash(folder / "state", ledger, rng)).lost
-    lost += await look(folder / "state", ledger)
+    lost += await find_losses(folder / "state", ledger)
     for each in lost:
         print(f"  {each}")
     return {"kills": KILLS, "acknowledged": ledger.sure, "lost": len(lost)}

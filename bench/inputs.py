@@ -1,13 +1,13 @@
-"""From the loss of whatever pushes the stick to zero speed at the robot's port, for each way a finger or a gamepad can be lost.
+"""Time from the loss of an input to zero speed at the robot's port, for each way in which a finger or a gamepad can be lost.
 
 The real app and the real robot side are processes of their own on loopback; the app shows the drive screen of a
 moving robot with all instruments. The finger comes through Kivy's input loop as that of a touch screen does, the gamepad is
 SDL's own virtual one, and each is lost at a random instant 0.1 to 0.4 s after the robot drove off, so many times each way. The
-clock stops at the first command to rest at the robot's port that no other command follows. What moves on after 1 s counts as 1 s.
+clock stops at the first command to rest at the robot's port that no other command follows. A robot that moves on after 1 s counts as 1 s.
 A row is the worst of its way, with the drawing left out: every call to OpenGL swallowed, as where a GPU draws.
 
-The other way is a stick whose events are forwarded as they come, with no check of its life: the same app without a look
-at what pushes the stick, without listening to the window, and without its heartbeat.
+The other way is a stick whose events are forwarded as they come, with no check of its life: the same app without checks
+of the input, without listening to the window, and without its heartbeat.
 """
 
 from __future__ import annotations
@@ -51,19 +51,19 @@ NAIVELY = 2
 """The same for the other way: it either rests by itself or never does."""
 DRAWN = 3
 """The same with the drawing."""
-WATCHED = 1.0
-"""How long the port is looked at after a loss [s]."""
+WATCH_TIME = 1.0
+"""Time for which the port is watched after a loss [s]."""
 AFTER = (0.1, 0.4)
 """The robot has driven for so long when the stick is lost [s]."""
-PATIENCE = 3.0
+DRIVE_OFF_TIMEOUT = 3.0
 """A robot that has not driven off after this is driven anew [s]."""
-PUSHES = 20
-"""So often at most."""
-STILL = 1e-6
+MAX_PUSHES = 20
+"""Pushes at most."""
+MIN_SPEED = 1e-6
 """[m/s], [rad/s]"""
 
-Told = list[tuple[float, bool]]
-"""What the robot's port was told: when [s], and whether that moves it."""
+Commands = list[tuple[float, bool]]
+"""Commands at the robot's port: when [s], and whether it moves the robot."""
 
 
 @contextmanager
@@ -90,7 +90,7 @@ def _named(found: dict[str, dict[str, list[float]]]) -> dict[str, float]:
 
 def lost(count: int, *flags: str) -> dict[str, dict[str, list[float]]]:
     """Until zero at the port [s], by what pushed the stick and by the way in which it was lost `count` times."""
-    told: Told = []
+    told: Commands = []
     with serving("bench.support.port", "--robot", "sim:patrol", "--world", "parking_lot") as robot:
         reader = threading.Thread(target=_listen, args=(robot.child, told), daemon=True)
         reader.start()
@@ -107,9 +107,9 @@ def lost(count: int, *flags: str) -> dict[str, dict[str, list[float]]]:
 
 
 class Trial:
-    """A handheld whose operator loses the stick, and what the robot's port is told meanwhile."""
+    """A handheld whose operator loses the stick, and the commands at the robot's port meanwhile."""
 
-    def __init__(self, handheld: Child, told: Told) -> None:
+    def __init__(self, handheld: Child, told: Commands) -> None:
         self._handheld, self._told = handheld, told
         self._rng = random.Random(1)
 
@@ -121,17 +121,17 @@ class Trial:
         return answer
 
     def lose(self, kind: str, way: str) -> float:
-        """Drive off, lose it, and make good what happened; gives how long the robot was told to move on [s]."""
+        """Drive off, lose it, and restore it; returns for how long the robot was commanded to move on [s]."""
         self._drive_off(kind)
         time.sleep(self._rng.uniform(*AFTER))
         at = self.ask("lose", way=way)["at"]
-        time.sleep(max(0.0, at + WATCHED - time.monotonic()))
-        taken = min(WATCHED, rested(list(self._told), at))
+        time.sleep(max(0.0, at + WATCH_TIME - time.monotonic()))
+        taken = min(WATCH_TIME, rested(list(self._told), at))
         self.ask("let_go")
         return taken
 
     def _drive_off(self, kind: str) -> None:
-        for _ in range(PUSHES):
+        for _ in range(MAX_PUSHES):
             self.ask("push", kind=kind)
             if self._waited(lambda: bool(self._told) and self._told[-1][1]):
                 return
@@ -139,7 +139,7 @@ class Trial:
         raise RuntimeError("The robot does not drive off.")
 
     def _waited(self, condition: Callable[[], bool]) -> bool:
-        end = time.monotonic() + PATIENCE
+        end = time.monotonic() + DRIVE_OFF_TIMEOUT
         while not condition() and time.monotonic() < end:
             time.sleep(0.005)
         return condition()
@@ -151,8 +151,8 @@ def rested(told: Sequence[tuple[float, bool]], since: float) -> float:
     return max(0.0, told[last + 1][0] - since) if last + 1 < len(told) else math.inf
 
 
-def _listen(robot: Child, told: Told) -> None:
+def _listen(robot: Child, told: Commands) -> None:
     for line in robot.process.stdout or ():
         if line.startswith(('["drive"', '["stop"')):
             what, at, *twist = json.loads(line)
-            told.append((at, what == "drive" and any(abs(value) > STILL for value in twist)))
+            told.append((at, what == "drive" and any(abs(value) > MIN_SPEED for value in twist)))

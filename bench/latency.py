@@ -1,4 +1,4 @@
-"""From the finger to the robot's port, with everything running: camera, laser, all instruments of the drive screen.
+"""Latency from the finger to the robot's port, with everything running: camera, laser, all instruments of the drive screen.
 
 The app draws off screen by software GL; events are put into SDL's queue at random moments, as the window system does, and
 the clock stops when the twist that the stick made of it is at the port of the simulated robot, behind its own process,
@@ -31,8 +31,8 @@ FIGURES = (
 REPEATS = 2
 MOVES = 150
 
-SLACK = 1.5
-"""How far Kivy's place of a finger may be from the window system's [px]."""
+PLACE_TOLERANCE = 1.5
+"""Greatest distance of Kivy's place of a finger from the window system's [px]."""
 
 Rows = Sequence[Sequence[float]]
 Sample = tuple[float, Sequence[float]]
@@ -74,7 +74,7 @@ def delays(moved: Rows, commands: Rows, port: Rows) -> tuple[list[float], list[f
     What was overtaken, by a newer move in the same frame or a newer twist in the app, came with what overtook it.
     """
     touch = followed(
-        [(at, place) for at, *place in moved], [(at, [x, y]) for at, x, y, *_ in commands], SLACK
+        [(at, place) for at, *place in moved], [(at, [x, y]) for at, x, y, *_ in commands], PLACE_TOLERANCE
     )
     sent = followed([(at, twist) for at, _, _, *twist in commands], [(at, twist) for at, *twist in port], 0.0)
     arrivals = {at: arrived for (at, *_), arrived in zip(commands, sent, strict=True)}

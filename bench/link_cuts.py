@@ -2,13 +2,13 @@
 
 Each kind's robot side is a process of its own, driven by our client at 20 Hz over a real socket through a proxy that breaks
 the connection by RST or passes nothing any more, while the driver goes on; later what still waited in the line is let
-through. All kinds are driven at the same time. What counts is what the robot's port was told: from the moment that the last
+through. All kinds are driven at the same time. The time counts at the robot's port: from the moment that the last
 command which it obeyed was given to the command to rest. Missed is a cut after which anything moved the robot later than
 300 ms after it was given. Rest is by odometry, and what its brakes need from full speed is taken off.
 
 The robots are the simulated ones, on open ground and in calm water: the patrol robot, the truck, the boat, the swimmer and
 the drone, which is in the air, each at its full speed (`bench/support/kinds.py`). The other way is a server that hands every
-twist on to the same robots and minds neither its age nor who is gone; what these drive on is looked at for no longer than ours.
+twist on to the same robots and checks neither its age nor who is gone; these are watched for no longer than ours.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ def theirs() -> dict[str, float]:
 
 @contextmanager
 def robot(kind: str, *flags: str) -> Iterator[tuple[int, list[Line]]]:
-    """A robot side of that kind: its port on this machine, and what the robot's own port tells, which grows."""
+    """A robot side of that kind: its port on this machine, and the growing list of reports of the robot's own port."""
     told: list[Line] = []
     driven = KINDS[kind]
     options = ("--robot", f"sim:{driven.model}", "--world", driven.world)

@@ -1,8 +1,8 @@
 """A phone that is killed in mid-task, and the one that is started in its place.
 
-The app is a process of its own, off screen on a phone's glass, that is connected and has control while the simulated robot
-patrols. It is ended by `kill -9` at an odd moment; while it is gone, somebody else takes control and gives it back,
-which the robot tells of. Then the app is started anew. It is attached when it shows the robot's screens and knows the
+The app is a process of its own, off screen at a phone's size, that is connected and has control while the simulated robot
+patrols. It is ended by `kill -9` at an odd moment; while it is gone, another operator takes control and gives it back,
+which the robot reports. Then the app is started anew. It is attached when it shows the robot's screens and knows the
 task that runs, by its number, and its progress, the queue, the history and every event since the kill. The task went on
 when the robot has kept its number and state and has driven meanwhile.
 """
@@ -44,9 +44,9 @@ REPEATS = 1
 KILLS = 20
 DONE = 3
 """Tasks that are in the history before."""
-PATIENCE = 10.0
+ANSWER_TIMEOUT = 10.0
 AWAY = (0.5, 3.0)
-"""How long there is no phone [s]."""
+"""Time without a phone [s]."""
 
 
 @contextmanager
@@ -56,7 +56,7 @@ def prepare(_: Context) -> Iterator[Sides]:
 
 
 class Watch:
-    """Another client, which knows what the robot told."""
+    """Another client, which collects the robot's messages."""
 
     def __init__(self, robot: RemoteRobot) -> None:
         self.robot = robot
@@ -79,7 +79,7 @@ class Watch:
     def begin(self) -> None:
         """Have some history, a long patrol and something in the queue behind it."""
         self.robot.on("/pose", lambda _: self.placed.set())
-        self.placed.wait(PATIENCE)
+        self.placed.wait(ANSWER_TIMEOUT)
         order(self.robot, "/mission/set", SetMissionRequest(mission=Mission(waypoints=ROUND)))
         for _ in range(DONE):
             order(self.robot, "/task/start", StartTaskRequest(order=TaskOrder(task="hold", duration=0.1)))
@@ -91,7 +91,7 @@ class Watch:
 
     def wait(self, state: str) -> None:
         """Until the task is in that state; TimeoutError when it never is."""
-        end = time.monotonic() + PATIENCE
+        end = time.monotonic() + ANSWER_TIMEOUT
         while self.status.state != state:
             if time.monotonic() > end:
                 raise TimeoutError(f"The task is {self.status.state}, not {state}: {self.status.reason}")
@@ -115,7 +115,7 @@ def killed(kills: int) -> dict[str, float]:
         watch = Watch(robot)
         watch.begin()
         found = [phone(served.url, watch, settings, rng, last=number == kills) for number in range(kills + 1)]
-    attached = found[1:]  # before the first one nobody was killed
+    attached = found[1:]  # no app was killed before the first one
     return {
         "attached": max(each["took"] for each in attached),
         "started": max(each["started"] for each in attached),

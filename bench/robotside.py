@@ -3,8 +3,8 @@
 The share of a core is CPU time of the whole process (physics, drawing, JPEG, autonomy, sockets and the threads of
 the software GL) over 20 s; the handheld is the app's own link with every subscription that it makes. The other way
 takes the camera's pictures through the JSON topic and not through the binary socket. The patrol is the same station without
-sockets and camera, on a clock that waits for nobody, until 100 m are driven. The longest update is CPU time, of a robot
-that looks for a way round something that it has just seen: while an update lasts nobody who presses STOP is heard.
+sockets and camera, on a clock that runs as fast as it can, until 100 m are driven. The longest update is CPU time, of a robot
+that plans a way round an obstacle that it has just seen: while an update lasts, STOP is not processed.
 """
 
 from __future__ import annotations
@@ -53,10 +53,10 @@ FIGURES = (
 )
 REPEATS = 2
 
-WATCHED = 20.0
-"""How long the CPU time is watched [s]."""
-FAR = 100.0
-"""How long the patrol is [m]."""
+WATCH_TIME = 20.0
+"""Time over which the CPU time is measured [s]."""
+PATROL_LENGTH = 100.0
+"""Length of the patrol [m]."""
 TICK = 1 / 60
 """Between two steps of the station [s], as when it serves."""
 
@@ -76,14 +76,14 @@ def share(camera: str) -> dict[str, float]:
         time.sleep(3.0)
         before = len(pictures)
         patrolling = watched(robot)
-        rate = (len(pictures) - before) / WATCHED
+        rate = (len(pictures) - before) / WATCH_TIME
     return {"standing": standing, "patrolling": patrolling, "pictures": rate}
 
 
 def watched(robot: Serving) -> float:
-    """Its share of a core over `WATCHED` [%]."""
+    """Its share of a core over `WATCH_TIME` [%]."""
     began, cpu = time.monotonic(), robot.cpu()
-    time.sleep(WATCHED)
+    time.sleep(WATCH_TIME)
     return (robot.cpu() - cpu) / (time.monotonic() - began) * 100
 
 
@@ -123,7 +123,7 @@ def fast() -> dict[str, float]:
         run(station, clock, 2.0)
         begin(station)
         began, wall, cpu = clock.now, time.monotonic(), time.process_time()
-        while driven.metres < FAR:
+        while driven.metres < PATROL_LENGTH:
             run(station, clock, 1.0)
             if clock.now - began > 1000:
                 raise RuntimeError(f"The patrol has come {driven.metres:.0f} m in 1000 s.")
@@ -147,7 +147,7 @@ def updates() -> dict[str, float]:
 
 
 class Clock:
-    """A clock that is told the time."""
+    """A clock that is set by hand."""
 
     now = 0.0
 

@@ -1,15 +1,15 @@
-"""Whether the shake recogniser understands people, and what it takes for a shake that is none.
+"""Recall of the shake recogniser, and its false alarms.
 
 A trial is 4 s of a hand that holds still, or of a recorded walk with the phone in the hand, 2.25 cycles cut out of a recorded
 take, and 1.5 s without; the first thing understood counts. Takes slower than 0.8 Hz are left out: they are waves. A lesson is
 the first take of each movement of a person, fed as the app's own lesson is; the trials are then cut from that person's others.
-Negatives are whole recordings one after the other, each with a fresh recogniser, and starts: somebody stands, walks or runs
+Negatives are whole recordings one after the other, each with a fresh recogniser, and starts: a person stands, walks or runs
 for 12 s, and stands. `--data DIR` takes the recordings from `DIR/NAME/index.json` and `acc.npz`: handwaving for shakes, the
 walks of oxford_steps to walk with, every other folder's takes as negatives. Without it people are made up, and the arm exercises
 of seglearn's wheel and made-up walks, drives and drawn circles are what must not fire. Rows of one person are those of the worst.
 
 The other way is the Seismic rule of the square/seismic library: |a| above 13 m/s² for three quarters of half a second; it
-knows no direction, so that anything it says is right.
+knows no direction, so that any direction counts as right.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ FIGURES = (
 REPEATS = 1
 EACH = 5
 TRAVEL = ("walk", "car", "drive", "driv", "start_walk")
-"""How labels of walks and drives begin."""
+"""Beginnings of the labels of walks and drives."""
 
 
 class Material(NamedTuple):

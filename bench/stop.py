@@ -1,4 +1,4 @@
-"""STOP from the tap on the glass until the button says STOPPED: the robot has said that it is latched and rests.
+"""Time of STOP from the tap on the screen until the button shows STOPPED: the robot has reported that it is latched and at rest.
 
 The app and the robot side are processes of their own on loopback; taps are put into SDL's queue at odd moments while camera,
 laser and all instruments of the drive screen run, the robot stands, and each STOP is released again. *Saturated* is a TCP
@@ -6,7 +6,7 @@ proxy of 2 Mbit/s in each direction that keeps 8 kB at most, and on the same con
 times as fast as they fit. A STOP that is not confirmed within 5 s counts as infinite.
 
 The other way is a plain client that calls STOP on a server which sends by `websockets.broadcast`, with the same samples over
-the same proxy, timed from the call to the answer: no glass is in it.
+the same proxy, timed from the call to the answer, without a screen.
 
 The rows with the drawing left out have every call to OpenGL swallowed: without a GPU the software GL computes each pixel
 on the cores that everything else needs too.
@@ -81,7 +81,7 @@ def tapped(count: int, rate: float, *flags: str) -> list[float]:
 def theirs() -> dict[str, float]:
     """A plain client on a plain server."""
     with child("bench.support.rosbridge", "naive") as server:
-        port = server.hear()["port"]
+        port = server.receive()["port"]
         idle = asyncio.run(stops(port, ()))
         server.ask({"do": "flow", "rates": {ODOM: LINK * TIMES / len(to_json(MESSAGES[ODOM]))}})
         busy = asyncio.run(stops(port, (ODOM,)))

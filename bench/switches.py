@@ -1,8 +1,8 @@
 """Presses and time for one of 16 actions by two switches, for a simulated user, against linear cycling as in the paper of the divers.
 
-The user wants actions as they were drawn from a log with the distribution in `ACTIONS` (assumed, as there is no log
-of users yet, so that the list has about the 10.6 presses that were reckoned for such a page) and
-works the very engine of the app: contacts, tree and mark. A press takes 0.35 s; one in twenty goes wrong (a step too many, or a press
+The user wants actions drawn from the distribution in `ACTIONS` (assumed, because there is no log of users
+yet, so that the list needs about the 10.6 presses computed for such a page) and
+operates the app's own engine: contacts, tree and mark. A press takes 0.35 s; one in twenty goes wrong (a step too many, or a press
 that does not reach the contact), is noticed, and is made good by going round or by a hold back. STOP is one of the actions and is
 both switches together, as everywhere. What B does is done when it is let go and cannot bounce any more: so much longer, 0.23 s, the user
 looks before the next press. Runs of the same repeatable action come as such steps do. The other way is one list in the
@@ -121,7 +121,7 @@ class User:
         self._press("B")
         self.presses, self.now = 0, self.now
 
-    # what the engine tells
+    # reports of the engine
 
     def stop(self, began: float) -> None:
         """STOP was pressed."""

@@ -1,4 +1,4 @@
-"""What a tablet's tilt commands: in the hand of one who walks with the clutch held, and when the clutch is let go.
+"""Commands of a tablet's tilt: in the hand of a person who walks with the clutch held, and after the clutch is released.
 
 The walker is made of steps of 1.5 to 2.2 Hz in all three axes, with their overtones, noise, and a hand that slowly sinks, seen
 by an accelerometer alone as on a device without a gyroscope, which is the hard case; with `--data DIR` the recordings of
@@ -8,8 +8,8 @@ full command, `busy` the share of heartbeats with any. Each recording counts by 
 
 The other way is the common one: the accelerometer's own angles from level, a low pass of 2 Hz, and the same dead zone.
 
-`release` is what the first look after a release commands at most, over every instant of 100 tilts; `sample` and `look` are what
-a sample and a heartbeat cost.
+`release` is the greatest command of the first heartbeat after a release, over every instant of 100 tilts; `sample` and `look`
+are the costs of a sample and of a heartbeat.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ Walk = tuple[float, list[Axes]]
 """Rate [Hz] and samples [m/s²]."""
 
 
-class Told(NamedTuple):
+class Commands(NamedTuple):
     """The lengths of the commands of one walk, one a heartbeat."""
 
     lengths: list[float]
@@ -82,12 +82,14 @@ def prepare(context: Context) -> Iterator[Sides]:
     )
 
 
-def _walks(way: Callable[[Walk], Told], made: Sequence[Walk], recorded: Sequence[Walk]) -> dict[str, float]:
+def _walks(
+    way: Callable[[Walk], Commands], made: Sequence[Walk], recorded: Sequence[Walk]
+) -> dict[str, float]:
     found: dict[str, float] = {}
     for name, walks in (("made", made), ("walk", recorded)):
         if walks:
             told = [way(walk) for walk in walks]
-            together = Told([one for each in told for one in each.lengths])
+            together = Commands([one for each in told for one in each.lengths])
             found[f"{name}_mean"] = together.mean
             found[f"{name}_busy"] = 100.0 * sum(one > 0.0 for one in together.lengths) / len(together.lengths)
             if name == "walk":
@@ -95,7 +97,7 @@ def _walks(way: Callable[[Walk], Told], made: Sequence[Walk], recorded: Sequence
     return found
 
 
-def _ours(walk: Walk) -> Told:
+def _ours(walk: Walk) -> Commands:
     rate, samples = walk
     tilt, level, due = Tilt(WALKING), Level(), CLOSES
     told: list[float] = []
@@ -111,10 +113,10 @@ def _ours(walk: Walk) -> Told:
                 tilt.press(t)
             told.append(math.hypot(*tilt.look(t)))
             due += BEAT
-    return Told(told)
+    return Commands(told)
 
 
-def _naive(walk: Walk) -> Told:
+def _naive(walk: Walk) -> Commands:
     rate, samples = walk
     weight = 1.0 / (1.0 + rate / (2.0 * math.pi * 2.0))
     roll = pitch = 0.0
@@ -127,7 +129,7 @@ def _naive(walk: Walk) -> Told:
             neutral = neutral if told else (roll, pitch)
             told.append(math.hypot(*shaped(roll - neutral[0], pitch - neutral[1], WALKING)))
             due += BEAT
-    return Told(told)
+    return Commands(told)
 
 
 def _made(seed: int, seconds: float = 120.0, rate: float = 50.0) -> Walk:

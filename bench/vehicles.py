@@ -1,12 +1,12 @@
-"""The simulated vehicles: what a step of each costs, of several in one world, and of a beam.
+"""Cost of the simulated vehicles: a step of each, of several in one world, and a laser beam.
 
 CPU time of the whole process, without sockets and, but for the cameras' own figure, without cameras: each vehicle drives by itself with all its sensors, then one of
 each together over the lake's model of water, then one to twenty patrol robots in one car park. A beam's cost is the
 difference of two sweeps of the truck's laser. The shares of a core are at 240 steps a second, in real time. Memory is the
 resident set as the system counts it, shared pages of libraries included, of the whole process of a robot side that serves one
-patrol robot to nobody and was started before, so that its database has its tables (the very first start has what makes
-them, 13 MB, in memory as well), and once somebody looks through its camera, which takes the software GL with its
-compiler. Runs are told apart by the hash of all that the robots of every kind measured in two
+patrol robot without a client and was started before, so that its database has its tables (the very first start has what makes
+them, 13 MB, in memory as well), and while a client watches its camera, which takes the software GL with its
+compiler. Runs are compared by the hash of all that the robots of every kind measured in two
 processes.
 """
 
@@ -104,7 +104,7 @@ height = 0.05
 period = 2.5
 """
 
-SETTLED = 4.0
+SETTLING_TIME = 4.0
 """A robot side has all that it needs after this [s]."""
 RUN = """
 import hashlib
@@ -218,7 +218,7 @@ def picture() -> float:
 
 
 def memory() -> tuple[float, float]:
-    """Resident set of a robot side with one patrol robot before and while somebody gets its pictures [MB]."""
+    """Resident set of a robot side with one patrol robot before and while a client gets its pictures [MB]."""
     with tempfile.TemporaryDirectory() as state:
         with serving(state=state):
             pass  # the first start makes the tables
@@ -227,14 +227,14 @@ def memory() -> tuple[float, float]:
 
 
 def resident(side: Serving) -> tuple[float, float]:
-    """Of this robot side, before and while somebody gets its pictures [MB]."""
+    """Of this robot side, before and while a client gets its pictures [MB]."""
     process = psutil.Process(side.child.process.pid)
-    time.sleep(SETTLED)
+    time.sleep(SETTLING_TIME)
     alone = process.memory_info().rss
     with RemoteRobot(side.url) as robot:
         robot.wait()
         stop = robot.on(CAMERA_TOPIC, lambda _: None)
-        time.sleep(SETTLED)
+        time.sleep(SETTLING_TIME)
         watched = process.memory_info().rss
         stop()
     return alone / 1e6, watched / 1e6

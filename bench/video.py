@@ -1,7 +1,7 @@
-"""From the simulator's drawing to the picture on the app's texture: 640 x 480, 15 pictures a second, everything running.
+"""Latency from the simulator's drawing to the picture on the app's texture: 640 x 480, 15 pictures a second, everything running.
 
 The clock starts before the simulation begins the step that draws and stops when the pixels have been handed to the
-texture of the drive screen; both stamps are of the machine's monotonic clock. A repeat looks on for 15 s. The other way
+texture of the drive screen; both stamps are of the machine's monotonic clock. A repeat lasts 15 s. The other way
 takes the same pictures from the topic `/camera/image/compressed`, as base64 in JSON.
 """
 
@@ -23,7 +23,7 @@ FIGURES = (
     Figure("lost", "%", "pictures drawn and never shown", against=JSON),
 )
 REPEATS = 2
-WATCHED = 15.0
+WATCH_TIME = 15.0
 """[s]"""
 
 
@@ -38,13 +38,13 @@ def once(*flags: str) -> dict[str, float]:
     with pair(*flags) as both:
         both.ask("connect", url=both.url)
         both.ask("watch", seconds=SETTLING)
-        shown = both.ask("watch", seconds=WATCHED)["pictures"]
+        shown = both.ask("watch", seconds=WATCH_TIME)["pictures"]
         drawn = [line[1:] for line in both.told if line[0] == "picture"]
     taken, missing = ages(drawn, shown)
     return {
         "p50": percentile(taken, 0.5) * 1e3,
         "p95": percentile(taken, 0.95) * 1e3,
-        "rate": len(shown) / WATCHED,
+        "rate": len(shown) / WATCH_TIME,
         "lost": missing * 100,
     }
 
@@ -52,12 +52,12 @@ def once(*flags: str) -> dict[str, float]:
 def ages(drawn: Sequence[Sequence[float]], shown: Sequence[Sequence[float]]) -> tuple[list[float], float]:
     """How old each picture was when it was shown [s], and which share of those drawn meanwhile was never shown.
 
-    Both lists hold a time [s] and the picture's stamp. RuntimeError when a picture was shown that nobody has drawn.
+    Both lists hold a time [s] and the picture's stamp. RuntimeError when a picture was shown that was never drawn.
     """
     begun = {round(stamp, 4): at for at, stamp in drawn}
     stamps = [round(stamp, 4) for _, stamp in shown]
     if not stamps or not begun.keys() >= set(stamps):
-        raise RuntimeError("The pictures on the glass are not those that were drawn.")
+        raise RuntimeError("The pictures on the screen are not those that were drawn.")
     meanwhile = [stamp for stamp in begun if min(stamps) <= stamp <= max(stamps)]
     missing = 1 - len(set(stamps)) / len(meanwhile) if meanwhile else math.nan
     return [at - begun[stamp] for (at, _), stamp in zip(shown, stamps, strict=True)], missing

@@ -1,4 +1,4 @@
-"""Spoken commands, understood offline: recall, false commands, noise, how soon STOP is there, and what it costs.
+"""Offline recognition of spoken commands: recall, false commands, noise, latency of STOP, and cost.
 
 Natural voices are synthesised by `hibari` (and by flite and piper where they are installed) at three speeds and three sizes of
 the speaker, formant voices by `espeak-ng`; each says every phrase of the grammar, and phrases that are none. Noise is made by numpy: pink, wind
@@ -43,9 +43,9 @@ OUTSIDE = (
     "happy", "seven", "tree", "look at that", "the camera broke", "it is raining again", "who said that", "coffee please",
     "open the window", "my name is Marvin", "never mind", "thank you", "the battery is empty", "turn the page", "window",
 )  # fmt: skip
-"""Said by people who give no command; some are like one."""
+"""Phrases of people who give no command; some resemble one."""
 NEIGHBOURS = ("paws", "know", "stomp", "stab", "star", "guess", "gnome", "though", "past her", "top")
-"""A sound away from a command, or none: told, and nothing promised."""
+"""Words that are at most one sound away from a command: reported, without a target."""
 AMID = (
     "on top of it", "step over here", "shop over there", "that is on top", "stay there", "stomp on it", "the next stage",
     "he is at the top", "stuff it in", "spot on",
@@ -218,7 +218,7 @@ def tally(judge: Judge, clips: Sequence[Clip], heeded: frozenset[str]) -> tuple[
 def streamed(
     make: Callable[[Grammar], Judge], made: Sequence[Clip], amid: Sequence[Clip], real: Sequence[Clip]
 ) -> dict[str, float]:
-    """What is heard from a stream: when STOP comes, how often for nothing, and what it costs."""
+    """Recognition of a stream: latency of STOP, false alarms, and cost."""
     stops = [clip for clip in made if clip.said == "stop"]
     talk = [clip for clip in made if clip.said in OUTSIDE]
     few = [clip for clip in made if clip.command and clip.command != "stop"][::11]
@@ -248,7 +248,7 @@ def streamed(
 
 
 Events = list[tuple[int, Event, float]]
-"""Of which clip, what was told, and when [s]."""
+"""Clip, event, and time [s]."""
 
 
 def _stopped(events: Events) -> set[int]:
@@ -259,7 +259,7 @@ def _stopped(events: Events) -> set[int]:
 def listen(
     judge: Judge, phrases: dict[str, tuple[str, ...]], clips: Sequence[Clip]
 ) -> tuple[list[float], Events, float]:
-    """How long after its end each `stop` was told [s], all that was told of words, and the cost as a share of real time."""
+    """Latency of each `stop` after its end [s], all events of words, and the cost as a share of real time."""
     told: Events = []
     heard: list[Event] = []
     hearing = Hearing(Grammar(phrases), judge, heard.append)

@@ -1,4 +1,4 @@
-"""Drives a robot in a circle for two seconds, prints where it is and sends it home: `python -m examples.circle`."""
+"""A program that drives a robot in a circle for two seconds, prints where it is and sends it home: `python -m examples.circle`."""
 
 import time
 

@@ -1,4 +1,4 @@
-"""Proves of the Android package what can be proven without its toolchain; builds no package.
+"""Checks of the Android package that need no toolchain; builds no package.
 
 It stages exactly the files that buildozer.spec selects, compiles them as the phone gets them (`-OO`: no asserts,
 no docstrings), imports every module of that tree in a process that has no robot side, no simulator and no desktop
@@ -22,7 +22,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 SHIPPED = {"app", "widgets", "bridge", "main.py"}
 DESKTOP = ("bridge/generate/", "bridge/definitions/")
-"""What of them makes the rest and is not needed on the phone."""
+"""The parts of them that generate the rest and are not needed on the phone."""
 DESKTOP_ONLY = (
     "robotside",
     "sim",
@@ -42,7 +42,7 @@ DESKTOP_ONLY = (
 """What the phone does not have."""
 
 OPTIONAL = {"PIL", "hama", "hibari", "miniaudio", "pocketsphinx"}
-"""What of that the handheld uses where it is there, and goes on without elsewhere."""
+"""Those of them that the handheld uses where they are installed, and runs without elsewhere."""
 
 NO_RECIPE = {
     "orjson",

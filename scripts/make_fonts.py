@@ -1,4 +1,4 @@
-"""Rebuild widgets/fonts from the packages that hold the whole fonts.
+"""The rebuilding of widgets/fonts from the packages that hold the whole fonts.
 
 Fetch them first, with the machine's own package tools, into one folder:
 

@@ -1,4 +1,4 @@
-"""Draws the app's icon and start picture: the robot's arrow in its ring. Run it when the look changes."""
+"""The app's icon and start picture: the robot's arrow in its ring. Run it when the design changes."""
 
 from __future__ import annotations
 

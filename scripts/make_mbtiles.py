@@ -1,4 +1,4 @@
-"""Draw the parking lot from above and write it as offline map tiles.
+"""Offline map tiles of the parking lot, drawn from above.
 
     python scripts/make_mbtiles.py [sim/worlds/parking_lot.toml] [widgets/data/parking_lot.mbtiles]
 

@@ -1,4 +1,4 @@
-"""`python -m scripts.physics_plots [FOLDER]`: runs the vehicles and draws the plots of docs/physics.md into docs/pictures.
+"""Plots of docs/physics.md, `python -m scripts.physics_plots [FOLDER]`: runs the vehicles and draws into docs/pictures.
 
 Ours are lines; dots are what a formula gives, or what others published.
 """

@@ -1,4 +1,4 @@
-"""Adds up pytest's reports in a folder and prints one line: `N passed, N failed`."""
+"""The sum of pytest's reports in a folder, printed as one line: `N passed, N failed`."""
 
 from __future__ import annotations
 

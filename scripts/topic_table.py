@@ -1,4 +1,4 @@
-"""Writes the table of topics, as bridge/core/topics.py has it, into docs/bridge.md."""
+"""The table of topics in docs/bridge.md, written from bridge/core/topics.py."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def when(topic: Topic) -> str:
         return "on change, latched" if topic.to == "handheld" else "on request"
     if topic.once:
         return "each once"
-    return f"{topic.rate:g} Hz, if somebody asks" if topic.on_demand else f"{topic.rate:g} Hz"
+    return f"{topic.rate:g} Hz, on demand" if topic.on_demand else f"{topic.rate:g} Hz"
 
 
 def table() -> str:

@@ -1,1 +1,1 @@
-"""What the benches share: figures and their arithmetic, the machine's noise, tables, child processes."""
+"""Parts that the benches share: figures and their arithmetic, the machine's noise, tables, child processes."""

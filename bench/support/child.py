@@ -1,4 +1,4 @@
-"""A process of its own for what must not share one with the measurement; it talks by lines of JSON."""
+"""A child process for code that must not share one with the measurement; it talks by lines of JSON."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from typing import Any
 __all__ = ["Child", "child"]
 
 ROOT = Path(__file__).parents[2]
-GRACE = 0.5
-"""How long a child may take to end after its standard input has [s]; then it is told to."""
-PATIENCE = 10.0
-"""How long it may take to end when told to [s]."""
+EXIT_TIMEOUT = 0.5
+"""Time in which a child ends after its standard input is closed [s]; then it is terminated."""
+TERMINATE_TIMEOUT = 10.0
+"""Time in which it ends after that [s]; then it is killed."""
 
 
 class Child:
@@ -32,13 +32,13 @@ class Child:
             raise RuntimeError(f"{self.process.args!r} ended with {self.process.wait()}.")
         return line.rstrip("\n")
 
-    def hear(self) -> Any:
+    def receive(self) -> Any:
         """The next line of JSON that it prints; other lines are passed over."""
         while not (line := self.line()).startswith(("{", "[")):
             pass
         return json.loads(line)
 
-    def say(self, value: object) -> None:
+    def send(self, value: object) -> None:
         """Send it a line of JSON."""
         if self.process.stdin is None:
             raise RuntimeError("This child does not listen.")
@@ -47,13 +47,13 @@ class Child:
 
     def ask(self, value: object) -> Any:
         """Say something and hear the answer."""
-        self.say(value)
-        return self.hear()
+        self.send(value)
+        return self.receive()
 
 
 @contextmanager
 def child(module: str, *arguments: str, environment: Mapping[str, str] | None = None) -> Iterator[Child]:
-    """Run `python -m module arguments…`; at the end its standard input is closed, then it is told to end."""
+    """Run `python -m module arguments…`; at the end its standard input is closed, then it is terminated."""
     process = subprocess.Popen(
         [sys.executable, "-m", module, *arguments],
         cwd=ROOT,
@@ -71,7 +71,7 @@ def child(module: str, *arguments: str, environment: Mapping[str, str] | None = 
 def _end(process: subprocess.Popen[str]) -> None:
     if process.stdin:
         process.stdin.close()
-    for patience, harder in ((GRACE, process.terminate), (PATIENCE, process.kill)):
+    for patience, harder in ((EXIT_TIMEOUT, process.terminate), (TERMINATE_TIMEOUT, process.kill)):
         try:
             process.wait(patience)
         except subprocess.TimeoutExpired:

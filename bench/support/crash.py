@@ -1,4 +1,4 @@
-"""A robot side that is killed while several clients have it write, and looked at again: what it acknowledged must be there."""
+"""A robot side that is killed while several clients make it write, and checked again: all that it acknowledged must be there."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from typing import Any
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 
-__all__ = ["Ledger", "Round", "crash", "look"]
+__all__ = ["Ledger", "Round", "crash", "find_losses"]
 
 ROOT = Path(__file__).parents[2]
-NOBODY = "ros:ws://127.0.0.1:1"
-"""A robot that cannot be reached: what is kept needs none, and the process is up in a second."""
+UNREACHABLE = "ros:ws://127.0.0.1:1"
+"""A robot that cannot be reached: the records need none, and the process starts in a second."""
 EARLY = 0.15
 """Share of the rounds in which it is killed before it serves, while it opens the database."""
 MANY = 300
@@ -62,7 +62,7 @@ class Round:
     acknowledged: int
     """Changes that were answered with success before the kill."""
     lost: list[str]
-    """What was acknowledged and is not there, or is told differently; empty as it should be."""
+    """Records that were acknowledged and are missing or different; empty when all is well."""
 
 
 async def crash(state: Path, ledger: Ledger, rng: random.Random, early: float = EARLY) -> Round:
@@ -74,7 +74,7 @@ async def crash(state: Path, ledger: Ledger, rng: random.Random, early: float = 
             await asyncio.sleep(rng.uniform(0.0, 1.5))
         else:
             client = await Client.to(process)
-            lost = await _look(client, ledger)
+            lost = await _find_losses(client, ledger)
             work = [asyncio.create_task(_write(client, ledger, rng)) for _ in range(WRITERS)]
             await asyncio.sleep(rng.uniform(0.0, 0.5))
             os.kill(process.pid, signal.SIGKILL)
@@ -86,12 +86,12 @@ async def crash(state: Path, ledger: Ledger, rng: random.Random, early: float = 
     return Round(ledger.sure - before, lost + _whole(state))
 
 
-async def look(state: Path, ledger: Ledger) -> list[str]:
-    """Start the robot side once more and look; what is not as it was acknowledged, empty as it should be."""
+async def find_losses(state: Path, ledger: Ledger) -> list[str]:
+    """Start the robot side once more and return the records that are not as acknowledged; empty when all is well."""
     process = _start(state)
     try:
         client = await Client.to(process)
-        lost = await _look(client, ledger)
+        lost = await _find_losses(client, ledger)
         await client.close()
     finally:
         _kill(process)
@@ -107,15 +107,15 @@ def _whole(state: Path) -> list[str]:
     return [] if found == "ok" else [f"the database is not whole: {found}"]
 
 
-async def _look(client: Client, ledger: Ledger) -> list[str]:
-    """What is not as it was acknowledged."""
+async def _find_losses(client: Client, ledger: Ledger) -> list[str]:
+    """Records that are not as they were acknowledged."""
     places = (await client.latched("/places"))["places"]
     client.ids = {place["name"]: place["id"] for place in places}
     kept = {place["name"]: place["x"] for place in places}
     laps = (await client.latched("/mission"))["laps"]
     log = await client.ask("/events/get", since=1, boot=await client.boot())
-    told = {event["id"]: event for event in log["events"]}
-    oldest = min(told, default=0)
+    logged = {event["id"]: event for event in log["events"]}
+    oldest = min(logged, default=0)
     sure = {name: x for name, x in ledger.places.items() if name not in ledger.unsure}
     wrong = [f"place {name} is {kept.get(name)}, not {x}" for name, x in sure.items() if kept.get(name) != x]
     wrong += [f"place {name} is there again" for name in ledger.gone & set(kept)]
@@ -123,14 +123,16 @@ async def _look(client: Client, ledger: Ledger) -> list[str]:
         wrong.append(f"the mission is number {laps}; {ledger.mission} was acknowledged")
     heard = {id: text for id, text in ledger.events.items() if id >= oldest}
     wrong += [
-        f"event {id} is lost or another" for id, text in heard.items() if told.get(id, {}).get("text") != text
+        f"event {id} is lost or another"
+        for id, text in heard.items()
+        if logged.get(id, {}).get("text") != text
     ]
     wrong += [
         f"event {id} is not acknowledged any more"
         for id in ledger.acknowledged
-        if id in told and not told[id]["acknowledged_by"]
+        if id in logged and not logged[id]["acknowledged_by"]
     ]
-    ledger.acknowledged -= {id for id in ledger.acknowledged if not told.get(id, {}).get("acknowledged_by")}
+    ledger.acknowledged -= {id for id in ledger.acknowledged if not logged.get(id, {}).get("acknowledged_by")}
     # what was asked for and not answered is settled now
     ledger.places = {name: kept[name] for name in {*sure, *ledger.unsure} if name in kept}
     ledger.unsure.clear()
@@ -225,18 +227,18 @@ class Client:
         url = next(word.removeprefix("bridge=") for word in line.split() if word.startswith("bridge="))
         client = cls(await connect(url, max_size=None))
         for topic in ("/events", *client._latched):
-            await client._say(op="subscribe", topic=topic)
+            await client._send(op="subscribe", topic=topic)
         return client
 
     async def ask(self, service: str, **arguments: object) -> Any:
         """Call a service; ConnectionClosed when the robot side is gone."""
         id = f"call {next(self._numbers)}"
         future = self._answers[id] = asyncio.get_running_loop().create_future()
-        await self._say(op="call_service", service=service, id=id, args=arguments)
+        await self._send(op="call_service", service=service, id=id, args=arguments)
         return await future
 
     async def latched(self, topic: str) -> Any:
-        """What a latched topic said first."""
+        """The first message of a latched topic."""
         async with asyncio.timeout(10.0):
             return await asyncio.shield(self._latched[topic])
 
@@ -250,39 +252,39 @@ class Client:
         await self._socket.close()
         await self._reading
 
-    async def _say(self, **operation: object) -> None:
+    async def _send(self, **operation: object) -> None:
         await self._socket.send(json.dumps(operation))
 
     async def _read(self) -> None:
         closed = ConnectionClosed(None, None)
         with suppress(ConnectionClosed):
             async for text in self._socket:
-                self._hear(json.loads(text))
+                self._handle(json.loads(text))
         for future in self._answers.values():
             if not future.done():
                 future.set_exception(closed)
-                future.exception()  # nobody may be left who asks
+                future.exception()  # the caller may be gone
 
-    def _hear(self, said: dict[str, Any]) -> None:
-        if said["op"] == "service_response":
-            future = self._answers.pop(said["id"])
-            if said["result"]:
-                future.set_result(said["values"])
+    def _handle(self, message: dict[str, Any]) -> None:
+        if message["op"] == "service_response":
+            future = self._answers.pop(message["id"])
+            if message["result"]:
+                future.set_result(message["values"])
             else:
-                future.set_exception(RuntimeError(said["values"]))
-        elif said["op"] == "publish" and said["topic"] == "/events":
-            self.events[said["msg"]["id"]] = said["msg"]["text"]
-        elif said["op"] == "publish":
-            first = self._latched[said["topic"]]
+                future.set_exception(RuntimeError(message["values"]))
+        elif message["op"] == "publish" and message["topic"] == "/events":
+            self.events[message["msg"]["id"]] = message["msg"]["text"]
+        elif message["op"] == "publish":
+            first = self._latched[message["topic"]]
             if not first.done():
-                first.set_result(said["msg"])
+                first.set_result(message["msg"])
 
 
 def _start(state: Path) -> subprocess.Popen[str]:
     serve = (
         "serve",
         "--robot",
-        NOBODY,
+        UNREACHABLE,
         "--port",
         "0",
         "--http-port",

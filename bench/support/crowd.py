@@ -1,4 +1,4 @@
-"""`python -m bench.support.crowd URL`: plain WebSocket clients of a rosbridge server, in a process of their own.
+"""Plain WebSocket clients of a rosbridge server in a process of their own, `python -m bench.support.crowd URL`.
 
 Each line of JSON on the standard input is answered by one:
 
@@ -27,10 +27,10 @@ from bench.support.rosbridge import flow
 from bench.support.traffic import MESSAGES
 from bridge.codec import to_json
 
-PATIENCE = 20.0
-"""How long a burst may take to arrive [s]."""
+BURST_TIMEOUT = 20.0
+"""Longest time in which a burst arrives [s]."""
 
-QUIET = 0.5
+QUIET_TIME = 0.5
 """After so long without a message [s] none is on its way any more."""
 
 
@@ -54,14 +54,14 @@ class Crowd:
             self._begin(self._read(ws))
         return {}
 
-    async def told(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+    async def received(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """How many messages came."""
         self._goal, before = asked.get("until", 0), -1
         while before < self.received < self._goal:
             before = self.received
             self._reached.clear()
             with contextlib.suppress(TimeoutError):
-                async with asyncio.timeout(QUIET):
+                async with asyncio.timeout(QUIET_TIME):
                     await self._reached.wait()
         return {"received": self.received}
 
@@ -74,7 +74,7 @@ class Crowd:
             self._reached.clear()
             for _ in range(asked["burst"]):
                 await ws.send(text, text=True)
-            async with asyncio.timeout(PATIENCE):
+            async with asyncio.timeout(BURST_TIMEOUT):
                 await self._reached.wait()
         seconds = time.monotonic() - began
         await ws.close()
@@ -149,11 +149,11 @@ def _putting(queue: asyncio.Queue[bytes], text: bytes) -> Callable[[str], None]:
 
 
 async def run(url: str) -> None:
-    """Do what is asked until the standard input ends."""
+    """Answer requests until the standard input ends."""
     crowd = Crowd(url)
     doing: dict[str, Callable[[Mapping[str, Any]], Awaitable[dict[str, Any]]]] = {
         "watch": crowd.watch,
-        "received": crowd.told,
+        "received": crowd.received,
         "relay": crowd.relay,
         "feed": crowd.feed,
         "stall": crowd.stall,

@@ -1,4 +1,4 @@
-"""A robot that is driven at full speed until its link is cut, and what its port was told from then on."""
+"""A robot that is driven at full speed until its link is cut, and the commands at its port from then on."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ from bench.support.wire import Wire, wire
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.msgs.geometry_msgs import Twist
 
-__all__ = ["VALID", "Cut", "Driver", "cut", "judge", "naive", "ours"]
+__all__ = ["COMMAND_LIFETIME", "Cut", "Driver", "cut", "judge", "naive", "ours"]
 
-VALID = 0.3
+COMMAND_LIFETIME = 0.3
 """So long after a command was given nothing may be left of it [s]."""
 PERIOD = 0.05
 """Between two commands [s]."""
 CODE = 1e-3
-"""By so much the yaw rates of two commands that follow each other differ, that they can be told apart [rad/s]."""
+"""By so much the yaw rates of two commands that follow each other differ, so that they can be distinguished [rad/s]."""
 CODES = 500
-GOES_ON = 0.4
-"""How long the driver goes on after the cut without knowing [s]."""
-LOOK = 0.6
-"""How long the port is looked at once the robot must stand, or the link has healed [s]."""
-PATIENCE = 10.0
+BLIND_TIME = 0.4
+"""Time for which the driver goes on after the cut without knowing [s]."""
+WATCH_TIME = 0.6
+"""Time for which the port is watched once the robot must stand, or the link has healed [s]."""
+CONNECT_TIMEOUT = 10.0
 
 Line = Sequence[Any]
 """One of a port: what, when [s], and its numbers."""
@@ -49,7 +49,7 @@ class Cut:
     hard: bool
     """By RST; else nothing passed any more."""
     zero: float
-    """From the last command that the robot obeyed to rest at its port [s]; infinite when it was never told to rest."""
+    """From the last command that the robot obeyed to rest at its port [s]; infinite when the command to rest never came."""
     longest: float
     """As long after it was given a command was in force, or obeyed at all, at most [s]."""
     rest: float
@@ -62,7 +62,7 @@ class Cut:
     @property
     def missed(self) -> bool:
         """Something moved it too late."""
-        return not self.longest <= VALID
+        return not self.longest <= COMMAND_LIFETIME
 
 
 @contextlib.asynccontextmanager
@@ -78,7 +78,7 @@ async def ours(port: int) -> AsyncIterator[Callable[[Twist], Awaitable[None]]]:
     running = asyncio.create_task(client.run())
     client.advertise("/cmd_vel", Twist)
     try:
-        async with asyncio.timeout(PATIENCE):
+        async with asyncio.timeout(CONNECT_TIMEOUT):
             await connected.wait()
 
         async def send(twist: Twist) -> None:
@@ -104,24 +104,24 @@ async def naive(port: int) -> AsyncIterator[Callable[[Twist], Awaitable[None]]]:
 
 
 async def cut(port: int, told: list[Line], kind: Kind, driver: Driver, rng: random.Random, way: float) -> Cut:
-    """Drive a robot whose port tells of it at full speed, `way` 1 forward or −1 back, and cut the link: by RST or in silence."""
+    """Drive a robot whose port reports its commands at full speed, `way` 1 forward or −1 back, and cut the link: by RST or in silence."""
     hard = rng.random() < 0.5
     first = len(told)
     given: dict[int, float] = {}
     async with wire(port) as link, driver(link.port) as send:
         on_way = kind.speed / kind.acceleration + rng.uniform(0.2, 0.2 + 4 * PERIOD)
         cutting = asyncio.create_task(_sever(link, on_way, hard=hard))
-        end = time.monotonic() + on_way + GOES_ON
+        end = time.monotonic() + on_way + BLIND_TIME
         while time.monotonic() < end:
             code = len(given) + 1
             given[code] = time.monotonic()
             await send(Twist.planar(way * kind.speed, code % CODES * CODE))
             await asyncio.sleep(max(0.0, given[1] + code * PERIOD - time.monotonic()))
         severed = await cutting
-        await asyncio.sleep(kind.speed / kind.braking + LOOK)
+        await asyncio.sleep(kind.speed / kind.braking + WATCH_TIME)
         if not hard:
             link.thaw()  # what waited in the line comes now
-            await asyncio.sleep(LOOK)
+            await asyncio.sleep(WATCH_TIME)
     found = judge(told[first:], given, hard=hard, severed=severed, still=kind.rest)
     await _rest(port, driver)
     return found
@@ -138,11 +138,11 @@ async def _sever(link: Wire, after: float, *, hard: bool) -> float:
 
 
 async def _rest(port: int, driver: Driver) -> None:
-    """Have a robot at rest that nobody drives any more, as a person would who runs after it."""
+    """Stop a robot that is no longer driven, as a person would who runs after it."""
     if driver is naive:
         async with driver(port) as send:
             await send(Twist())
-            await asyncio.sleep(LOOK)
+            await asyncio.sleep(WATCH_TIME)
 
 
 def judge(
@@ -173,7 +173,7 @@ def judge(
 
 
 def _moving(line: Line) -> tuple[float, int]:
-    """When, and the number of the command that moves it on; 0 for rest, whatever turns it on the spot."""
+    """When, and the number of the command that moves it on; 0 for rest, also for one that turns on the spot."""
     if line[0] == "stop" or not line[2]:
         return line[1], 0
     return line[1], round(line[3] / CODE)

@@ -18,7 +18,7 @@ from bridge.msgs.std_msgs import String
 __all__ = ["ECHO", "lean_trips", "our_trips"]
 
 ECHO = "/echo"
-LATE = 2.0
+ECHO_TIMEOUT = 2.0
 """An echo that takes longer is lost [s]."""
 SETTLING = 1.0
 """Before the first one [s]: what was subscribed flows."""
@@ -92,7 +92,7 @@ async def _timed(send: Callable[[], object], came: asyncio.Event, count: int, ra
         sent = time.perf_counter()
         send()
         with contextlib.suppress(TimeoutError):
-            async with asyncio.timeout(LATE):
+            async with asyncio.timeout(ECHO_TIMEOUT):
                 await came.wait()
         taken.append(time.perf_counter() - sent)
         await asyncio.sleep(max(0.0, _dice.uniform(0.5, 1.5) / rate - taken[-1]))

@@ -1,4 +1,4 @@
-"""A figure, the samples taken of it, and what they say."""
+"""A figure, its samples and their statistics."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def percentile(values: Iterable[float], share: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Stated:
-    """What another program reached in somebody's earlier measurement: said beside ours, not measured in this run."""
+    """Value of another program from an earlier measurement by others: given beside ours, not measured in this run."""
 
     of: str
     """The program, and where the value is from."""
@@ -45,7 +45,7 @@ class Figure:
     meaning: str
     """One line for a reader who has not seen the code."""
     target: float | None = None
-    """What is to be reached, in `unit`; None where nothing was promised."""
+    """Target, in `unit`; None where there is none."""
     better: Literal["less", "more"] = "less"
     against: str = ""
     """What the peer's value is of; empty where there is no peer."""

@@ -1,4 +1,4 @@
-"""A finger at the very edge of the program: events put into SDL's own queue, as the window system does.
+"""A finger at the edge of the program: events put into SDL's own queue, as the window system does.
 
 On a desktop Kivy listens to the mouse only; its events go the way that those of a touch screen go on a phone:
 polled by the window, queued, and dispatched by an input provider in the next frame.
@@ -54,7 +54,7 @@ class Finger:
         self._sdl = _library()
 
     def down(self, x: int, y: int) -> None:
-        """Touch the glass."""
+        """Touch the screen."""
         self._push(_Event(button=_Button(DOWN, 0, WINDOW, 0, LEFT, 1, 1, 0, x, y)))
 
     def move(self, x: int, y: int) -> None:
@@ -67,4 +67,4 @@ class Finger:
 
     def _push(self, event: _Event) -> None:
         if self._sdl.SDL_PushEvent(ctypes.byref(event)) != 1:
-            raise RuntimeError("SDL's queue is full: nobody polls it.")
+            raise RuntimeError("SDL's queue is full: it is not polled.")

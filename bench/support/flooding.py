@@ -1,6 +1,6 @@
-"""`python -m bench.support.flooding serve …`: the robot side, with a robot that says much more than a link carries.
+"""The robot side with a robot that publishes much more than a link carries, `python -m bench.support.flooding serve …`.
 
-Whoever listens to `/sim/ground_truth` is offered it RATE times a second.
+A subscriber of `/sim/ground_truth` is offered it RATE times a second.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class Flooding:
         return self._robot.trouble
 
     def want(self, topic: str, wanted: bool) -> None:
-        """Note what is repeated."""
+        """Keep the message that is repeated."""
         if topic == TRUTH:
             self._wanted, self._last = wanted, None
         self._robot.want(topic, wanted)

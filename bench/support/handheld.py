@@ -1,13 +1,13 @@
-"""`python -m bench.support.handheld --started T [--size WxH] [flags]`: the real app, told what to do.
+"""The real app under remote control, `python -m bench.support.handheld --started T [--size WxH] [flags]`.
 
 It draws off screen. `T` is the parent's `time.monotonic()` [s] just before it made this process; the first
 line says how long after that the first frame was drawn. Then each line of JSON on the standard input, as in
 `{"do": "connect", "url": "ws://…"}`, is answered by one. At the end of the input the app stops.
 
-`--bare` is a Kivy app with one button instead. `--no-gl` swallows every call to OpenGL: what is left is what the app
-does where a GPU draws. `--frame-loop` has Kivy's default clock and has the frame loop
+`--bare` is a Kivy app with one button instead. `--no-gl` swallows every call to OpenGL, which leaves the work of the app
+on a device with a GPU. `--frame-loop` has Kivy's default clock and has the frame loop
 send the stick 20 times a second, as simple apps do; `--json-camera` takes pictures from the rosbridge topic. `--no-life`
-has nobody look whether what pushes the stick is still there, and no heartbeat.
+switches off the checks of the input that pushes the stick, and the heartbeat.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ T = TypeVar("T")
 PERIOD = 1 / 20
 """How often the frame loop sends [s]."""
 BETWEEN = (0.06, 0.12)
-"""Between two moves of the finger [s]: not in step with the frames, and slow enough to be told apart."""
+"""Between two moves of the finger [s]: not in step with the frames, and slow enough to be distinguished."""
 PAUSE = (0.1, 0.3)
 """Before a tap [s]."""
 ASK_AGAIN = 2.5
 """A question without an answer is asked again after this [s]."""
 CONFIRMED = 5.0
-"""What is not confirmed within this never is [s]."""
+"""A STOP that is not confirmed within this time never is [s]."""
 REACH = 0.55
 """How far the finger moves from the stick's middle, as a share of its radius."""
 
@@ -66,7 +66,7 @@ def prepare(asked: argparse.Namespace) -> None:
     prepare_app(asked.size)
 
 
-def say(value: object) -> None:
+def reply(value: object) -> None:
     """Print a line of JSON."""
     print(json.dumps(value), flush=True)
 
@@ -88,7 +88,7 @@ def in_ui(work: Callable[[], T]) -> T:
 
 
 class Script:
-    """What the app may be told; each method's result is its answer."""
+    """The commands to the app; each method's result is its answer."""
 
     def __init__(self, app: Any) -> None:
         self.app = app
@@ -235,7 +235,7 @@ class Script:
         return {"at": in_ui(lambda: self._grip.lose(way))}
 
     def let_go(self) -> dict[str, Any]:
-        """Let go of what is left, and make good what happened."""
+        """Release everything, and restore the input."""
         self._until(lambda: self._grip.settled)
         in_ui(self._grip.again)
         return {}
@@ -330,9 +330,9 @@ def obey(script: Script, stop: Callable[[], None]) -> None:
     for line in sys.stdin:
         asked = json.loads(line)
         try:
-            say(getattr(script, asked.pop("do"))(**asked))
-        except Exception as fault:  # noqa: BLE001 - the parent has to hear of it, whatever it is
-            say({"fault": repr(fault)})
+            reply(getattr(script, asked.pop("do"))(**asked))
+        except Exception as fault:  # noqa: BLE001 - the parent has to know of it, of any kind
+            reply({"fault": repr(fault)})
     stop()
 
 
@@ -353,7 +353,7 @@ def send_by_frame_loop() -> None:
 
 
 def believe_fingers() -> None:
-    """What is put into SDL's queue leaves the state of its mouse as it was: no finger would be there."""
+    """Events in SDL's queue leave the state of its mouse as it was: no finger would be there."""
     from app.inputs.gamepad.sdl import Sdl
 
     lifted = Sdl.lifted
@@ -442,7 +442,9 @@ def main() -> None:
             Clock.schedule_once(begin, 0)
 
         def begin(_: float) -> None:
-            say({"first_frame": time.monotonic() - asked.started, "rss": psutil.Process().memory_info().rss})
+            reply(
+                {"first_frame": time.monotonic() - asked.started, "rss": psutil.Process().memory_info().rss}
+            )
             stop = lambda: Clock.schedule_once(lambda _: app.stop(), 0)  # noqa: E731
             threading.Thread(target=obey, args=(Script(app), stop), daemon=True).start()
 

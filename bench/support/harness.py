@@ -1,4 +1,4 @@
-"""Runs a bench: repeats ours and the peer's way in turn, with the machine's noise taken in between."""
+"""The run of a bench: ours and the peer's way repeated in turn, with the machine's noise measured in between."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ class Context:
 
 
 class Bench(Protocol):
-    """What a file in `bench/` must have; its docstring tells how the measuring is done."""
+    """What a file in `bench/` must have; its docstring describes the method."""
 
     __doc__: str | None
     FIGURES: tuple[Figure, ...]
     REPEATS: int
 
     def prepare(self, context: Context) -> AbstractContextManager[Sides]:
-        """Set up what is measured; taken down at the end."""
+        """Set up the measurement; taken down at the end."""
         ...
 
 

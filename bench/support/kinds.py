@@ -1,4 +1,4 @@
-"""One robot of each kind to cut links of: the simulated vehicles where nothing is in their way, as quick as they are."""
+"""One robot of each kind whose link is cut: the simulated vehicles on open ground, at their full speed."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ OPEN_GROUND, CALM_WATER = (
 )
 """Worlds. Without waves and current, for what drifts is never at rest over ground."""
 CLIMBING = 3.0
-"""So long a robot that flies is left to take off before anybody looks at it [s]."""
+"""So long a robot that flies is left to take off before it is measured [s]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """What is driven."""
+    """A kind of robot to drive."""
 
     model: str
     """For `--robot sim:MODEL`."""
@@ -32,7 +32,7 @@ class Kind:
     acceleration: float
     """Of the mean until it has its full speed [m/s2]."""
     braking: float
-    """Of the mean until it is at rest, by its own drive and whatever surrounds it [m/s2]."""
+    """Of the mean until it is at rest, by its own drive and its surroundings [m/s2]."""
     rest: float = 0.02
     """Slower than this it is at rest as its odometry has it [m/s]; more where that wanders by itself."""
 
@@ -49,7 +49,7 @@ KINDS = {
     "quadrotor": Kind("ardrone", OPEN_GROUND, 2.0, 3.0, rest=0.15),
     "wheels": Kind("patrol", OPEN_GROUND, 1.0, 2.5),
 }
-"""By the kind that `/robot/info` tells; accelerations as the vehicles have them at full speed."""
+"""By the kind in `/robot/info`; accelerations as the vehicles have them at full speed."""
 
 
 class Aloft:

@@ -1,4 +1,4 @@
-"""Somebody who drives by finger or gamepad and loses it, in every way an input can die. Everything in the UI thread."""
+"""A driver who loses the finger or the gamepad, in every way an input can fail. Everything runs in the UI thread."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Recorded and made-up motion of a phone: trials of deliberate shakes, and what must not be taken for one."""
+"""Recorded and made-up motion of a phone: trials of deliberate shakes, and motion that must not be taken for one."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ class Trial:
     """A shake after some seconds without one."""
 
     axis: str
-    """`lr`, `ud` or `fb`; another label for what is none of them."""
+    """`lr`, `ud` or `fb`; another label for any other motion."""
     take: Recording
     began: float
     """When the shake began [s]."""
@@ -179,7 +179,7 @@ def in_frame(gravity: Samples) -> Samples:
 
 
 def starts(takes: list[Recording], length: float = 12.0, every: float = 6.0) -> list[Recording]:
-    """Somebody stands, walks or runs for a while, and stands again: pieces of takes of that [s]."""
+    """A person stands, walks or runs for a while, and stands again: pieces of takes of that [s]."""
     rng = np.random.default_rng(3)
     found = []
     for take in takes:
@@ -254,7 +254,7 @@ PEOPLE = (
 
 
 def walking(seconds: float, seed: int, rate: float = 60.0) -> Recording:
-    """A phone in the hand of somebody who walks; made up."""
+    """A phone in the hand of a person who walks; made up."""
     rng = np.random.default_rng(seed)
     at = np.arange(int(seconds * rate)) / rate
     step = math.tau * np.cumsum(rng.normal(1.85, 0.03) * (1.0 + 0.03 * np.sin(0.4 * at))) / rate
@@ -285,7 +285,7 @@ def drawn(seconds: float, seed: int, rate: float = 60.0) -> Recording:
 
 
 def ellipse(seed: int, rate: float = 60.0, thin: float = 0.6) -> Recording:
-    """Somebody draws something round, with a shaky hand that leans: of any size, tempo, plane and number of turns; at least `thin` times as wide as long."""
+    """A person draws something round, with a shaky hand that leans: of any size, tempo, plane and number of turns; at least `thin` times as wide as long."""
     rng = np.random.default_rng(seed)
     pace = math.tau * rng.uniform(0.5, 2.6)
     at = np.arange(int(rng.uniform(1.5, 8.0) * math.tau / pace * rate)) / rate

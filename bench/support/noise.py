@@ -1,4 +1,4 @@
-"""How quiet the machine was: the same piece of work, timed again and again between the measurements."""
+"""Noise of the machine: the same piece of work, timed again and again between the measurements."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ __all__ = ["Noise"]
 
 ROUNDS_AT_FIRST = 20_000
 WANTED = 0.03
-"""How long the piece of work is made to take [s]: longer than a slice of the scheduler."""
+"""Time that the piece of work is made to take [s]: longer than a slice of the scheduler."""
 
 
 def _work(rounds: int) -> int:

@@ -1,4 +1,4 @@
-"""`python -m bench.support.operator ours|roslibpy PORT`: a program that drives a robot of this machine 20 times a second.
+"""A program that drives a robot of this machine 20 times a second, `python -m bench.support.operator ours|roslibpy PORT`.
 
 The twist's forward speed is `time.monotonic()` at the moment of the command. Prints `[]` when connected; each line on the
 standard input is answered by `{"heard": [AT…]}`: when an Odometry came, by the same clock.

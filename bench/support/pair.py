@@ -27,7 +27,7 @@ class Pair:
         self.url = url
         """Where the robot serves."""
         self.told = told
-        """What the probe at the robot's port has told so far; grows."""
+        """Reports of the probe at the robot's port so far; grows."""
         self.started = started
         """`first_frame` [s] and `rss` [byte] of the app."""
         self._app = app
@@ -44,7 +44,7 @@ class Pair:
 def app(*flags: str) -> Iterator[tuple[Child, dict[str, float]]]:
     """The app alone, and what it says of its first frame; `flags` as of `bench.support.handheld`."""
     with child("bench.support.handheld", "--started", str(time.monotonic()), *flags) as process:
-        yield process, process.hear()
+        yield process, process.receive()
 
 
 @contextmanager

@@ -1,6 +1,6 @@
-"""Other people, made of recorded ones: who holds the phone askew, swings aslant or in an arc, gently, slowly, on another sensor.
+"""Other people, made of recorded ones: they hold the phone askew, swing aslant or in an arc, gently, slowly, on another sensor.
 
-Five people are few. What is changed is what people differ in: nothing here is measured of anybody.
+Five people are few. The changes are those in which people differ; none of them is measured.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ from bench.support.motion import (
 
 __all__ = ["Body", "Sensor", "bodies", "as_done_by", "measured", "sensors", "strength", "trial"]
 
-LOWEST = 0.3
-"""What is slower than this is no part of the movement [Hz]."""
+MIN_FREQUENCY = 0.3
+"""Lowest frequency of the movement [Hz]."""
 
 
 @dataclass(frozen=True)
@@ -131,7 +131,7 @@ def _swung(moved: Samples, arm: float, rate: float) -> Samples:
     """The same way to and fro about a joint: the phone rises and sinks twice as often, and leans."""
     at = np.fft.rfftfreq(len(moved), 1.0 / rate)
     spectrum = np.fft.rfft(moved[:, 0])
-    once = np.where(at > LOWEST, 1.0 / (2j * np.pi * np.maximum(at, LOWEST)), 0.0)
+    once = np.where(at > MIN_FREQUENCY, 1.0 / (2j * np.pi * np.maximum(at, MIN_FREQUENCY)), 0.0)
     way, speed = (np.fft.irfft(spectrum * once**n, len(moved)) for n in (2, 1))
     lean = np.clip(way / arm, -1.0, 1.0)
     right = moved[:, 0]
@@ -183,7 +183,7 @@ def measured(
 
 
 def strength(take: Recording, strong: float, quick: float) -> Recording:
-    """Somebody who walks, or does what else it is, harder and faster."""
+    """A person who walks, or does another thing, harder and faster."""
     held = take.samples.mean(axis=0)
     samples = (take.samples - held) * strong + held
     at = np.arange(int(len(samples) / quick)) * quick

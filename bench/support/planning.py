@@ -1,4 +1,4 @@
-"""How long the robot's computer hears nobody while it looks for a way: the longest update of a guide."""
+"""Longest update of the navigator while it plans a way, during which the robot's computer processes no message."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from sim.world.world_files import load
 __all__ = ["DEEP", "LAKE", "SHALLOW", "lake", "longest", "trap"]
 
 PERIOD = 0.05
-LONGEST = 60.0
+MAX_TIME = 60.0
 """A way is looked for no longer than this [s]."""
 
 LAKE = ((-30.0, -20.0), (30.0, 20.0))
@@ -71,6 +71,6 @@ def _longest(navigator: Navigator, pose: Pose2) -> float:
         began = time.process_time()
         leg = navigator.update(pose, nothing, now)
         spent = max(spent, time.process_time() - began)
-        if leg is LegState.BLOCKED or now > LONGEST:
-            raise RuntimeError(navigator.reason or f"No way was found in {LONGEST:.0f} s.")
+        if leg is LegState.BLOCKED or now > MAX_TIME:
+            raise RuntimeError(navigator.reason or f"No way was found in {MAX_TIME:.0f} s.")
     return spent

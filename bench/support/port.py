@@ -1,7 +1,7 @@
-"""`python -m bench.support.port serve --robot sim:MODEL …`: the robot side, with a robot whose port tells.
+"""The robot side with a robot whose port reports its commands, `python -m bench.support.port serve --robot sim:MODEL …`.
 
-With `--relay` it is no robot side but what is written in an afternoon: a server that hands every twist on to the robot, as
-rosbridge_server and a simple drive do, and minds neither its age nor who is gone.
+With `--relay` it is no robot side but the simplest thing that works: a server that hands every twist on to the robot, as
+rosbridge_server and a simple drive do, and checks neither its age nor who is gone.
 
 Prints a line of JSON for each: `["drive", at, forward, yaw rate]`, `["stop", at]` and, 20 times a second by odometry,
 `["speed", at, over ground]`. `at` is `time.monotonic()` [s].
@@ -23,7 +23,7 @@ from websockets.exceptions import ConnectionClosed
 
 import sim.robot
 from bench.support.kinds import Aloft
-from bench.support.probe import Probe, tell
+from bench.support.probe import Probe, report
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
@@ -35,24 +35,24 @@ TICK = 1 / 60
 
 
 class Port(Probe):
-    """Tells of every command and of the speed."""
+    """A robot port that reports every command and the speed."""
 
     def stop(self) -> None:
-        """Tell that it is to rest."""
-        tell("stop", time.monotonic())
+        """Report the command to rest."""
+        report("stop", time.monotonic())
         super().stop()
 
     def read(self, now: float) -> Iterable[tuple[str, Msg]]:
-        """Tell how fast it goes."""
+        """Report the speed."""
         for topic, msg in self._robot.read(now):
             if isinstance(msg, Odometry) and topic == "/odom":
                 v = msg.twist.twist.linear
-                tell("speed", time.monotonic(), math.hypot(v.x, v.y))
+                report("speed", time.monotonic(), math.hypot(v.x, v.y))
             yield topic, msg
 
 
 def make(robots: Sequence[str], world: str, **options: Any) -> list[Robot]:
-    """The simulated robots of these names behind ports that tell; those that fly are in the air."""
+    """The simulated robots of these names behind ports that report; those that fly are in the air."""
     return [
         Port(Aloft(robot) if "take_off" in robot.info.manoeuvres else robot)
         for robot in simulated(robots, world, **options)
@@ -62,7 +62,7 @@ def make(robots: Sequence[str], world: str, **options: Any) -> list[Robot]:
 async def relay(robot: Robot) -> None:
     """Hand on every twist that comes, from anyone."""
 
-    async def hear(ws: ServerConnection) -> None:
+    async def serve_client(ws: ServerConnection) -> None:
         with contextlib.suppress(ConnectionClosed):
             async for raw in ws:
                 op = json.loads(raw)
@@ -70,7 +70,7 @@ async def relay(robot: Robot) -> None:
                     linear, angular = op["msg"]["linear"], op["msg"]["angular"]
                     robot.drive(Twist.planar(linear["x"], angular["z"]))
 
-    async with serve(hear, "127.0.0.1", 0) as server:
+    async with serve(serve_client, "127.0.0.1", 0) as server:
         port = server.sockets[0].getsockname()[1]
         print(f"robotside: ready bridge=ws://127.0.0.1:{port}", flush=True)
         while True:

@@ -1,4 +1,4 @@
-"""`python -m bench.support.probe serve …`: the robot side, with a robot whose port tells what passes through it.
+"""The robot side with a robot whose port reports what passes through it, `python -m bench.support.probe serve …`.
 
 Prints a line of JSON for each: `["drive", at, forward, yaw rate]` and `["picture", at, stamp]`. `at` is `time.monotonic()`
 [s], which all processes of a machine share; that of a picture is taken before the simulation begins to draw it.
@@ -34,8 +34,8 @@ class Probe:
         return self._robot.trouble
 
     def drive(self, twist: Twist) -> None:
-        """Tell when the command came to the port."""
-        tell("drive", time.monotonic(), twist.linear.x, twist.angular.z)
+        """Report when the command came to the port."""
+        report("drive", time.monotonic(), twist.linear.x, twist.angular.z)
         self._robot.drive(twist)
 
     def stop(self) -> None:
@@ -43,12 +43,12 @@ class Probe:
         self._robot.stop()
 
     def read(self, now: float) -> Iterable[tuple[str, Msg]]:
-        """Tell when the pictures were begun."""
+        """Report when the pictures were begun."""
         began = time.monotonic()
         measured = list(self._robot.read(now))
         for _, msg in measured:
             if isinstance(msg, CompressedImage):
-                tell("picture", began, msg.header.stamp.seconds)
+                report("picture", began, msg.header.stamp.seconds)
         return measured
 
     def want(self, topic: str, wanted: bool) -> None:
@@ -60,7 +60,7 @@ class Probe:
         self._robot.close()
 
 
-def tell(*values: object) -> None:
+def report(*values: object) -> None:
     """Print a line of JSON."""
     print(json.dumps(values), flush=True)
 

@@ -1,4 +1,4 @@
-"""What was found, as a table for people and as plain values for programs."""
+"""The report of a bench, as a table for people and as plain values for programs."""
 
 from __future__ import annotations
 

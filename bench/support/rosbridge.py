@@ -1,6 +1,6 @@
-"""`python -m bench.support.rosbridge ours|naive`: a rosbridge server in a process of its own, told what to publish.
+"""A rosbridge server in a process of its own, `python -m bench.support.rosbridge ours|naive`, that publishes on command.
 
-`naive` is what is written in an afternoon: the standard library's json, encoded anew for each client, sent by
+`naive` is the simplest server that works: the standard library's json, encoded anew for each client, sent by
 `websockets.broadcast`. Prints `{"port": PORT}`; then each line of JSON on the standard input is answered by one:
 
 - `{"do": "publish", "topic": T, "count": N, "step": M}`: publishes N messages, M in each step of the loop;
@@ -96,7 +96,7 @@ class Naive:
 class Commands(list[tuple[float, float]]):
     """When which drive command came."""
 
-    def hear(self, session: Operator, topic: str, msg: Any, stamp: float | None) -> None:
+    def handle(self, session: Operator, topic: str, msg: Any, stamp: float | None) -> None:
         """Note it."""
         if topic == "/cmd_vel":
             self.append((time.monotonic(), msg.linear.x))
@@ -110,7 +110,7 @@ def _stop(*_: object) -> CommandResponse:
 async def ours(commands: Commands) -> AsyncIterator[Speaker]:
     """Serve with the robot's own table of topics and a STOP."""
     stop = Service("/stop", "pilothouse_msgs/Command", CommandRequest, CommandResponse, _stop)
-    server = BridgeServer(Door(services=[stop], on_message=commands.hear))
+    server = BridgeServer(Door(services=[stop], on_message=commands.handle))
     await server.start(port=0)
     try:
         yield Ours(server)

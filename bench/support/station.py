@@ -47,7 +47,7 @@ class Serving:
 def serving(module: str = "robotside", *more: str, state: str | None = None) -> Iterator[Serving]:
     """Run `python -m module serve`, with the simulated patrol robot unless `more` says otherwise, until the end of the block.
 
-    With what is kept in the folder `state`; in one of its own if None.
+    With its records in the folder `state`; in a folder of its own if None.
     """
     options = ("serve", "--port", "0", "--http-port", "0", *more, "--state")
     with tempfile.TemporaryDirectory() as own, child(module, *options, state or own) as process:
@@ -57,7 +57,7 @@ def serving(module: str = "robotside", *more: str, state: str | None = None) -> 
 
 
 def patrol(url: str) -> None:
-    """Have the robot patrol `ROUND` until it is told otherwise; BridgeError when it does not want to."""
+    """Have the robot patrol `ROUND` until the next order; BridgeError when it refuses."""
     with RemoteRobot(url) as robot:
         robot.wait()
         order(robot, "/mission/set", SetMissionRequest(mission=Mission(waypoints=ROUND)))

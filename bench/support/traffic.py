@@ -1,4 +1,4 @@
-"""What robots send, as the benches of the bridge send it: the messages, their topics and their usual rates."""
+"""Traffic of a robot, as the benches of the bridge send it: the messages, their topics and their usual rates."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ __all__ = ["CAMERA", "MESSAGES", "ODOM", "RATES", "SCAN"]
 
 ODOM, SCAN, CAMERA = "/odom", "/scan", "/camera/image/compressed"
 RATES = {CAMERA: 30.0, ODOM: 50.0, SCAN: 10.0}
-"""What one connection carries beside the commands [Hz]."""
+"""Messages that one connection carries beside the commands [Hz]."""
 
 _dice = random.Random(1)
 _header = Header(stamp=Time(1763719200, 123456789), frame_id="odom")

@@ -1,4 +1,4 @@
-"""A gamepad made of nothing: SDL's own virtual one, plugged into the SDL that Kivy brings."""
+"""A virtual gamepad: SDL's own, plugged into the SDL that Kivy brings."""
 
 from __future__ import annotations
 

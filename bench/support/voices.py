@@ -1,4 +1,4 @@
-"""Voices that say what they are asked to, and noise to say it in."""
+"""Synthetic voices that speak given phrases, and noise."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from app.inputs.voice.audio.sound_files import Samples, read, resampled
 __all__ = ["NOISES", "Spoken", "espeak", "natural", "noisy"]
 
 Spoken = tuple[str, Samples]
-"""What is said, and how it sounds at 16 kHz."""
+"""A phrase, and its sound at 16 kHz."""
 SPEEDS = (0.85, 1.0, 1.2)
 SIZES = (0.88, 1.0, 1.12)
 """Of the speaker: pitch and formants together."""
@@ -85,7 +85,7 @@ def espeak(texts: Sequence[str]) -> list[Spoken]:
 
 
 def noisy(samples: Samples, kind: str, snr: float, rng: np.random.Generator) -> Samples:
-    """The samples in noise of a kind of `NOISES`, `snr` [dB] below what is loud in them."""
+    """The samples in noise of a kind of `NOISES`, `snr` [dB] below the loud parts in them."""
     loud = samples[np.abs(samples) > 0.02 * np.abs(samples).max()]
     power = float(np.sqrt(np.mean(np.square(loud))))
     noise = _noise(kind, len(samples), rng)

@@ -1,4 +1,4 @@
-"""The ways in which what pushes the stick can be lost, in words; `bench.support.losses` does them. Needs no Kivy."""
+"""Names of the ways in which an input can be lost; `bench.support.losses` performs them. Needs no Kivy."""
 
 from __future__ import annotations
 

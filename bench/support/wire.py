@@ -15,9 +15,9 @@ from typing import Any
 __all__ = ["Wire", "wire", "wired"]
 
 BUFFER = 4096
-"""What the kernel may keep on either side of the wire in each direction [byte]; it doubles that itself."""
+"""Buffer of the kernel on either side of the wire in each direction [byte]; it doubles that itself."""
 AT_ONCE = struct.pack("ii", 1, 0)
-"""Of SO_LINGER: throw away what is unsent and tell the other side by RST."""
+"""Of SO_LINGER: discard unsent data and reset the connection by RST."""
 PIECE = 1024
 """As much goes over the wire at a time [byte]."""
 
@@ -46,7 +46,7 @@ class Wire:
         self._begin(self._accept(made))
 
     def freeze(self) -> None:
-        """Nothing passes any more and nobody is told, as beyond the reach of a radio."""
+        """Nothing passes any more and neither end is informed, as beyond the reach of a radio."""
         self._thawed.clear()
 
     def thaw(self) -> None:
@@ -134,7 +134,7 @@ async def wire(to: int, rate: float = math.inf) -> AsyncIterator[Wire]:
 
 @contextlib.contextmanager
 def wired(to: int, rate: float = math.inf) -> Iterator[int]:
-    """The port of one that lives in a thread of its own, for what is no coroutine."""
+    """The port of one that runs in a thread of its own, for callers that are no coroutine."""
     loop, ended, ready = asyncio.new_event_loop(), asyncio.Event(), threading.Event()
     ports: list[int] = []
 

@@ -1,1 +1,1 @@
-"""The main job from first tap to STOP, by script: `python -m examples.demo`."""
+"""The demo: the main job from first tap to STOP, by script: `python -m examples.demo`."""

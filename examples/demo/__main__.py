@@ -1,4 +1,4 @@
-"""`python -m examples.demo`: what an operator does with each kind of robot, by script, in the real app, against simulated ones.
+"""The demo, `python -m examples.demo`: an operator's work with each kind of robot, by script, in the real app, with simulated robots.
 
 Every tap and drag is a touch in Kivy's own input loop; every command goes over a real socket; what the robot did is
 measured by a second client that knows the simulation's truth. Pictures, summary.json and run.mcap go to `--out`.
@@ -34,8 +34,8 @@ def _prepare(size: str, *, window: bool) -> None:
 
     width, height = map(int, size.split("x"))
     if not window:
-        # what is drawn without a display never grows beyond its first size
-        width, height = max(width, LARGEST), max(height, LARGEST)
+        # a window without a display never grows beyond its first size
+        width, height = max(width, MAX_SIDE), max(height, MAX_SIDE)
     for key, value in {
         "width": str(width),
         "height": str(height),
@@ -48,7 +48,7 @@ def _prepare(size: str, *, window: bool) -> None:
     quieten()
 
 
-LARGEST = 900
+MAX_SIDE = 900
 """Either side of the sizes that a story changes to is at most this [px]."""
 GUIDE = {
     "patrol": {"connect-screen": "connect", "watching": "mission", "driving": "drive"},
@@ -78,7 +78,7 @@ def _play(arguments: argparse.Namespace, robot: Any, settings: Path) -> int:
     from examples.demo.glass import Glass
     from examples.demo.report import Report
     from examples.demo.scene import Scene
-    from examples.demo.stories import tell, topics
+    from examples.demo.stories import play, topics
     from examples.demo.witness import Witness
 
     Window.size = tuple(map(int, arguments.size.split("x")))
@@ -87,7 +87,7 @@ def _play(arguments: argparse.Namespace, robot: Any, settings: Path) -> int:
     witness = Witness(robot.url, topics(arguments.story))
     scene = Scene(Glass(hand), witness, report, robot.url, arguments.speed, arguments.until, robot.power_cut)
     record = arguments.out / "run.mcap"
-    story = tell(arguments.story, scene, lambda: app.records.start(record, app.session))
+    story = play(arguments.story, scene, lambda: app.records.start(record, app.session))
     record.unlink(missing_ok=True)
     EventLoop.add_input_provider(hand)
     Clock.schedule_interval(lambda _: _turn(story, report, app), 0)
@@ -98,9 +98,9 @@ def _play(arguments: argparse.Namespace, robot: Any, settings: Path) -> int:
     finally:
         witness.close()
     recording = {"file": record.name, "bytes": record.stat().st_size} if record.exists() else None
-    told = {name: getattr(arguments, name) for name in ("robot", "world", "speed")}
+    given = {name: getattr(arguments, name) for name in ("robot", "world", "speed")}
     seconds = round(time.monotonic() - started, 1)
-    return report.write(**told, url=robot.url, seconds=seconds, recording=recording)
+    return report.write(**given, url=robot.url, seconds=seconds, recording=recording)
 
 
 def _turn(story: Iterator[None], report: Any, app: Any) -> None:

@@ -20,11 +20,11 @@ GLIDES, GLIDES_OUT = 0.12, 3.0
 """Slower it only glides [m/s]; the water takes its way within this [s]."""
 TAB, ENTER = 9, 13
 """Keys that two switches send: on to the next one, and do it."""
-BETWEEN = 0.5
+PRESS_PERIOD = 0.5
 """Between two presses [s]: sooner the second is taken for a trembling hand's."""
-MOST = 60
+MAX_PRESSES = 60
 """Presses after which something is not to be found."""
-HELD = 0.12
+DEPTH_TOLERANCE = 0.12
 """A depth is held to this [m]."""
 AT_THE_SURFACE = -0.3
 """Higher it has surfaced [m]."""
@@ -50,7 +50,7 @@ def _hands(scene: Scene, ahead: float, left: float, down: float) -> list[Finger]
 
 
 def _hot(scene: Scene) -> float:
-    """Of the warmest leg [degC]; NaN before it was said."""
+    """Of the warmest leg [degC]; NaN before it is known."""
     told = scene.witness["/motors"]
     return max(map(float, told.temperatures), default=math.nan) if told is not None else math.nan
 
@@ -82,7 +82,7 @@ def _switch(scene: Scene, words: str) -> Wait:
     def there(targets: Iterable[Any]) -> bool:
         return any(target.words.startswith(words) for target in targets)
 
-    for presses in range(1, MOST + 1):
+    for presses in range(1, MAX_PRESSES + 1):
         mark = scan.mark
         marked = mark is not None and there(mark.targets)
         if marked and mark.kind == "item":
@@ -100,7 +100,7 @@ def _key(scene: Scene, key: int) -> Wait:
     Window.dispatch("on_key_down", key, 0, "", [])
     yield from scene.glass.pause(0.1)
     Window.dispatch("on_key_up", key, 0)
-    yield from scene.glass.pause(BETWEEN)
+    yield from scene.glass.pause(PRESS_PERIOD)
 
 
 def _up(scene: Scene, scan: Any) -> Wait:
@@ -109,7 +109,7 @@ def _up(scene: Scene, scan: Any) -> Wait:
     Window.dispatch("on_key_down", TAB, 0, "", [])
     yield from scene.glass.soon(lambda: scan.depth != depth, 3)
     Window.dispatch("on_key_up", TAB, 0)
-    yield from scene.glass.pause(BETWEEN)
+    yield from scene.glass.pause(PRESS_PERIOD)
 
 
 def _hold(scene: Scene) -> Wait:
@@ -125,9 +125,9 @@ def _hold(scene: Scene) -> Wait:
         heights = witness.heights(since)
         span = max(heights) - min(heights)
         check(
-            f"for 6 s it keeps its depth of {-heights[-1]:.1f} m [m off, at most {HELD:g}]",
+            f"for 6 s it keeps its depth of {-heights[-1]:.1f} m [m off, at most {DEPTH_TOLERANCE:g}]",
             span,
-            span <= HELD,
+            span <= DEPTH_TOLERANCE,
         )
 
 

@@ -21,7 +21,7 @@ from examples.demo.vehicle import (
 __all__ = ["TOPICS", "play"]
 
 TOPICS = ("/ackermann",)
-SLOW = 0.03
+STANDING_SPEED = 0.03
 """A robot on wheels that is slower stands [m/s]."""
 CRAWL, WALK = 0.0, 0.12
 """Where the slider is put, a share of its way."""
@@ -39,7 +39,7 @@ def play(scene: Scene) -> Wait:
     yield from _bend(scene)
     yield from _back(scene)
     yield from _stop(scene)
-    yield from release(scene, SLOW)
+    yield from release(scene, STANDING_SPEED)
     stick: Any = scene.glass.all("Joystick")[0]
     yield from on_phone(scene, lambda: [push(scene, stick, 0.0, 0.9)], 2.5)
     yield from _patrol(scene)
@@ -113,7 +113,7 @@ def _stop(scene: Scene) -> Wait:
         lambda: [push(scene, stick, 0.0, 1.0)],
         lambda: scene.witness.speed() >= 0.9 * card.maximum_speed,
     )
-    yield from stop(scene, fingers, SLOW)
+    yield from stop(scene, fingers, STANDING_SPEED)
 
 
 def _bends(scene: Scene, since: float) -> Wait:
@@ -126,7 +126,7 @@ def _bends(scene: Scene, since: float) -> Wait:
 
 
 def _steered(scene: Scene) -> float:
-    """Of the front wheels [rad]; 0 before they said it."""
+    """Of the front wheels [rad]; 0 before it is known."""
     told = scene.witness["/ackermann"]
     return float(told.steering) if told is not None else 0.0
 

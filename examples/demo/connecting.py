@@ -1,4 +1,4 @@
-"""How every story with a stranger begins: find the robot and connect to it."""
+"""The beginning of every story: find the robot and connect to it."""
 
 from __future__ import annotations
 
@@ -33,5 +33,5 @@ def connect(scene: Scene) -> Wait:
 
 
 def waiting(scene: Scene) -> list[str]:
-    """Classes of the widgets on the glass that have had no message yet."""
+    """Classes of the widgets on the screen that have had no message yet."""
     return [type(w).__name__ for w in scene.glass.all("RobotWidget") if getattr(w, "state", "") == "never"]

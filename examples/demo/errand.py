@@ -15,14 +15,14 @@ GATE = (-17.5, -6.5)
 DOCK = "Charging bay"
 """The place where the robot stands when the story begins."""
 MESSAGE = "For Ms. Weber, 2nd floor"
-FETCHED = 0.5
+REACHED_DISTANCE = 0.5
 """A place counts as reached within this [m]."""
-LONGEST = 90.0
-"""What one way may take of the robot's time [s]."""
+MAX_TRIP_TIME = 90.0
+"""Longest time of one trip, by the robot's clock [s]."""
 
 
 def arrive(scene: Scene) -> Wait:
-    """Connect, and tell the robot where it is."""
+    """Connect, and set the robot's pose."""
     glass = scene.glass
     _, x, y, yaw = yield from glass.until(lambda: _truth(scene), 10, "the robot's truth")
     with scene.step("fenced") as check:
@@ -48,7 +48,7 @@ def _truth(scene: Scene) -> Any:
 
 
 def make_places(scene: Scene) -> Wait:
-    """One place by a long tap on the map, one where the robot stands; nobody types a coordinate."""
+    """One place by a long tap on the map, one where the robot stands; no coordinate is typed."""
     glass = scene.glass
     with scene.step("place-made") as check:
         finger = scene.hand.down(scene.on_map(*GATE))
@@ -99,12 +99,12 @@ def deliver(scene: Scene) -> Wait:
         yield from scene.robot_time(2)
     for step, place in (("picked-up", GATE), ("handed-over", _places(scene)[DOCK])):
         with scene.step(step) as check:
-            asked = yield from glass.soon(lambda: _asks(scene), LONGEST / scene.speed)
+            asked = yield from glass.soon(lambda: _asks(scene), MAX_TRIP_TIME / scene.speed)
             check("it asks", scene.witness["/task/status"].asks, bool(asked))
             check(
                 "where it should [m off, at most 0.5]",
                 scene.witness.distance(*place),
-                scene.witness.distance(*place) <= FETCHED,
+                scene.witness.distance(*place) <= REACHED_DISTANCE,
             )
             card = yield from glass.one("QuestionCard")
             yield from glass.pause(1.0)
@@ -115,7 +115,7 @@ def deliver(scene: Scene) -> Wait:
             if step == "picked-up":
                 yield from plan_ahead(scene)
     with scene.step("delivered") as check:
-        done = yield from glass.soon(lambda: scene.task("hold"), LONGEST / scene.speed)
+        done = yield from glass.soon(lambda: scene.task("hold"), MAX_TRIP_TIME / scene.speed)
         check("then it does what is next in the queue", bool(done), bool(done))
         yield from glass.press("Log", kind="Segment")
         yield from glass.press("Tasks", kind="Segment")

@@ -1,4 +1,4 @@
-"""Fingers on the glass: they reach the app through Kivy's own input loop, as those of a touch screen do."""
+"""Fingers on the screen: they reach the app through Kivy's own input loop, as those of a touch screen do."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ class Finger(MotionEvent):
         super().__init__("demo", number, place, is_touch=True, type_id="touch")
 
     def depack(self, args: Point) -> None:
-        """Take a place on the glass, each coordinate from 0 to 1."""
+        """Take a place on the screen, each coordinate from 0 to 1."""
         self.sx, self.sy = args
         self.profile = ["pos"]
         super().depack(args)
 
 
 class Hand(MotionEventProvider):
-    """An input device: what is asked of it happens at the next frame, one move a frame for each finger."""
+    """An input device: each request is carried out at the next frame, one move a frame for each finger."""
 
     def __init__(self) -> None:
         super().__init__("demo", "")

@@ -1,4 +1,4 @@
-"""Frames that are left out, so that a processor without a graphics card has time for what is told."""
+"""Skipped frames, so that a processor without a graphics card has time for the story."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["seldom_drawn"]
 def seldom_drawn(one_in: int) -> Iterator[None]:
     """Only one in so many of the window's frames is really drawn until the end of the block; the first one is.
 
-    Input and layout go on with every frame, and `examples.demo.report.picture` draws whatever is left out.
+    Input and layout go on with every frame, and `examples.demo.report.picture` draws skipped frames.
     """
     frames, left_out = count(), False
 

@@ -1,4 +1,4 @@
-"""What a person sees on the glass and where to put the finger for it."""
+"""The screen as a person sees it: the visible widgets, and where to touch them."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from examples.demo.fingers import Hand, Point
 
 __all__ = ["Glass", "Unseen"]
 
-EDGE = 12
-"""How far a widget may be off where it should be scrolled to [px]."""
+SCROLL_TOLERANCE = 12
+"""Greatest distance of a widget from where it should be scrolled to [px]."""
 Wait = Generator[None, None, Any]
 
 
 class Unseen(Exception):
-    """What should be on the glass is not; its text is the sentence to print."""
+    """A widget that should be visible is not; the text is the sentence to print."""
 
 
 def _tree(widget: Widget) -> Iterator[Widget]:
@@ -30,7 +30,7 @@ def _tree(widget: Widget) -> Iterator[Widget]:
 
 
 def _visible(widget: Widget) -> bool:
-    """Whether its middle lies on the glass and nothing made it transparent."""
+    """Whether its middle lies on the screen and it is not transparent."""
     if widget.width < 1 or widget.height < 1:
         return False
     above: Any = widget
@@ -60,7 +60,7 @@ class Glass:
         return self._seen(lambda widget: any(base.__name__ == kind for base in type(widget).__mro__))
 
     def _seen(self, wanted: Callable[[Any], bool]) -> list[Widget]:
-        # what is asked for is few, and whether one is visible takes the most time
+        # few match, and the check of visibility takes the most time
         return [w for root in Window.children for w in _tree(root) if wanted(w) and _visible(w)]
 
     def texts(self) -> list[str]:
@@ -93,7 +93,7 @@ class Glass:
 
     def one(self, kind: str, seconds: float = 5.0) -> Wait:
         """Wait for a visible widget of the class `kind` and return it; Unseen when there is none in time."""
-        yield from self.until(lambda: self.all(kind), seconds, f"a {kind} on the glass")
+        yield from self.until(lambda: self.all(kind), seconds, f"a {kind} on the screen")
         return self.all(kind)[0]
 
     def until(self, condition: Callable[[], Any], seconds: float, what: str) -> Wait:
@@ -135,7 +135,7 @@ class Glass:
         """
         found = [w for root in Window.children for w in _tree(root) if type(w).__name__ == kind]
         if not found:
-            raise Unseen(f"there is no {kind} on the glass.")
+            raise Unseen(f"there is no {kind} on the screen.")
         yield from self.bring(found[0])
         return found[0]
 
@@ -157,7 +157,10 @@ class Glass:
                 return
             x, y = above.to_window(*above.center)
             off = y - middle(widget)[1]
-            if abs(off) + widget.height / 2 <= above.height / 2 + EDGE or abs(off) < EDGE:
+            if (
+                abs(off) + widget.height / 2 <= above.height / 2 + SCROLL_TOLERANCE
+                or abs(off) < SCROLL_TOLERANCE
+            ):
                 return
             step = max(-above.height / 2.5, min(above.height / 2.5, off))
             yield from self.hand.drag([(x, y - step / 2), (x, y + step / 2)], hold=20)

@@ -1,4 +1,4 @@
-"""The parking lot that the demo plays in: where to patrol, and what does not belong there."""
+"""The parking lot of the demo: where to patrol, and the things that do not belong there."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the demo can be told."""
+"""Command-line options of the demo."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ STORIES = {
 """The steps of each story, in their order."""
 ROBOTS = {"patrol": ("patrol", "errand")} | {name: (name,) for name in list(STORIES)[2:]}
 """The stories of each robot, the usual one first."""
-FASTEST = 100.0
+MAX_SPEED = 100.0
 """The robot's own limit of `--speed`."""
 
 
 class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one sentence."""
+    """Reports a mistake in one sentence."""
 
     def error(self, message: str) -> NoReturn:
         raise ValueError(f"{message[:1].upper()}{message[1:]}.")
@@ -86,7 +86,7 @@ def options(argv: Sequence[str] | None, description: str | None) -> argparse.Nam
 
 
 def _choose(chosen: argparse.Namespace) -> None:
-    """Fill in what goes with the robot where nothing was said."""
+    """Fill in the defaults of the robot for options that were left out."""
     if chosen.robot not in ROBOTS:
         raise ValueError(f"There is no robot {chosen.robot!r}; there are {', '.join(ROBOTS)}.")
     stories = ROBOTS[chosen.robot]
@@ -103,8 +103,8 @@ def _choose(chosen: argparse.Namespace) -> None:
 
 
 def _check(chosen: argparse.Namespace) -> None:
-    if not (math.isfinite(chosen.speed) and 0 < chosen.speed <= FASTEST):
-        raise ValueError(f"The speed must be above 0 and at most {FASTEST:g}, not {chosen.speed}.")
+    if not (math.isfinite(chosen.speed) and 0 < chosen.speed <= MAX_SPEED):
+        raise ValueError(f"The speed must be above 0 and at most {MAX_SPEED:g}, not {chosen.speed}.")
     if not SIZE.fullmatch(chosen.size):
         raise ValueError(f"A size is written as 412x892, not {chosen.size!r}.")
     if chosen.theme not in THEMES:

@@ -1,4 +1,4 @@
-"""The second story goes on: somebody else asks for control, and the robot's computer loses its power."""
+"""The second part of the errand: another operator asks for control, and the robot's computer loses its power."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def hand_over(scene: Scene) -> Wait:
 
 
 def _take_back(scene: Scene) -> Wait:
-    """A handheld that handed control over takes it by a tap where nobody has it."""
+    """A handheld that handed control over takes it back by a tap when no one has it."""
     chips = yield from scene.glass.until(
         lambda: scene.glass.labelled("take control"), 5, "a chip that offers control"
     )

@@ -1,4 +1,4 @@
-"""The second half: patrol, pause, resume, STOP, release, go home, drive by hand."""
+"""The second half of the patrol story: patrol, pause, resume, STOP, release, go home, drive by hand."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ __all__ = ["drive", "go_home", "pause_and_resume", "start", "stop_and_release", 
 
 REACHED, PLACED, HELD, AT_HOME = 0.3, 1.0, 0.05, 0.3
 """A point counts as visited, an intruder as placed, a pause as held, home as reached within these [m]."""
-FOUND = 5
+MIN_FOUND = 5
 """So many of the cones are to be found at least."""
 INTO_THE_LOT = 0.9
-"""Where the robot looks when it is driven by hand [rad]: over the cars."""
-LONGEST = 400.0
-"""What the patrol may take of the robot's time [s]."""
+"""Heading when it is driven by hand [rad]: over the cars."""
+MAX_PATROL_TIME = 400.0
+"""Longest time of the patrol, by the robot's clock [s]."""
 
 
 def start(scene: Scene) -> Wait:
@@ -42,7 +42,7 @@ def pause_and_resume(scene: Scene) -> Wait:
     witness = scene.witness
     with scene.step("on-the-way") as check:
         seen = yield from scene.glass.soon(
-            lambda: _found(scene) and _visited(scene) >= 2, LONGEST / scene.speed
+            lambda: _found(scene) and _visited(scene) >= 2, MAX_PATROL_TIME / scene.speed
         )
         check(
             "two points visited and an intruder found on the way",
@@ -84,10 +84,12 @@ def watch(scene: Scene, since: float) -> Wait:
     """Watch until every point was visited; judge what the robot did and reported since `since` [s, robot clock]."""
     witness = scene.witness
     with scene.step("patrolled") as check:
-        yield from scene.glass.soon(lambda: _visited(scene) >= len(PATROL) - 2, LONGEST / scene.speed)
+        yield from scene.glass.soon(lambda: _visited(scene) >= len(PATROL) - 2, MAX_PATROL_TIME / scene.speed)
         yield from scene.robot_time(15)
         scene.report.snapshot("watching")
-        visited = yield from scene.glass.soon(lambda: _visited(scene) >= len(PATROL), LONGEST / scene.speed)
+        visited = yield from scene.glass.soon(
+            lambda: _visited(scene) >= len(PATROL), MAX_PATROL_TIME / scene.speed
+        )
         check(f"{len(PATROL)} points visited, as the robot says", _visited(scene), bool(visited))
         worst = max(witness.nearest(*point, since) for point in PATROL)
         check("every point was really passed [m off, at most 0.3]", worst, worst <= REACHED)
@@ -96,9 +98,9 @@ def watch(scene: Scene, since: float) -> Wait:
         found = _found(scene)
         counts = matches(found, cones(), PLACED)
         check(
-            f"cones found, at least {FOUND} of {len(counts)}",
+            f"cones found, at least {MIN_FOUND} of {len(counts)}",
             sum(map(bool, counts)),
-            sum(map(bool, counts)) >= FOUND,
+            sum(map(bool, counts)) >= MIN_FOUND,
         )
         check("each reported once", counts, max(counts) <= 1)
         false = [place for place in found if min(math.dist(place, cone) for cone in cones()) > PLACED]
@@ -137,7 +139,9 @@ def go_home(scene: Scene) -> Wait:
         check("it is on its way home", bool(runs), bool(runs))
         yield from scene.robot_time(5)
     with scene.step("at-home") as check:
-        done = yield from scene.glass.soon(lambda: scene.task("go_home", "SUCCEEDED"), LONGEST / scene.speed)
+        done = yield from scene.glass.soon(
+            lambda: scene.task("go_home", "SUCCEEDED"), MAX_PATROL_TIME / scene.speed
+        )
         yield from scene.rest(5)
         check("it says that it is home", bool(done), bool(done))
         check(

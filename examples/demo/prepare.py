@@ -1,4 +1,4 @@
-"""The first half of the story: tell the robot where it is, set points and home, send them."""
+"""The first half of the patrol story: set the robot's pose, set points and home, send them."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from examples.demo.scene import Scene, Wait
 __all__ = ["edit_points", "initialise", "send", "set_home_and_motion", "tap_points"]
 
 WRONG = (2.0, -1.0, 0.7)
-"""How wrong the robot is first told to be: x, y [m], yaw [rad]."""
+"""Error of the first pose that the robot is given: x, y [m], yaw [rad]."""
 NEAR = 0.12
 """A finger puts a thing on the map to this [m]."""
 
 
 def initialise(scene: Scene) -> Wait:
-    """Tell the robot wrongly where it is, see that it believes it, and put it right."""
+    """Give the robot a wrong pose, check that it takes it, and correct it."""
     _, x, y, yaw = scene.witness.truth
     with scene.step("misplaced") as check:
         yield from _place(scene, x + WRONG[0], y + WRONG[1], yaw + WRONG[2])

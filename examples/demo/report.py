@@ -1,4 +1,4 @@
-"""What the demo expected and what it measured: a picture and a line for each step."""
+"""The demo's report: a picture and a line with expected and measured values for each step."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Step:
 
 
 def picture(path: Path) -> None:
-    """Draw a frame and save what is on the glass, also where frames are left out (`examples.demo.frames`)."""
+    """Draw a frame and save the screen, also where frames are skipped (`examples.demo.frames`)."""
     Window.on_draw()
     width, height = Window.size
     raw = glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE)

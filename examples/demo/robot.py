@@ -62,7 +62,7 @@ class RobotProcess:
         self._ready.set()
 
     def kill(self) -> None:
-        """End it as a power cut would: nothing is said and nothing saved."""
+        """End it as a power cut would: nothing is sent and nothing saved."""
         self._process.kill()
         self._process.wait()
         self._reader.join(10)

@@ -1,4 +1,4 @@
-"""What every step of the demo has at hand."""
+"""The scene of a story: everything that its steps use."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Enough(Exception):
 
 @dataclass
 class Scene:
-    """The glass, a hand, somebody who knows the truth, and a report."""
+    """The screen, a hand, a witness of the truth, and a report."""
 
     glass: Glass
     witness: Witness
@@ -42,7 +42,7 @@ class Scene:
 
     @property
     def hand(self) -> Hand:
-        """The hand that touches the glass."""
+        """The hand that touches the screen."""
         return self.glass.hand
 
     @contextmanager
@@ -65,11 +65,11 @@ class Scene:
         return [card for card in cards if card.entry is not None and card.entry.url == self.url]
 
     def map(self) -> Widget:
-        """The map on the glass."""
+        """The map on the screen."""
         return self.glass.all("MapOverlay")[0]
 
     def on_map(self, x: float, y: float) -> Point:
-        """Where (x, y) of `map` [m] is on the glass [px, window]."""
+        """Place of (x, y) of `map` [m] on the screen [px, window]."""
         chart: Any = self.map()
         return tuple(chart.to_window(*chart.view.to_screen(x, y)))  # type: ignore[return-value]
 

@@ -12,15 +12,15 @@ __all__ = ["TOPICS", "play"]
 
 TOPICS = ("/sonar",)
 GOAL = (-9.9, 4.9, math.pi / 2)
-"""Behind a person whom no map knows: x, y [m], yaw [rad]."""
+"""Behind a person who is on no map: x, y [m], yaw [rad]."""
 STEP = 0.25
 """Of the pad [m]."""
 STEPS = 60
 """So many taps are enough for any goal in the room."""
 PERSON = (-9.9, 3.4)
 OFF_THE_WALL = math.radians(27)
-"""Where it looks when it is driven by hand [rad]: into the corridor."""
-SLOW = 0.03
+"""Heading when it is driven by hand [rad]: into the corridor."""
+STANDING_SPEED = 0.03
 """A robot on wheels that is slower stands [m/s]."""
 REACHED = 0.3
 
@@ -28,7 +28,7 @@ REACHED = 0.3
 def play(scene: Scene) -> Wait:
     """Drive, STOP, and send it somewhere."""
     yield from _drive(scene)
-    yield from release(scene, SLOW)
+    yield from release(scene, STANDING_SPEED)
     stick: Any = scene.glass.all("Joystick")[0]
     yield from on_phone(scene, lambda: [push(scene, stick, 0.7, 0.4)])
     yield from _go(scene)
@@ -52,7 +52,7 @@ def _drive(scene: Scene) -> Wait:
         fast = witness.speed()
         check(f"it is as fast as the slider says, {fastest:.2f} [m/s]", fast, fast >= 0.85 * fastest)
         scene.report.snapshot("driving")
-    yield from stop(scene, fingers, SLOW)
+    yield from stop(scene, fingers, STANDING_SPEED)
 
 
 def _go(scene: Scene) -> Wait:

@@ -1,4 +1,4 @@
-"""Each story from its first step to its last."""
+"""The stories of the demo, each from its first step to its last."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from examples.demo import aqua, ardrone, commander, errand, minnow, others, patr
 from examples.demo.connecting import connect
 from examples.demo.scene import Scene, Wait
 
-__all__ = ["tell", "topics"]
+__all__ = ["play", "topics"]
 
 VEHICLES = {"scout": scout, "commander": commander, "minnow": minnow, "aqua": aqua, "ardrone": ardrone}
 """Stories by hand and by task on the drive screen, each in its own file."""
 
 
 def topics(story: str) -> tuple[str, ...]:
-    """What is watched in the story besides what every robot tells."""
+    """Topics that the story watches besides those of every robot."""
     return VEHICLES[story].TOPICS if story in VEHICLES else ()
 
 
-def tell(story: str, scene: Scene, record: Callable[[], object]) -> Wait:
+def play(story: str, scene: Scene, record: Callable[[], object]) -> Wait:
     """Play the story of that name; `record` starts a recording, once there is a robot."""
     if story == "errand":
         yield from _errand(scene)

@@ -1,4 +1,4 @@
-"""What the stories of all vehicles share: the robot's own drive screen, pushing its controls, STOP and release, a phone in the sun."""
+"""Steps that the stories of all vehicles share: the robot's own drive screen, pushing its controls, STOP and release, a phone in the sun."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ AT_REST = 0.5
 """So soon after STOP the robot is at rest, or follows nothing but what brings it there [s, robot clock]."""
 PHONE = (412, 892)
 PUSHED = ("twist", "steer", "tilt")
-"""Manoeuvres of a robot that follows somebody's hand."""
-PATIENCE = 1.5
+"""Manoeuvres of a robot that is driven by hand."""
+PUSH_TIMEOUT = 1.5
 """A push that does nothing for so long is tried anew [s]."""
 FOLDED = "senses"
-"""Widgets of this slot are behind a handle until somebody unfolds them."""
+"""Widgets of this slot are behind a handle until they are unfolded."""
 RESTING = ("rest", "hover")
 """Manoeuvres of a robot that was stopped: what flies stays where it is."""
 
@@ -48,7 +48,7 @@ def open_profile(scene: Scene, robot: str) -> Wait:
     glass, layout = scene.glass, load(robot, CATALOGUE)
     wanted = {one.widget for one in layout.instruments if one.slot != FOLDED}
     wanted |= {"SpeedCard" if one.widget == SLIDER else one.widget for one in layout.controls}
-    # of two controls in one place one is on the glass
+    # of two controls in one place one is visible
     slots = [one.slot for one in layout.controls if one.slot == "stick"]
     wanted -= {one.widget for one in layout.controls if one.slot == "stick"} if len(slots) > 1 else set()
     with scene.step("profile") as check:
@@ -93,7 +93,7 @@ def keep_pushing(
     while not until() and time.monotonic() < end:
         if _follows(scene) in PUSHED:
             heard = time.monotonic()
-        elif time.monotonic() - heard > PATIENCE:
+        elif time.monotonic() - heard > PUSH_TIMEOUT:
             for finger in fingers:
                 scene.hand.up(finger)
             yield from glass.pause(0.4)
@@ -163,7 +163,7 @@ def release(scene: Scene, slow: float) -> Wait:
 
 
 def on_phone(scene: Scene, pushing: Callable[[], list[Finger]], seconds: float = 2.0) -> Wait:
-    """The driving moment on a phone in the sun: `pushing` puts the fingers on what is there."""
+    """The driving moment on a phone in the sun: `pushing` puts the fingers on the controls."""
     glass, witness = scene.glass, scene.witness
     size, name = Window.size, theme.name
     with scene.step("phone") as check:
@@ -201,7 +201,7 @@ def send_and_start(scene: Scene, points: Sequence[Point]) -> Wait:
 
 
 def at(widget: Widget, x: float, y: float) -> Point:
-    """A place of a widget [px, its own] on the glass [px, window]."""
+    """A place of a widget [px, its own] on the screen [px, window]."""
     return tuple(widget.to_window(x, y))  # type: ignore[return-value]
 
 

@@ -1,4 +1,4 @@
-"""A second client that watches what the robot really does, and says nothing."""
+"""A second client, which only watches what the robot really does."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ LATEST = (
     "/manoeuvre",
     "/limits",
 )
-"""What every robot tells."""
+"""Topics of every robot."""
 
 
 class Witness:
