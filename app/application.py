@@ -123,7 +123,6 @@ class PilothouseApp(App):
         self.connect = ConnectScreen(app=self, can_simulate=self.simulating.possible)
         self.robot_list = RobotDirectory(self, self.settings, self.client_id, self.now)
         root = Root()
-        root.show_page(self.connect)
         self.pages = Pages(root, self.connect, InputsPage(app=self), self._first_screen)
         self.acting = IntentExecutor(self)
         self.acting.on_help = partial(toggle_help, self)
@@ -133,6 +132,7 @@ class PilothouseApp(App):
         self.corner = StopCorner(self, self.fleet, self.say)
         self.visit = self._make_visit()
         root.over = self.corner.layer
+        self.pages.show_connect()
         return root
 
     def _make_visit(self) -> RobotVisit:
