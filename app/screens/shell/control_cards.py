@@ -61,7 +61,7 @@ class ControlCards:
         """Open the choice of the mode, or close it."""
         self.mode.open = not self.mode.open
 
-    def hear(self, outcome: Outcome) -> None:
+    def on_outcome(self, outcome: Outcome) -> None:
         """What became of a command."""
         name, phase = outcome.name, outcome.phase
         if name in ("grant", "object", "release"):

@@ -40,7 +40,7 @@ class Resetting:
         self.tick()
         return True
 
-    def hear(self, outcome: Outcome) -> None:
+    def on_outcome(self, outcome: Outcome) -> None:
         """What became of a command."""
         if outcome.name == "reset":
             self.card.answer(outcome.phase)

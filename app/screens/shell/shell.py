@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
@@ -13,31 +12,27 @@ from kivy.uix.floatlayout import FloatLayout
 
 from app.layout import arrange
 from app.link.channels import EVENT, LINK, OFFER, OUTCOME
-from app.link.commands import Outcome
 from app.link.feeds import Post
 from app.screens.parts.placing import put
 from app.screens.shell import status_text as standing
+from app.screens.shell.announcements import Announcements
 from app.screens.shell.control_cards import ControlCards
 from app.screens.shell.intent_prompts import Wishes
-from app.screens.shell.notices import BRIEF, LONG, Notices
+from app.screens.shell.link_banner import LinkBanner
+from app.screens.shell.notices import BRIEF, Notices
 from app.screens.shell.rail import Rail
 from app.screens.shell.reset_card import Resetting
+from app.screens.shell.stop_display import StopDisplay
+from app.screens.shell.task_question import TaskQuestion
 from app.screens.shell.top_bar import TopBar
 from app.session.dashboard import Dashboard
 from app.session.session import Session
-from app.stop.stop_state import silence
-from bridge.msgs.pilothouse_msgs import TaskStatus
-from widgets import QuestionCard, StopButton
-from widgets.core.base import age_text
 from widgets.core.theme import theme
-from widgets.parts.kit import Banner
 
 __all__ = ["Shell"]
 
 STANDING = ("/control/status", "/task/status", "/robot/info", LINK, OFFER)
 """Channels that tell how the robot stands."""
-LONGEST_TAG = 40
-"""Letters of a tag that are shown."""
 
 Builder.load_string("""
 <Shell>:
@@ -73,13 +68,11 @@ class Shell(FloatLayout):
         self.stop_place = arrange.StopPlace(0, 0, 1, 1)
         """Where STOP is, alone or together with STOP ALL [px]."""
         self._build_frame()
-        self._banner = Banner(level="danger")
-        self._stop_banner = Banner(level="warn")
-        self.question = QuestionCard()
-        self.question.bind(on_command=lambda _, name: self.session.command(name))
-        for widget in (self._banner, self._stop_banner, self.question, self.notices):
+        self._question = TaskQuestion(self.session, self.notices)
+        self.question = self._question.card
+        self._link_banner = LinkBanner(self.session, self.notices)
+        for widget in (self._link_banner.banner, self._stop.banner, self.question, self.notices):
             widget.bind(height=self._place_notices)
-        self._greeted = ""
         self._followers: list[Callable[[str, Post], None]] = []
         self._stands: object = None
         """What was last said of the robot, as of `_look`."""
@@ -89,10 +82,11 @@ class Shell(FloatLayout):
         self._dashboard.bind(self.question, "/task/status", fresh=False)
         self.cards = ControlCards(self.session, self.notices, self._dashboard, self.say)
         self.reset = Resetting(self.session, self.notices)
+        self._announcements = Announcements(self.session, self, self.reset)
         self.wishes = Wishes(self.app.intents, self.notices, self.say)
         self._dashboard.enter()
         self.session.listeners.append(self._hear)
-        self._greet()
+        self._announcements.greet()
         self.bind(size=self._arrange, pos=self._arrange, shares_stop=self._arrange)
         self.nav.bind(talks=self._arrange)
         theme.bind(target=self._arrange)
@@ -104,8 +98,8 @@ class Shell(FloatLayout):
         self.bar.bind(on_back=lambda _: self.app.leave(), on_control=lambda _: self.toggle_control())
         self.bar.bind(on_mode=lambda _: self.cards.ask_mode(), on_inputs=lambda _: self.app.show_inputs())
         self.nav.bind(on_press=lambda _, name: self._press(name), on_talk=lambda _, down: self._talk(down))
-        self.stop = StopButton(size_hint=(None, None))
-        self.stop.bind(on_command=self._stop, on_release_stop=self._release_stop)
+        self._stop = StopDisplay(self.session, self.notices, self.rest)
+        self.stop = self._stop.button
         for widget in (self.bar, self.nav, self.stop, self.notices):
             self.add_widget(widget)
         self.ids.update({**self.bar.ids, **self.nav.ids})
@@ -221,65 +215,25 @@ class Shell(FloatLayout):
         if channel in STANDING:
             self._look()
         if channel in (OUTCOME, "/control/status"):
-            self._show_stop()
+            self._stop.show()
         if channel == OUTCOME:
-            self._show_outcome(post.value)
-        elif channel == "/tag":
-            self._show_tag(post.value.tag)
-        elif channel == OFFER:
-            self._greet()
-        elif channel == EVENT:
-            self.unsay(post.value.kind)
-            news = self.session.logbook.is_news(post.value, self.session.link.robot_time())
-            if post.value.level == "alarm" and news and not self.reset.take(post.value):
-                self.say(post.value.text, "danger", about=post.value.kind)
+            self._question.on_outcome(post.value)
+        self._announcements.on_post(channel, post)
+        if channel == OUTCOME:
+            self.cards.on_outcome(post.value)
+            self.reset.on_outcome(post.value)
 
     def _look(self) -> None:
         """Say in the same frame what the robot is and who has it, as soon as that is another."""
-        session, status = self.session, self.session.control_status
-        task: TaskStatus | None = session.feeds.latest("/task/status")
-        told = (
-            session.robot.name,
-            session.link_state.phase,
-            session.robot.capabilities,
-            task and (task.task_id, task.state),
-        )
-        held = status and (status.mode, status.stopped, status.driver_id, status.requested_by_id)
-        if (told, held) != self._stands:
-            self._stands = told, held
+        stands = standing.standing(self.session)
+        if stands != self._stands:
+            self._stands = stands
             self.tick()
-
-    def _greet(self) -> None:
-        """Say once what is missing on a robot that is not ours."""
-        offer = self.session.robot.capabilities
-        if offer is not None and offer.sentence != self._greeted:
-            self._greeted = offer.sentence
-            if offer.sentence:
-                self.say(offer.sentence, "info", about="offer", stay=LONG)
 
     def replay(self, post: Post) -> None:
         """An event that came before this frame was there."""
         for screen in self.screens.values():
             screen.hear(EVENT, post)
-
-    def _show_outcome(self, outcome: Outcome) -> None:
-        """What went wrong is said over every screen; what went well is said where it was asked."""
-        if outcome.name in ("confirm", "resume", "cancel"):
-            self.question.answer(outcome.label, outcome.phase, outcome.reason)
-        if outcome.phase in ("refused", "no_reply") and outcome.name != "stop":
-            self.say(outcome.sentence, "warn", about=outcome.name)
-        elif outcome.phase == "accepted":
-            self.unsay(outcome.name)
-        self.cards.hear(outcome)
-        self.reset.hear(outcome)
-
-    def _show_tag(self, tag: str) -> None:
-        """What the robot's reader has before it, said once; empty when that is gone."""
-        if tag:
-            short = tag if len(tag) <= LONGEST_TAG else f"{tag[: LONGEST_TAG - 1]}…"
-            self.say(f"Tag read: {short}", "info", about="tag")
-        else:
-            self.unsay("tag")
 
     def say(self, text: str, level: str = "info", about: str = "", stay: float = BRIEF) -> None:
         """One sentence over the screen for `stay` [s]; `about` is the command or the kind of event it tells of."""
@@ -296,11 +250,15 @@ class Shell(FloatLayout):
 
     def tick(self) -> None:
         """Bring everything up to date that time changes; ten times a second."""
-        self._tick_banner()
+        if not self.session.connected:
+            self.rest()
+        self._link_banner.tick()
         self.bar.tick(self.session)
         self.bar.show_methods(self.app.methods.standing(), self.app.methods.idle())
         self._dashboard.tick()
-        self._tick_question()
+        # a phone on its side has room for one card: the one that counts down goes first
+        short = self.form == "short"
+        self._question.tick(tight=short, gives_way=short and self.cards.handover.parent is not None)
         self.wishes.tight = self.form == "short" and self.wishes.card.parent is not None
         self.cards.alone = self.form != "wide"
         others = self.question, self.reset.card
@@ -309,58 +267,13 @@ class Shell(FloatLayout):
         )
         self.cards.tick(self.screen)
         self.reset.tick()
-        self._show_stop()
-        self._tick_stop()
+        self._stop.show()
+        self._stop.tick()
         self._show_rail()
-        if missed := self.session.logbook.news():
-            self.say(missed, "info", about="missed")
+        self._announcements.tick()
         if self.screen:
             self.screens[self.screen].tick()
         self._place_notices()
-
-    def _show_stop(self) -> None:
-        """What became of STOP; as soon as it is known, not when the next tick comes."""
-        if self.stop.phase == "stopped" != self.session.robot_stop.phase:
-            for kind in ("stop", "task"):
-                self.unsay(kind)
-        lost_for = self.session.robot_stop.lost_for
-        self.stop.ago = "" if math.isnan(lost_for) else silence(lost_for)
-        # without a link nothing can be let go, and nothing is offered to be held
-        self.stop.local = self.session.connected and (
-            self.session.robot.foreign or self.session.robot_stop.latched
-        )
-        self.stop.phase = self.session.robot_stop.phase
-
-    def _tick_banner(self) -> None:
-        session = self.session
-        if not session.connected:
-            self.rest()
-            wait = session.retry_in
-            again = f" Trying again in {math.ceil(wait)} s." if wait > 0 else ""
-            self._banner.text = session.link_state.sentence + again
-        self.notices.keep(self._banner, shown=not session.connected, first=True)
-
-    def _tick_stop(self) -> None:
-        """What is known of a STOP that this handheld alone holds, for as long as it holds it."""
-        session, banner = self.session, self._stop_banner
-        drives = session.link.drive_topic is not None
-        text = session.robot_stop.local.sentence(drives, session.connected) if session.robot.foreign else ""
-        banner.text = text or banner.text
-        banner.level = "ok" if session.robot_stop.phase == "stopped" else "warn"
-        if text and banner.parent is None:
-            self.unsay("offer")
-        self.notices.keep(banner, shown=bool(text))
-
-    def _tick_question(self) -> None:
-        """What the task asks is over every screen until it is answered."""
-        card = self.question
-        card.blocked = not self.session.may_ask
-        card.held = self.session.robot_stop.latched
-        card.tight = self.form == "short"
-        card.old = "" if self.session.connected else age_text(self.session.feeds.age("/task/status"))
-        # a phone on its side has room for one card: the one that counts down goes first
-        waits = self.form == "short" and self.cards.handover.parent is not None
-        self.notices.keep(card, shown=card.open and not waits)
 
     # what is asked
 
@@ -372,13 +285,6 @@ class Shell(FloatLayout):
             )
             return
         self.session.authority.toggle()
-
-    def _stop(self, *_: object) -> None:
-        self.rest()
-        self.session.stop()
-
-    def _release_stop(self, *_: object) -> None:
-        self.session.release_stop()
 
     def back(self) -> bool:
         """Back within the screen that is on the glass; False when it has nowhere to go back to."""

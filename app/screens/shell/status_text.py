@@ -9,7 +9,7 @@ from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
 from bridge.msgs.sensor_msgs import NavSatFix
 from widgets.core.task_words import TASKS
 
-__all__ = ["control", "control_nav", "fix", "mode"]
+__all__ = ["control", "control_nav", "fix", "mode", "standing"]
 
 LONGEST, BRIEFEST = 14, 8
 """Letters of a driver's name in the bar, and on a button of a phone's navigation."""
@@ -85,6 +85,19 @@ def control_nav(session: Session) -> tuple[str, str, str]:
     if who == "other":
         return _short(authority.status.driver, BRIEFEST), "lock", "warn"
     return "You" if who == "mine" else "Control", CONTROLS[who][0], ""
+
+
+def standing(session: Session) -> tuple[object, ...]:
+    """Everything that the frame shows at once when it changes: who the robot is, its task, its mode, who has it."""
+    status = session.control_status
+    task: TaskStatus | None = session.feeds.latest("/task/status")
+    return (
+        session.robot.name,
+        session.link_state.phase,
+        session.robot.capabilities,
+        task and (task.task_id, task.state),
+        status and (status.mode, status.stopped, status.driver_id, status.requested_by_id),
+    )
 
 
 def _countdown(left: float) -> str:

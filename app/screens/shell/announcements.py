@@ -1,0 +1,82 @@
+"""Sentences about what came from the robot, over every screen: answers that went wrong, alarms, tags, what it lacks."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from app.link.channels import EVENT, OFFER, OUTCOME
+from app.link.commands import Outcome
+from app.link.feeds import Post
+from app.screens.shell.notices import BRIEF, LONG
+from app.screens.shell.reset_card import Resetting
+from app.session.session import Session
+from bridge.msgs.pilothouse_msgs import Event
+
+__all__ = ["Announcements"]
+
+MAX_TAG_LENGTH = 40
+"""Letters of a tag that are shown."""
+
+
+class Speaker(Protocol):
+    """The frame, as far as announcements need it."""
+
+    def say(self, text: str, level: str = "info", about: str = "", stay: float = BRIEF) -> None:
+        """Show one sentence for `stay` [s]."""
+
+    def unsay(self, about: str) -> None:
+        """Take the sentence about something away."""
+
+
+class Announcements:
+    """Decides what is said of one robot, and when it is true no longer."""
+
+    def __init__(self, session: Session, speaker: Speaker, reset: Resetting) -> None:
+        """`reset` shows an alarm that it caused itself."""
+        self._session, self._speaker, self._reset = session, speaker, reset
+        self._greeting = ""
+
+    def on_post(self, channel: str, post: Post) -> None:
+        """Something came from the robot or its link."""
+        if channel == OUTCOME:
+            self._on_outcome(post.value)
+        elif channel == "/tag":
+            self._show_tag(post.value.tag)
+        elif channel == OFFER:
+            self.greet()
+        elif channel == EVENT:
+            self._on_event(post.value)
+
+    def greet(self) -> None:
+        """Say once what is missing on a robot that is not ours."""
+        offer = self._session.robot.capabilities
+        if offer is not None and offer.sentence != self._greeting:
+            self._greeting = offer.sentence
+            if offer.sentence:
+                self._speaker.say(offer.sentence, "info", about="offer", stay=LONG)
+
+    def tick(self) -> None:
+        """Say what was missed."""
+        if missed := self._session.logbook.news():
+            self._speaker.say(missed, "info", about="missed")
+
+    def _on_outcome(self, outcome: Outcome) -> None:
+        """What went wrong is said over every screen; what went well is said where it was asked."""
+        if outcome.phase in ("refused", "no_reply") and outcome.name != "stop":
+            self._speaker.say(outcome.sentence, "warn", about=outcome.name)
+        elif outcome.phase == "accepted":
+            self._speaker.unsay(outcome.name)
+
+    def _on_event(self, event: Event) -> None:
+        self._speaker.unsay(event.kind)
+        news = self._session.logbook.is_news(event, self._session.link.robot_time())
+        if event.level == "alarm" and news and not self._reset.take(event):
+            self._speaker.say(event.text, "danger", about=event.kind)
+
+    def _show_tag(self, tag: str) -> None:
+        """The tag before the robot's reader, said once; empty when that is gone."""
+        if tag:
+            short = tag if len(tag) <= MAX_TAG_LENGTH else f"{tag[: MAX_TAG_LENGTH - 1]}…"
+            self._speaker.say(f"Tag read: {short}", "info", about="tag")
+        else:
+            self._speaker.unsay("tag")
