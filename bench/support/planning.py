@@ -54,7 +54,7 @@ def longest(robot: Robot, grid: Grid, way: tuple[tuple[float, float], tuple[floa
     navigator = Navigator(robot, grid, lambda _: None)
     pose = Pose2(x, y, math.atan2(to_y - y, to_x - x))
     ahead = np.column_stack([np.full(20, 2.0), np.linspace(-1.0, 1.0, 20)])
-    navigator.obstacles.see(pose.apply(ahead), LIFETIME)
+    navigator.obstacles.update(pose.apply(ahead), LIFETIME)
     navigator.head_for(Goal("The goal", to_x, to_y))
     gc.collect()
     gc.freeze()  # what else the bench holds is nothing that the robot's collector looks through

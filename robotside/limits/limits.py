@@ -101,7 +101,7 @@ class LimitKeeper:
         self._slope = math.radians(settings.max_slope_degrees or 0.0) or math.inf
         self._came: tuple[float, float] | None = None
         self._fence = Fence(settings.keep_in, settings.keep_out)
-        self._drift, self._doubt = DriftMonitor(), 0.0
+        self._drift, self._uncertainty = DriftMonitor(), 0.0
         self._returns, self._way, self._back = False, 0.0, False
         self._fencing = FenceGuard(self._fence, info.radius, self._handling)
         self.info: RobotInfo = msgspec.structs.replace(
@@ -146,7 +146,7 @@ class LimitKeeper:
             return Notice(
                 Code.PLACE_OUTSIDE_FENCE, f"{where} is outside the robot's fence.", place=name, x=x, y=y
             )
-        need = self._radius + max(GOAL_ROOM, self._doubt + 2 * PATH_ROOM)
+        need = self._radius + max(GOAL_ROOM, self._uncertainty + 2 * PATH_ROOM)
         if room < need:
             said = f"{where} is {room:.2f} m from the robot's fence; the robot needs {need:.2f} m."
             return Notice(Code.PLACE_NEAR_FENCE, said, place=name, x=x, y=y)
@@ -253,15 +253,15 @@ class LimitKeeper:
 
         Call it whenever something new is measured.
         """
-        self._doubt = uncertainty_margin(measured.spread) if self._fence else 0.0
+        self._uncertainty = uncertainty_margin(measured.spread) if self._fence else 0.0
         pose, last = measured.pose, self._last
         if not self._fence or pose is None:
             return ""
         room, outward = self._fencing.room(pose), self._fencing.outward(pose, measured.moving)
         returns = self._back and last[1] == measured
         if returns:
-            room, outward = min(room - self._doubt, RETURN_BELOW), max(outward, MIN_DRIFT)
-        return self._drift.told(self._own.name, room, outward, returns=returns)
+            room, outward = min(room - self._uncertainty, RETURN_BELOW), max(outward, MIN_DRIFT)
+        return self._drift.check(self._own.name, room, outward, returns=returns)
 
     def _fenced(self, twist: Twist, measured: MeasuredState) -> ClampedTwist:
         """Slower towards the fence, and slowly all ways where the place is not sure."""

@@ -126,7 +126,7 @@ class PoseEstimator:
         has_place = not (math.isnan(info.latitude) or math.isnan(info.longitude))
         self._datum = Datum(info.latitude, info.longitude) if has_place else None
         self._localiser: Localiser | None = None
-        self._doubt = PositionUncertainty()
+        self._uncertainty = PositionUncertainty()
         self._fixes: deque[tuple[float, float]] = deque(maxlen=FIXES_AVERAGED)
         self._compass = math.nan
         self._since = math.nan
@@ -172,7 +172,7 @@ class PoseEstimator:
         """How far off its place may be in the worst direction, one standard deviation [m]; NaN while it has no idea."""
         if self.pose is None or self._localiser is None:
             return math.nan
-        return math.sqrt(_worst(self._localiser.covariance) + self._doubt.variance)
+        return math.sqrt(_worst(self._localiser.covariance) + self._uncertainty.variance)
 
     def set_map(self, grid: Grid) -> None:
         """Localise on `grid` from now on: from the pose that it has, if any."""
@@ -186,8 +186,8 @@ class PoseEstimator:
         if self._datum and fix.status.status >= 0 and math.isfinite(fix.latitude + fix.longitude):
             self._fixes.append(self._datum.to_local(fix.latitude, fix.longitude))
             if self._localiser and not self._swept:
-                self._localiser.hear(*self._fixes[-1], FIX_SPREAD)
-                self._doubt.fix(_variance(fix))
+                self._localiser.correct_place(*self._fixes[-1], FIX_SPREAD)
+                self._uncertainty.fix(_variance(fix))
 
     def on_imu(self, imu: Imu) -> None:
         """Remember the compass for the first guess; a robot that has no laser goes on by it."""
@@ -202,14 +202,14 @@ class PoseEstimator:
             and math.isfinite(self._compass)
         ):
             self._faced = stamp
-            self._localiser.face(self._compass, COMPASS_SPREAD)
+            self._localiser.correct_yaw(self._compass, COMPASS_SPREAD)
 
     def on_sonar(self, arcs: NDArray[np.float64]) -> None:
         """Without a laser, correct the pose by sonars, a few rings at a time; `arcs` are ends of cones in `base_link`."""
         localiser, odom = self._localiser, self._odom
         if localiser is None or odom is None or self._swept:
             return
-        self._doubt.see()
+        self._uncertainty.on_walls_seen()
         if self._pushed:
             self._rings.clear()  # they would make its place sure again while its wheels say that it leaves it
             return
@@ -217,18 +217,18 @@ class PoseEstimator:
         if len(self._rings) == SONAR_RINGS:
             ends = np.concatenate(self._rings)
             self._rings.clear()
-            localiser.echo(odom.inverse().apply(ends.reshape(-1, 2)).reshape(ends.shape))
+            localiser.correct_by_echoes(odom.inverse().apply(ends.reshape(-1, 2)).reshape(ends.shape))
             self._watch(localiser, _UNHEARD)
 
     def on_bumper(self, bumper: Bumper) -> None:
         """Remember what is in touch: without a laser it cannot be seen that the wheels turn in vain."""
         self._touch = bumper if bumper.pressed and self._rolls else None
 
-    def told(self, pose: Pose2) -> None:
+    def place(self, pose: Pose2) -> None:
         """The operator says that the robot is at `pose`; the next sweep corrects the finger's error."""
         if self._localiser:
             self._localiser.place(pose, spread=0.3, turn=0.2)
-            self._doubt.settle()
+            self._uncertainty.settle()
             self._search = (pose, PLACED_REACH, PLACED_YAW)
 
     def put(self, pose: Pose2) -> None:
@@ -237,7 +237,7 @@ class PoseEstimator:
         self._fixes.clear()
         if self._localiser:
             self._localiser.lift()
-        self.told(pose)
+        self.place(pose)
 
     def on_odometry(self, msg: Odometry) -> None:
         """Move on by the wheels and tell everyone the new pose."""
@@ -250,7 +250,7 @@ class PoseEstimator:
         if self._localiser is None:
             return
         self._push(self._localiser, self._localiser.predict(odom, self._against()))
-        self._doubt.reckon(max(msg.pose.covariance[0], msg.pose.covariance[7]))
+        self._uncertainty.reckon(max(msg.pose.covariance[0], msg.pose.covariance[7]))
         self._suppose(odom, stamp.seconds)
         pose = self._localiser.pose
         if pose is not None:
@@ -288,13 +288,13 @@ class PoseEstimator:
             localiser.place(Pose2(x, y, self._compass), spread=1.0, turn=0.1)
         else:
             localiser.place(odom, spread=0.3, turn=0.1)
-            self._doubt.settle()
+            self._uncertainty.settle()
         self._say("localisation", _NO_LASER)
 
     def on_scan(self, points: Points, stamp: float) -> None:
         """Correct the pose by what the laser saw at `stamp` [s], in `base_link`."""
         localiser, self._swept = self._localiser, True
-        self._doubt.see()
+        self._uncertainty.on_walls_seen()
         if localiser is None:
             return
         if self._search is None and localiser.pose is None:
@@ -336,8 +336,8 @@ class PoseEstimator:
         for row, i in enumerate((0, 1, 5)):
             for column, j in enumerate((0, 1, 5)):
                 covariance[6 * i + j] = float(spread[row, column])
-        covariance[0] += self._doubt.variance
-        covariance[7] += self._doubt.variance
+        covariance[0] += self._uncertainty.variance
+        covariance[7] += self._uncertainty.variance
         header = Header(stamp, "map")
         said = PoseWithCovariance(pose.to_msg(), covariance)
         self._publish("/pose", PoseWithCovarianceStamped(header, said))

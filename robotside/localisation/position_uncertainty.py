@@ -38,6 +38,6 @@ class PositionUncertainty:
         """Somebody said where it is."""
         self.fix(0.0)
 
-    def see(self) -> None:
+    def on_walls_seen(self) -> None:
         """It sees walls that are on its map, by which the filter goes from now on."""
         self._sees = True

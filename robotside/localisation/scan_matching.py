@@ -135,7 +135,7 @@ class Localiser:
         """Somebody carries the robot elsewhere: what its wheels tell next does not follow from what they told before."""
         self._odom = None
 
-    def hear(self, x: float, y: float, spread: float) -> None:
+    def correct_place(self, x: float, y: float, spread: float) -> None:
         """Something else puts it at (x, y) [m], to `spread` [m] (one standard deviation) along each axis."""
         if self.pose is None:
             return
@@ -145,7 +145,7 @@ class Localiser:
         self.pose = Pose2(self.pose.x + dx, self.pose.y + dy, wrap(self.pose.yaw + turn))
         self.covariance = self.covariance - gain @ self.covariance[:2, :]
 
-    def face(self, yaw: float, spread: float) -> None:
+    def correct_yaw(self, yaw: float, spread: float) -> None:
         """Something else lets it look to `yaw` [rad], to `spread` [rad] (one standard deviation)."""
         if self.pose is None:
             return
@@ -154,7 +154,7 @@ class Localiser:
         self.pose = Pose2(self.pose.x + dx, self.pose.y + dy, wrap(self.pose.yaw + turn))
         self.covariance = self.covariance - np.outer(gain, self.covariance[2, :])
 
-    def echo(self, ends: NDArray[np.float64]) -> None:
+    def correct_by_echoes(self, ends: NDArray[np.float64]) -> None:
         """Lay echoes on the map, each by the place on its arc that is nearest to a surface; `ends` are arcs in `base_link`.
 
         Shape (echoes, places, 2) [m]. Too few of them, and echoes of what the map does not know, change nothing.
@@ -165,7 +165,7 @@ class Localiser:
         nearest = off.argmin(axis=1)
         points = ends[np.arange(len(ends)), nearest][off.min(axis=1) < MAX_ECHO_DISTANCE]
         if len(ends) >= MAX_ECHOES:
-            self._hear(off.min(axis=1))
+            self._judge_echoes(off.min(axis=1))
         if len(points) < MAX_ECHOES:
             return
         match = self._fit(self.pose, points)
@@ -177,7 +177,7 @@ class Localiser:
         """How far each place on each arc is from a surface of the map [m]."""
         return np.abs(self._field.read(pose.apply(ends.reshape(-1, 2)))[:, 0]).reshape(ends.shape[:2])
 
-    def _hear(self, off: NDArray[np.float64]) -> None:
+    def _judge_echoes(self, off: NDArray[np.float64]) -> None:
         """Be the surer of it the more echoes are of what the map knows; each is so far `off` it [m]."""
         known = float((off < MAX_FIT_DISTANCE).mean())
         if known < MIN_FIT:

@@ -30,7 +30,7 @@ class ObstacleMemory:
         self._grid = grid
         self._until: dict[tuple[int, int], float] = {}
 
-    def see(self, points: Points, now: float, *, vague: bool = False) -> None:
+    def update(self, points: Points, now: float, *, vague: bool = False) -> None:
         """Take in one sweep's end points, in `map`; `vague` when they may as well be somewhat aside."""
         lasts, fresh = SONAR_CLEARANCE_LIFETIME[1] if vague else LIFETIME, self.fresh(points, vague=vague)
         for x, y in set(map(tuple, np.round(points[fresh] / CELL_SIZE).astype(int).tolist())):

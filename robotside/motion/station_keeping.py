@@ -51,7 +51,7 @@ class DriftMonitor:
     def __init__(self) -> None:
         self._said = False
 
-    def told(self, name: str, room: float, outward: float, *, returns: bool = False) -> Problem:
+    def check(self, name: str, room: float, outward: float, *, returns: bool = False) -> Problem:
         """What to say of a robot with this `room` [m] that goes `outward` [m/s]; empty for nothing."""
         if room > RETURN_UNTIL:
             self._said = False

@@ -46,7 +46,7 @@ class IntruderTracker:
         reported = [suspect for suspect in self._suspects if suspect.number]
         return [_intruder(suspect) for suspect in sorted(reported, key=lambda suspect: suspect.number)]
 
-    def see(self, x: float, y: float, distance: float, now: float) -> Intruder | None:
+    def update(self, x: float, y: float, distance: float, now: float) -> Intruder | None:
         """Take in one sighting at (x, y) [m], from `distance` [m]; the intruder when it has just become one."""
         self._suspects = [s for s in self._suspects if s.number or now - s.last < FORGET_AFTER]
         suspect = min(self._suspects, key=lambda s: math.hypot(x - s.x, y - s.y), default=None)

@@ -127,7 +127,7 @@ class IntruderWatch:
 
     def _place(self, pose: Pose2, place: Point, distance: float, stamp: float) -> None:
         there = pose.then(Pose2(self._mount.x + place.x, place.y, 0.0))
-        fresh = self.intruders.see(there.x, there.y, distance, stamp)
+        fresh = self.intruders.update(there.x, there.y, distance, stamp)
         if fresh is None:
             return
         self._publish("/intruders", IntruderArray(Header(Time.at(stamp), "map"), self.intruders.known))

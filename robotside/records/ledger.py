@@ -64,7 +64,7 @@ class Ledger:
         """Change a row because somebody asks for it, None deletes it; `then` is called once it is on the disk."""
         with self.together() as job:
             job.orders.append(Put(table, key, value))
-            self.memory.see(job.orders[-1])
+            self.memory.apply(job.orders[-1])
             if then:
                 job.then.append(then)
 
@@ -72,7 +72,7 @@ class Ledger:
         """Change a row because it is so; `after` is called once it is on the disk or cannot be just now."""
         with self.together() as job:
             job.facts.append(Put(table, key, value))
-            self.memory.see(job.facts[-1])
+            self.memory.apply(job.facts[-1])
             if after:
                 job.after.append(after)
 
@@ -92,13 +92,13 @@ class Ledger:
         """Have facts that could not be written just now, for that reason."""
         self.trouble = trouble
         for put in facts:
-            self.memory.see(put)
+            self.memory.apply(put)
         self.memory.failed(Job(facts=facts))
 
     def end(self) -> None:
         """Write what could not be written, and with it that this was an orderly end."""
         put = Put("facts", "clean", "1")
-        self.memory.see(put)
+        self.memory.apply(put)
         self._hand_in(Job(facts=[*self.memory.again(), put]))
 
     def rebuild(self, write: Callable[[list[Put], Callable[[str, str], None]], bool]) -> None:

@@ -63,7 +63,7 @@ class OrderQueue:
         fresh = msgspec.structs.replace(order, id=0)
         return self.set([*self.current.orders, fresh]).orders[-1]
 
-    def take(self) -> TaskOrder | None:
+    def pop(self) -> TaskOrder | None:
         """Take the next order out of the queue, which is so even if the disk fails; None when nothing waits."""
         orders = self.current.orders
         if not orders:

@@ -60,7 +60,7 @@ class Answering:
             station = self._station
             station.controls.introduce(client, asked.client_id, asked.client_name)
             sender = station.controls.id(client)
-            station.readiness.told_time(asked.stamp)
+            station.readiness.on_operator_time(asked.stamp)
             with station.records.together() as job:
                 answer = self._commands.run(
                     name,

@@ -134,7 +134,7 @@ class Station:
         self._mind(partial(self.helm.step, now))
         self._pass_on(self.robot.read(now))
         self._mind_trouble()
-        self.autonomy.status_publisher.look()
+        self.autonomy.status_publisher.update()
         self._mind(lambda: self.autonomy.check(now))
         if not self._ending:
             self._mind(lambda: self.agenda.step(now))
@@ -142,7 +142,7 @@ class Station:
         if now >= self._next_diagnostics:
             self._next_diagnostics = now + 1.0
             self.bus.publish("/diagnostics", self._diagnostics())
-            self.readiness.look(self.autonomy, self.robot.trouble, now)
+            self.readiness.update(self.autonomy, self.robot.trouble, now)
 
     def hear(self, client: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
         """A client published `msg`, that is not an order: those are `robotside.services.stop_services`'.
@@ -150,7 +150,7 @@ class Station:
         `stamp` is when it meant it [s, operators' clock], None when it does not say.
         """
         if stamp is not None:
-            self.readiness.told_time(stamp)
+            self.readiness.on_operator_time(stamp)
         if isinstance(msg, Manoeuvre) and stamp is None and msg.header.stamp.seconds > 0:
             stamp = msg.header.stamp.seconds
         if isinstance(msg, Twist | Manoeuvre):
@@ -294,7 +294,7 @@ class Station:
             self.events.say("stop", Notice(Code.STOP_STILL_PRESSED, said, name=by), "alarm")
         engine.recall(self.records.runs.last, self.records.runs.newest)
         history = TaskHistory(self.records.runs, engine, self.clock)
-        self.bus.subscribe("/task/progress", history.hear)
+        self.bus.subscribe("/task/progress", history.on_message)
         self.autonomy.status_publisher.note = history.note
         return InterruptedTask(cut, engine) if cut else None
 
@@ -342,7 +342,7 @@ class Station:
                 self.events.say(msg.kind, Notice.of(msg.text, msg), msg.level)
                 continue
             self.bus.publish(topic, msg)
-            self.readiness.sensor_health.take(topic, msg, self.now)
+            self.readiness.sensor_health.on_message(topic, msg, self.now)
             self._mind(partial(self.autonomy.take, topic, msg, self.now))
             if topic == "/odom":
                 self._mind(self.robot.again)

@@ -174,7 +174,7 @@ class Agenda:
         if why:
             self.hold(why)
             return
-        order = self._records.queue.take()
+        order = self._records.queue.pop()
         if order is not None:
             self._start(order, now, Code.QUEUE_LEFT_OUT, f"{_title(order)} of the queue is left out")
 

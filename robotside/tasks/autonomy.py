@@ -216,7 +216,7 @@ class Autonomy:
 
     def place(self, pose: Pose2) -> None:
         """The operator says where it is; what was seen from the wrong place is forgotten."""
-        self.pose_estimator.told(pose)
+        self.pose_estimator.place(pose)
         self.navigator.obstacles.forget()
         self.watch.intruders.forget()
 
@@ -288,7 +288,7 @@ class Autonomy:
         if self.engine.active:
             obstacles = self.navigator.obstacles
             fresh, moved = obstacles.fresh(placed, vague=vague), self._movers.moving(placed, stamp)
-            obstacles.see(placed[~moved], self._now, vague=vague)
+            obstacles.update(placed[~moved], self._now, vague=vague)
             # sonars are too coarse to tell what moves: whatever is not on the map may
             moving = fresh if vague else fresh & moved
             self._points = np.concatenate([points, self._movers.nearer(points[moving])])

@@ -29,7 +29,7 @@ class Readiness:
         self._offset = math.nan
         self._checks: list[Check] = []
 
-    def told_time(self, stamp: float) -> None:
+    def on_operator_time(self, stamp: float) -> None:
         """Somebody stamped something with `stamp`, of what is supposed to be the operators' clock; NaN says nothing."""
         if math.isfinite(stamp):
             self._offset = stamp - self._clock()
@@ -44,7 +44,7 @@ class Readiness:
             self.stop_tested = Time.at(self._clock())
         self._stopping = False
 
-    def look(self, autonomy: Autonomy, trouble: str, now: float) -> None:
+    def update(self, autonomy: Autonomy, trouble: str, now: float) -> None:
         """Look through everything at `now` [s, robot clock]; `trouble` is why the robot cannot be reached."""
         where = autonomy.pose_estimator
         found = checks(

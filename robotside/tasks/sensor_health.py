@@ -59,7 +59,7 @@ class SensorHealth:
         self._measured = MeasuredState()
         self._heard: dict[str, float] = {}
 
-    def take(self, topic: str, msg: Msg, now: float) -> None:
+    def on_message(self, topic: str, msg: Msg, now: float) -> None:
         """Take in one message of the robot."""
         if topic in _NAMES or topic in _MORE:
             self._heard[topic] = now

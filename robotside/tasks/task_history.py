@@ -32,7 +32,7 @@ class TaskHistory:
         self._distance = self._run.distance
         self._due = 0.0
 
-    def hear(self, _: str, msg: Msg) -> None:
+    def on_message(self, _: str, msg: Msg) -> None:
         """Take one message of `/task/progress`."""
         if isinstance(msg, TaskProgress):
             self._distance = msg.distance_driven

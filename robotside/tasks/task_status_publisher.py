@@ -33,11 +33,11 @@ class TaskStatusPublisher:
             waits = bool(self._waiting) or job.binding
             if waits:
                 self._waiting.append((status, job, self._clock() + DISK_TIMEOUT))
-                job.after.append(self.look)
+                job.after.append(self.update)
         if not waits:
             self._publish(status)
 
-    def look(self) -> None:
+    def update(self) -> None:
         """Tell what was tried, or has waited for too long; to be called now and then."""
         now = self._clock()
         while self._waiting and (self._waiting[0][1].done or now >= self._waiting[0][2]):

@@ -121,7 +121,7 @@ def test_one_without_a_laser_tells_where_it_is_by_satellite_or_by_its_own_reckon
 def test_a_boat_does_not_stray_from_its_satellite_fixes(tmp_path: Path) -> None:
     run = hand("minnow", tmp_path)
     x, y, yaw = run.robot.simulation.pose()
-    run.station.autonomy.pose_estimator.told(Pose2(x + 6.0, y, yaw))
+    run.station.autonomy.pose_estimator.place(Pose2(x + 6.0, y, yaw))
     run.wait(30.0)
     error, pose = run.error, run.station.autonomy.pose_estimator.pose
     run.robot.close()

@@ -53,10 +53,10 @@ class DatabaseFiles:
         self._lock = -1
         self._used: os.stat_result | None = None
 
-    def take(self) -> None:
-        """Have the records to ourselves until `let_go` or the end of the process, whatever ends it.
+    def lock(self) -> None:
+        """Have the records to ourselves until `unlock` or the end of the process, whatever ends it.
 
-        Taken when another process does not let go of them in time.
+        InUse when another process does not let go of them in time.
         """
         lock = os.open(
             self.path.with_name(f"{self.path.name}.lock"), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o644
@@ -74,7 +74,7 @@ class DatabaseFiles:
                 self._lock = lock
                 return
 
-    def let_go(self) -> None:
+    def unlock(self) -> None:
         """Let others have the records."""
         if self._lock >= 0:
             os.close(self._lock)

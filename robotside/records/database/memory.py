@@ -34,10 +34,10 @@ class RowMemory:
         return any(put.table in tables for job in self._pending for put in job.orders)
 
     def put(self, job: Job) -> None:
-        """Note that `job` is on its way; its rows were `see`n already."""
+        """Note that `job` is on its way; its rows were `apply`n already."""
         self._pending.append(job)
 
-    def see(self, put: Put) -> None:
+    def apply(self, put: Put) -> None:
         """Have the row in `current`."""
         _set(self.current, put)
 

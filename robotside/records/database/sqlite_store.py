@@ -28,7 +28,7 @@ class SqliteStore(Store):
         directory = path.parent
         try:
             self._files = files(path)
-            self._files.take()
+            self._files.lock()
         except OSError as error:
             why = (error.strerror or str(error)).lower()
             said = f"Nothing can be kept in {str(directory)!r}: {why}; --state names another directory."
@@ -100,7 +100,7 @@ class SqliteStore(Store):
         if self._storage is not None:
             self._storage.close()
             self._storage = None
-        self._files.let_go()
+        self._files.unlock()
 
     def _connect(self) -> Storage:
         engine = engine_of(URL.create("sqlite", database=str(self._files.path)), self._patience)

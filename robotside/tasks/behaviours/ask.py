@@ -69,7 +69,7 @@ class AskAt(Behaviour):
             self._say("task", self._refusal(question), "warn")
         goal = self._course.goal
         text = f"Waiting at {goal.spoken}: {question.message or question.asks}"
-        now.tell("waiting", text, place=goal.place, asks=question.asks)
+        now.report("waiting", text, place=goal.place, asks=question.asks)
         return Status.RUNNING
 
     @property

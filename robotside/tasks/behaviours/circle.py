@@ -49,7 +49,7 @@ class Circle(Behaviour):
         if seen is None:
             return Status.FAILURE
         left = SIDES - self._looked
-        now.tell("circling", f"Going round intruder {seen.id} and looking at it.", still=4.0 * left)
+        now.report("circling", f"Going round intruder {seen.id} and looking at it.", still=4.0 * left)
         if self._sides:
             leg = self._navigator.update(now.pose, now.points, now.now)
             if leg is LegState.UNDER_WAY:

@@ -80,7 +80,7 @@ class Dock(Behaviour):
         leg = self._navigator.update(now.pose, now.points, now.now)
         phase = "turning" if self._navigator.turning else "driving"
         text = f"Turning to {name}." if self._navigator.turning else f"Heading for {name}."
-        now.tell(phase, text, place=name, still=APPROACH_DISTANCE / CREEP_SPEED)
+        now.report(phase, text, place=name, still=APPROACH_DISTANCE / CREEP_SPEED)
         if LEG_STATUS[leg] is Status.SUCCESS:
             self._navigator.finish()
             self._began = now.worked
@@ -103,7 +103,7 @@ class Dock(Behaviour):
             return Status.FAILURE
         at_end = now.touched or here.x > MAX_BEYOND
         text = f"Waiting for the charge at {name}." if at_end else f"Creeping to {name}."
-        now.tell("docking", text, place=name, still=left)
+        now.report("docking", text, place=name, still=left)
         turn = -1.5 * here.yaw - 2.0 * here.y
         self._navigator.move(Twist() if at_end else Twist.planar(CREEP_SPEED, max(-0.3, min(0.3, turn))))
         return Status.RUNNING

@@ -55,13 +55,13 @@ class DriveTo(Behaviour):
         if self._navigator.waits_for or self._navigator.planning:
             self._was, self._since = now.pose, now.worked
         if self._navigator.waits_for:
-            now.tell("taking off", self._navigator.waits_for, place=goal.place)
+            now.report("taking off", self._navigator.waits_for, place=goal.place)
             return LEG_STATUS[leg]
         if self._navigator.planning:
-            now.tell("planning", f"Looking for a way to {goal.spoken}.", place=goal.place)
+            now.report("planning", f"Looking for a way to {goal.spoken}.", place=goal.place)
             return LEG_STATUS[leg]
         said = f"Makes no way to {goal.spoken}; it goes on trying." if self._stands() else self._words(goal)
-        now.tell("turning" if self._navigator.turning else "driving", said, place=goal.place)
+        now.report("turning" if self._navigator.turning else "driving", said, place=goal.place)
         return LEG_STATUS[leg]
 
     def _stands(self) -> bool:

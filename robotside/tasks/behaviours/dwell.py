@@ -41,4 +41,4 @@ class Dwell(Behaviour):
         goal = self._course.goal if self._course else None
         where = f" at {goal.spoken}" if goal else ""
         text = f"Standing{where} for {self._duration:.0f} s."
-        self._situation.tell("dwelling", text, place=goal.place if goal else "", still=left)
+        self._situation.report("dwelling", text, place=goal.place if goal else "", still=left)

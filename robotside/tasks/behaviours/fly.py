@@ -52,7 +52,7 @@ class _UpAndDown(Behaviour):
             said = f"{self.title} took longer than {self.lasts:.0f} s; the robot stays where it is."
             self._navigator.reason = Notice(Code.TASK_SLOW, said, seconds=self.lasts)
             return Status.FAILURE
-        now.tell(self.title.lower(), f"{self.title}.", still=math.nan)
+        now.report(self.title.lower(), f"{self.title}.", still=math.nan)
         self.tell_robot()
         return Status.RUNNING
 

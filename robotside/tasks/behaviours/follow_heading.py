@@ -81,13 +81,13 @@ class FollowHeading(Behaviour):
         now = self._situation
         waits = self._navigator.ready(now.now)
         if waits:
-            now.tell("taking off", waits)
+            now.report("taking off", waits)
             return Status.FAILURE if self._navigator.reason else Status.RUNNING
         error = math.remainder(self._heading - now.pose.yaw, math.tau)
         towards = heading(self._heading)
         bends = self._navigator.controller.turning > 0
         if abs(error) > MAX_BEARING and not bends:
-            now.tell("turning", f"Turning to {towards}.")
+            now.report("turning", f"Turning to {towards}.")
             self._go(0.0, error)
             return Status.RUNNING
         wall, thing = self._wall(), self._thing()
@@ -96,7 +96,7 @@ class FollowHeading(Behaviour):
         self._blocked_since = math.nan
         turns = abs(error) > MAX_BEARING
         said = f"Coming round to {towards}." if turns else f"Going straight at {towards}."
-        now.tell("turning" if turns else "driving", said)
+        now.report("turning" if turns else "driving", said)
         pace = self._pace(min(wall, thing))
         self._go(min(pace, MAX_BEND_SPEED) if turns else pace, error)
         return Status.RUNNING
@@ -136,7 +136,7 @@ class FollowHeading(Behaviour):
             said = f"The way straight on ended {where} before {what}."
             self._navigator.reason = Notice(Code.WAY_ENDED, said, x=now.pose.x, y=now.pose.y)
             return Status.FAILURE
-        now.tell("waiting", f"Waiting {where}: something is in the way.", still=waits)
+        now.report("waiting", f"Waiting {where}: something is in the way.", still=waits)
         return Status.RUNNING
 
     def _wall(self) -> float:

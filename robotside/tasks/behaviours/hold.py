@@ -48,7 +48,7 @@ class Hold(Behaviour):
         if self._navigator.controller.keeps_courses:
             self._keep()
         if not self._returns:
-            self._situation.tell("holding", self.feedback_message)
+            self._situation.report("holding", self.feedback_message)
         return Status.SUCCESS if self._span.over else Status.RUNNING
 
     def terminate(self, new_status: Status) -> None:
@@ -68,7 +68,7 @@ class Hold(Behaviour):
             self._returns = True
             navigator.head_for(place)
         if self._returns:
-            now.tell("driving", "Coming back to where it holds: it was carried away.")
+            now.report("driving", "Coming back to where it holds: it was carried away.")
             self._returns = navigator.update(now.pose, now.points, now.now) is LegState.UNDER_WAY
             if not self._returns:
                 navigator.rest()

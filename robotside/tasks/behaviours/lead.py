@@ -56,7 +56,7 @@ class _Lead(DriveTo):
             at = (now.pose.x, now.pose.y)
             said = f"Waiting on the way to {goal.spoken}: nobody follows."
             self._say("task", Notice(Code.FOLLOWER_LOST, said, place=goal.place), "warn", at=at)
-        now.tell("waiting", "Waiting: nobody follows.", place=goal.place)
+        now.report("waiting", "Waiting: nobody follows.", place=goal.place)
         return Status.RUNNING
 
     def _doing(self, goal: Goal) -> str:
@@ -101,7 +101,7 @@ class _Tell(Behaviour):
             return Status.SUCCESS
         goal, note = self._course.goal, self._notes[self._course.index]
         text = f"At {goal.spoken}: {note}"
-        self._situation.tell("dwelling", text, place=goal.place, still=left)
+        self._situation.report("dwelling", text, place=goal.place, still=left)
         return Status.RUNNING
 
 

@@ -78,7 +78,7 @@ class Situation:
         """A clock that stands still while the task is paused [s]."""
         return self.now - self.idle
 
-    def tell(
+    def report(
         self, phase: str, text: str = "", *, place: str = "", asks: str = "", still: float = 0.0
     ) -> None:
         """Say what is done; `still` is how long it takes beside the way [s]."""

@@ -42,5 +42,5 @@ def test_odometry_that_begins_anew_takes_no_doubt_away() -> None:
 def test_what_sees_walls_has_none() -> None:
     doubt = PositionUncertainty()
     doubt.reckon(1.0)
-    doubt.see()
+    doubt.on_walls_seen()
     assert doubt.variance == 0.0

@@ -119,11 +119,11 @@ def test_before_the_first_guess_there_is_no_pose() -> None:
 def test_a_compass_turns_it_little_by_little_and_by_no_more_than_it_is_trusted() -> None:
     localiser = Localiser(HALL)
     localiser.place(Pose2(0.0, 0.0, 0.0), spread=0.1, turn=0.2)
-    localiser.face(0.3, 0.2)
+    localiser.correct_yaw(0.3, 0.2)
     assert localiser.pose is not None
     assert localiser.pose.yaw == pytest.approx(0.15)
     for _ in range(200):
-        localiser.face(0.3, 0.2)
+        localiser.correct_yaw(0.3, 0.2)
     assert localiser.pose.yaw == pytest.approx(0.3, abs=0.01)
 
 
@@ -131,7 +131,7 @@ def test_echoes_put_it_right_by_the_place_on_each_arc_that_meets_a_surface() -> 
     localiser, true = Localiser(HALL), Pose2(1.0, -0.5, 0.1)
     localiser.place(Pose2(1.12, -0.6, 0.05), spread=0.3, turn=0.1)
     for _ in range(4):
-        localiser.echo(arcs(true))
+        localiser.correct_by_echoes(arcs(true))
     assert localiser.pose is not None
     assert localiser.pose.distance(true.x, true.y) < 0.06
     assert localiser.pose.yaw == pytest.approx(true.yaw, abs=0.03)
@@ -140,8 +140,8 @@ def test_echoes_put_it_right_by_the_place_on_each_arc_that_meets_a_surface() -> 
 def test_echoes_of_what_the_map_does_not_know_and_too_few_change_nothing() -> None:
     localiser, start = Localiser(HALL), Pose2(0.0, 0.0, 0.0)
     localiser.place(start, spread=0.3, turn=0.1)
-    localiser.echo(np.full((30, 3, 2), 0.8))
-    localiser.echo(arcs(Pose2(0.3, 0.0, 0.01))[:5])
+    localiser.correct_by_echoes(np.full((30, 3, 2), 0.8))
+    localiser.correct_by_echoes(arcs(Pose2(0.3, 0.0, 0.01))[:5])
     assert localiser.pose == start
 
 
@@ -161,10 +161,10 @@ def test_who_is_distrusted_is_sure_again_after_echoes_that_fit_for_a_while() -> 
     localiser, true = Localiser(HALL), Pose2(1.0, -0.5, 0.1)
     localiser.place(true, spread=0.1, turn=0.1)
     localiser.distrust()
-    localiser.echo(arcs(true))
+    localiser.correct_by_echoes(arcs(true))
     assert not localiser.sure
     for _ in range(DISTRUSTED_SWEEPS):
-        localiser.echo(arcs(true))
+        localiser.correct_by_echoes(arcs(true))
     assert localiser.sure
 
 
@@ -172,9 +172,9 @@ def test_echoes_of_what_the_map_does_not_know_make_it_unsure_after_a_while() -> 
     localiser = Localiser(HALL)
     localiser.place(Pose2(0.0, 0.0, 0.0), spread=0.1, turn=0.1)
     for _ in range(UNSURE_AFTER - 1):
-        localiser.echo(np.full((30, 3, 2), 0.8))
+        localiser.correct_by_echoes(np.full((30, 3, 2), 0.8))
     assert localiser.sure
-    localiser.echo(np.full((30, 3, 2), 0.8))
+    localiser.correct_by_echoes(np.full((30, 3, 2), 0.8))
     assert not localiser.sure
 
 

@@ -18,8 +18,8 @@ MIDDLE = np.array([[0.0, 0.0]])
 
 def test_it_is_remembered_for_a_while_and_for_a_shorter_one_where_it_was_seen_vaguely() -> None:
     sharp, vague = ObstacleMemory(GRID), ObstacleMemory(GRID)
-    sharp.see(MIDDLE, 0.0)
-    vague.see(MIDDLE, 0.0, vague=True)
+    sharp.update(MIDDLE, 0.0)
+    vague.update(MIDDLE, 0.0, vague=True)
     assert len(sharp.points(SONAR_CLEARANCE_LIFETIME[1] + 0.1)) == 1
     assert len(vague.points(SONAR_CLEARANCE_LIFETIME[1] - 0.1)) == 1
     assert len(vague.points(SONAR_CLEARANCE_LIFETIME[1] + 0.1)) == 0
@@ -28,8 +28,8 @@ def test_it_is_remembered_for_a_while_and_for_a_shorter_one_where_it_was_seen_va
 
 def test_a_vague_look_does_not_shorten_what_was_seen_well() -> None:
     obstacles = ObstacleMemory(GRID)
-    obstacles.see(MIDDLE, 0.0)
-    obstacles.see(MIDDLE, 1.0, vague=True)
+    obstacles.update(MIDDLE, 0.0)
+    obstacles.update(MIDDLE, 1.0, vague=True)
     assert len(obstacles.points(LIFETIME - 0.1)) == 1
 
 

@@ -43,12 +43,12 @@ def test_one_that_turns_where_it_is_looks_inside_before_it_goes() -> None:
 
 def test_a_drift_is_told_once_until_it_was_back() -> None:
     drift = DriftMonitor()
-    assert drift.told("M", 0.1, 0.1) == ""
-    assert drift.told("M", -0.1, 0.1) == "M drifts over its fence."
-    assert drift.told("M", -0.2, 0.1) == ""
-    assert drift.told("M", 0.6, -0.1) == ""
-    assert drift.told("M", -0.1, 0.0) == ""
-    assert drift.told("M", -0.1, 0.1) != ""
+    assert drift.check("M", 0.1, 0.1) == ""
+    assert drift.check("M", -0.1, 0.1) == "M drifts over its fence."
+    assert drift.check("M", -0.2, 0.1) == ""
+    assert drift.check("M", 0.6, -0.1) == ""
+    assert drift.check("M", -0.1, 0.0) == ""
+    assert drift.check("M", -0.1, 0.1) != ""
 
 
 def outside(spread: float = 0.0) -> MeasuredState:

@@ -45,7 +45,7 @@ class Trip:
         for topic, msg in self.robot.read(self.now):
             if topic == "/scan":
                 self._points = self._laser.points(msg)  # type: ignore[arg-type]
-                self.navigator.obstacles.see(Pose2(*self.robot.pose).apply(self._points), self.now)
+                self.navigator.obstacles.update(Pose2(*self.robot.pose).apply(self._points), self.now)
                 self.room = min(self.room, self.robot.room())
 
 

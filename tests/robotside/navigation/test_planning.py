@@ -174,7 +174,7 @@ def test_while_it_looks_for_another_way_it_goes_on_along_the_one_that_it_has(
     navigator.update(Pose2(-4.0, 0.0, 0.0), nothing, 0.0)
     assert navigator.controller.under_way
     monkeypatch.setattr("robotside.navigation.navigator.SEARCH_STEPS", 1)
-    navigator.obstacles.see(np.array([[1.0, 0.0]]), 2.0)
+    navigator.obstacles.update(np.array([[1.0, 0.0]]), 2.0)
     told = len(robot.commands)
     navigator.update(Pose2(-4.0, 0.0, 0.0), nothing, 2.0)
     assert navigator.planning

@@ -23,7 +23,7 @@ FOV = 1.2
 
 def test_a_thing_is_reported_with_its_third_sighting_and_never_again() -> None:
     intruders = IntruderTracker()
-    told = [intruders.see(5.0 + 0.1 * (n % 2), 2.0, 4.0, float(n)) for n in range(20)]
+    told = [intruders.update(5.0 + 0.1 * (n % 2), 2.0, 4.0, float(n)) for n in range(20)]
     assert [n for n, intruder in enumerate(told) if intruder] == [MIN_SIGHTINGS - 1]
     assert len(intruders.known) == 1
     assert intruders.known[0].sightings == 20
@@ -32,30 +32,30 @@ def test_a_thing_is_reported_with_its_third_sighting_and_never_again() -> None:
 def test_two_things_are_numbered_in_the_order_of_their_reports() -> None:
     intruders = IntruderTracker()
     for n in range(MIN_SIGHTINGS):
-        intruders.see(0.0, 0.0, 4.0, float(n))
-        intruders.see(3.0, 0.0, 4.0, float(n))
+        intruders.update(0.0, 0.0, 4.0, float(n))
+        intruders.update(3.0, 0.0, 4.0, float(n))
     assert [(i.id, i.position.x) for i in intruders.known] == [(1, 0.0), (2, 3.0)]
 
 
 def test_near_sightings_count_more_than_far_ones() -> None:
     intruders = IntruderTracker()
-    intruders.see(5.8, 0.0, 6.0, 0.0)
-    intruders.see(5.0, 0.0, 1.0, 1.0)
-    intruders.see(5.0, 0.0, 1.0, 2.0)
+    intruders.update(5.8, 0.0, 6.0, 0.0)
+    intruders.update(5.0, 0.0, 1.0, 1.0)
+    intruders.update(5.0, 0.0, 1.0, 2.0)
     assert intruders.known[0].position.x == pytest.approx(5.0, abs=0.05)
 
 
 def test_scattered_single_sightings_are_nothing() -> None:
     intruders = IntruderTracker()
     for n in range(10):
-        intruders.see(3.0 * n, 0.0, 4.0, float(n))
+        intruders.update(3.0 * n, 0.0, 4.0, float(n))
     assert intruders.known == []
 
 
 def test_sightings_that_are_long_past_do_not_count() -> None:
     intruders = IntruderTracker()
     for n in range(MIN_SIGHTINGS):
-        assert intruders.see(0.0, 0.0, 4.0, 30.0 * n) is None
+        assert intruders.update(0.0, 0.0, 4.0, 30.0 * n) is None
 
 
 class Scene:

@@ -98,7 +98,7 @@ async def test_what_was_changed_and_deleted_is_so_after_a_restart(start: Open) -
         office = records.places.all()[0]
         records.places.set(msgspec.structs.replace(office, x=9.0))
         records.places.delete(2)
-        records.queue.take()
+        records.queue.pop()
         records.note_stop("")
         records.events.acknowledge([1], "Anna", NOW, lambda _: None)
     assert await job.kept(10.0) == ""

@@ -29,12 +29,12 @@ def test_orders_wait_in_their_order_and_are_given_numbers(records: Records) -> N
 
 def test_the_next_one_is_taken_out(records: Records) -> None:
     records.queue.set([HOLD, DOCK])
-    taken = records.queue.take()
+    taken = records.queue.pop()
     assert taken is not None
     assert (taken.id, taken.task) == (1, "hold")
     assert tasks(records) == [(2, "dock")]
-    records.queue.take()
-    assert records.queue.take() is None
+    records.queue.pop()
+    assert records.queue.pop() is None
 
 
 def test_a_change_made_from_an_old_queue_is_refused(records: Records) -> None:

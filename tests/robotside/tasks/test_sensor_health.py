@@ -27,8 +27,8 @@ ODOM = Odometry(pose=PoseWithCovariance(Pose(Point(0.0, 0.0, -2.0))), twist=Twis
 def test_odometry_tells_speed_and_height_and_the_imu_how_it_is_tilted() -> None:
     sensor_health = SensorHealth()
     assert math.isnan(sensor_health.measured(None).height)
-    sensor_health.take("/odom", ODOM, 1.0)
-    sensor_health.take("/imu/data", Imu(orientation=Quaternion.from_rpy(0.1, -0.2, 3.0)), 1.0)
+    sensor_health.on_message("/odom", ODOM, 1.0)
+    sensor_health.on_message("/imu/data", Imu(orientation=Quaternion.from_rpy(0.1, -0.2, 3.0)), 1.0)
     found = sensor_health.measured(Pose2(1.0, 2.0, 3.0))
     assert (found.moving, found.height) == (PlanarVelocity(0.3, 0.1, 0.2), -2.0)
     assert math.isclose(found.roll, 0.1)
@@ -38,9 +38,9 @@ def test_odometry_tells_speed_and_height_and_the_imu_how_it_is_tilted() -> None:
 
 def test_what_is_no_number_changes_nothing() -> None:
     sensor_health = SensorHealth()
-    sensor_health.take("/odom", ODOM, 1.0)
+    sensor_health.on_message("/odom", ODOM, 1.0)
     wild = TwistWithCovariance(Twist(Vector3(math.inf), Vector3(0.0, 0.0, math.nan)))
-    sensor_health.take("/odom", Odometry(twist=wild), 1.1)
+    sensor_health.on_message("/odom", Odometry(twist=wild), 1.1)
     assert sensor_health.measured(None).moving == PlanarVelocity(0.3, 0.1, 0.2)
 
 
@@ -48,28 +48,28 @@ def test_an_imu_without_orientation_says_nothing_of_it() -> None:
     sensor_health = SensorHealth()
     covariance = [-1.0, *[0.0] * 8]
     tilted = Quaternion.from_rpy(0.5, 0.5, 0.0)
-    sensor_health.take("/imu/data", Imu(orientation=tilted, orientation_covariance=covariance), 1.0)
+    sensor_health.on_message("/imu/data", Imu(orientation=tilted, orientation_covariance=covariance), 1.0)
     assert sensor_health.measured(None).roll == 0.0
 
 
 def test_what_it_drives_with_is_missed_from_the_start_and_the_rest_once_it_was_there() -> None:
     sensor_health = SensorHealth()
     assert sensor_health.silent(0.0) == ["odometry", "laser"]
-    sensor_health.take("/odom", ODOM, 0.0)
-    sensor_health.take("/scan", LaserScan(), 0.0)
+    sensor_health.on_message("/odom", ODOM, 0.0)
+    sensor_health.on_message("/scan", LaserScan(), 0.0)
     assert sensor_health.silent(SENSOR_TIMEOUT) == []
-    sensor_health.take("/imu/data", Imu(), 0.0)
-    sensor_health.take("/odom", ODOM, 2.0)
+    sensor_health.on_message("/imu/data", Imu(), 0.0)
+    sensor_health.on_message("/odom", ODOM, 2.0)
     assert sensor_health.silent(2.0) == ["laser", "IMU"]
 
 
 def test_small_sensors_that_fell_silent_are_named() -> None:
     sensor_health = SensorHealth()
     for topic, message in (("/odom", ODOM), ("/scan", LaserScan()), ("/line_sensor", LineSensor())):
-        sensor_health.take(topic, message, 0.0)
-    sensor_health.take("/range/rear", Range(), 0.0)
+        sensor_health.on_message(topic, message, 0.0)
+    sensor_health.on_message("/range/rear", Range(), 0.0)
     for topic, message in (("/odom", ODOM), ("/scan", LaserScan())):
-        sensor_health.take(topic, message, 2.0)
+        sensor_health.on_message(topic, message, 2.0)
     assert sensor_health.silent(2.0) == ["line sensor", "rear ultrasound"]
 
 
@@ -85,7 +85,7 @@ def test_which_sensors_it_needs_depends_on_its_kind_and_on_what_it_has() -> None
 def test_a_boat_misses_no_laser() -> None:
     sensor_health = SensorHealth("boat")
     assert sensor_health.silent(0.0) == ["odometry"]
-    sensor_health.take("/odom", ODOM, 0.0)
+    sensor_health.on_message("/odom", ODOM, 0.0)
     assert sensor_health.silent(SENSOR_TIMEOUT) == []
 
 
@@ -97,7 +97,7 @@ def test_speed_is_over_ground_whichever_way_the_body_leans() -> None:
         (0.8, 0.0, Vector3(0.0, math.sin(0.8), math.cos(0.8)), (0.0, 0.0)),
     ):
         leans = Pose(Point(), Quaternion.from_rpy(roll, pitch, 2.0))
-        sensor_health.take(
+        sensor_health.on_message(
             "/odom", Odometry(pose=PoseWithCovariance(leans), twist=TwistWithCovariance(Twist(body))), 1.0
         )
         moving = sensor_health.measured(None).moving
