@@ -25,7 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.inputs.motion.shake import AXES, USUAL, Axis, Lesson, Own, Recogniser, fitted
+from app.inputs.motion.shake import AXES, USUAL, Axis, Lesson, PersonalAxis, Recogniser, fitted
 from app.inputs.motion.shake.lesson import READY
 from bench.support import motion
 from bench.support.figures import Figure
@@ -125,7 +125,7 @@ Fires = Callable[[float, tuple[float, float, float]], str]
 class Ours:
     """The recogniser, for anybody or for one person; says the direction, empty for nothing."""
 
-    def __init__(self, own: dict[Axis, Own] | None = None) -> None:
+    def __init__(self, own: dict[Axis, PersonalAxis] | None = None) -> None:
         self._recogniser = Recogniser(fitted(USUAL, own or {}))
 
     def __call__(self, t: float, axes: tuple[float, float, float]) -> str:
@@ -188,7 +188,7 @@ def _first(trial: Trial, fires: Fires) -> tuple[str, float] | None:
 
 
 def _recall(
-    kind: str, trials: list[Trial], made: Made, own: dict[str, dict[Axis, Own]] | None = None
+    kind: str, trials: list[Trial], made: Made, own: dict[str, dict[Axis, PersonalAxis]] | None = None
 ) -> dict[str, float]:
     """Shares understood, by direction, of the worst person, and misunderstood."""
     people: dict[tuple[str, str], list[bool]] = {}
@@ -207,9 +207,9 @@ def _recall(
     return found
 
 
-def lesson(takes: list[Recording]) -> dict[str, dict[Axis, Own]]:
+def lesson(takes: list[Recording]) -> dict[str, dict[Axis, PersonalAxis]]:
     """What the lesson measures of each person in the first take of each movement."""
-    found: dict[str, dict[Axis, Own]] = {}
+    found: dict[str, dict[Axis, PersonalAxis]] = {}
     for take in takes:
         axis: Axis = motion.SHAKES[take.label]  # type: ignore[assignment]
         own = found.setdefault(take.person, {})

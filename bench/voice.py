@@ -24,7 +24,7 @@ import numpy as np
 from app.inputs.voice.audio.noise import RATE
 from app.inputs.voice.audio.sound_files import Samples, chunks, read
 from app.inputs.voice.interfaces.speech_recognizer import Event, Grammar, Rejected, Result, VoiceTrouble
-from app.inputs.voice.recognition.hearing import Hearing, Judge, Phonemes
+from app.inputs.voice.recognition.hearing import Judge, Phonemes, SpeechPipeline
 from app.inputs.voice.recognition.lexicon import COMMANDS
 from app.inputs.voice.recognition.model import HamaModel
 from bench.support.figures import Figure, percentile
@@ -262,7 +262,7 @@ def listen(
     """Latency of each `stop` after its end [s], all events of words, and the cost as a share of real time."""
     told: Events = []
     heard: list[Event] = []
-    hearing = Hearing(Grammar(phrases), judge, heard.append)
+    hearing = SpeechPipeline(Grammar(phrases), judge, heard.append)
     hearing.heed(frozenset(phrases))
     rng, now, late, began = np.random.default_rng(2), 0.0, [], time.process_time()
     for place, clip in enumerate(clips):

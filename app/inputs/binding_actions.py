@@ -10,10 +10,10 @@ from collections.abc import Callable
 from typing import Any
 
 from app.inputs.base.button_presses import Press
-from app.inputs.keys.held_key import LONGEST, Held
+from app.inputs.keys.held_key import LONGEST, HeldKey
 from app.intents.intents import INTENTS, Heard
 
-__all__ = ["HOLDS", "MEANINGS", "Meanings", "meaning_icon", "meaning_words"]
+__all__ = ["HOLDS", "MEANINGS", "BindingActions", "meaning_icon", "meaning_words"]
 
 METHOD_OF = {"key": "keyboard", "pad": "gamepad"}
 HOLDS = {"talk": ("Talk while held", "mic"), "tilt": ("Tilt drives while held", "screen_rotation_alt")}
@@ -37,7 +37,7 @@ def meaning_icon(meaning: str) -> str:
     return MEANINGS.get(meaning, ("", "block"))[1]
 
 
-class Meanings:
+class BindingActions:
     """Does what a press means; `look` belongs to the heartbeat. Everything in the UI thread.
 
     What is held ends with its key or button, and where that is never told as keys that drive end (`app.inputs.keys.held_key`), or with
@@ -62,7 +62,7 @@ class Meanings:
         self._is_down, self._silent, self._on_lost = is_down, silent, on_lost
         self.held: dict[str, list[Callable[[bool], object]]] = {name: [] for name in HOLDS}
         """Who is told when one of `HOLDS` begins and ends."""
-        self._holding: dict[str, dict[tuple[str, int, str], Held]] = {name: {} for name in HOLDS}
+        self._holding: dict[str, dict[tuple[str, int, str], HeldKey]] = {name: {} for name in HOLDS}
         self._newest = ""
         """The key that went down last, which alone is repeated."""
 
@@ -116,7 +116,7 @@ class Meanings:
                 if why:
                     self._on_lost(f"{why}: let it go, and press it again for: {HOLDS[name][0]}.", held.press)
 
-    def _ended(self, held: Held) -> str | None:
+    def _ended(self, held: HeldKey) -> str | None:
         """Why nobody holds it any more; empty where it was simply let go, None where it is held."""
         press, now = held.press, self._now()
         if held.too_long(now):
@@ -129,7 +129,7 @@ class Meanings:
     def _hold(self, name: str, press: Press) -> bool:
         if not self.held[name]:
             return False
-        self._holding[name][press.same] = Held(press, press.at, press.at)
+        self._holding[name][press.same] = HeldKey(press, press.at, press.at)
         if len(self._holding[name]) == 1:
             self._tell(name, on=True)
         return True

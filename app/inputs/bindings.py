@@ -12,7 +12,7 @@ from app.inputs.gamepad.pad_map import Profile
 from app.inputs.keys import key_table
 from app.inputs.keys.key_table import KeyTable
 
-__all__ = ["Mapped"]
+__all__ = ["Bindings"]
 
 
 class _Settings(Protocol):
@@ -21,7 +21,7 @@ class _Settings(Protocol):
     def set(self, name: str, value: Any) -> None: ...
 
 
-class Mapped:
+class Bindings:
     """The table of the keys, and a profile for each gamepad by its name."""
 
     def __init__(self, settings: _Settings) -> None:

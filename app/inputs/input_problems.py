@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-__all__ = ["Problems"]
+__all__ = ["MethodProblems"]
 
 EVERY = 0.2
 """So often they are asked [s]."""
@@ -15,7 +15,7 @@ STAYS = 10.0
 ABOUT = "methods"
 
 
-class Problems:
+class MethodProblems:
     """Says each once when it begins, and takes it away when it has ended. Everything in the UI thread."""
 
     def __init__(self, app: Any) -> None:

@@ -17,14 +17,14 @@ from app.core.command_origin import origins
 from app.device import input_devices, rotation, sdl_library
 from app.inputs.base.button_presses import Press, Presses
 from app.inputs.base.text_focus import is_typing
-from app.inputs.binding_actions import Meanings
-from app.inputs.bindings import Mapped
-from app.inputs.gamepad.gamepad import Gamepads, News, Told
+from app.inputs.binding_actions import BindingActions
+from app.inputs.bindings import Bindings
+from app.inputs.gamepad.gamepad import Gamepads, KivyPads, PadEvent
 from app.inputs.gamepad.sdl import Sdl
 from app.inputs.keys.key_drive import KeyDrive
 from app.inputs.pad_news import PadNews
 from app.inputs.shortcuts import Shortcuts
-from app.inputs.stick_arbiter import Pushing
+from app.inputs.stick_arbiter import StickArbiter
 from app.intents.intents import Heard
 
 __all__ = ["BACK", "Inputs"]
@@ -49,7 +49,7 @@ class Inputs:
         self,
         app: Any,
         now: Callable[[], float] = time.monotonic,
-        source: Sdl | Told | None = None,
+        source: Sdl | KivyPads | None = None,
         devices: Callable[[], frozenset[int]] = input_devices,
         turned: Callable[[], int] = rotation,
     ) -> None:
@@ -59,7 +59,7 @@ class Inputs:
         """
         self._app, self._now = app, now
         self._source = source or _source()
-        self.mapped = Mapped(app.settings)
+        self.mapped = Bindings(app.settings)
         self._news = PadNews(app, lambda: self.gamepads)
         self.gamepads = Gamepads(
             now,
@@ -69,7 +69,7 @@ class Inputs:
         )
         self.keys = KeyDrive(now, lambda: self.mapped.keys, is_down=self._source.key, on_lost=self._say)
         self.keys.wanted = lambda: bool(self.sticks) and not is_typing()
-        self.meanings = Meanings(
+        self.meanings = BindingActions(
             app, now, is_down=self._source.key, silent=self.gamepads.silent, on_lost=self._lost
         )
         self.presses = Presses(self._is_stop, self._stop_by)
@@ -87,7 +87,7 @@ class Inputs:
         self._devices = devices
         self._there: frozenset[int] | None = None
         """What was plugged in at the last look, while a button of a gamepad holds something."""
-        self._pushing = Pushing(app, self.gamepads, self.keys, self._source, devices, turned, now)
+        self._pushing = StickArbiter(app, self.gamepads, self.keys, self._source, devices, turned, now)
         self._bound = self._bindings()
 
     def _bindings(self) -> dict[str, Callable[..., object]]:
@@ -214,7 +214,7 @@ class Inputs:
         return bool(self._app.back()) if key == BACK else False
 
     def _button_down(self, _: object, number: int, button: int) -> None:
-        if isinstance(self._source, Told):
+        if isinstance(self._source, KivyPads):
             self._source.button(number, button, down=True)
         pads = self.gamepads
         self.presses.press(
@@ -222,18 +222,18 @@ class Inputs:
         )
 
     def _button_up(self, _: object, number: int, button: int) -> None:
-        if isinstance(self._source, Told):
+        if isinstance(self._source, KivyPads):
             self._source.button(number, button, down=False)
         self.presses.release("pad", number, self.gamepads.button(number, button))
 
     def _axis(self, _: object, number: int, axis: int, value: int) -> None:
-        if isinstance(self._source, Told):
+        if isinstance(self._source, KivyPads):
             self._source.axis(number, axis, value)
 
     def _lost(self, why: str, press: Press) -> None:
         """What a key or a button held has ended; of a silent gamepad with the way out that its sticks have."""
         if press.source == "pad" and self.gamepads.silent(press.number):
-            self._news.tell(News("silent", self.gamepads.name(press.number)))
+            self._news.tell(PadEvent("silent", self.gamepads.name(press.number)))
         else:
             self._say(why)
 
@@ -242,10 +242,10 @@ class Inputs:
             self._app.shell.say(text, "warn", about="keys")
 
 
-def _source() -> Sdl | Told:
+def _source() -> Sdl | KivyPads:
     library = sdl_library()
     try:
-        return Sdl(library) if library is not None else Told()
+        return Sdl(library) if library is not None else KivyPads()
     except OSError as problem:
         log.warning("Gamepads are known by Kivy's events alone: %s", problem)
-        return Told()
+        return KivyPads()

@@ -15,8 +15,8 @@ from kivy.core.window import Window
 from app.core.command_origin import origins
 from app.core.optional_parts import is_included
 from app.device.motion import motion_source
-from app.inputs.input_problems import Problems
-from app.inputs.motion.motion_sensing import Sensing
+from app.inputs.input_problems import MethodProblems
+from app.inputs.motion.motion_sensing import MotionSensing
 from app.inputs.voice.process.ending import wait_for_ends
 from app.intents.intents import METHODS, Heard, Verdict
 
@@ -26,15 +26,15 @@ log = logging.getLogger(__name__)
 
 MADE_BY: dict[str, str] = {
     "log": "app.study.response_recording:ResponseRecording",
-    "talk": "app.inputs.voice.talkback:Talking",
+    "talk": "app.inputs.voice.talkback:Talkback",
     "voice": "app.inputs.voice.voice_input:VoiceInput",
-    "shake": "app.inputs.motion.shake_input:Shaking",
+    "shake": "app.inputs.motion.shake_input:ShakeInput",
     "tilt": "app.inputs.motion.tilt_input:TiltInput",
-    "switches": "app.inputs.switch_access.switches:Switches",
+    "switches": "app.inputs.switch_access.switches:SwitchAccess",
     "gamepad": "app.inputs.hand_methods:GamepadMethod",
     "keyboard": "app.inputs.hand_methods:KeyboardMethod",
 }
-"""Name of each to its module and class, as in `"shake": "app.inputs.motion.shake_input:Shaking"`; the class is called with the app.
+"""Name of each to its module and class, as in `"shake": "app.inputs.motion.shake_input:ShakeInput"`; the class is called with the app.
 
 A method whose module is left out of the build is not offered, and nothing is said of it.
 """
@@ -78,8 +78,8 @@ class Methods:
         self._paused = False
         self.faults: dict[str, str] = {}
         """Name of each that could not be made to one sentence why; everything else goes on without it."""
-        self._problems = Problems(app)
-        app.sensing = self.sensing = Sensing(motion_source(app.now), app.now)
+        self._problems = MethodProblems(app)
+        app.sensing = self.sensing = MotionSensing(motion_source(app.now), app.now)
         """The motion sensors of all of them."""
 
     def open(self) -> None:

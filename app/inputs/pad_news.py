@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from app.inputs.bindings import Mapped
-from app.inputs.gamepad.gamepad import Gamepads, News
+from app.inputs.bindings import Bindings
+from app.inputs.gamepad.gamepad import Gamepads, PadEvent
 from app.inputs.gamepad.pad_map import button_words
 
 __all__ = ["PadNews"]
@@ -21,7 +21,7 @@ class PadNews:
         self._offered: set[str] = set()
         """Gamepads whose silence was told before."""
 
-    def tell(self, news: News) -> None:
+    def tell(self, news: PadEvent) -> None:
         """Say one piece of news."""
         shell = self._app.shell
         if shell is None:
@@ -37,7 +37,7 @@ class PadNews:
         else:
             self._tell_silence(shell, news.name)
 
-    def problems(self, mapped: Mapped) -> list[str]:
+    def problems(self, mapped: Bindings) -> list[str]:
         """What is wrong in the settings, each told once, as soon as there is somewhere to say it."""
         found, mapped.problems = (
             (mapped.problems, []) if self._app.shell is not None else ([], mapped.problems)

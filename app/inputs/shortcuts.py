@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.inputs.base.button_presses import Press
-from app.inputs.binding_actions import Meanings
+from app.inputs.binding_actions import BindingActions
 from app.inputs.gamepad.pad_map import Profile
 from app.inputs.keys.key_table import FIXED, KeyTable
 
@@ -22,7 +22,7 @@ class Shortcuts:
 
     def __init__(
         self,
-        meanings: Meanings,
+        meanings: BindingActions,
         keys: Callable[[], KeyTable],
         profile: Callable[[str], Profile],
         typing: Callable[[], bool],

@@ -14,12 +14,12 @@ from kivy.base import EventLoop
 from kivy.core.window import Window
 
 from app.core.command_origin import Origin, origins
-from app.inputs.gamepad.gamepad import Gamepads, Told
+from app.inputs.gamepad.gamepad import Gamepads, KivyPads
 from app.inputs.gamepad.sdl import Sdl
 from app.inputs.keys.key_drive import KeyDrive
 from app.inputs.occlusion import covered
 
-__all__ = ["Pushing"]
+__all__ = ["StickArbiter"]
 
 Controls = list[tuple[Any, str]]
 
@@ -34,7 +34,7 @@ class _Pusher(Protocol):
     def forbid(self) -> None: ...
 
 
-class Pushing:
+class StickArbiter:
     """`look` belongs to the heartbeat. Everything in the UI thread."""
 
     def __init__(
@@ -42,7 +42,7 @@ class Pushing:
         app: Any,
         gamepads: Gamepads,
         keys: KeyDrive,
-        source: Sdl | Told,
+        source: Sdl | KivyPads,
         devices: Callable[[], frozenset[int]],
         turned: Callable[[], int],
         now: Callable[[], float],

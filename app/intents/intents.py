@@ -30,7 +30,7 @@ __all__ = [
     "LOCAL_INTENTS",
     "METHODS",
     "PRESSED",
-    "Acts",
+    "IntentActions",
     "Heard",
     "Intent",
     "Intents",
@@ -161,7 +161,7 @@ class Pending:
         return INTENTS[self.heard.intent]
 
 
-class Acts(Protocol):
+class IntentActions(Protocol):
     """What the app can do of what is wanted."""
 
     def why_not(self, intent: str) -> str:
@@ -180,7 +180,7 @@ class Acts(Protocol):
 class Intents:
     """Takes what was understood, lets what is risky wait, and acts."""
 
-    def __init__(self, acts: Acts, permits: Permits, now: Callable[[], float]) -> None:
+    def __init__(self, acts: IntentActions, permits: Permits, now: Callable[[], float]) -> None:
         """`now` is our clock [s]."""
         self._acts, self.table, self._now = acts, permits, now
         self.pending: Pending | None = None

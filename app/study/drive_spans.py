@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from app.study.response_timing import Tracks
+from app.study.response_timing import ResponseTracks
 
 __all__ = ["DriveSpans"]
 
@@ -15,7 +15,7 @@ MAX_GAP = 1.0
 class DriveSpans:
     """Of one run of the app."""
 
-    def __init__(self, tracks: Tracks) -> None:
+    def __init__(self, tracks: ResponseTracks) -> None:
         """`tracks` is given each span when it has ended."""
         self._tracks = tracks
         self._span: tuple[str, float, float] | None = None

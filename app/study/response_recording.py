@@ -23,7 +23,7 @@ from app.study.questionnaires import Workload
 from app.study.response_archive import ResponseArchive
 from app.study.response_log import Response
 from app.study.response_statistics import counts
-from app.study.response_timing import State, Tracks
+from app.study.response_timing import ResponseTracks, State
 from app.study.stop_all_track import StopAllTrack
 from app.study.study import Plan, Trials
 from app.study.study_export import SETTINGS
@@ -54,7 +54,7 @@ class ResponseRecording:
         self._given: Counter[str] = Counter()
         self._count = self.lines = 0
         """Commands, and lines of whatever kind, that were kept in this run."""
-        self.tracks = Tracks(self._put, now=app.now, wall=wall, new_id=lambda: uuid.uuid4().hex[:12])
+        self.tracks = ResponseTracks(self._put, now=app.now, wall=wall, new_id=lambda: uuid.uuid4().hex[:12])
         self._study = StudyRun(self.tracks, self._settings, app.now)
         self.tracks.asked = self._study.asked
         self._drives, self._stops = DriveSpans(self.tracks), StopAllTrack(self.tracks, self._stopped)

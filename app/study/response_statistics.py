@@ -15,7 +15,7 @@ from app.study.response_log import Response
 
 __all__ = [
     "PAPER",
-    "Falses",
+    "FalseActivations",
     "Rate",
     "Spread",
     "counts",
@@ -72,7 +72,7 @@ class Spread:
 
 
 @dataclass(frozen=True, slots=True)
-class Falses:
+class FalseActivations:
     """Commands that nobody meant."""
 
     count: int
@@ -196,7 +196,7 @@ def times(responses: Iterable[Response], until: str = "sent") -> dict[tuple[str,
     return {key: made for key, values in found.items() if (made := spread(values)) is not None}
 
 
-def false_activations(responses: Iterable[Response]) -> dict[str, Falses]:
+def false_activations(responses: Iterable[Response]) -> dict[str, FalseActivations]:
     """Commands nobody meant, by method: in the study what came unprompted, outside of it what was taken back."""
     listening: defaultdict[str, float] = defaultdict(float)
     count: Counter[str] = Counter()
@@ -207,7 +207,7 @@ def false_activations(responses: Iterable[Response]) -> dict[str, Falses]:
             in_study = one.posture and one.user
             count[one.method] += bool(in_study and not one.intended) or (not in_study and one.undo)
     return {
-        method: Falses(count[method], listening[method] / 3600)
+        method: FalseActivations(count[method], listening[method] / 3600)
         for method in sorted({*listening, *(name for name, some in count.items() if some)})
     }
 

@@ -18,7 +18,7 @@ from app.intents.intents import INTENTS, LOCAL_INTENTS, Heard, Verdict
 from app.link.commands import Outcome
 from app.study.response_log import Response
 
-__all__ = ["EFFECT_WITHIN", "UNDO_WITHIN", "Asked", "State", "Tracks"]
+__all__ = ["EFFECT_WITHIN", "UNDO_WITHIN", "Asked", "State", "ResponseTracks"]
 
 EFFECT_WITHIN = 10.0
 """A change of the robot's state later than this after the command is not its effect [s]."""
@@ -110,7 +110,7 @@ def _known(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-class Tracks:
+class ResponseTracks:
     """The commands that are under way."""
 
     def __init__(

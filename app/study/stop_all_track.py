@@ -8,7 +8,7 @@ from typing import Any
 
 from app.core.command_origin import origins
 from app.link.commands import Outcome
-from app.study.response_timing import Tracks
+from app.study.response_timing import ResponseTracks
 
 __all__ = ["StopAllTrack"]
 
@@ -16,7 +16,7 @@ __all__ = ["StopAllTrack"]
 class StopAllTrack:
     """Put down with the tick after it was pressed; done when every robot says that it rests."""
 
-    def __init__(self, tracks: Tracks, on_sent: Callable[[Outcome], object]) -> None:
+    def __init__(self, tracks: ResponseTracks, on_sent: Callable[[Outcome], object]) -> None:
         """`on_sent` is called when it was put down."""
         self._tracks, self._on_sent = tracks, on_sent
         self._outcome: Outcome | None = None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.intents.intents import INTENTS, Heard
-from app.study.response_timing import Asked, Tracks
+from app.study.response_timing import Asked, ResponseTracks
 from app.study.study import Plan, Prompt, Trials, saved
 from app.study.study_settings import StudySettings
 
@@ -15,7 +15,7 @@ __all__ = ["StudyRun"]
 class StudyRun:
     """Of one app. Everything in the UI thread."""
 
-    def __init__(self, tracks: Tracks, settings: StudySettings, now: Callable[[], float]) -> None:
+    def __init__(self, tracks: ResponseTracks, settings: StudySettings, now: Callable[[], float]) -> None:
         """Goes on with the study that was left in the middle, if there is one; `now` is our clock [s]."""
         self._tracks, self._settings, self._now = tracks, settings, now
         self.trials: Trials | None = None

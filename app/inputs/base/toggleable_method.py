@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-__all__ = ["Switched"]
+__all__ = ["ToggleableMethod"]
 
 
-class Switched:
+class ToggleableMethod:
     """Part of a method of `app.inputs.methods`: whoever has it sets `_app` and `_on`, and says in `_kept` what is kept."""
 
     name: str

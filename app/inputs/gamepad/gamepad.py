@@ -1,6 +1,6 @@
 """Gamepads: which one drives, how far it leans, and when it must not, because it went, says nothing, or was never let go.
 
-What they measure comes from SDL (`app.inputs.gamepad.sdl`) or, where that cannot be asked, from Kivy's events (`Told`).
+What they measure comes from SDL (`app.inputs.gamepad.sdl`) or, where that cannot be asked, from Kivy's events (`KivyPads`).
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from app.inputs.gamepad.pad_map import Profile
 from app.inputs.gamepad.sdl import PadState
 
-__all__ = ["SILENT", "Gamepads", "News", "Told"]
+__all__ = ["SILENT", "Gamepads", "PadEvent", "KivyPads"]
 
 SILENT = 0.12
 """A pushed gamepad that measures nothing new for longer drives nothing [s]."""
@@ -22,7 +22,7 @@ AXES, RIGHT_AXES, FOUR = (0, 1), (2, 3), ("a", "b", "x", "y")
 
 
 @dataclass(frozen=True, slots=True)
-class News:
+class PadEvent:
     """Something about a gamepad that the operator is told."""
 
     what: str
@@ -49,7 +49,7 @@ class Gamepads:
         self,
         now: Callable[[], float],
         *,
-        on_news: Callable[[News], object],
+        on_news: Callable[[PadEvent], object],
         wired: Collection[str] = (),
         profile: Callable[[str], Profile] = lambda _: Profile(),
     ) -> None:
@@ -100,7 +100,7 @@ class Gamepads:
             known = self._known.get(number)
             if known is None:
                 self._known[number] = _Known(state, self._now())
-                self._on_news(News("plugged", state.name))
+                self._on_news(PadEvent("plugged", state.name))
                 continue
             if state.raw != known.state.raw:
                 if self._now() - known.alive > REARM and self._pushed(known):
@@ -133,7 +133,7 @@ class Gamepads:
     def lose(self) -> None:
         """The system took an input device away and does not say which: no gamepad drives until it is let go."""
         if self._driver is not None:
-            self._on_news(News("unplugged driving", self._known[self._driver].state.name))
+            self._on_news(PadEvent("unplugged driving", self._known[self._driver].state.name))
         self.forbid()
 
     def forbid(self) -> None:
@@ -167,7 +167,7 @@ class Gamepads:
         silent = pushed and self.silent(number)
         if silent and known.centred and not known.told_silent:
             known.told_silent = True
-            self._on_news(News("silent", known.state.name))
+            self._on_news(PadEvent("silent", known.state.name))
         if known.told_silent and not silent:
             known.told_silent = False
         if drives and (silent or not pushed or not known.centred or not self.on):
@@ -181,10 +181,10 @@ class Gamepads:
         known, drives = self._known.pop(number), self._driver == number
         if drives:
             self._driver = None
-        self._on_news(News("unplugged driving" if drives else "unplugged", known.state.name))
+        self._on_news(PadEvent("unplugged driving" if drives else "unplugged", known.state.name))
 
 
-class Told:
+class KivyPads:
     """Gamepads as Kivy's events tell of them, for a system whose SDL cannot be asked: none ever comes out."""
 
     def __init__(self) -> None:

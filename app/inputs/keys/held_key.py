@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from app.inputs.base.button_presses import Press
 
-__all__ = ["GAP", "LONGEST", "REPEATS", "Held"]
+__all__ = ["GAP", "LONGEST", "REPEATS", "HeldKey"]
 
 GAP = 0.3
 """A key whose repeats have come and stay away for longer was let go, though nobody told [s]."""
@@ -18,7 +18,7 @@ LONGEST = 30.0
 
 
 @dataclass(slots=True)
-class Held:
+class HeldKey:
     """A key or a button that is down."""
 
     press: Press

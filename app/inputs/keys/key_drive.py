@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 
 from app.inputs.base.button_presses import Press
-from app.inputs.keys.held_key import GAP, LONGEST, Held
+from app.inputs.keys.held_key import GAP, LONGEST, HeldKey
 from app.inputs.keys.key_table import ARROWS, DRIVING, KeyTable
 
 __all__ = ["GAP", "LONGEST", "KeyDrive"]
@@ -44,7 +44,7 @@ class KeyDrive:
         """What is pushed now, of `left` and `right`."""
         self.wanted: Callable[[], bool] = lambda: True
         """Driving keys mean something now: there is a control on the glass, and nothing is being typed."""
-        self._held: dict[str, Held] = {}
+        self._held: dict[str, HeldKey] = {}
         self._newest = ""
         self._slow = False
         self._began: float | None = None
@@ -65,7 +65,7 @@ class KeyDrive:
         self._newest = name if name in PUSHES and self.wanted() else ""
         if not self._newest:
             return False
-        self._held[name] = Held(press, press.at, press.at)
+        self._held[name] = HeldKey(press, press.at, press.at)
         return True
 
     def released(self, press: Press) -> None:
@@ -126,11 +126,11 @@ class KeyDrive:
         left = sum(PUSHES[name][1] for name in mine)
         return share * max(-1, min(1, ahead)), share * max(-1, min(1, left))
 
-    def _silent(self, name: str, held: Held) -> bool:
+    def _silent(self, name: str, held: HeldKey) -> bool:
         """Its repeats stay away, which only the key that went down last can be judged by."""
         return name == self._newest and held.silent(self._now())
 
-    def _judge(self, name: str, held: Held) -> None:
+    def _judge(self, name: str, held: HeldKey) -> None:
         """It is stale when the system has it down no longer, or when it was held for too long."""
         if held.stale:
             return

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 
 from app.device.motion import GRAVITY, KINDS, Axes, Kind, MotionError, MotionSource
 
-__all__ = ["SILENT", "Fault", "Health", "Judge", "Sensing"]
+__all__ = ["SILENT", "Fault", "Health", "Judge", "MotionSensing"]
 
 log = logging.getLogger(__name__)
 
@@ -153,7 +153,7 @@ class _Kind:
     feeds: list[Feed] = field(default_factory=list)
 
 
-class Sensing:
+class MotionSensing:
     """Owns the source. Everything but the source's own call happens in the UI thread; `look` belongs to the heartbeat."""
 
     def __init__(self, source: MotionSource, now: Callable[[], float] = time.monotonic) -> None:

@@ -14,14 +14,14 @@ from typing import Any
 
 from app.core.checked_settings import Kept, known, shown
 from app.device import rotation, vibrate
-from app.inputs.base.toggleable_method import Switched
+from app.inputs.base.toggleable_method import ToggleableMethod
 from app.inputs.motion.shake import (
     LEAST_RATE,
     USUAL,
     WORDS,
     Axis,
     Lesson,
-    Own,
+    PersonalAxis,
     Recogniser,
     Shake,
     fitted,
@@ -32,7 +32,7 @@ from app.inputs.motion.shake.gravity import Motion
 from app.inputs.motion.tilt import turned
 from app.intents.intents import Heard
 
-__all__ = ["CHOICES", "USUAL_MEANING", "Shaking"]
+__all__ = ["CHOICES", "USUAL_MEANING", "ShakeInput"]
 
 USUAL_MEANING: dict[Axis, str] = {"ud": "pause", "fb": "resume"}
 """A nod of the hand is what one tells somebody to slow down with, and a push forward to go on; neither begins anything new."""
@@ -53,7 +53,7 @@ LEAST_FOR_STOP = 15.0
 """A sensor that loses samples is said to be slow, and a STOP that was understood all the same is done [Hz]."""
 
 
-class Shaking(Switched):
+class ShakeInput(ToggleableMethod):
     """The method `shake`."""
 
     name = "shake"
@@ -95,7 +95,7 @@ class Shaking(Switched):
             else:
                 self.mistaken = f"{WORDS[axis]} cannot mean {shown(intent)}; it means {USUAL_MEANING[axis]}."
         try:
-            self.own: dict[Axis, Own] = own_from(kept.get("own", {}))
+            self.own: dict[Axis, PersonalAxis] = own_from(kept.get("own", {}))
         except ValueError as problem:
             self.own, self.mistaken = {}, f"{problem} The lesson has to be done again."
 

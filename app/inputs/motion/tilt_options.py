@@ -7,7 +7,7 @@ from typing import Any
 
 from app.core.checked_settings import Kept, number
 from app.device.motion import Axes
-from app.inputs.base.toggleable_method import Switched
+from app.inputs.base.toggleable_method import ToggleableMethod
 from app.inputs.motion.tilt import Tilt, TiltSettings
 
 __all__ = ["TiltOptions"]
@@ -15,7 +15,7 @@ __all__ = ["TiltOptions"]
 NAMES = frozenset(field.name for field in fields(TiltSettings))
 
 
-class TiltOptions(Switched):
+class TiltOptions(ToggleableMethod):
     """Part of the method `tilt`."""
 
     name = "tilt"

@@ -26,13 +26,13 @@ from app.inputs.switch_access.step_feedback import StepFeedback
 from app.inputs.switch_access.typing_guard import TypingGuard, types_letters
 from app.intents.intents import Heard
 
-__all__ = ["Switches"]
+__all__ = ["SwitchAccess"]
 
 OTHERS = frozenset({"ctrl", "alt", "meta"})
 """With one of these held a key is a shortcut and no switch."""
 
 
-class Switches:
+class SwitchAccess:
     """A method as `app.inputs.methods` wants them. Everything in the UI thread."""
 
     name = "switches"
@@ -154,9 +154,9 @@ class Switches:
     def engine(self) -> Engine:
         """What turns presses into selections, made when it is first asked for."""
         if self._engine is None:
-            from app.inputs.switch_access.window.targets import OnGlass
+            from app.inputs.switch_access.window.targets import WindowTargets
 
-            self._glass = OnGlass(self._app)
+            self._glass = WindowTargets(self._app)
             planner = Planner(self._usage.frozen)
             desk = _Desk(self)
             self._engine = Engine(self._glass, planner, desk, self.options.timing, self.options.pace)
@@ -282,6 +282,6 @@ class Switches:
 class _Desk:
     """Switches as the engine knows them: there STOP is STOP."""
 
-    def __init__(self, switches: Switches) -> None:
+    def __init__(self, switches: SwitchAccess) -> None:
         self.stop = switches.halt
         self.do, self.stepped, self.stuck = switches.do, switches.stepped, switches.stuck

@@ -21,7 +21,7 @@ from typing import Any, Literal
 from app.core.checked_settings import Kept
 from app.core.notifications import tell
 from app.device import is_android
-from app.inputs.base.toggleable_method import Switched
+from app.inputs.base.toggleable_method import ToggleableMethod
 from app.inputs.voice.interfaces.speaker import Speaker
 from app.inputs.voice.speech.tts import VOICES, choose_voice, speaker_of
 from app.intents.intents import LOCAL_INTENTS, Heard, Verdict
@@ -29,7 +29,7 @@ from app.link.channels import EVENT, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
 
-__all__ = ["RATES", "Talking", "aloud"]
+__all__ = ["RATES", "Talkback", "aloud"]
 
 Kind = Literal["answer", "alarm", "label"]
 RATES = (0.7, 1.6)
@@ -72,7 +72,7 @@ def _android_or(voice: str) -> Speaker:
     return speaker_of(voice)
 
 
-class Talking(Switched):
+class Talkback(ToggleableMethod):
     """`app.talk`, and an entry of `app.inputs.methods` that is no way in."""
 
     name = "talk"

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from app.core.checked_settings import Kept, known, shown
-from app.inputs.base.toggleable_method import Switched
+from app.inputs.base.toggleable_method import ToggleableMethod
 from app.inputs.voice.recognition.phrases import PHRASES
 from app.inputs.voice.recognizers import BEST, RECOGNIZERS
 
@@ -53,7 +53,7 @@ def read_settings(value: object) -> tuple[VoiceSettings, str]:
     return VoiceSettings(on, hands_free, language, recognizer, model), mistaken
 
 
-class VoiceOptions(Switched):
+class VoiceOptions(ToggleableMethod):
     """The settings as a pane changes them: what is assigned is kept at once, and voice input goes by it."""
 
     name = "voice"

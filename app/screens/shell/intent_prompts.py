@@ -12,7 +12,7 @@ from app.screens.parts.method_signs import METHOD_SIGNS
 from app.screens.shell.notices import Notices
 from widgets import IntentCard
 
-__all__ = ["Wishes", "heard_words"]
+__all__ = ["IntentPrompts", "heard_words"]
 
 ABOUT = "intent"
 """What the sentences tell of."""
@@ -31,7 +31,7 @@ def heard_words(heard: Heard) -> str:
     return f"{name}{what}{sure}"
 
 
-class Wishes:
+class IntentPrompts:
     """The card of one robot's frame."""
 
     def __init__(self, intents: Intents, notices: Notices, say: Any) -> None:

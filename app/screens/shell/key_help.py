@@ -8,7 +8,7 @@ from kivy.lang import Builder
 
 import widgets.inputs.key_help  # noqa: F401 - its rule draws what is used here
 from app.inputs.binding_actions import MEANINGS, meaning_words
-from app.inputs.bindings import Mapped
+from app.inputs.bindings import Bindings
 from app.inputs.gamepad.pad_map import AXES, WAYS, Profile, button_words
 from app.inputs.keys.key_table import ARROWS, DRIVING, KeyTable, key_words
 from app.inputs.switch_access.scan.settings import Options
@@ -72,7 +72,7 @@ def toggle_help(app: Any) -> None:
     app.root.add_widget(card)
 
 
-def help_groups(mapped: Mapped, pads: list[str], switches: Options | None = None) -> list[tuple[str, Rows]]:
+def help_groups(mapped: Bindings, pads: list[str], switches: Options | None = None) -> list[tuple[str, Rows]]:
     """Title and rows of each group: caps, and what they do; `pads` are the names of the gamepads that are plugged in.
 
     `switches` are the options of the switches; None where there are none.

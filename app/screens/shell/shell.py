@@ -17,7 +17,7 @@ from app.screens.parts.placing import put
 from app.screens.shell import status_text as standing
 from app.screens.shell.announcements import Announcements
 from app.screens.shell.control_cards import ControlCards
-from app.screens.shell.intent_prompts import Wishes
+from app.screens.shell.intent_prompts import IntentPrompts
 from app.screens.shell.link_banner import LinkBanner
 from app.screens.shell.notices import BRIEF, Notices
 from app.screens.shell.rail import Rail
@@ -83,7 +83,7 @@ class Shell(FloatLayout):
         self.cards = ControlCards(self.session, self.notices, self._dashboard, self.say)
         self.reset = Resetting(self.session, self.notices)
         self._announcements = Announcements(self.session, self, self.reset)
-        self.wishes = Wishes(self.app.intents, self.notices, self.say)
+        self.wishes = IntentPrompts(self.app.intents, self.notices, self.say)
         self._dashboard.enter()
         self.session.listeners.append(self._hear)
         self._announcements.greet()

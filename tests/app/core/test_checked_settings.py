@@ -12,14 +12,14 @@ import pytest
 from app.core.checked_settings import Kept, known, number, shown
 from app.device.motion import NoMotion
 from app.discovery.known_robots import Robots
-from app.inputs.bindings import Mapped
-from app.inputs.motion.motion_sensing import Sensing
-from app.inputs.motion.shake_input import Shaking
+from app.inputs.bindings import Bindings
+from app.inputs.motion.motion_sensing import MotionSensing
+from app.inputs.motion.shake_input import ShakeInput
 from app.inputs.motion.tilt_input import TiltInput
 from app.inputs.switch_access.scan import settings as switches
-from app.inputs.switch_access.switches import Switches
+from app.inputs.switch_access.switches import SwitchAccess
 from app.inputs.switch_access.usage import Usage
-from app.inputs.voice.talkback import Talking
+from app.inputs.voice.talkback import Talkback
 from app.inputs.voice.voice_input import VoiceInput
 from app.intents.intents import Intents
 from app.intents.method_permits import Permits
@@ -67,7 +67,7 @@ class Desk:
         )
         self.session = self.shell = None
         self.corner = SimpleNamespace(on_pressed=[])
-        self.sensing = Sensing(NoMotion("none"), self.now)
+        self.sensing = MotionSensing(NoMotion("none"), self.now)
         self.permits = Permits(self.settings)
         self.intents = Intents(SimpleNamespace(), self.permits, self.now)
 
@@ -77,18 +77,18 @@ class Desk:
     def made(self, name: str) -> str:
         """Make what reads those settings; what it says about them."""
         if name in ("keys", "gamepads", "wired_gamepads"):
-            mapped = Mapped(self.settings)
+            mapped = Bindings(self.settings)
             mapped.profile("Pad")
             return " ".join(mapped.problems)
         if name == "intents":
             return self.permits.problem
         if name == "switches":
-            return switches.read(Switches(self)._app.settings.get("switches"))[1]
+            return switches.read(SwitchAccess(self)._app.settings.get("switches"))[1]
         kinds = {
             "voice": VoiceInput,
-            "shake": Shaking,
+            "shake": ShakeInput,
             "tilt": TiltInput,
-            "talk": Talking,
+            "talk": Talkback,
             "study": ResponseRecording,
         }
         method = kinds[name](self)

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from app.inputs.base.button_presses import Press
-from app.inputs.binding_actions import MEANINGS, Meanings, meaning_icon, meaning_words
+from app.inputs.binding_actions import MEANINGS, BindingActions, meaning_icon, meaning_words
 from app.inputs.gamepad.pad_map import MEANT, Profile
 from app.inputs.keys.held_key import LONGEST
 from app.inputs.keys.key_table import KeyTable
@@ -39,7 +39,7 @@ class Desk:
         self.time, self.said = 12.5, []
         self.system: set[int] = set()
         self.silent: set[int] = set()
-        self.meanings = Meanings(
+        self.meanings = BindingActions(
             app,
             lambda: self.time,
             is_down=self.system.__contains__,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from app.inputs.bindings import Mapped
+from app.inputs.bindings import Bindings
 from app.inputs.gamepad.pad_map import Profile
 from app.inputs.keys.key_table import KeyTable
 
@@ -17,9 +17,9 @@ class Settings(dict[str, Any]):
 
 def test_each_kind_of_gamepad_has_its_own_profile_and_keeps_it() -> None:
     settings = Settings()
-    mapped = Mapped(settings)
+    mapped = Bindings(settings)
     mapped.set_profile("Red", Profile(dead_zone=0.3))
-    again = Mapped(settings)
+    again = Bindings(settings)
     assert again.profile("Red").dead_zone == 0.3
     assert again.profile("Blue") == Profile()
     assert (again.changed("Red"), again.changed("Blue")) == (True, False)
@@ -27,7 +27,7 @@ def test_each_kind_of_gamepad_has_its_own_profile_and_keeps_it() -> None:
 
 def test_put_back_it_is_as_at_first_and_nothing_is_kept_of_it() -> None:
     settings = Settings()
-    mapped = Mapped(settings)
+    mapped = Bindings(settings)
     mapped.set_profile("Red", Profile(dead_zone=0.3))
     mapped.reset_profile("Red")
     assert mapped.profile("Red") == Profile()
@@ -36,15 +36,15 @@ def test_put_back_it_is_as_at_first_and_nothing_is_kept_of_it() -> None:
 
 def test_keys_and_whether_gamepads_count_are_kept() -> None:
     settings = Settings()
-    mapped = Mapped(settings)
+    mapped = Bindings(settings)
     mapped.set_keys(replace(KeyTable(), drives=False))
     mapped.use_pads(False)
-    again = Mapped(settings)
+    again = Bindings(settings)
     assert (again.keys.drives, again.pads_on) == (False, False)
 
 
 def test_what_is_wrong_is_said_once_it_is_looked_at() -> None:
-    mapped = Mapped(Settings(keys={"rise": -1}, gamepads={"profiles": {"Red": {"expo": 7}}}))
+    mapped = Bindings(Settings(keys={"rise": -1}, gamepads={"profiles": {"Red": {"expo": 7}}}))
     assert mapped.problems == ["The keys' rise is from 0.0 to 2.0, not -1: 0.3 is used."]
     mapped.profile("Red")
     mapped.profile("Red")
@@ -52,7 +52,7 @@ def test_what_is_wrong_is_said_once_it_is_looked_at() -> None:
 
 
 def test_what_is_no_table_at_all_is_as_at_first() -> None:
-    mapped = Mapped(Settings(gamepads="all"))
+    mapped = Bindings(Settings(gamepads="all"))
     assert mapped.problems == [
         "In the settings of gamepads what is kept is no table but 'all': as usual again."
     ]

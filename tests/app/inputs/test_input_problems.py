@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from app.inputs.input_problems import CALM, Problems
+from app.inputs.input_problems import CALM, MethodProblems
 
 
 class Glass:
@@ -38,7 +38,7 @@ class Desk:
         self.all = {"shake": Method(), "voice": Method()}
         self.on = ["shake", "voice"]
         self.methods: Any = self
-        self.problems = Problems(self)
+        self.problems = MethodProblems(self)
 
     @property
     def armed(self) -> list[str]:

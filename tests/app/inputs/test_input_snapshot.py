@@ -6,12 +6,12 @@ import json
 from types import SimpleNamespace
 from typing import Any
 
-from app.inputs.bindings import Mapped
+from app.inputs.bindings import Bindings
 from app.inputs.gamepad.pad_map import Profile
 from app.inputs.input_snapshot import set_up
-from app.inputs.motion.shake_input import Shaking
+from app.inputs.motion.shake_input import ShakeInput
 from app.inputs.motion.tilt_input import TiltInput
-from app.inputs.switch_access.switches import Switches
+from app.inputs.switch_access.switches import SwitchAccess
 from app.inputs.voice.voice_input import VoiceInput
 from app.intents.method_permits import Permits
 from tests.app.inputs.pushing import Settings
@@ -20,9 +20,9 @@ from tests.app.inputs.pushing import Settings
 def test_what_nobody_changed_is_told_as_well_and_can_be_written_as_json() -> None:
     app: Any = SimpleNamespace(settings=Settings(), now=lambda: 1.0, session=None)
     app.intents = SimpleNamespace(table=Permits(app.settings))
-    made = {"shake": Shaking(app), "voice": VoiceInput(app)}
+    made = {"shake": ShakeInput(app), "voice": VoiceInput(app)}
     app.methods = SimpleNamespace(get=made.get)
-    app.inputs = SimpleNamespace(mapped=Mapped(app.settings))
+    app.inputs = SimpleNamespace(mapped=Bindings(app.settings))
     told = json.loads(json.dumps(set_up(app)))
     assert told["voice"] == {"on": False, "hands_free": False, "language": "en"}
     assert told["shake"]["ud"] == made["shake"].meaning["ud"]
@@ -34,4 +34,6 @@ def test_what_nobody_changed_is_told_as_well_and_can_be_written_as_json() -> Non
 
 
 def test_each_method_that_is_told_of_says_what_it_is_set_to() -> None:
-    assert all(isinstance(kind.set_to, property) for kind in (Shaking, VoiceInput, TiltInput, Switches))
+    assert all(
+        isinstance(kind.set_to, property) for kind in (ShakeInput, VoiceInput, TiltInput, SwitchAccess)
+    )

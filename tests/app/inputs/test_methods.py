@@ -54,7 +54,7 @@ class Unstartable(Made):
         raise OSError("never began")
 
 
-class Acts:
+class IntentActions:
     """A task can be begun, and nothing is asked."""
 
     def __init__(self) -> None:
@@ -82,7 +82,7 @@ class App:
             setattr(module, name, kind)
         monkeypatch.setitem(sys.modules, "made_here", module)
         monkeypatch.setattr(methods_of, "MADE_BY", {name: f"made_here:{name}" for name in made})
-        self.time, self.said, self.acts = 100.0, [], Acts()
+        self.time, self.said, self.acts = 100.0, [], IntentActions()
         self.shell = None
         self.connect = SimpleNamespace(say=lambda text, level: self.said.append(text))
         self.intents = Intents(self.acts, Permits(Settings()), self.now)

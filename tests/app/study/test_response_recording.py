@@ -28,7 +28,7 @@ from app.study.study_export import COLUMNS, MEANINGS, table
 TLX = dict.fromkeys(("mental", "physical", "temporal", "performance", "effort", "frustration"), 20)
 
 
-class Acts:
+class IntentActions:
     def __init__(self) -> None:
         self.done, self.robots = [], 0
 
@@ -70,7 +70,7 @@ class Running:
         self.open()
 
     def open(self) -> None:
-        self.settings, self.acts = Settings(self.folder), Acts()
+        self.settings, self.acts = Settings(self.folder), IntentActions()
         self.app = SimpleNamespace(
             settings=self.settings,
             now=lambda: self.time,

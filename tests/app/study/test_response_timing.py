@@ -11,7 +11,7 @@ import pytest
 from app.core.command_origin import NOBODY, Origin
 from app.intents.intents import Heard, Verdict
 from app.link.commands import Outcome
-from app.study.response_timing import EFFECT_WITHIN, MOST, UNDO_WITHIN, Asked, State, Tracks
+from app.study.response_timing import EFFECT_WITHIN, MOST, UNDO_WITHIN, Asked, ResponseTracks, State
 
 WALL = 1_700_000_000.0
 
@@ -22,7 +22,7 @@ class Followed:
     def __init__(self) -> None:
         self.now, self.lines = 50.0, []
         numbers = itertools.count(1)
-        self.tracks = Tracks(
+        self.tracks = ResponseTracks(
             self.lines.append,
             now=lambda: self.now,
             wall=lambda: WALL + self.now - 50.0,

@@ -2,7 +2,17 @@
 
 from app.inputs.motion.shake.lesson import Lesson
 from app.inputs.motion.shake.recogniser import LEAST_RATE, Recogniser, Shake
-from app.inputs.motion.shake.tuning import AXES, USUAL, WORDS, Axis, Own, Tuning, fitted, own_from, own_to
+from app.inputs.motion.shake.tuning import (
+    AXES,
+    USUAL,
+    WORDS,
+    Axis,
+    PersonalAxis,
+    Tuning,
+    fitted,
+    own_from,
+    own_to,
+)
 
 __all__ = [
     "AXES",
@@ -11,7 +21,7 @@ __all__ = [
     "WORDS",
     "Axis",
     "Lesson",
-    "Own",
+    "PersonalAxis",
     "Recogniser",
     "Shake",
     "Tuning",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["GRAVITY", "Ground", "Motion"]
+__all__ = ["GRAVITY", "GravityFilter", "Motion"]
 
 GRAVITY = 9.80665
 """[m/s²]"""
@@ -20,7 +20,7 @@ SIDEWAYS, UPRIGHT = (0.6, 1.7), (0.45, 1.2)
 below the second."""
 
 
-class Ground:
+class GravityFilter:
     """Follows gravity with a low-pass that hesitates while the hand moves."""
 
     def __init__(self, settling: float) -> None:

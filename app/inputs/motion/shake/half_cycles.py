@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["Halves"]
+__all__ = ["HalfCycles"]
 
 JUST = 0.3
 """A run that is no older belongs to the burst that begins [s]."""
 
 
-class Halves:
+class HalfCycles:
     """A run of them: each goes over the threshold on the other side of zero, and soon enough after the one before."""
 
     __slots__ = ("_side", "cap", "count", "evidence", "gap", "last", "peak", "since", "sum", "threshold")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from statistics import median
 
-from app.inputs.motion.shake.gravity import Ground, Motion
+from app.inputs.motion.shake.gravity import GravityFilter, Motion
 from app.inputs.motion.shake.spread import Spread, Turning
 from app.inputs.motion.shake.tuning import (
     AXES,
@@ -18,7 +18,7 @@ from app.inputs.motion.shake.tuning import (
     USUAL,
     WORDS,
     Axis,
-    Own,
+    PersonalAxis,
 )
 
 __all__ = ["MOVING", "READY", "Lesson", "Measured", "measure"]
@@ -43,7 +43,7 @@ LEAK = 0.25
 class Measured:
     """What one movement came to."""
 
-    own: Own | None
+    own: PersonalAxis | None
     """None where it cannot be used."""
     sentence: str
     """Why not; empty where it can."""
@@ -54,10 +54,10 @@ class Lesson:
 
     def __init__(self, ask: tuple[Axis, ...] = AXES) -> None:
         self._asked = list(ask)
-        self._ground = Ground(USUAL.settling)
+        self._ground = GravityFilter(USUAL.settling)
         self._since = self._last = math.nan
         self._moved: list[tuple[float, Motion]] = []
-        self.own: dict[Axis, Own] = {}
+        self.own: dict[Axis, PersonalAxis] = {}
         """What is measured so far."""
         self.sentence = ""
         """Why the movement before has to be done again; empty where it need not."""
@@ -112,7 +112,7 @@ class Lesson:
             self._asked.pop(0)
 
 
-def measure(axis: Axis, moved: list[tuple[float, Motion]], others: dict[Axis, Own]) -> Measured:
+def measure(axis: Axis, moved: list[tuple[float, Motion]], others: dict[Axis, PersonalAxis]) -> Measured:
     """What samples of one movement, with their times [s], say; `others` are those that it must differ from."""
     name = WORDS[axis]
     spread = _spread(moved)
@@ -130,7 +130,7 @@ def measure(axis: Axis, moved: list[tuple[float, Motion]], others: dict[Axis, Ow
             return Measured(
                 None, f"{name} looked like {WORDS[other].lower()}: do it once more, along another line."
             )
-    return Measured(Own(spread.way, min(median(peaks), MOST_PEAK), max(gap, LEAST_GAP)), "")
+    return Measured(PersonalAxis(spread.way, min(median(peaks), MOST_PEAK), max(gap, LEAST_GAP)), "")
 
 
 def _spread(moved: list[tuple[float, Motion]]) -> Spread:

@@ -15,8 +15,8 @@ from collections import deque
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from app.inputs.motion.shake.gravity import Ground, Motion
-from app.inputs.motion.shake.half_cycles import Halves
+from app.inputs.motion.shake.gravity import GravityFilter, Motion
+from app.inputs.motion.shake.half_cycles import HalfCycles
 from app.inputs.motion.shake.shake_axes import lines
 from app.inputs.motion.shake.spread import Spread, Turning
 from app.inputs.motion.shake.tuning import AXES, USUAL, Axis, Tuning
@@ -130,9 +130,9 @@ class Recogniser:
 
     def _anew(self) -> None:
         tuning = self._tuning
-        self._ground = Ground(tuning.settling)
+        self._ground = GravityFilter(tuning.settling)
         self._lines = lines(tuning)
-        self._halves = [Halves(line.threshold, line.gap, tuning.cap) for line in self._lines]
+        self._halves = [HalfCycles(line.threshold, line.gap, tuning.cap) for line in self._lines]
         self._blocks: deque[_Block] = deque(maxlen=int(KEPT / BLOCK))
         self._velocity = [0.0, 0.0, 0.0]
         self._sums = [0.0] * 10

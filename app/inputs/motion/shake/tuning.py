@@ -19,7 +19,7 @@ __all__ = [
     "USUAL",
     "WORDS",
     "Axis",
-    "Own",
+    "PersonalAxis",
     "Tuning",
     "Way",
     "fitted",
@@ -118,7 +118,7 @@ class Tuning:
 
 
 @dataclass(frozen=True, slots=True)
-class Own:
+class PersonalAxis:
     """How one person does one of the three, as the lesson measured it."""
 
     way: Motion
@@ -156,7 +156,7 @@ LONGEST = 9.0
 """No burst of anybody's is longer [s]."""
 
 
-def fitted(tuning: Tuning, own: Mapping[Axis, Own]) -> Tuning:
+def fitted(tuning: Tuning, own: Mapping[Axis, PersonalAxis]) -> Tuning:
     """The same for one person; what the lesson did not measure stays as it is."""
     if not own:
         return tuning
@@ -174,7 +174,7 @@ def fitted(tuning: Tuning, own: Mapping[Axis, Own]) -> Tuning:
     )
 
 
-def _fitted(way: Way, own: Own | None) -> Way:
+def _fitted(way: Way, own: PersonalAxis | None) -> Way:
     if own is None:
         return way
     threshold = min(max(0.5 * own.peak, 1.6), 1.5 * way.threshold)
@@ -206,19 +206,19 @@ def _fitted(way: Way, own: Own | None) -> Way:
     )
 
 
-def own_to(own: Mapping[Axis, Own]) -> dict[str, Any]:
+def own_to(own: Mapping[Axis, PersonalAxis]) -> dict[str, Any]:
     """What a lesson measured, for the settings."""
     return {axis: {"way": list(one.way), "peak": one.peak, "gap": one.gap} for axis, one in own.items()}
 
 
-def own_from(kept: object) -> dict[Axis, Own]:
+def own_from(kept: object) -> dict[Axis, PersonalAxis]:
     """What the settings say; ValueError with one sentence for what cannot be."""
     if not isinstance(kept, Mapping):
         raise ValueError(f"What the lesson of shaking measured is a table, not {str(kept)[:40]!r}.")  # noqa: TRY004 - one kind of error for all
     return {axis: _own(axis, kept[axis]) for axis in AXES if axis in kept}
 
 
-def _own(axis: Axis, kept: object) -> Own:
+def _own(axis: Axis, kept: object) -> PersonalAxis:
     name = WORDS[axis].lower()
     if not isinstance(kept, Mapping) or not isinstance(kept.get("way"), list) or len(kept["way"]) != 3:
         raise ValueError(f"What the lesson measured of {name} is a way of three numbers, a peak and a gap.")
@@ -231,7 +231,7 @@ def _own(axis: Axis, kept: object) -> Own:
         raise ValueError(f"The peak of {name} is {LEAST_PEAK:g} to {MOST_PEAK:g} m/s², not {peak:.3g}.")
     if not LEAST_GAP <= gap <= MOST_GAP:
         raise ValueError(f"The gap of {name} is {LEAST_GAP:g} to {MOST_GAP:g} s, not {gap:.3g}.")
-    return Own((x / length, y / length, z / length), peak, gap)
+    return PersonalAxis((x / length, y / length, z / length), peak, gap)
 
 
 def _number(value: object) -> float:

@@ -4,7 +4,7 @@
     presses (keys, pads, switch boxes ─ clean presses of A and B) ─┘        STOP goes past all of it
 
 Two halves that know each other by this file only. The *engine* (`presses`, `plan`, `scan`, `switches`) is pure but for the
-last, knows no widget, and asks the `Glass` what there is; the *glass* (`targets.OnGlass(app)`, `ring`) knows the widgets, draws
+last, knows no widget, and asks the `Glass` what there is; the *glass* (`targets.WindowTargets(app)`, `ring`) knows the widgets, draws
 the mark, and knows nothing of switches. Everything in the UI thread.
 
 STOP is never a target: B held, or A and B together, is STOP on every screen whatever is marked. So nothing may need B to be

@@ -23,7 +23,7 @@ from bridge.msgs.pilothouse_msgs import PlaceArray
 from widgets.inputs.scan_pad import PadButton, ScanPad
 from widgets.parts.cards import ActionToast
 
-__all__ = ["OnGlass"]
+__all__ = ["WindowTargets"]
 
 OPENS = ("field", "map", "area", "stick", "fader", "handle", "slide")
 """Kinds that take more than a press."""
@@ -42,7 +42,7 @@ PADDING = 24
 MOST_WORDS = 200
 
 
-class OnGlass:
+class WindowTargets:
     """What of `app` can be done by switches; a `Glass`. In the UI thread."""
 
     def __init__(self, app: Any) -> None:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from app.inputs.voice.audio.noise import RATE
 from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
 
-__all__ = ["Ears", "Microphone", "audio_library"]
+__all__ = ["AudioSource", "Microphone", "audio_library"]
 
 log = logging.getLogger(__name__)
 
@@ -31,7 +31,7 @@ REFUSED = "The microphone cannot be opened: {}. Another program may hold it, or 
 GONE = "The microphone gives nothing any more. Plug it in again: the next press to talk opens it."
 
 
-class Ears(Protocol):
+class AudioSource(Protocol):
     """Where samples come from."""
 
     def start(self) -> None:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from app.inputs.voice.audio.noise import RATE
 from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
 
-__all__ = ["CHUNK", "FileEars", "Samples", "chunks", "read"]
+__all__ = ["CHUNK", "FileAudioSource", "Samples", "chunks", "read"]
 
 Samples = NDArray[np.float32]
 
@@ -80,7 +80,7 @@ def _packed(path: Path) -> Samples:
     return np.array(decoded.samples, np.float32) / 32768.0
 
 
-class FileEars:
+class FileAudioSource:
     """Ears that hear the given recordings one after the other, as fast as they are asked, then silence."""
 
     def __init__(self, recordings: Sequence[Samples], gap: float = 1.0) -> None:

@@ -9,7 +9,17 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["ASKS", "BEAT", "LOADS", "PATIENCE", "PATIENCE_LOADING", "WINDOW", "Breakdowns", "Signs", "reason"]
+__all__ = [
+    "ASKS",
+    "BEAT",
+    "LOADS",
+    "PATIENCE",
+    "PATIENCE_LOADING",
+    "WINDOW",
+    "Breakdowns",
+    "LifeSigns",
+    "reason",
+]
 
 BEAT = 1.0
 """Signs are looked for so often [s]."""
@@ -27,7 +37,7 @@ TOLD = 120
 """The reason has at most so many characters."""
 
 
-class Signs:
+class LifeSigns:
     """Of one process. Times are `time.monotonic()` [s].
 
     A beat counts for no more than two: where the whole machine stood still, nobody else can be blamed."""

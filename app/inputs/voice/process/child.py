@@ -15,8 +15,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TextIO
 
-from app.inputs.voice.audio.microphone import Ears, Microphone
-from app.inputs.voice.audio.sound_files import FileEars, read
+from app.inputs.voice.audio.microphone import AudioSource, Microphone
+from app.inputs.voice.audio.sound_files import FileAudioSource, read
 from app.inputs.voice.interfaces.speech_recognizer import Event, State, VoiceTrouble
 from app.inputs.voice.process.running import NOTED
 from app.inputs.voice.process.service import Service, judge_of
@@ -43,7 +43,9 @@ def main(arguments: list[str], orders: TextIO, events: TextIO) -> int:
         say(event_line(event))
 
     try:
-        ears: Ears = FileEars([read(Path(one)) for one in recordings]) if recordings else Microphone()
+        ears: AudioSource = (
+            FileAudioSource([read(Path(one)) for one in recordings]) if recordings else Microphone()
+        )
     except VoiceTrouble as trouble:
         tell(State("failed", str(trouble)))
         return 0

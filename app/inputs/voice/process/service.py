@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.inputs.voice.audio.microphone import Ears
+from app.inputs.voice.audio.microphone import AudioSource
 from app.inputs.voice.audio.noise import RATE
 from app.inputs.voice.interfaces.speech_recognizer import Grammar, Hear, State, VoiceTrouble
-from app.inputs.voice.recognition.hearing import Hearing, Judge
+from app.inputs.voice.recognition.hearing import Judge, SpeechPipeline
 
 __all__ = ["JUDGES", "LINGERS", "MUTED", "Service", "judge_of"]
 
@@ -70,7 +70,7 @@ class Service:
     def __init__(
         self,
         grammar: Grammar,
-        ears: Ears,
+        ears: AudioSource,
         make: Callable[[Grammar], Judge],
         tell: Hear,
         now: Callable[[], float] = time.monotonic,
@@ -108,7 +108,7 @@ class Service:
         self._loading = True
         self._tell(State("starting"))
         try:
-            hearing = Hearing(self._grammar, self._make(self._grammar), self._tell)
+            hearing = SpeechPipeline(self._grammar, self._make(self._grammar), self._tell)
         except VoiceTrouble as trouble:
             self._tell(State("failed", str(trouble)))
             return
@@ -123,7 +123,7 @@ class Service:
         finally:
             self._ears.stop()
 
-    def _turn(self, hearing: Hearing) -> bool:
+    def _turn(self, hearing: SpeechPipeline) -> bool:
         """One order or one block of samples; False at the end. Sleeps in the queue while the ears are closed."""
         open_ = self._until >= 0.0
         try:
@@ -139,7 +139,7 @@ class Service:
             order.value()
         return order.do != "stop"
 
-    def _listen(self, hearing: Hearing, *, on: bool) -> None:
+    def _listen(self, hearing: SpeechPipeline, *, on: bool) -> None:
         if on and self._until < 0.0:
             try:
                 self._ears.start()
@@ -153,7 +153,7 @@ class Service:
         elif self._until == float("inf"):
             self._until = self._now() + LINGERS
 
-    def _hear(self, hearing: Hearing) -> bool:
+    def _hear(self, hearing: SpeechPipeline) -> bool:
         sentence = ""
         try:
             heard = self._ears.read(READS)

@@ -20,7 +20,7 @@ from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 from typing import Any
 
-from app.inputs.voice.audio.microphone import Ears, Microphone
+from app.inputs.voice.audio.microphone import AudioSource, Microphone
 from app.inputs.voice.interfaces.speech_recognizer import (
     Grammar,
     Hear,
@@ -29,7 +29,7 @@ from app.inputs.voice.interfaces.speech_recognizer import (
     State,
     VoiceTrouble,
 )
-from app.inputs.voice.process.breakdown import BEAT, Breakdowns, Signs, reason
+from app.inputs.voice.process.breakdown import BEAT, Breakdowns, LifeSigns, reason
 from app.inputs.voice.process.ending import end_aside
 from app.inputs.voice.process.running import Running
 from app.inputs.voice.process.service import Service, judge_of
@@ -98,7 +98,7 @@ class InThread:
     def __init__(
         self,
         name: str,
-        ears: Callable[[], Ears] = Microphone,
+        ears: Callable[[], AudioSource] = Microphone,
         now: Callable[[], float] = time.monotonic,
         model: str = "",
     ) -> None:
@@ -257,7 +257,7 @@ class InProcess:
         """The thread that cares for the process: tells its events, and starts it again where that helps."""
         breakdowns = Breakdowns()
         while True:
-            signs = Signs(self._now())
+            signs = LifeSigns(self._now())
             failed = self._events(process, signs, grammar, hear, over)
             if not signs.hangs:
                 process.end()
@@ -278,7 +278,7 @@ class InProcess:
                 return
 
     def _events(
-        self, process: Running, signs: Signs, grammar: Grammar, hear: Hear, over: threading.Event
+        self, process: Running, signs: LifeSigns, grammar: Grammar, hear: Hear, over: threading.Event
     ) -> bool:
         """Until the process ends or hangs; whether it had said that it fails."""
         failed = False

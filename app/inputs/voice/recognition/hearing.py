@@ -15,7 +15,7 @@ from app.inputs.voice.recognition.ctc import Acoustics, Found, Scorer
 from app.inputs.voice.recognition.rechecks import looks
 from app.inputs.voice.recognition.spotter import Spotted, Spotter
 
-__all__ = ["Hearing", "Judge", "Phonemes"]
+__all__ = ["SpeechPipeline", "Judge", "Phonemes"]
 
 METERED = 0.1
 """The meter is told so often [s]."""
@@ -67,7 +67,7 @@ class Phonemes:
         return self._spotter.look(segment, now)
 
 
-class Hearing:
+class SpeechPipeline:
     """Fed with samples; tells events. All in one thread."""
 
     def __init__(self, grammar: Grammar, judge: Judge, tell: Hear) -> None:

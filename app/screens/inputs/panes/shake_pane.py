@@ -8,7 +8,7 @@ from typing import Any
 from kivy.uix.boxlayout import BoxLayout
 
 from app.inputs.motion.shake import AXES, WORDS, Axis
-from app.inputs.motion.shake_input import CHOICES, Shaking
+from app.inputs.motion.shake_input import CHOICES, ShakeInput
 from app.intents.intents import INTENTS
 from app.screens.inputs.parts.meaning_list import MeaningList
 from app.screens.inputs.parts.setting_row import switch_row
@@ -78,9 +78,9 @@ class ShakePane(BoxLayout):
         self._write()
 
     @property
-    def shaking(self) -> Shaking:
+    def shaking(self) -> ShakeInput:
         """The method."""
-        method: Shaking = self._app.methods.get("shake")
+        method: ShakeInput = self._app.methods.get("shake")
         return method
 
     def _lesson_page(self) -> BoxLayout:

@@ -11,7 +11,7 @@ from kivy.uix.boxlayout import BoxLayout
 from app.inputs.switch_access.scan.presses import Event
 from app.inputs.switch_access.scan.reaction import Reaction
 from app.inputs.switch_access.scan.settings import DEFAULTS, MOST_KEYS, RANGES, Key, Options
-from app.inputs.switch_access.switches import Switches
+from app.inputs.switch_access.switches import SwitchAccess
 from app.screens.inputs.parts.setting_row import number_row, switch_row
 from widgets.inputs.reaction_test import ReactionTest
 from widgets.parts.kit import Column, IconButton, ListRow, PrimaryButton, QuietButton, Remark, Roll, Segmented
@@ -55,7 +55,7 @@ class SwitchPane(BoxLayout):
     def __init__(self, app: Any, **kwargs: Any) -> None:
         super().__init__(orientation="vertical", spacing="8dp", **kwargs)
         self._app = app
-        self.switches: Switches = app.methods.get("switches")
+        self.switches: SwitchAccess = app.methods.get("switches")
         """The method that is set up here."""
         self.test = Reaction(random.Random())
         self._clock = Clock.create_trigger(lambda _: self._watch(), 0, interval=True)

@@ -14,7 +14,7 @@ from app.inputs.voice.recognition.phrases import LANGUAGES, PHRASES
 from app.inputs.voice.recognition.vosk_judge import model_fault
 from app.inputs.voice.recognizers import BEST, RECOGNIZERS
 from app.inputs.voice.speech.tts import VOICES
-from app.inputs.voice.talkback import RATES, Talking
+from app.inputs.voice.talkback import RATES, Talkback
 from app.inputs.voice.voice_input import VoiceInput
 from app.intents.intents import INTENTS
 from app.screens.inputs.parts.setting_row import number_row, switch_row
@@ -40,7 +40,7 @@ class VoicePane(BoxLayout):
         self._app = app
         self.speaking: VoiceInput = app.methods.get("voice")
         """What hears."""
-        self.talking: Talking = app.methods.get("talk")
+        self.talking: Talkback = app.methods.get("talk")
         """What talks."""
         self.meter = NoiseMeter(needed=TOO_LOUD, state="never")
         self.standing, self.how = Remark(font_size="15sp"), Remark(font_size="14sp")

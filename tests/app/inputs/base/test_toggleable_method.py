@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 
 from app.core.settings_store import Settings
-from app.inputs.base.toggleable_method import Switched
+from app.inputs.base.toggleable_method import ToggleableMethod
 
 
-class Method(Switched):
+class Method(ToggleableMethod):
     """One that is switched and has one thing more that it goes by."""
 
     name = "method"

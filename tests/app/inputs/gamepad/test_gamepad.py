@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from app.inputs.gamepad.gamepad import REARM, SILENT, Gamepads, News, Told
+from app.inputs.gamepad.gamepad import REARM, SILENT, Gamepads, KivyPads, PadEvent
 from app.inputs.gamepad.pad_map import Profile
 from app.inputs.gamepad.sdl import PadState
 
@@ -24,7 +24,7 @@ class Desk:
 
     def __init__(self) -> None:
         self.time = 100.0
-        self.news: list[News] = []
+        self.news: list[PadEvent] = []
         self.pads = Gamepads(lambda: self.time, on_news=self.news.append)
         self.there = {1: REST}
         self.leans: list[tuple[float, tuple[float, float] | None]] = []
@@ -98,13 +98,13 @@ def test_unplugged_it_drives_nothing_at_the_next_heartbeat_and_that_is_told(desk
     del desk.there[1]
     desk.pass_time(BEAT)
     assert (desk.lean, desk.pads.standing) == (None, "none")
-    assert desk.news == [News("plugged", "Pad"), News("unplugged driving", "Pad")]
+    assert desk.news == [PadEvent("plugged", "Pad"), PadEvent("unplugged driving", "Pad")]
 
 
 def test_unplugged_at_rest_it_is_told_too(desk: Desk) -> None:
     del desk.there[1]
     desk.pass_time(BEAT)
-    assert desk.news[-1] == News("unplugged", "Pad")
+    assert desk.news[-1] == PadEvent("unplugged", "Pad")
 
 
 def test_silent_while_pushed_it_drives_nothing_within_the_limit_and_says_so_once(desk: Desk) -> None:
@@ -115,7 +115,7 @@ def test_silent_while_pushed_it_drives_nothing_within_the_limit_and_says_so_once
     last = max(at for at, lean in desk.leans if lean is not None)
     assert last - died <= SILENT
     assert desk.pads.standing == "silent"
-    assert desk.news[1:] == [News("silent", "Pad")]
+    assert desk.news[1:] == [PadEvent("silent", "Pad")]
 
 
 def test_heard_again_soon_it_drives_on_since_the_hand_is_there(desk: Desk) -> None:
@@ -194,11 +194,11 @@ def test_a_device_that_the_system_took_away_brings_the_gamepads_to_rest(desk: De
     desk.pads.lose()
     desk.pass_time(0.5)
     assert desk.lean is None
-    assert desk.news[-1] == News("unplugged driving", "Pad")
+    assert desk.news[-1] == PadEvent("unplugged driving", "Pad")
 
 
 def test_where_sdl_cannot_be_asked_kivys_events_tell_of_the_stick_and_silence_ends_it() -> None:
-    desk, told = Desk(), Told()
+    desk, told = Desk(), KivyPads()
     desk.there.clear()
     told.axis(3, 1, 0)
     desk.pads.hear(told.pads())

@@ -8,7 +8,7 @@ from collections.abc import Collection
 import pytest
 
 from app.device.motion import GRAVITY, Axes, Hear, Kind, MotionError, NoMotion, SimulatedMotion
-from app.inputs.motion.motion_sensing import QUEUE, Sensing
+from app.inputs.motion.motion_sensing import QUEUE, MotionSensing
 
 
 class Phone:
@@ -17,7 +17,7 @@ class Phone:
     def __init__(self, kinds: Collection[Kind] = ("acceleration", "gravity")) -> None:
         self.now, self.count = 0.0, 0
         self.source = SimulatedMotion(kinds, lambda: self.now)
-        self.sensing = Sensing(self.source, lambda: self.now)
+        self.sensing = MotionSensing(self.source, lambda: self.now)
         self.got: list[tuple[float, Axes]] = []
 
     def listen(self, kind: Kind = "acceleration") -> Phone:

@@ -11,14 +11,14 @@ import pytest
 
 from app.device.motion import NoMotion, SimulatedMotion
 from app.inputs.motion import shake_input as module
-from app.inputs.motion.motion_sensing import Sensing
-from app.inputs.motion.shake import AXES, Axis, Own, own_to
-from app.inputs.motion.shake_input import CHOICES, Shaking
+from app.inputs.motion.motion_sensing import MotionSensing
+from app.inputs.motion.shake import AXES, Axis, PersonalAxis, own_to
+from app.inputs.motion.shake_input import CHOICES, ShakeInput
 from app.intents.intents import Heard, Verdict
 from bench.support import motion
 from bench.support.motion import Recording
 
-OWN: dict[Axis, Own] = {"lr": Own((1.0, 0.0, 0.0), 8.0, 0.4)}
+OWN: dict[Axis, PersonalAxis] = {"lr": PersonalAxis((1.0, 0.0, 0.0), 8.0, 0.4)}
 
 
 class Hand:
@@ -31,7 +31,7 @@ class Hand:
         self.felt: list[float] = []
         monkeypatch.setattr(module, "vibrate", self.felt.append)
         self.source = source or SimulatedMotion(now=lambda: self.t)
-        self.sensing = Sensing(self.source, lambda: self.t)
+        self.sensing = MotionSensing(self.source, lambda: self.t)
         self.rests = self.stoppable = True
         self.app = SimpleNamespace(
             settings=SimpleNamespace(
@@ -43,7 +43,7 @@ class Hand:
                 feeds=SimpleNamespace(latest=lambda _: SimpleNamespace(at_rest=self.rests))
             ),
         )
-        self.shaking = Shaking(self.app, lambda: self.t, lambda: self.quarters)
+        self.shaking = ShakeInput(self.app, lambda: self.t, lambda: self.quarters)
 
     def _take(self, heard: Heard) -> Verdict:
         self.heard.append(heard)
@@ -139,7 +139,7 @@ def test_a_direction_means_what_was_chosen_and_that_is_kept(hand: Hand) -> None:
     assert hand.intents == ["go_home"]
     assert hand.shaking.said == "Forward-back means nothing."
     assert hand.kept["shake"]["ud"] == "go_home"
-    assert Shaking(hand.app).meaning == {"ud": "go_home", "fb": ""}
+    assert ShakeInput(hand.app).meaning == {"ud": "go_home", "fb": ""}
 
 
 @pytest.mark.parametrize(("axis", "intent"), [("lr", "pause"), ("ud", "start"), ("fb", "stop!")])
@@ -162,7 +162,7 @@ def test_any_strong_shake_stops_a_robot_that_moves_where_that_is_wanted(hand: Ha
     hand.shakes("ud", 4)
     assert hand.intents == ["pause", "stop"]
     assert hand.heard[1].said == "strong shake"
-    assert Shaking(hand.app).any_stops
+    assert ShakeInput(hand.app).any_stops
 
 
 # the lesson
@@ -183,7 +183,7 @@ def test_the_lesson_is_kept_and_nothing_is_understood_meanwhile(hand: Hand) -> N
     hand.shaking.end_lesson()
     assert not hand.source.running
     assert set(hand.shaking.own) == set(AXES)
-    assert set(Shaking(hand.app).own) == set(AXES)
+    assert set(ShakeInput(hand.app).own) == set(AXES)
     assert hand.heard == []
 
 

@@ -11,7 +11,7 @@ import pytest
 from app.core.command_origin import origins
 from app.device.motion import NoMotion, SimulatedMotion, leaned
 from app.inputs.base.button_presses import Press
-from app.inputs.motion.motion_sensing import Sensing
+from app.inputs.motion.motion_sensing import MotionSensing
 from app.inputs.motion.tilt_input import TiltInput
 from tests.app.inputs.motion.test_motion_sensing import WithoutGravity
 from widgets import TiltCircle
@@ -31,7 +31,7 @@ class Handheld:
         self.time, self.quarters, self.said = 100.0, 0, []
         self.settings = Kept({"tilt": kept} if kept is not None else {})
         self.source = SimulatedMotion(kinds, self.now)
-        self.sensing = Sensing(self.source, self.now)
+        self.sensing = MotionSensing(self.source, self.now)
         self.inputs = SimpleNamespace(
             presses=SimpleNamespace(takers=[]), meanings=SimpleNamespace(held={"tilt": []})
         )

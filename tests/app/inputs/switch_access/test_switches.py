@@ -14,7 +14,7 @@ from app.inputs.switch_access.scan.engine import Engine, Selection
 from app.inputs.switch_access.scan.plan import Planner
 from app.inputs.switch_access.scan.settings import Key
 from app.inputs.switch_access.scan.target import Mark, Target
-from app.inputs.switch_access.switches import Switches
+from app.inputs.switch_access.switches import SwitchAccess
 from app.inputs.switch_access.typing_guard import TYPING_TIME
 from app.intents.intents import Intents
 from app.intents.method_permits import Permits
@@ -25,7 +25,7 @@ class Settings(dict[str, Any]):
         self[name] = value
 
 
-class Acts:
+class IntentActions:
     """What the app does, beside what is marked."""
 
     def __init__(self) -> None:
@@ -50,11 +50,11 @@ class Hand:
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.now, self.said, self.did, self.typing = 100.0, [], [], False
         monkeypatch.setattr(switching, "is_typing", lambda: self.typing)
-        monkeypatch.setattr(Switches, "stepped", lambda *_: None)
+        monkeypatch.setattr(SwitchAccess, "stepped", lambda *_: None)
         stops: list[Press] = []
         shell = SimpleNamespace(say=lambda text, level, about: self.said.append(text))
         self.presses = Presses(lambda press: False, stops.append)
-        self.acts, self.told = Acts(), []
+        self.acts, self.told = IntentActions(), []
         self.permits = Permits(Settings())
         self.intents = Intents(self.acts, self.permits, lambda: self.now)
         self.intents.on_taken.append(lambda heard, verdict: self.told.append((heard, verdict.what)))
@@ -66,10 +66,10 @@ class Hand:
             shell=shell,
             now=lambda: self.now,
         )
-        self.switches = Switches(self.app)
+        self.switches = SwitchAccess(self.app)
         self.place = "drive"
         engine = Engine(self, Planner({}), switching._Desk(self.switches))
-        monkeypatch.setattr(Switches, "engine", engine)
+        monkeypatch.setattr(SwitchAccess, "engine", engine)
         self.switches._engine = engine
         self.switches.start()
 
@@ -290,7 +290,7 @@ def test_what_is_out_of_range_is_refused_and_what_was_kept_wrong_is_said(hand: H
     with pytest.raises(ValueError, match="interval 99"):
         hand.switches.change(interval=99.0)
     hand.app.settings.set("switches", {"loops": 0})
-    again = Switches(hand.app)
+    again = SwitchAccess(hand.app)
     assert again.options.loops == 3
     again.start()
     again.stop()

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from app.core.command_origin import Origin
-from app.inputs.voice.talkback import LOST, MOST, SLEEPS, STALE, Talking, aloud
+from app.inputs.voice.talkback import LOST, MOST, SLEEPS, STALE, Talkback, aloud
 from app.intents.intents import Heard, Verdict
 from app.link.channels import EVENT, OUTCOME
 from app.link.commands import Outcome
@@ -65,7 +65,7 @@ class Desk:
             connect=SimpleNamespace(say=lambda text, level: self.warned.append(text)),
             intents=SimpleNamespace(on_taken=[]),
         )
-        self.talking = Talking(self.app, lambda _: self.mouth)
+        self.talking = Talkback(self.app, lambda _: self.mouth)
         if self.talking.on:
             self.talking.start()
         self.wait(0.0)

@@ -57,7 +57,7 @@ class Recogniser:
         self.grammar = None
 
 
-class Acts:
+class IntentActions:
     def __init__(self) -> None:
         self.done: list[str] = []
         self.asks = self.none = False
@@ -88,7 +88,7 @@ class Desk:
         settings = SimpleNamespace(
             get=lambda name, default=None: self.kept.get(name, default), set=self.kept.__setitem__
         )
-        self.acts = Acts()
+        self.acts = IntentActions()
         self.taken: list[Heard] = []
         tracks = SimpleNamespace(unheard=lambda *told, **_: self.unheard.append(told))
         self.app = SimpleNamespace(

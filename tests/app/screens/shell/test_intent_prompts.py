@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from app.intents.intents import Heard, Verdict
-from app.screens.shell.intent_prompts import Wishes
+from app.screens.shell.intent_prompts import IntentPrompts
 
 
 class Around:
@@ -27,7 +27,7 @@ class Around:
 @pytest.fixture
 def around() -> Around:
     around = Around()
-    Wishes(around, around, around.say)  # type: ignore[arg-type]
+    IntentPrompts(around, around, around.say)  # type: ignore[arg-type]
     return around
 
 

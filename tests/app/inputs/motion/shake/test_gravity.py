@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from app.inputs.motion.shake.gravity import GRAVITY, Ground
+from app.inputs.motion.shake.gravity import GRAVITY, GravityFilter
 
 UPRIGHT, ASIDE = (0.0, 1.0), (1.0, 0.0)
 """How much of up are the device's x and y."""
@@ -15,7 +15,7 @@ UPRIGHT, ASIDE = (0.0, 1.0), (1.0, 0.0)
 def right(*held: tuple[float, float]) -> float:
     """How far a gentle swing along the device's own y goes to the right, when it was held so in turn and is so swung at last: 0 or less
     where it is taken to be upright."""
-    ground, dt = Ground(0.9), 1 / 60
+    ground, dt = GravityFilter(0.9), 1 / 60
     for x, y in held:
         z = math.sqrt(max(0.0, 1.0 - x * x - y * y))
         for _ in range(600):

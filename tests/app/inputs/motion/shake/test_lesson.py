@@ -7,12 +7,12 @@ import math
 import numpy as np
 import pytest
 
-from app.inputs.motion.shake import AXES, USUAL, Lesson, Own, Recogniser, fitted, own_from, own_to
+from app.inputs.motion.shake import AXES, USUAL, Lesson, PersonalAxis, Recogniser, fitted, own_from, own_to
 from app.inputs.motion.shake.lesson import MOVING, Measured, measure
 from bench.support import motion
 from bench.support.motion import Recording
 
-OWN = Own((1.0, 0.0, 0.0), 8.0, 0.4)
+OWN = PersonalAxis((1.0, 0.0, 0.0), 8.0, 0.4)
 
 
 def do(lesson: Lesson, takes: list[Recording], begun: float = 0.0) -> float:
@@ -100,7 +100,7 @@ def test_who_swings_aslant_is_understood_after_the_lesson() -> None:
     assert sum(said(Recogniser(), trial.take) == ["ud"] for trial in trials) < 6
 
 
-def swung(peak: float, frequency: float, own: Own) -> list[str]:
+def swung(peak: float, frequency: float, own: PersonalAxis) -> list[str]:
     """What one with that of his own for left-right is understood to say by a swing of 1.4 to 4 s."""
     at = np.arange(int(60 * max(1.4, 2.5 / frequency))) / 60.0
     values = [0.0] * 300 + (peak * np.sin(math.tau * frequency * at)).tolist() + [0.0] * 120
@@ -110,7 +110,7 @@ def swung(peak: float, frequency: float, own: Own) -> list[str]:
 
 
 def test_the_lesson_of_one_who_is_slow_and_gentle_makes_no_stop_of_gentle_steps() -> None:
-    slow = Own((1.0, 0.0, 0.0), 4.0, 0.9)
+    slow = PersonalAxis((1.0, 0.0, 0.0), 4.0, 0.9)
     assert swung(4.0, 0.6, slow) == ["lr"], "his own"
     assert swung(4.0, 1.6, slow) == [], "quick and gentle is how one sets off"
     assert swung(12.0, 1.6, slow) == ["lr"], "who is frightened shakes quickly, and hard"
@@ -118,7 +118,7 @@ def test_the_lesson_of_one_who_is_slow_and_gentle_makes_no_stop_of_gentle_steps(
 
 @pytest.mark.parametrize("peak", [4.0, 4.5])
 def test_nor_of_steps_that_are_not_much_quicker_than_he_is(peak: float) -> None:
-    assert swung(peak, 1.2, Own((1.0, 0.0, 0.0), 4.0, 0.9)) == []
+    assert swung(peak, 1.2, PersonalAxis((1.0, 0.0, 0.0), 4.0, 0.9)) == []
 
 
 def test_a_thin_ellipse_is_round_though_it_is_long(monkeypatch: pytest.MonkeyPatch) -> None:

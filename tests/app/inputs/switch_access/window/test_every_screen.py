@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from kivy.core.window import Window
 
-from app.inputs.switch_access.window.targets import OnGlass
+from app.inputs.switch_access.window.targets import WindowTargets
 from app.intents.intents import Heard
 from app.screens.inputs.study.form_view import FormView
 from app.screens.shell.key_help import HelpCard, toggle_help
@@ -51,7 +51,7 @@ class Walk:
 
     def __init__(self, glass: Glass, robot: FakeRobot) -> None:
         self.glass, self.app, self.robot = glass, glass.app, robot
-        self.targets = OnGlass(glass.app)
+        self.targets = WindowTargets(glass.app)
         self.seen: set[str] = set()
 
     def check(self, where: str, room: Any = None) -> None:

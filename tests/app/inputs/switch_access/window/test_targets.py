@@ -8,7 +8,7 @@ from typing import Any
 from kivy.uix.floatlayout import FloatLayout
 
 from app.inputs.switch_access.scan.target import Mark, Target
-from app.inputs.switch_access.window.targets import OnGlass
+from app.inputs.switch_access.window.targets import WindowTargets
 from tests.headless import Stage
 from widgets.parts.cards import ActionToast
 
@@ -19,7 +19,7 @@ def test_an_offer_stays_until_the_mark_has_been_on_it_and_gone_on(stage: Stage) 
     root.add_widget(toast)
     corner = SimpleNamespace(button=SimpleNamespace(parent=None))
     shell: Any = SimpleNamespace(notices=root, stop=FloatLayout(size=(1, 1)))
-    glass = OnGlass(SimpleNamespace(root=root, shell=shell, corner=corner))
+    glass = WindowTargets(SimpleNamespace(root=root, shell=shell, corner=corner))
 
     def mark(step: int, widget: Any) -> None:
         glass.mark(Mark((Target("one", "One", lambda: None, key=widget),), "item", "One", step=step))

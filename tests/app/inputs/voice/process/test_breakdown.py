@@ -11,7 +11,7 @@ from app.inputs.voice.process.breakdown import (
     TOLD,
     WINDOW,
     Breakdowns,
-    Signs,
+    LifeSigns,
     reason,
 )
 
@@ -25,7 +25,7 @@ def after(signs, seconds, began=0.0, step=BEAT):
 
 
 def ready():
-    signs = Signs(0.0)
+    signs = LifeSigns(0.0)
     signs.loading = False
     return signs
 
@@ -38,7 +38,7 @@ def test_one_that_gives_no_sign_hangs_and_says_for_how_long():
 
 def test_a_stall_of_ten_seconds_is_no_hang():
     assert not after(ready(), STALL).hangs
-    assert not after(Signs(0.0), 2 * STALL).hangs
+    assert not after(LifeSigns(0.0), 2 * STALL).hangs
 
 
 def test_each_sign_begins_anew():
@@ -56,12 +56,12 @@ def test_a_machine_that_stood_still_blames_nobody():
 
 
 def test_one_that_never_answers_while_it_loads_hangs_as_well():
-    assert not after(Signs(0.0), PATIENCE).hangs
-    assert after(Signs(0.0), PATIENCE_LOADING).hangs
+    assert not after(LifeSigns(0.0), PATIENCE).hangs
+    assert after(LifeSigns(0.0), PATIENCE_LOADING).hangs
 
 
 def test_a_load_may_take_minutes_while_it_answers_but_not_for_ever():
-    signs = Signs(0.0)
+    signs = LifeSigns(0.0)
     for second in range(1, int(LOADS)):
         signs.heard(float(second))
     assert not signs.hangs
@@ -70,7 +70,7 @@ def test_a_load_may_take_minutes_while_it_answers_but_not_for_ever():
 
 
 def test_the_load_is_over_when_it_is_ready():
-    signs = Signs(0.0)
+    signs = LifeSigns(0.0)
     for second in range(1, 2 * int(LOADS)):
         signs.heard(float(second))
         signs.loading = False

@@ -5,7 +5,7 @@ import threading
 import numpy as np
 import pytest
 
-from app.inputs.voice.audio.sound_files import FileEars
+from app.inputs.voice.audio.sound_files import FileAudioSource
 from app.inputs.voice.interfaces.speech_recognizer import Grammar, Result, State, VoiceTrouble
 from app.inputs.voice.process.service import FLAT, LINGERS, MUTED, Service
 from tests.app.inputs.voice.recognition.test_hearing import GRAMMAR, Judge
@@ -25,7 +25,7 @@ class Clock:
         return self.now
 
 
-class Deaf(FileEars):
+class Deaf(FileAudioSource):
     """There is no microphone."""
 
     def start(self):
@@ -34,7 +34,7 @@ class Deaf(FileEars):
 
 def ran(*orders, ears=None, make=lambda grammar: Judge()):
     told = []
-    ears = ears or FileEars([SPOKEN])
+    ears = ears or FileAudioSource([SPOKEN])
     service = Service(GRAMMAR, ears, make, told.append, Clock())
     for order in orders:
         order(service)
@@ -80,7 +80,7 @@ def test_what_is_said_while_the_button_is_down_is_understood_after_it_is_up():
             heard.set()
 
     service = Service(
-        Grammar({"pause": ("pause",)}), FileEars([SPOKEN], gap=0.1), lambda grammar: Judge(), tell
+        Grammar({"pause": ("pause",)}), FileAudioSource([SPOKEN], gap=0.1), lambda grammar: Judge(), tell
     )
     thread = threading.Thread(target=service.run)
     thread.start()
@@ -93,7 +93,7 @@ def test_what_is_said_while_the_button_is_down_is_understood_after_it_is_up():
     assert states(told) == ["starting", "ready", "listening", "ready"]
 
 
-class Held(FileEars):
+class HeldKey(FileAudioSource):
     """Somebody holds the button until the recording is over, and switches voice off when the ears are closed."""
 
     service: Service
@@ -110,7 +110,7 @@ class Held(FileEars):
 
 
 def turned(samples=(), ears=None):
-    told, ears = [], ears or Held([samples], gap=0.0)
+    told, ears = [], ears or HeldKey([samples], gap=0.0)
     ears.service = Service(GRAMMAR, ears, lambda grammar: Judge(), told.append, Clock())
     ears.service.listen(on=True)
     ears.service.run()
@@ -135,7 +135,7 @@ def test_a_muted_microphone_that_is_heard_after_all_listens_again():
 
 
 def test_a_microphone_that_was_heard_once_and_is_muted_at_the_next_press_is_said():
-    class Twice(Held):
+    class Twice(HeldKey):
         presses = 0
 
         def start(self):
@@ -144,7 +144,7 @@ def test_a_microphone_that_was_heard_once_and_is_muted_at_the_next_press_is_said
             self._left = voice(0.3) if self.presses == 1 else np.zeros(16000, np.float32)
 
         def stop(self):
-            FileEars.stop(self)
+            FileAudioSource.stop(self)
             if self.presses == 1:
                 self.service.listen(on=True)
             else:
@@ -170,13 +170,13 @@ def test_to_close_closed_ears_is_nothing(times):
 
 
 def test_run_again_after_a_fault_it_listens_and_heeds_as_it_was_told(monkeypatch):
-    class Faulty(FileEars):
+    class Faulty(FileAudioSource):
         def read(self, seconds):
             raise ZeroDivisionError
 
     told, heeded = [], []
     monkeypatch.setattr(
-        "app.inputs.voice.process.service.Hearing.heed", lambda _, commands: heeded.append(commands)
+        "app.inputs.voice.process.service.SpeechPipeline.heed", lambda _, commands: heeded.append(commands)
     )
     ears = Faulty([SPOKEN])
     service = Service(GRAMMAR, ears, lambda grammar: Judge(), told.append, Clock())
@@ -198,7 +198,7 @@ def test_it_answers_at_once_while_it_loads_and_between_two_orders_when_it_is_rea
         service.ask(lambda: answers.append(len(told)))
         return Judge()
 
-    service = Service(GRAMMAR, FileEars([]), make, told.append, Clock())
+    service = Service(GRAMMAR, FileAudioSource([]), make, told.append, Clock())
     service.stop()
     service.run()
     assert (answers, states(told)) == ([1], ["starting", "ready"])

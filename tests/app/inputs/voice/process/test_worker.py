@@ -11,7 +11,7 @@ import wave
 
 import pytest
 
-from app.inputs.voice.audio.sound_files import FileEars, read
+from app.inputs.voice.audio.sound_files import FileAudioSource, read
 from app.inputs.voice.interfaces.speech_recognizer import Grammar, Level, State, VoiceTrouble
 from app.inputs.voice.process import child
 from app.inputs.voice.process.ending import wait_for_ends
@@ -480,7 +480,7 @@ def test_a_fault_in_the_real_process_gives_its_reason(told, monkeypatch):
 
 def test_the_process_answers_when_it_is_asked_whether_it_is_there(monkeypatch):
     monkeypatch.setattr(child, "judge_of", lambda name, grammar: None)
-    monkeypatch.setattr(child, "Microphone", lambda: FileEars([]))
+    monkeypatch.setattr(child, "Microphone", lambda: FileAudioSource([]))
     orders = io.StringIO("\n".join((json.dumps(grammar_fields(GRAMMAR)), THERE, "")))
     events = io.StringIO()
     assert child.main(["phonemes"], orders, events) == 0

@@ -7,7 +7,7 @@ from app.inputs.voice.audio.noise import decibels
 from app.inputs.voice.audio.sound_files import chunks
 from app.inputs.voice.interfaces.speech_recognizer import Grammar, Level, Rejected, Result, State
 from app.inputs.voice.recognition.ctc import Found, Scorer
-from app.inputs.voice.recognition.hearing import Hearing, Phonemes
+from app.inputs.voice.recognition.hearing import Phonemes, SpeechPipeline
 from app.inputs.voice.recognition.lexicon import COMMANDS
 from app.inputs.voice.recognition.spotter import Spotted
 from tests.app.inputs.voice.sounds import Written, opinion, quiet, voice
@@ -33,7 +33,7 @@ class Judge:
 
 def said(judge, *, samples=None, heed=False, finish=False):
     told = []
-    hearing = Hearing(GRAMMAR, judge, told.append)
+    hearing = SpeechPipeline(GRAMMAR, judge, told.append)
     if heed is not False:
         hearing.heed(heed)
     at = 0.0
@@ -123,7 +123,7 @@ def test_stop_is_heard_where_it_is_too_loud_for_anything_else():
 
 def test_words_that_stand_clear_of_the_noise_count_though_it_was_too_loud_a_moment_ago():
     told = []
-    hearing = Hearing(GRAMMAR, Judge("pause"), told.append)
+    hearing = SpeechPipeline(GRAMMAR, Judge("pause"), told.append)
     at = 0.0
     for part, at in chunks(quiet(9.0, 0.2)):
         hearing.hear(part, at)
@@ -135,7 +135,7 @@ def test_words_that_stand_clear_of_the_noise_count_though_it_was_too_loud_a_mome
 
 def test_soft_words_in_what_was_too_loud_a_moment_ago_do_not_count_before_it_is_known_to_be_quiet():
     told = []
-    hearing = Hearing(GRAMMAR, Judge("pause"), told.append)
+    hearing = SpeechPipeline(GRAMMAR, Judge("pause"), told.append)
     at = 0.0
     for part, at in chunks(quiet(9.0, 0.2)):
         hearing.hear(part, at)

@@ -15,7 +15,7 @@ from app.inputs.voice.audio.noise import RATE
 from app.inputs.voice.audio.sound_files import Samples, chunks, resampled
 from app.inputs.voice.interfaces.speech_recognizer import Grammar, Result
 from app.inputs.voice.process.service import judge_of
-from app.inputs.voice.recognition.hearing import Hearing, Judge
+from app.inputs.voice.recognition.hearing import Judge, SpeechPipeline
 from app.inputs.voice.recognition.lexicon import COMMANDS
 from app.inputs.voice.speech.espeak import EspeakLibrary
 
@@ -86,7 +86,7 @@ def test_silence_is_no_command(kind: Kind) -> None:
 
 def test_stop_is_heard_amid_a_stream_and_told_once(kind: Kind) -> None:
     told: list[Any] = []
-    hearing = Hearing(kind.grammar, kind.judge, told.append)
+    hearing = SpeechPipeline(kind.grammar, kind.judge, told.append)
     stream = np.concatenate((_quiet(1.5), kind.say(kind.phrases["stop"]), _quiet(1.5)))
     for part, at in chunks(stream):
         hearing.hear(part, at)
@@ -95,7 +95,7 @@ def test_stop_is_heard_amid_a_stream_and_told_once(kind: Kind) -> None:
 
 def test_stop_is_heard_while_a_question_is_open_and_nothing_else_is(kind: Kind) -> None:
     told: list[Any] = []
-    hearing = Hearing(kind.grammar, kind.judge, told.append)
+    hearing = SpeechPipeline(kind.grammar, kind.judge, told.append)
     hearing.heed(frozenset({"yes", "no"}))
     parts = [_quiet(1.5)]
     for command in ("lights", "stop"):

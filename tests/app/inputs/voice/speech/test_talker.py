@@ -15,7 +15,7 @@ import pytest
 from app.inputs.voice.audio.sound_files import chunks, resampled
 from app.inputs.voice.interfaces.speech_recognizer import Grammar, Result, VoiceTrouble
 from app.inputs.voice.process.ending import wait_for_ends
-from app.inputs.voice.recognition.hearing import Hearing, Phonemes
+from app.inputs.voice.recognition.hearing import Phonemes, SpeechPipeline
 from app.inputs.voice.recognition.lexicon import COMMANDS
 from app.inputs.voice.recognition.model import HamaModel
 from app.inputs.voice.speech import espeak
@@ -172,7 +172,7 @@ def test_nothing_that_it_says_is_taken_for_stop_by_the_microphone() -> None:
 
     def heard(words: str) -> list[str]:
         told: list[Any] = []
-        hearing = Hearing(Grammar(COMMANDS), judge, told.append)
+        hearing = SpeechPipeline(Grammar(COMMANDS), judge, told.append)
         hearing.heed(frozenset())
         rest = np.random.default_rng(1).normal(0.0, 1e-3, 12000).astype(np.float32)
         sound = resampled(np.asarray(voice(words, seed=1), np.float32), 24000)

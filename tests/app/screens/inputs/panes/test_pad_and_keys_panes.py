@@ -11,7 +11,7 @@ import pytest
 
 from app.inputs.base.button_presses import Press, Presses
 from app.inputs.binding_actions import HOLDS
-from app.inputs.bindings import Mapped
+from app.inputs.bindings import Bindings
 from app.inputs.gamepad.gamepad import Gamepads
 from app.inputs.gamepad.sdl import PadState
 from app.inputs.hand_methods import GamepadMethod, KeyboardMethod
@@ -30,7 +30,7 @@ class Desk:
 
     def __init__(self) -> None:
         self.time, self.settings, self.rests = 10.0, Settings(), 0
-        self.mapped = Mapped(self.settings)
+        self.mapped = Bindings(self.settings)
         self.gamepads = Gamepads(lambda: self.time, on_news=lambda _: None, profile=self.mapped.profile)
         self.presses = Presses(lambda press: press.name in ("escape", "b"), lambda _: None)
         self.meanings = SimpleNamespace(held={name: [] for name in HOLDS})
@@ -208,8 +208,8 @@ def test_both_are_ways_in_that_say_how_they_stand(desk: Desk) -> None:
     assert pads.standing == "Red: ready"
     pads.on = board.on = False
     assert (pads.standing, board.standing) == ("Red: off, but for STOP", "off, but for STOP")
-    assert not Mapped(desk.settings).pads_on
-    assert not Mapped(desk.settings).keys.on
+    assert not Bindings(desk.settings).pads_on
+    assert not Bindings(desk.settings).keys.on
 
 
 def test_the_clutch_of_the_tilt_is_left_to_the_tilt(desk: Desk) -> None:

@@ -12,7 +12,7 @@ from app.inputs.base.button_presses import Press, Presses
 from app.inputs.switch_access.scan.engine import Engine
 from app.inputs.switch_access.scan.plan import Planner
 from app.inputs.switch_access.scan.settings import DEFAULTS, Key
-from app.inputs.switch_access.switches import Switches
+from app.inputs.switch_access.switches import SwitchAccess
 from app.screens.inputs.panes.switch_pane import SwitchPane
 from tests.headless import Stage
 
@@ -40,7 +40,7 @@ def pane(stage: Stage) -> Any:
         now=lambda: clock.now,
         inputs=SimpleNamespace(presses=Presses(lambda _: False, lambda _: None), is_switch=None),
     )
-    switches = app.methods["switches"] = Switches(app)
+    switches = app.methods["switches"] = SwitchAccess(app)
     switches._engine = Engine(Nothing(), Planner({}), Nothing())
     switches.start()
     pane = stage.show(SwitchPane(app=app), (600, 800))

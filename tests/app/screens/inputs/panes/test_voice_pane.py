@@ -29,7 +29,7 @@ class VoiceInput:
         self.trying = self.listening = on
 
 
-class Talking:
+class Talkback:
     def __init__(self) -> None:
         self.on, self.voice, self.rate, self.problem = False, "natural", 1.0, ""
         self.spoken: list[str] = []
@@ -40,7 +40,7 @@ class Talking:
 
 class Desk:
     def __init__(self, stage: Stage, languages: tuple[str, ...] = ("en",)) -> None:
-        self.speaking, self.talking, self.stage = VoiceInput(), Talking(), stage
+        self.speaking, self.talking, self.stage = VoiceInput(), Talkback(), stage
         self.speaking.languages = languages
         methods = {"voice": self.speaking, "talk": self.talking}
         app: Any = SimpleNamespace(methods=SimpleNamespace(get=methods.get, turn=self._turn))

@@ -22,7 +22,7 @@ from app.study.response_recording import ResponseRecording
 from app.study.study import COMMANDS
 
 
-class Acts:
+class IntentActions:
     def why_not(self, intent):
         return "No robot is known that could be stopped." if intent == "stop" else ""
 
@@ -61,7 +61,7 @@ class Bench:
             methods=Ways(),
             corner=SimpleNamespace(on_pressed=[]),
         )
-        self.app.intents = Intents(Acts(), Permits(self.settings), self.app.now)
+        self.app.intents = Intents(IntentActions(), Permits(self.settings), self.app.now)
         self.log = self.app.methods.all["log"] = ResponseRecording(self.app, wall=lambda: 1.7e9)
         self.log.start()
         self.pane = StudyPane(app=self.app)
