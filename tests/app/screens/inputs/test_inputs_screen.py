@@ -32,7 +32,7 @@ class Fake:
 
 def test_every_pane_that_there_is_opens_and_leaves_without_a_robot(glass: Glass) -> None:
     glass.tap(glass.app.connect.ids.inputs)
-    page = glass.app.inputs_page
+    page = glass.app.pages._inputs
     glass.until(lambda: page.parent is not None, "the inputs are not on the glass")
     assert set(panes()) <= set(PANES)
     for name in panes():
