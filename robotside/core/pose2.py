@@ -1,4 +1,4 @@
-"""Poses in the plane: where something is and where it points."""
+"""Poses in the plane: position and yaw."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is said to people: figures as they read them, and what others send made fit to be shown and kept."""
+"""Text for people: figures as they are read, and foreign text made safe to show and keep."""
 
 from __future__ import annotations
 

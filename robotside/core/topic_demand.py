@@ -1,4 +1,4 @@
-"""Who wants which of the robot's on-demand topics: made while anybody does."""
+"""The demand for on-demand topics: the robot makes one while at least one client wants it."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What the robot's configuration allows: speeds, depths, heights, the fence and the bumper."""
+"""Limits of the robot's configuration: speeds, depths, heights, the fence and the bumper."""

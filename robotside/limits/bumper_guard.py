@@ -1,4 +1,4 @@
-"""What is left of a person's order while the bumper is pressed: nothing that pushes into what it touches.
+"""The bumper guard: while the bumper is pressed, a person's order does not push into the obstacle.
 
 Pure: what the robot measures is passed in.
 """

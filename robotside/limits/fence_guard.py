@@ -1,4 +1,4 @@
-"""Keeping a moving robot within its fence: a command is made slower until its way, braking included, stays inside."""
+"""The fence guard: it slows a command until its stopping path stays inside the fence."""
 
 from __future__ import annotations
 

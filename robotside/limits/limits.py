@@ -1,4 +1,4 @@
-"""What the robot's own configuration allows: drive commands are clamped to it, goals outside are refused.
+"""Limits of the robot's configuration: drive commands are clamped to them, goals outside are refused.
 
 Pure: what the robot measures is passed in. Speeds are limited to what it may, height and depth so that it comes to rest
 before they are exceeded, and `robotside.limits.fence_guard` does the same for the fence.

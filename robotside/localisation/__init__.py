@@ -1,1 +1,1 @@
-"""Where the robot believes it is, and how sure it is of that."""
+"""Localisation: the pose in the map, and its uncertainty."""

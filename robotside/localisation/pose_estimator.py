@@ -1,4 +1,4 @@
-"""Where the robot believes to be: from the first guess on, told to everyone who needs it."""
+"""The pose estimator: from the first guess on it publishes where the robot is, and how sure it is of that."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far off a believed place may be for what its filter cannot see: an error that all fixes share, reckoning that adds up.
+"""The part of a position's uncertainty that its filter cannot see: an error that all fixes share, and dead reckoning.
 
 Pure. A robot that sees walls has none of it.
 """

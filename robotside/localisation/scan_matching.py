@@ -1,4 +1,4 @@
-"""Knowing where it is: wheel odometry, corrected by laying each laser sweep on the map.
+"""Scan matching: wheel odometry, corrected by laying each laser sweep on the map.
 
 The sweep's end points should lie on surfaces of the map. The pose that makes it so is found by Gauss-Newton on the
 map's distance field with a loss that ignores what the map does not know, and is held by what odometry predicts,

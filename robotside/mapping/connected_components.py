@@ -1,4 +1,4 @@
-"""Patches of a mask: what hangs together, also over corners."""
+"""Connected components of a mask, also over corners."""
 
 from __future__ import annotations
 

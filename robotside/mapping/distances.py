@@ -1,4 +1,4 @@
-"""How far things are from each other, for whole maps and sweeps at once.
+"""Distances between cells and between points, for whole maps and sweeps at once.
 
 In numpy alone: SciPy, which has the same, takes 40 MB for as long as the robot runs.
 """

@@ -1,4 +1,4 @@
-"""A laser's sweep as points."""
+"""A laser sweep as points."""
 
 from __future__ import annotations
 

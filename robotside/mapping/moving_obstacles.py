@@ -1,4 +1,4 @@
-"""What moves by itself among what is seen: another robot, a person. One that comes towards the robot leaves only part of the room."""
+"""Moving obstacles in a laser sweep, such as another robot or a person: one that approaches leaves only part of the room."""
 
 from __future__ import annotations
 

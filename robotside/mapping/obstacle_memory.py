@@ -1,4 +1,4 @@
-"""What the laser sees that the map does not know, remembered for a while."""
+"""The memory of obstacles that the map does not show."""
 
 from __future__ import annotations
 

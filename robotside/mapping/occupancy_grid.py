@@ -1,4 +1,4 @@
-"""The robot's map as arrays: what is occupied, and how far everything is from that."""
+"""The occupancy grid: occupied cells, and the distance from every cell to the nearest of them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A ring of sonars as points: each tells how far the nearest thing in its cone is, and not where in the cone."""
+"""A ring of sonars as points: an echo gives the distance within its cone, but not the direction."""
 
 from __future__ import annotations
 

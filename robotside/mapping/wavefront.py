@@ -1,4 +1,4 @@
-"""The cheapest ways over a grid of cells, found bit by bit: a wave that spreads over many cells at a time, in numpy."""
+"""The cheapest paths over a grid of cells, found step by step by a wavefront that spreads over many cells at a time."""
 
 from __future__ import annotations
 

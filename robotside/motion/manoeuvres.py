@@ -1,4 +1,4 @@
-"""Orders to move: what a manoeuvre leads to, as a twist by which it is judged, and what is left of it where less is allowed.
+"""Orders to move: the twist that a manoeuvre leads to, by which it is judged, and the order that is left where less is allowed.
 
 Pure: what the robot measures is passed in.
 """

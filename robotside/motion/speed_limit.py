@@ -1,4 +1,4 @@
-"""Speeds cut to what is allowed."""
+"""Speed limits for twists."""
 
 from __future__ import annotations
 

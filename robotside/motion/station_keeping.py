@@ -1,4 +1,4 @@
-"""What current, wind and its own way do to a robot that cannot hold its place by standing still: it says so, and goes back.
+"""Station keeping of a robot that current, wind or its own way carries: it reports the drift and returns.
 
 Pure: what the robot measures is passed in.
 """

@@ -1,4 +1,4 @@
-"""Where a command leads: what a robot of a kind does of it, and how it comes to rest afterwards."""
+"""The stopping path: the places on the way of a command, braking included, for a kind of robot."""
 
 from __future__ import annotations
 

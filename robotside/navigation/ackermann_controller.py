@@ -1,4 +1,4 @@
-"""Going with steered front wheels: ways with bends that it can drive, backwards too, and arcs that its long body fits through."""
+"""The path controller for steered front wheels: bends that they can drive, backwards too, and arcs that a long body fits through."""
 
 from __future__ import annotations
 

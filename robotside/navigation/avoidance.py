@@ -1,4 +1,4 @@
-"""Not hitting what the laser sees: the arc nearest to the wanted one that stays free.
+"""Obstacle avoidance: the free arc nearest to the wanted one.
 
 Arcs are those a robot drives with constant speed and yaw rate (the curvature-velocity method); the distance that
 is free along each is exact, not sampled.

@@ -1,4 +1,4 @@
-"""Going by courses: of boats, swimmers and what flies, which keep a heading, a speed and a height by themselves."""
+"""The path controller for boats, swimmers and drones, which keep a heading, a speed and a height by themselves."""
 
 from __future__ import annotations
 

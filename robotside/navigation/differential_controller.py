@@ -1,4 +1,4 @@
-"""Going on wheels that turn the robot where it stands: pure pursuit, and arcs that stay free of what the laser sees."""
+"""The path controller for wheels that turn the robot where it stands: pure pursuit along free arcs."""
 
 from __future__ import annotations
 

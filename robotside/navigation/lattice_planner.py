@@ -1,4 +1,4 @@
-"""Ways for what cannot turn where it stands: bends no tighter than it drives, and backwards where that is shorter.
+"""The lattice planner for robots that cannot turn where they stand: bends no tighter than they drive, and backwards where that is shorter.
 
 A search over poses (hybrid A*): from each pose a bend to the left, to the right or straight on, ahead or back; what is
 left of the way by the map tells where to look first, and a last bend and a straight line that reach the goal end it.

@@ -1,4 +1,4 @@
-"""Bringing the robot to a place: plans the way, follows it, evades, plans anew, and knows when it is stuck."""
+"""The navigator: it plans a path, follows it, avoids obstacles, plans again, and notices when it is stuck."""
 
 from __future__ import annotations
 

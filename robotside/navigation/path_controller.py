@@ -1,4 +1,4 @@
-"""How a kind of robot goes along a way: what the guide asks of it. There is one for wheels, for trucks, and for what keeps courses."""
+"""The interface between the navigator and a path controller, and the parts that path controllers share."""
 
 from __future__ import annotations
 

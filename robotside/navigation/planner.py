@@ -1,4 +1,4 @@
-"""The way from here to there on the map, clear of everything by a robot's width."""
+"""The path planner: the shortest way on the map, clear of everything by the robot's width."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Following a path: where to steer and how fast, by pure pursuit."""
+"""Pure pursuit: steering and speed along a path."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What the robot's sensors see: intruders, in the camera picture and on the map."""
+"""Perception of intruders, in the camera picture and on the map."""

@@ -1,4 +1,4 @@
-"""Finding traffic cones in a camera picture: orange above and below white, tall and narrow."""
+"""The detector of traffic cones in a camera picture: orange above and below white, tall and narrow."""
 
 from __future__ import annotations
 

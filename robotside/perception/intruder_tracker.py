@@ -1,4 +1,4 @@
-"""Keeping count of what does not belong here: each intruder once, however often it is seen."""
+"""The tracker of intruders: each counts once, however often it is seen."""
 
 from __future__ import annotations
 

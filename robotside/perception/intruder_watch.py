@@ -1,4 +1,4 @@
-"""Watching out for intruders: pictures and laser together become places on the map."""
+"""The watch for intruders: camera and laser together give their places on the map."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the robot keeps while it is switched off, behind one door: `Records`."""
+"""The records that outlive a restart, behind one class: `Records`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was answered to commands that changed something, so that one that is sent again after a crash is not done again."""
+"""Answers to commands that changed something: a command that is sent again after a crash is not done again."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What happened, numbered over restarts, and who has seen to it."""
+"""The numbered log of events, over restarts, with who acknowledged them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The log of what happened, as the operator reads it."""
+"""The log of events, as the operator reads it."""
 
 from __future__ import annotations
 

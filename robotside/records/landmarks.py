@@ -1,4 +1,4 @@
-"""The named places of the world that a robot is in, taken over once: nobody has to enter what a map has already."""
+"""The named places of a robot's world, taken over once, so that no one has to enter them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How everything that is kept is changed: at once in memory, then on the disk, and only then is it said."""
+"""The ledger of changes: at once in memory, then on the disk, and only then published."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Missions with their names, each change a revision, and the place to return to."""
+"""Missions by name, each change a revision, and the home position."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Named poses, as people speak of them."""
+"""Named poses."""
 
 from __future__ import annotations
 

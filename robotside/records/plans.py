@@ -1,4 +1,4 @@
-"""What comes next: the queue of orders and the schedule."""
+"""The queue of orders and the schedule."""
 
 from __future__ import annotations
 

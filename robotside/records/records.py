@@ -1,4 +1,4 @@
-"""The one door to what the robot keeps: places, missions, history, settings, home, events, schedule, queue.
+"""The one door to all records: places, missions, history, settings, home, events, schedule, queue.
 
 Everything is in memory: reading never waits. A change is seen at once by the robot itself and written by a thread of
 its own; `together` tells when it is on the disk, and only then is it answered and shown. A change that somebody asked for

@@ -1,4 +1,4 @@
-"""Shows everyone what is kept, once it is on the disk."""
+"""The publisher of the records, once they are on the disk."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was done: the history of tasks, and the one that is under way."""
+"""The history of tasks, and the task that is under way."""
 
 from __future__ import annotations
 

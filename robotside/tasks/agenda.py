@@ -1,4 +1,4 @@
-"""What comes next: the queue goes on by itself when a task is done, the schedule starts tasks when their time comes.
+"""The agenda: the queue goes on when a task is done, and the schedule starts tasks when their time comes.
 
 Nothing of it starts while anything speaks against it, and never two tasks at once.
 """

@@ -1,4 +1,4 @@
-"""The short list that is looked through before the first motion: each line is good, bad with the reason, or not known."""
+"""The checklist before the first motion: each line is good, bad with the reason, or not known."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tasks: what the operator asked, from start to end, and what is said about it."""
+"""The task engine: one task at a time, from start to end, with its progress."""
 
 from __future__ import annotations
 

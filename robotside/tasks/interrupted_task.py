@@ -1,4 +1,4 @@
-"""A task that a crash or a power cut ended in the middle: offered, and taken up only when somebody says so."""
+"""The task that a crash or a power cut interrupted: it is offered, and goes on only when an operator asks for it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""MANUAL, chosen by somebody: nothing starts by itself until the robot is set going again, over restarts too."""
+"""MANUAL, chosen by an operator: no task starts by itself until it is released, over restarts too."""
 
 from __future__ import annotations
 

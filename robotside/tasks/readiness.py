@@ -1,4 +1,4 @@
-"""Keeps the list that is looked through before the first motion, and tells everyone when it changes."""
+"""The publisher of the checklist before the first motion."""
 
 from __future__ import annotations
 

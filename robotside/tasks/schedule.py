@@ -1,4 +1,4 @@
-"""When scheduled tasks start, as arithmetic: the instant and the zone are passed in, nothing here looks at a clock.
+"""Arithmetic of the schedule: instant and zone are passed in, no function here reads a clock.
 
 A time of day is that of the robot's zone. One that the clocks jump over in spring starts as much later as they jump, one
 that comes twice in autumn starts the first time.

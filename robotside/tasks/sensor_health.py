@@ -1,4 +1,4 @@
-"""What the robot last measured of itself, and which of its sensors are alive."""
+"""The newest measurements of the robot, and which of its sensors are alive."""
 
 from __future__ import annotations
 

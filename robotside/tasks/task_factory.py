@@ -1,4 +1,4 @@
-"""What was asked for made into a task: names become places, everything is looked at, and what cannot be is said why."""
+"""The factory of tasks: it turns an order into a task, with names looked up, or refuses it with the reason."""
 
 from __future__ import annotations
 

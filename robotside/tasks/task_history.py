@@ -1,4 +1,4 @@
-"""Notes of each task what becomes of it, as the history has it and as a restart needs it."""
+"""The recorder of each task's progress, for the history and for a restart."""
 
 from __future__ import annotations
 

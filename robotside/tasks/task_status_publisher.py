@@ -1,4 +1,4 @@
-"""Tells how the task is: that it began or ended once that is on the disk, so that a restart takes nothing back."""
+"""The publisher of the task's status: begin and end are published once they are on the disk, so that a restart takes nothing back."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""The database itself: its file, tables, migrations and the thread that writes."""
+"""The database: its file, tables, migrations and the thread that writes."""

@@ -1,4 +1,4 @@
-"""The SQLite file of the records: who may have it, whether it is whole, its backups."""
+"""The SQLite file of the records: its lock, its integrity, its backups."""
 
 from __future__ import annotations
 

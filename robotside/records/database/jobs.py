@@ -1,4 +1,4 @@
-"""What is to be written in one transaction, and who waits for it."""
+"""Jobs for the writing thread: the rows of one transaction, and who waits for them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What older programs left beside the database: the mission, and how the robot side was left, as JSON files."""
+"""Files of older programs beside the database: the mission and the last state of the robot side, as JSON."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The rows as the robot knows them: what is on the disk, and what is on its way there."""
+"""The rows in memory: those on the disk, and those on their way there."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The database itself: one engine, used by one thread at a time; what goes wrong comes as a sentence."""
+"""The database engine, used by one thread at a time; its errors come as sentences."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the database has: its tables, as SQLAlchemy's models. `migrations` make them; names and types never change without one."""
+"""The tables of the database, as SQLAlchemy's models. `migrations` make them; names and types never change without one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The thread that writes, so that nobody waits for the disk but who wants to know that it is done."""
+"""The thread that writes to the database: only those who need to know that it is done wait for the disk."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What the robot does about a task, as behaviour trees: each leaf is one thing done, each ending leaves it at rest."""
+"""Behaviours of the tasks, as trees: each leaf does one thing, each ending leaves the robot at rest."""

@@ -1,4 +1,4 @@
-"""The small parts that trees are made of."""
+"""Small parts of behaviour trees."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Standing and asking until somebody answers: by a tap, or with the right card at the reader."""
+"""The question to a person: the robot stands until someone answers by a tap, or with the right card at the reader."""
 
 from __future__ import annotations
 

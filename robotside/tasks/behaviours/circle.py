@@ -1,4 +1,4 @@
-"""Going once round an intruder at a safe distance, with a look at it from every side."""
+"""The circle round an intruder at a safe distance, with a look from every side."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The points of a task: which is next, how many are done, how far it is. And what a task without points tells instead."""
+"""The points of a task: which is next, how many are done, how far it is; and the progress of a task without points."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Delivering: to the pick-up, ask, to the addressee, ask, and on to where it shall be then, if anywhere.
+"""The delivery: to the pick-up, ask, to the addressee, ask, and on to the next place, if there is one.
 
 rounds ── leg ─┬─ choose the next place
                ├─ drive to point

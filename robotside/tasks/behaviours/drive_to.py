@@ -1,4 +1,4 @@
-"""Driving to the point that a course heads for."""
+"""The drive to the next point of a course."""
 
 from __future__ import annotations
 

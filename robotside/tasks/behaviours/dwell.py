@@ -1,4 +1,4 @@
-"""Standing at a point for a while."""
+"""A stop at a point for a while."""
 
 from __future__ import annotations
 

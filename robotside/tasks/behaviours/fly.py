@@ -1,4 +1,4 @@
-"""Taking off, landing and surfacing: what is done where the robot is, up and down."""
+"""Vertical manoeuvres: taking off, landing and surfacing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Going in one direction, whatever lies there, up to the next thing that it must not touch."""
+"""A drive in one direction, up to the next obstacle."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Staying where it is."""
+"""Holding the place."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Leading a person along places: waits when nobody follows, and tells what is there."""
+"""The guide that leads a person along places: it waits when no one follows, and says what is there."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Patrolling: point after point in a loop, at random or with a halt at each; and the ways to a single place.
+"""Patrols: point after point in a loop, at random or with a stop at each; and the ways to a single place.
 
 rounds ── visit ─┬─ choose the next point
                  ├─ try ─┬─ arrive ─┬─ drive ─┬─ circle intruders

@@ -1,4 +1,4 @@
-"""What behaviours know of the world at this moment, and what they say that they do."""
+"""The situation as behaviours see it at this moment, and what they report."""
 
 from __future__ import annotations
 
