@@ -1,1 +1,1 @@
-"""What both ends of the socket agree on: messages, topics, frames, units and the rosbridge protocol."""
+"""Everything that both ends of the socket share: messages, topics, frames, units and the rosbridge protocol."""

@@ -1,4 +1,4 @@
-"""The handheld's end of a camera's own WebSocket."""
+"""The client's end of a camera's own WebSocket."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ __all__ = ["CameraStream"]
 
 log = logging.getLogger(__name__)
 OPEN_TIMEOUT = 3.0
-"""How long looking up a name may take, and then opening the connection [s]."""
+"""Longest time for looking up the name, and again for opening the connection [s]."""
 
 
 class CameraStream(Reconnecting):
-    """The pictures of one camera, over a WebSocket of their own; connects again by itself."""
+    """The pictures of one camera, over a WebSocket of their own that reconnects by itself."""
 
     def __init__(
         self,
@@ -33,12 +33,13 @@ class CameraStream(Reconnecting):
         backoff: tuple[float, float] = (0.5, 5.0),
         rng: random.Random | None = None,
     ) -> None:
-        """`url` is `ws://HOST:PORT/camera/NAME`; `on_frame(frame, received)`, `received` by `now()` [s]."""
+        """`url` is `ws://HOST:PORT/camera/NAME`; `on_frame(frame, received)` is called for each picture, `received`
+        by `now()` [s]."""
         super().__init__(url, now, backoff, rng)
         self._on_frame = on_frame
 
     async def stay_connected(self) -> None:
-        """Connect again and again; returns when the address can never work."""
+        """Connect, and reconnect whenever the connection is lost; returns when the address can never work."""
         attempt = 0
         while True:
             attempt += 1

@@ -1,4 +1,4 @@
-"""The handheld's end of the socket: a rosbridge v2 client that connects again by itself and never sends late."""
+"""A rosbridge v2 client that reconnects by itself and never sends a message late."""
 
 from __future__ import annotations
 
@@ -40,11 +40,11 @@ __all__ = ["BridgeClient", "CameraStream", "LinkState", "Phase"]
 log = logging.getLogger(__name__)
 
 OPEN_TIMEOUT = 3.0
-"""How long looking up a name may take, and then opening the connection [s]."""
+"""Longest time for looking up the name, and again for opening the connection [s]."""
 UNREAD_TIMEOUT = 0.25
-"""What a foreign server leaves unread for longer holds drive commands back until it was read [s]."""
+"""Drive commands are held back while a foreign server leaves data unread for longer than this [s]."""
 CHANGE_CHECK_PERIOD = 0.25
-"""While waiting for the next attempt the network is looked at this often [s]."""
+"""Time between two checks for changes of the network while waiting for the next attempt [s]."""
 
 
 class BridgeClient(Registrations, ServiceCalls, Reconnecting):
@@ -62,8 +62,8 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
     ) -> None:
         """`url` is `ws://HOST:PORT`. `backoff` is the first and the longest wait between attempts [s].
 
-        `now` is this machine's clock [s]; `rng` spreads the waits, so that many handhelds do not come at once; `network`
-        tells of this machine's addresses, None for asking the system.
+        `on_state` is called with each new state. `now` is this machine's clock [s]. `rng` spreads the waits, so that
+        many clients do not reconnect at once. `network` reports this machine's addresses; None asks the system.
         """
         Reconnecting.__init__(self, url, now, backoff, rng)
         session = ClientSession()
@@ -79,53 +79,54 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
 
     @property
     def rtt(self) -> float:
-        """How long the last answered ping took [s]; NaN until there is one."""
+        """Round-trip time of the ping answered last [s]; NaN until there is one."""
         return self._heartbeat.statistics.rtt if self._heartbeat else math.nan
 
     @property
     def offset(self) -> float:
-        """The operators' clock minus `now()` [s], by the least rtt of the last 20 pings; NaN until known."""
+        """Offset of the operators' clock from `now()` [s], from the fastest of the last 20 pings; NaN until known."""
         return self._heartbeat.statistics.offset if self._heartbeat else math.nan
 
     @property
     def lost(self) -> int:
-        """How many of the last 20 pings were not answered within 1.5 s."""
+        """Number of the last 20 pings that were not answered within 1.5 s."""
         return self._heartbeat.statistics.lost(self._now()) if self._heartbeat else 0
 
     @property
     def foreign(self) -> bool:
-        """The server is none of ours; False too while there is no connection."""
+        """Whether the server is not a Pilothouse server; False without a connection."""
         return self._connection is not None and not self._connection.ours
 
     @property
     def ros2(self) -> bool:
-        """The server said last that it speaks ROS 2: types are spelled `pkg/msg/Type` to it, and times `sec`, `nanosec`."""
+        """Whether the server reported ROS 2: types are then spelled `pkg/msg/Type`, and times `sec`, `nanosec`."""
         return self._session.ros2
 
     @property
     def late(self) -> bool:
-        """Nothing came for a second: what is sent now may wait on its way. False before and after a connection.
+        """Whether a message that is sent now may arrive late, because nothing was received for a second.
 
-        One that is being given up is late until `state` tells of it.
+        False before and after a connection. A connection that is being given up is late until `state` reports it.
         """
         if self.state.phase is not Phase.CONNECTED or self._heartbeat is None:
             return False
         return self._connection is None or self._heartbeat.liveness.is_late(self._now())
 
     def robot_time(self) -> float:
-        """The operators' clock, which the robot tells, now [s]; NaN until it is known."""
+        """The operators' clock now [s], as the robot reported it; NaN until it is known."""
         return self._now() + self.offset
 
     def publish(self, topic: str, msg: Msg, *, stamp: float | None = None, even_late: bool = False) -> bool:
-        """Send a message at once. False when it was dropped, because there is no connection or it is stuck.
+        """Send a message at once; False when it was dropped because there is no connection or it is stuck.
 
-        It is never sent later. `stamp` is when the operator meant it [s], operators' clock: a drive command, which is
-        dropped too when nothing came from the robot for a second. NaN is for when that clock is not known: such a command
-        goes to a foreign server only, without a stamp. Foreign servers do not mind how old a command is: to them a twist with
-        a stamp is dropped as well while they leave unread, for 0.25 s, what was sent before.
+        A dropped message is never sent later. `stamp` [s] is the operators' clock at the operator's input and marks a
+        drive command, which is also dropped when nothing was received from the robot for a second. NaN means that
+        this clock is not known: the command then goes to a foreign server only, without a stamp. Foreign servers do
+        not check the age of a command: for them a twist with a stamp is also dropped while they have left earlier
+        data unread for 0.25 s.
 
-        `even_late` is for commands to rest, which are as right late as in time: they go out unless the socket is full.
-        ProtocolError for what JSON cannot say.
+        `even_late` is for commands to rest, which are right at any age: they are sent unless the socket is full.
+        ProtocolError for values that JSON cannot represent.
         """
         connection, heartbeat = self._connection, self._heartbeat
         if connection is None or heartbeat is None or self.state.phase is not Phase.CONNECTED:
@@ -138,7 +139,8 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         return self._send(Publish(topic=topic, msg=Raw(to_json(msg, self._session.ros2)), stamp=stamp))
 
     def _too_late(self, msg: Msg, stamp: float, connection: Connection, heartbeat: Heartbeat) -> bool:
-        """A drive command would wait on its way; of one to a foreign server that does not, it is asked when it was read."""
+        """Whether a drive command would wait on its way. A foreign server where it would not is asked for a sign of
+        having read it."""
         now = self._now()
         if heartbeat.liveness.is_late(now) or (connection.ours and not math.isfinite(stamp)):
             return True
@@ -156,7 +158,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
             self._set_state(Phase.CLOSED, "Not connected.")
 
     async def stay_connected(self) -> None:
-        """Connect again and again; returns when the address can never work."""
+        """Connect, and reconnect whenever the link is lost; returns when the address can never work."""
         attempt, trouble = 0, ""
         while True:
             attempt += 1
@@ -176,7 +178,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
             await self._pause(wait)
 
     async def _pause(self, wait: float) -> None:
-        """Wait `wait` [s], less when there is a new way to the robot or this machine wakes up."""
+        """Wait `wait` [s], or less when the route to the robot changes or this machine wakes from sleep."""
         changes = NetworkChanges(self._network, self._address)
         clock = asyncio.get_running_loop().time
         until = clock() + wait
@@ -186,7 +188,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
                 return
 
     async def _connect_once(self) -> None:
-        """Connect and serve the link until it is lost; raises LinkLost or BadAddress always."""
+        """Connect and serve the link until it is lost; always raises LinkLost or BadAddress."""
         connection = await open_connection(self.url, OPEN_TIMEOUT)
         self._address = connection.address
         self._heartbeat = heartbeat = Heartbeat(
@@ -228,7 +230,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         self._set_state(Phase.CONNECTED, f"Connected to {self.place}{clock}.")
 
     def _on_ros_version(self, answer: ServiceResponse | None) -> None:
-        """A server of ROS 1 does not know the question: it refuses or says nothing."""
+        """Note the server's generation of ROS. A ROS 1 server does not know the question: it refuses or is silent."""
         if answer is None:
             return
         ros2 = answer.result and _version_in(answer) >= 2
@@ -254,7 +256,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
 
 
 def _version_in(answer: ServiceResponse) -> int:
-    """The generation of ROS; 1 when the answer does not say."""
+    """The generation of ROS in an answer; 1 when it does not say."""
     with contextlib.suppress(msgspec.MsgspecError):
         told = msgspec.json.decode(answer.values)
         version = told.get("version") if isinstance(told, dict) else None

@@ -1,4 +1,4 @@
-"""Goals of actions as a client sends them: what takes a while, tells how it goes and can be taken back."""
+"""Goals of actions on the client's side: sent once, with feedback, a result, and cancellation."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ R = TypeVar("R", bound=Msg)
 
 
 class Goal(Generic[R]):
-    """One goal on its way; made by `BridgeClient.goal` and used in its event loop."""
+    """One goal under way; made by `BridgeClient.goal` and used in its event loop."""
 
     def __init__(
         self,
@@ -35,7 +35,7 @@ class Goal(Generic[R]):
     ) -> None:
         self.action = action
         self.status = GoalStatus.STATUS_EXECUTING
-        """As in action_msgs/GoalStatus: 2 under way, 4 succeeded, 5 canceled, 6 aborted; 0 when nobody can say."""
+        """As in action_msgs/GoalStatus: 2 executing, 4 succeeded, 5 canceled, 6 aborted; 0 when it is not known."""
         self._type = result
         self._feedback = feedback
         self._on_feedback = on_feedback
@@ -44,18 +44,18 @@ class Goal(Generic[R]):
 
     @property
     def done(self) -> bool:
-        """What became of it is known, or never will be."""
+        """Whether the result is known or will never be known."""
         return self._over.done()
 
     def cancel(self) -> bool:
-        """Take it back; `result` says what became of it. False when it is over or there is no connection."""
+        """Ask for cancellation; `result` gives the outcome. False when the goal has ended or there is no connection."""
         return not self.done and self._cancel()
 
     async def result(self, timeout: float | None = None) -> R:
-        """Wait for what comes of it, `timeout` at most [s]; the goal goes on when that is over.
+        """Wait for the result, for `timeout` [s] at most; the goal itself continues after that.
 
-        Refused when it was refused, aborted or cancelled, NotConnected when the connection was cut, NoReply when the time
-        is over, ProtocolError when what came is no such result.
+        Raises Refused when the goal was refused, aborted or cancelled, NotConnected when the connection was cut,
+        NoReply after `timeout`, ProtocolError when the answer is no such result.
         """
         try:
             async with asyncio.timeout(timeout):
@@ -91,7 +91,7 @@ class Goal(Generic[R]):
 
 
 def action_of(goal: Msg) -> str:
-    """The ROS name of the action that `goal` is a goal of; ProtocolError when it is none of any."""
+    """The ROS name of the action that `goal` belongs to; ProtocolError when it is not the goal of an action."""
     name = goal.MSGTYPE
     if not name.endswith("Goal"):
         raise ProtocolError(f"{name or type(goal).__name__} is not the goal of an action.")
@@ -99,13 +99,14 @@ def action_of(goal: Msg) -> str:
 
 
 def reason(values: Raw) -> str:
-    """Why a call or a goal was refused, which stands in the place of its values; empty when nothing was said."""
+    """The reason of a refusal, which stands in the place of the values; empty when there is none."""
     said = cast(object, msgspec.json.decode(values))
     return said if isinstance(said, str) else ""
 
 
 def part_of(name: str, part: str) -> type[Msg]:
-    """A service's or action's `Request`, `Response`, `Goal`, `Result` or `Feedback`; ProtocolError when it is not known."""
+    """The class of a service's or action's `Request`, `Response`, `Goal`, `Result` or `Feedback`; ProtocolError when
+    it is not known."""
     found = TYPES.get(f"{name}{part}")
     if found is None:
         raise ProtocolError(f"{name}{part} is no known type.")

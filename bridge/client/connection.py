@@ -1,4 +1,4 @@
-"""One open WebSocket to a robot, and how it is opened and ended."""
+"""One open WebSocket to a robot, with its opening and closing."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ from bridge.protocol import MAX_CLIENT_FRAME
 __all__ = ["Connection", "open_connection"]
 
 OURS = "Pilothouse"
-"""What our server calls itself."""
+"""Beginning of our server's name in the `Server` header."""
 _MAX_UNSENT_BYTES = 65536
-"""With more bytes than this waiting in the socket it is stuck."""
+"""A socket with more bytes than this waiting counts as full."""
 _RETRANSMITS = 2
-"""Place in Linux's `struct tcp_info` of how often the oldest bytes under way were sent again [byte]."""
+"""Offset of the retransmission count in Linux's `struct tcp_info` [byte]."""
 _RESET = struct.pack("ii", 1, 0)
-"""`struct linger`: what was not sent when a socket is closed is thrown away."""
+"""`struct linger` that discards unsent data when a socket is closed."""
 
 
 class Connection:
-    """One WebSocket, open from the start. Owned by whoever dialled; `close` ends it."""
+    """One WebSocket, open from the start. Its owner ends it by `close`."""
 
     def __init__(self, ws: ClientConnection, address: tuple[str, int]) -> None:
         self.address = address
-        """The other end: numeric address and port."""
+        """Numeric address and port of the other end."""
         self._ws = ws
         self._socket: socket.socket = ws.transport.get_extra_info("socket")
         self._pinging: asyncio.Task[None] | None = None
@@ -43,50 +43,51 @@ class Connection:
 
     @property
     def ours(self) -> bool:
-        """The other end says that it is a Pilothouse server."""
+        """Whether the other end identifies itself as a Pilothouse server."""
         response = self._ws.response
         return response is not None and response.headers.get("Server", "").startswith(OURS)
 
     @property
     def local(self) -> str:
-        """The numeric address of this machine that it uses; empty where the system does not tell."""
+        """The numeric address of this machine that it uses; empty where the system does not report it."""
         name = self._ws.transport.get_extra_info("sockname")
         return str(name[0]) if name else ""
 
     @property
     def stuck(self) -> bool:
-        """What was sent last does not get through, so that anything more would wait and arrive late.
+        """Whether the data sent last does not get through, so that anything more would wait and arrive late.
 
-        The system tells when the other end did not acknowledge in time, which takes 0.2 s at least; where it does not tell,
-        only a full buffer is noticed.
+        The system reports it when the other end did not acknowledge in time, 0.2 s at least; where it does not report
+        that, only a full buffer is noticed.
         """
         return self.full or _sent_again(self._socket)
 
     @property
     def full(self) -> bool:
-        """So much waits in the socket that nothing more is to be put behind it."""
+        """Whether so much waits in the socket that nothing more should be queued behind it."""
         return self._ws.transport.get_write_buffer_size() > _MAX_UNSENT_BYTES
 
     def send(self, text: str) -> bool:
-        """Send a text now; False when it is closed."""
+        """Send a text now; False when the connection is closed."""
         if self._ws.state is not State.OPEN:
             return False
         broadcast([self._ws], text)
         return True
 
     def ping(self, answered: Callable[[], object]) -> None:
-        """Send a WebSocket ping; does nothing while the last one is not answered."""
+        """Send a WebSocket ping and call `answered` at its pong; does nothing while the last one is unanswered."""
         if self._pinging is None or self._pinging.done():
             self._pinging = asyncio.create_task(self._ping(answered))
 
     def probe(self, now: float) -> None:
-        """Ask the other end, at `now` [s], to answer when it has read what was sent; does nothing while it owes an answer."""
+        """Ask the other end, at `now` [s], for a sign of having read what was sent; does nothing while the last probe
+        is unanswered."""
         if self._probe is None or self._probe.done():
             self._probed = now
             self._probe = asyncio.create_task(self._ping(lambda: None))
 
     def unread_time(self, now: float) -> float:
-        """For how long it has owed that answer [s]; 0 when it owes none."""
+        """How long the last probe has been unanswered [s]; 0 when none is."""
         owes = self._probe is not None and not self._probe.done()
         return now - self._probed if owes else 0.0
 
@@ -96,15 +97,15 @@ class Connection:
             answered()
 
     async def messages(self) -> AsyncIterator[bytes]:
-        """What comes, text and binary alike as bytes, until the connection ends, however it ends."""
+        """All messages, text and binary alike as bytes, until the connection ends for any reason."""
         with contextlib.suppress(ConnectionClosed):
             while True:
                 yield await self._ws.recv(decode=False)
 
     async def close(self, *, lost: bool = False) -> None:
-        """Close it; 0.2 s at most, even when nothing listens at its other end any more.
+        """Close the connection, in 0.2 s at most, even when nothing listens at the other end.
 
-        When it is `lost` the system is told to throw away what it could not deliver yet: it would arrive late.
+        When it is `lost` the system discards the data that it could not deliver yet: it would arrive late.
         """
         asked = [task for task in (self._pinging, self._probe) if task is not None]
         for task in asked:
@@ -124,13 +125,13 @@ class Connection:
 
 
 class _Acknowledging(ClientConnection):
-    """Has the kernel acknowledge what came as soon as it is read, not only with the last piece of a message.
+    """A connection whose data the kernel acknowledges as soon as it is read.
 
-    A server with Nagle's algorithm holds back the short last piece of what it sends until all before it is acknowledged.
+    A server with Nagle's algorithm holds back the short last piece of a message until all before it is acknowledged.
     """
 
     def data_received(self, data: bytes) -> None:
-        """Take what came from the network."""
+        """Handle data from the network."""
         _acknowledge_at_once(self.transport.get_extra_info("socket"))
         super().data_received(data)
 
@@ -138,8 +139,8 @@ class _Acknowledging(ClientConnection):
 async def open_connection(url: str, open_timeout: float, *, ping_interval: float | None = None) -> Connection:
     """Open a WebSocket; LinkLost or BadAddress with the reason when that fails.
 
-    `open_timeout` is how long looking up the name may take, and then opening the connection [s]. With `ping_interval` [s] it
-    is closed when its other end no longer answers pings.
+    `open_timeout` [s] limits the look-up of the name, and again the opening of the connection. With `ping_interval`
+    [s] the connection is closed when its other end no longer answers pings.
     """
     host, port = host_and_port(url)
     place = f"{host}:{port}"
@@ -175,14 +176,14 @@ async def open_connection(url: str, open_timeout: float, *, ping_interval: float
 
 
 def _acknowledge_at_once(sock: socket.socket) -> None:
-    """Ask the kernel not to sit on acknowledgements: a ROS 1 server holds data back for them, up to 40 ms."""
+    """Have the kernel acknowledge at once: a ROS 1 server waits for acknowledgements, up to 40 ms."""
     if hasattr(socket, "TCP_QUICKACK"):
         with contextlib.suppress(OSError):
             sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_QUICKACK, 1)
 
 
 def _sent_again(sock: socket.socket) -> bool:
-    """The system is sending again what it sent before; False where it does not tell."""
+    """Whether the system is retransmitting; False where it does not report that."""
     if not hasattr(socket, "TCP_INFO"):
         return False
     try:
@@ -192,7 +193,7 @@ def _sent_again(sock: socket.socket) -> bool:
 
 
 def _quiet_log() -> logging.Logger:
-    """A log for the WebSocket library: what it reports, the link reports in plain words."""
+    """A log for the WebSocket library, kept quiet: the link reports the same in plain words."""
     quiet = logging.getLogger("bridge.client.connection.websockets")
     quiet.setLevel(logging.CRITICAL)
     return quiet

@@ -1,4 +1,4 @@
-"""The heartbeat of one connection: what the robot's clock says, how long the way takes, and whether the link still lives."""
+"""The heartbeat of one connection: pings that measure it and keep a check on its life."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from bridge.protocol import ClientSession, Id, Op, ServiceResponse
 __all__ = ["Heartbeat"]
 
 PING_PERIOD = 0.5
-"""[s]"""
+"""Time between two pings [s]."""
 _MAX_TIME_QUESTIONS = 10
-"""So many questions for the time wait for their answer at most."""
+"""Most questions for the time that wait for their answer."""
 
 
 class Heartbeat:
-    """PingStatistics over one connection until it is lost."""
+    """Pings over one connection until it is lost."""
 
     def __init__(
         self,
@@ -39,7 +39,7 @@ class Heartbeat:
         network: Network,
         on_robot: Callable[[], object],
     ) -> None:
-        """`on_robot` is called once, when the other end has shown to be a robot's server."""
+        """`on_robot` is called once, when the other end has proved to be a robot's server."""
         self.statistics = PingStatistics()
         self.liveness = Liveness(place, connection.ours, now())
         self._connection = connection
@@ -53,7 +53,8 @@ class Heartbeat:
         self._time_questions: deque[Id] = deque()
 
     async def run(self) -> None:
-        """Ping; raises LinkLost when the link is silent, was cut off by a change of the network, or never was a robot's."""
+        """Send pings; raises LinkLost when the link is silent, the network changed under it, or the other end is no
+        robot."""
         changes = NetworkChanges(self._network, self._connection.address)
         while True:
             self._ping()
@@ -99,7 +100,7 @@ class Heartbeat:
 
 
 def _time_in(answer: ServiceResponse) -> float:
-    """The operators' clock [s]; NaN when the robot cannot say."""
+    """The operators' clock [s] in an answer; NaN when the robot does not know it."""
     try:
         return from_json(answer.values, GetTimeResponse).time.seconds if answer.result else math.nan
     except ProtocolError:

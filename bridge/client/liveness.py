@@ -1,8 +1,8 @@
-"""What a link's other end is, and whether it still lives, judged by what comes; without I/O.
+"""Liveness of a link, and whether its other end is a robot, judged by what is received; without I/O.
 
-Our own servers tell their time at once, and without it no link to them counts. Others may have no rosapi: they refuse to
-tell the time, or do not answer at all. There an answer to any question of ours, a message that was subscribed, or in the
-end that pings are answered and nothing strange came, makes a robot of a WebSocket.
+Our own servers report their time at once, and a link to them counts only with it. Foreign servers may have no rosapi:
+they refuse to report the time, or do not answer. There an answer to any question, a message of a subscription, or in
+the end pongs without anything strange, prove that the WebSocket belongs to a robot.
 """
 
 from __future__ import annotations
@@ -14,29 +14,31 @@ from bridge.core.address import LinkLost
 __all__ = ["SILENCE_TIMEOUT", "Liveness"]
 
 SILENCE_TIMEOUT = 3.0
-"""A link on which nothing came for this long is lost [s]."""
+"""A link on which nothing was received for this long is lost [s]."""
 ALERT_TIMEOUT = 1.0
 """As `SILENCE_TIMEOUT`, after the network changed or the machine slept [s]."""
 LATE_AFTER = 1.0
-"""When nothing came for this long, what is sent now may arrive late [s]; a link that lives brings something twice a second."""
+"""When nothing was received for this long, a message that is sent now may arrive late [s]; a live link brings
+something twice a second."""
 GRACE_TIME = 1.0
-"""A server that answers other questions may still tell its time, for this long from the beginning [s]."""
+"""A foreign server may report its time this long after the connection, although it answers other questions [s]."""
 _TIME_QUESTION_INTERVAL = 4
-"""A foreign server that tells its time is asked for it with each so many pings."""
+"""Pings between two questions for the time to a foreign server that reports it."""
 _RARE_TIME_QUESTION_INTERVAL = 20
-"""As `_TIME_QUESTION_INTERVAL`, when it does not."""
+"""As `_TIME_QUESTION_INTERVAL`, for a server that does not."""
 
 
 class Liveness:
-    """One connection's life, from its opening on. Times are [s] on one clock that only goes forward."""
+    """The life of one connection. Times are [s] on one clock that only goes forward."""
 
     def __init__(self, place: str, ours: bool, now: float) -> None:
-        """`place` is the address as people say it; `ours` whether the other end calls itself a Pilothouse server."""
+        """`place` is the address as people say it; `ours` whether the other end identifies itself as a Pilothouse
+        server."""
         self.ours = ours
         self.robot = False
-        """The other end has shown to be a robot's server."""
+        """Whether the other end has proved to be a robot's server."""
         self.tells_time: bool | None = None
-        """It tells its clock; None until it answered."""
+        """Whether it reports its clock; None until it answered."""
         self._place = place
         self._opened = self._heard = now
         self._alert = math.inf
@@ -46,7 +48,7 @@ class Liveness:
         self._beats = -1
 
     def should_ask_time(self) -> bool:
-        """Count one ping; whether it is to ask for the time."""
+        """Count one ping; whether it should ask for the time."""
         self._beats += 1
         if self.ours:
             return True
@@ -57,43 +59,43 @@ class Liveness:
         )
 
     def on_message(self, now: float) -> None:
-        """Something came."""
+        """Note that something was received."""
         self._heard = now
         self._alert = math.inf
 
     def on_pong(self, now: float) -> None:
-        """A WebSocket ping was answered."""
+        """Note that a WebSocket ping was answered."""
         self.on_message(now)
         self._pong = True
 
     @property
     def answers_pings(self) -> bool:
-        """It answers pings of WebSocket."""
+        """Whether the other end answers WebSocket pings."""
         return self._pong
 
     def on_answer(self) -> None:
-        """A question of ours was answered, or something came that we subscribed."""
+        """Note an answer to a question of ours, or a message of a subscription."""
         self._answers = True
 
     def on_time(self, known: bool) -> None:
-        """The question for the time was answered; `known` tells whether with a time."""
+        """Note an answer to the question for the time; `known` is False when it has no time."""
         self.tells_time = known
         self.robot = True
 
     def on_strange(self) -> None:
-        """Something came that no robot's server sends: what is no operation, or a question that nobody may ask."""
+        """Note something that no robot's server sends: not an operation, or a request to a client that serves none."""
         self._strange = True
 
     def alert(self, now: float) -> None:
-        """The network changed or the machine slept: the link has to show soon that it lives."""
+        """Note that the network changed or the machine slept: the link must show soon that it lives."""
         self._alert = min(self._alert, now)
 
     def is_late(self, now: float) -> bool:
-        """What is sent now may wait on its way."""
+        """Whether a message that is sent now may wait on its way."""
         return now - self._heard > LATE_AFTER
 
     def check(self, now: float) -> None:
-        """LinkLost when it is silent, or has not shown in time to be a robot's server."""
+        """Raise LinkLost when the link is silent, or its other end did not prove in time to be a robot's server."""
         if now - self._heard >= SILENCE_TIMEOUT:
             raise LinkLost(f"Nothing came from {self._place} for {SILENCE_TIMEOUT:g} s.")
         if now - self._alert >= ALERT_TIMEOUT:

@@ -1,4 +1,4 @@
-"""How long the way to the robot takes, how the operators' clock differs from ours, and what goes unanswered."""
+"""Ping statistics of a link: round-trip time, offset of the operators' clock, and loss."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from dataclasses import dataclass
 __all__ = ["Ping", "PingStatistics"]
 
 WINDOW = 20
-"""As many pings are looked at."""
+"""Number of pings that the statistics cover."""
 LOST_TIMEOUT = 1.5
-"""A ping without answer for this long counts as lost [s]."""
+"""A ping without an answer for this long counts as lost [s]."""
 
 
 @dataclass(slots=True)
@@ -19,11 +19,11 @@ class Ping:
     """One question for the robot's time."""
 
     sent: float
-    """Our clock [s]."""
+    """When it was sent, our clock [s]."""
     rtt: float = math.nan
-    """From the question to its answer [s]; NaN until there is one."""
+    """Round-trip time [s]; NaN until it is answered."""
     offset: float = math.nan
-    """The operators' clock minus ours [s]; NaN when the answer did not say the time."""
+    """Offset of the operators' clock from ours [s]; NaN when the answer has no time."""
 
 
 class PingStatistics:
@@ -31,21 +31,22 @@ class PingStatistics:
 
     def __init__(self) -> None:
         self.rtt = math.nan
-        """Of the ping answered last [s]; NaN until there is one."""
+        """Round-trip time of the ping answered last [s]; NaN until there is one."""
         self.offset = math.nan
-        """The operators' clock minus ours [s], from the ping with the shortest way; NaN until known."""
+        """Offset of the operators' clock from ours [s], from the fastest ping; NaN until known."""
         self._last: deque[Ping] = deque(maxlen=WINDOW)
 
     def on_sent(self, now: float) -> Ping:
-        """Note that one was sent at `now` [s]."""
+        """Note a ping that is sent at `now` [s]."""
         ping = Ping(now)
         self._last.append(ping)
         return ping
 
     def on_answer(self, ping: Ping, now: float, robot_time: float) -> None:
-        """Note that it was answered at `now` with `robot_time` [s], operators' clock, NaN when the robot did not say.
+        """Note the answer to a ping at `now` with `robot_time` [s], operators' clock, NaN when the robot reported
+        none.
 
-        The robot is taken to have looked at that clock half-way between question and answer.
+        The robot is assumed to have read its clock half-way between question and answer.
         """
         self.rtt = ping.rtt = now - ping.sent
         ping.offset = robot_time - (ping.sent + ping.rtt / 2)
@@ -53,5 +54,5 @@ class PingStatistics:
         self.offset = min(known, key=lambda each: each.rtt).offset if known else math.nan
 
     def lost(self, now: float) -> int:
-        """How many of the last 20 were not answered within 1.5 s."""
+        """Number of the last 20 pings that were not answered within 1.5 s."""
         return sum(1 for ping in self._last if math.isnan(ping.rtt) and ping.sent < now - LOST_TIMEOUT)

@@ -1,4 +1,4 @@
-"""The life of a connection that is opened again whenever it is lost."""
+"""A connection that is opened again whenever it is lost."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from bridge.core.async_tasks import is_cancelled_from_outside
 __all__ = ["Reconnecting"]
 
 _BACKOFF_FACTOR = 1.25
-"""How much longer each wait is than the one before."""
+"""Growth of the wait from one attempt to the next."""
 
 
 class Reconnecting:
-    """Something that keeps one connection open until it is closed for good."""
+    """The base of a client that keeps one connection open until it is closed for good."""
 
     def __init__(
         self, url: str, now: Callable[[], float], backoff: tuple[float, float], rng: random.Random | None
@@ -30,7 +30,7 @@ class Reconnecting:
         self._closed = False
 
     async def run(self) -> None:
-        """Connect, and connect again whenever the connection is lost, until `close()`; not twice at a time."""
+        """Connect, and reconnect whenever the connection is lost, until `close()`; runs once at a time."""
         if self._closed:
             return
         self._work = asyncio.create_task(self.stay_connected())
@@ -41,20 +41,20 @@ class Reconnecting:
                 raise
 
     async def close(self) -> None:
-        """End it for good; `run` returns. Takes 0.3 s at most."""
+        """End the connection for good; `run` returns. Takes 0.3 s at most."""
         self._closed = True
         if self._work is not None and not self._work.done():
             self._work.cancel()
             await asyncio.wait({self._work})
 
     async def stay_connected(self) -> None:
-        """Connect again and again; returns only when the address can never work."""
+        """Connect, and reconnect whenever the connection is lost; returns only when the address can never work."""
         raise NotImplementedError
 
     def wait_before(self, attempt: int) -> float:
-        """How long to wait before attempt number `attempt`, from 1 [s]: a quarter longer each time, and spread.
+        """Wait before attempt number `attempt` [s], counted from 1: a quarter longer each time, and spread.
 
-        So little that after an outage of t seconds the next attempt comes within half of t.
+        After an outage of t seconds the next attempt comes within half of t.
         """
         first, longest = self._backoff
         return min(longest, first * _BACKOFF_FACTOR ** min(attempt - 1, 100)) * self._rng.uniform(0.8, 1.0)

@@ -32,7 +32,7 @@ T = TypeVar("T")
 
 
 class RemoteGoal:
-    """A goal that was given to a robot; may be used from any thread."""
+    """A goal of an action of a remote robot; may be used from any thread."""
 
     def __init__(self, goal: Goal[Any], network: NetworkThread, wait_for: Callable[..., Any]) -> None:
         self._goal = goal
@@ -41,31 +41,31 @@ class RemoteGoal:
 
     @property
     def status(self) -> int:
-        """As in action_msgs/GoalStatus: 2 under way, 4 succeeded, 5 canceled, 6 aborted; 0 when nobody can say."""
+        """As in action_msgs/GoalStatus: 2 executing, 4 succeeded, 5 canceled, 6 aborted; 0 when it is not known."""
         return self._goal.status
 
     @property
     def done(self) -> bool:
-        """What became of it is known, or never will be."""
+        """Whether the result is known or will never be known."""
         return self._goal.done
 
     def cancel(self) -> None:
-        """Take it back; `result` says what became of it."""
+        """Ask for cancellation; `result` gives the outcome."""
         self._network.call(self._goal.cancel)
 
     def result(self, timeout: float | None = None) -> Any:
-        """Wait for what comes of it, `timeout` at most [s]; raises as `bridge.client.client_goals.Goal.result` does."""
+        """Wait for the result, for `timeout` [s] at most; raises as `bridge.client.client_goals.Goal.result` does."""
         return self._wait_for(self._goal.result(timeout), self._goal.action, timeout)
 
 
 class RemoteRobot:
-    """A robot at the other end of a socket; connects by itself and may be used from any thread.
+    """A robot at the other end of a socket; reconnects by itself and may be used from any thread.
 
     Callbacks are called in the network thread: they must not block.
     """
 
     def __init__(self, url: str) -> None:
-        """`url` is `ws://HOST:PORT`; returns at once, whether anybody answers there or not."""
+        """`url` is `ws://HOST:PORT`; returns at once, before there is a connection."""
         self._connected = threading.Event()
         self._published: set[str] = set()
         self._client = BridgeClient(url, on_state=self._note)
@@ -92,10 +92,10 @@ class RemoteRobot:
         compression: str = "none",
         reduce: Reduction | None = None,
     ) -> Callable[[], None]:
-        """Have `callback(msg)` called for each message on `topic`; gives the unsubscriber.
+        """Subscribe `topic`: `callback(msg)` is called for each message. Returns the unsubscriber.
 
-        `type` is needed for topics that are not in `bridge.core.topics`, KeyError without; `learn` finds it. The others are as
-        in `BridgeClient.subscribe`.
+        `type` is needed for topics that are not in `bridge.core.topics`, KeyError without; `learn` finds it. The
+        other arguments are as in `BridgeClient.subscribe`.
         """
         wanted = entry_of(topic).type if type is None else type
         return self._lasting(
@@ -110,10 +110,11 @@ class RemoteRobot:
         )
 
     def publish(self, topic: str, msg: Msg) -> None:
-        """Send a message at once; without a connection it is dropped, never sent later.
+        """Send a message at once; without a connection it is dropped and never sent later.
 
-        It carries the moment of this call, so that a robot can tell a drive command that was held up on its way. Foreign
-        servers are told of the topic with its first message, which those of ROS 1 may lose; `advertise` is sooner.
+        It is stamped with the time of this call, so that a robot notices a drive command that was held up on its way.
+        Foreign servers are informed of the topic with its first message, which those of ROS 1 may lose; `advertise`
+        is sooner.
         """
         self._network.call(self._publish, topic, msg, self._client.robot_time())
 
@@ -123,7 +124,8 @@ class RemoteRobot:
         self._client.publish(topic, msg, stamp=stamp, even_late=msg == Twist())
 
     def advertise(self, topic: str, type: type[Msg], *, latch: bool = False) -> None:
-        """Say that this program publishes on `topic`; with `latch` later subscribers get the last message at once."""
+        """Announce that this program publishes on `topic`; with `latch` later subscribers get the last message at
+        once."""
         self._network.call(functools.partial(self._advertise, topic, type, latch=latch))
 
     def _advertise(self, topic: str, type: type[Msg], *, latch: bool) -> None:
@@ -144,16 +146,16 @@ class RemoteRobot:
         *,
         timeout: float = 2.0,
     ) -> Msg:
-        """Ask for something to be done once and wait for the answer, `timeout` at most [s].
+        """Call a service and wait for the response, for `timeout` [s] at most.
 
-        The answer is a CommandResponse unless `response` says otherwise. Raises Refused, NotConnected or NoReply;
-        BridgeError when called from a callback, which must not wait.
+        The response is a CommandResponse unless `response` names another class. Raises Refused, NotConnected or
+        NoReply; BridgeError when called from a callback, which must not wait.
         """
         kind: type[Msg] = CommandResponse if response is None else response
         return self._wait_for(self._client.call(service, request, kind, timeout=timeout), service, timeout)
 
     def learn(self, type_name: str, *, timeout: float = 3.0) -> type[Msg]:
-        """The class of a message type by its ROS name; the robot is asked about one never seen. Raises as `call` does."""
+        """The class of a message type by its ROS name; the robot is asked about an unknown one. Raises as `call` does."""
         return self._wait_for(self._client.learn(type_name, timeout=timeout), type_name, timeout)
 
     def goal(
@@ -165,10 +167,10 @@ class RemoteRobot:
         result: type[Msg] | None = None,
         feedback: type[Msg] | None = None,
     ) -> RemoteGoal:
-        """Ask for something that takes a while: `on_feedback(msg)` hears how it goes, `RemoteGoal` what comes of it.
+        """Send a goal of an action: `on_feedback(msg)` is called on its way, and `RemoteGoal` gives the result.
 
-        `result` and `feedback` are needed for types that are not in `bridge.msgs.TYPES`. Raises NotConnected; ProtocolError
-        without a needed type.
+        `result` and `feedback` are needed for types that are not in `bridge.msgs.TYPES`. Raises NotConnected;
+        ProtocolError without a needed type.
         """
 
         async def begin() -> Goal[Any]:
@@ -177,23 +179,25 @@ class RemoteRobot:
         return RemoteGoal(self._wait_for(begin(), action, 2.0), self._network, self._wait_for)
 
     def serve(self, service: str, type: str, call: Call) -> Callable[[], None]:
-        """Answer calls of `service`, of ROS type `type`, from now on; gives what ends it.
+        """Answer calls of `service`, of ROS type `type`, from now on; returns a function that ends it.
 
-        `call(request)` gives the response, or an awaitable of it; it is called in the network thread. Refused says no.
+        `call(request)` returns the response, or an awaitable of it; it is called in the network thread and raises
+        Refused to refuse.
         """
         part_of(ros1_name(type), "Request")  # says so here when it is not known
         return self._lasting(lambda: self._client.serve(service, type, call))
 
     def provide_action(self, action: str, type: str, run: Run) -> Callable[[], None]:
-        """Carry out goals of `action`, of ROS type `type`, from now on; gives what ends it.
+        """Carry out goals of `action`, of ROS type `type`, from now on; returns a function that ends it.
 
-        `run(goal, tell)` is a coroutine function that runs in the network thread, gives the result and calls `tell(feedback)`.
+        `run(goal, on_feedback)` is a coroutine function that runs in the network thread, calls
+        `on_feedback(feedback)` and returns the result.
         """
         part_of(ros1_name(type), "Goal")  # says so here when it is not known
         return self._lasting(lambda: self._client.provide_action(action, type, run))
 
     def _lasting(self, begin: Callable[[], Callable[[], None]]) -> Callable[[], None]:
-        """Begin something in the network thread; gives what ends it there."""
+        """Begin something in the network thread; returns a function that ends it there."""
         stop: list[Callable[[], None]] = []
 
         def end() -> None:
@@ -214,7 +218,7 @@ class RemoteRobot:
             raise NoReply(f"The robot did not answer {about}.") from error
 
     def close(self) -> None:
-        """End the link and its thread; again does nothing."""
+        """End the link and its thread; a second call does nothing."""
         with contextlib.suppress(NotConnected):
             self._network.start(self._client.close()).result()
         self._network.close()

@@ -1,4 +1,4 @@
-"""What a client asks of a robot: calls of services, goals of actions, and what a type is made of."""
+"""Requests of a client to a robot: service calls, goals of actions, and descriptions of types."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ M = TypeVar("M", bound=Msg)
 
 
 class ServiceCalls:
-    """The part of a client that asks; nothing of it is remembered over reconnects."""
+    """The part of a client that asks; a request ends with its connection."""
 
     def __init__(self, session: ClientSession, place: str) -> None:
         """`place` is the robot's address as people say it."""
@@ -34,10 +34,10 @@ class ServiceCalls:
         raise NotImplementedError
 
     async def call(self, service: str, request: Msg | None, response: type[M], *, timeout: float = 2.0) -> M:
-        """Ask the robot for something to be done once. `timeout` is how long to wait [s].
+        """Call a service and wait for the response, for `timeout` [s] at most.
 
-        Raises Refused with the robot's own sentence, NotConnected, NoReply, or ProtocolError for an answer that
-        is no `response`.
+        Raises Refused with the robot's own sentence, NotConnected, NoReply, or ProtocolError for an answer that is no
+        `response`.
         """
         args = b"{}" if request is None else to_json(request, self._session.ros2)
         return from_json(await self._ask(service, args, timeout), response)
@@ -66,9 +66,10 @@ class ServiceCalls:
         return found.values
 
     async def learn(self, type_name: str, *, timeout: float = 3.0) -> type[Msg]:
-        """The class of a message type by its ROS name, in either spelling; a type never seen is asked for, once.
+        """The class of a message type by its ROS name, in either spelling; the robot is asked once about an unknown
+        one.
 
-        Raises as `call` does; ProtocolError when what the robot tells is no type.
+        Raises as `call` does; ProtocolError when the robot's description is no type.
         """
         from bridge.client.type_learning import learn
 
@@ -92,10 +93,10 @@ class ServiceCalls:
         result: type[M] | None = None,
         feedback: type[Msg] | None = None,
     ) -> Goal[Any]:
-        """Ask for something that takes a while; `goal` is the goal's message, `on_feedback(msg)` hears how it goes.
+        """Send a goal of an action; `goal` is its message, `on_feedback(msg)` is called on its way.
 
         `result` and `feedback` are needed for types that are not in `bridge.msgs.TYPES`; ProtocolError without.
-        NotConnected when there is no connection: it is never sent later.
+        NotConnected when there is no connection: a goal is never sent later.
         """
         name = action_of(goal)
         if on_feedback is not None and feedback is None:

@@ -1,4 +1,4 @@
-"""What a client does for others: it answers calls of its services and carries out goals of its actions."""
+"""Services and actions that a client provides: calls and goals that it carries out for others."""
 
 from __future__ import annotations
 
@@ -31,21 +31,21 @@ __all__ = ["Call", "ServiceProvider", "Run"]
 
 log = logging.getLogger(__name__)
 Call = Callable[[Any], Msg | Awaitable[Msg]]
-"""Takes the request and gives the response, at once or later. Refused with a sentence says no."""
+"""Takes the request and returns the response, at once or as an awaitable. Raises Refused with a sentence to refuse."""
 Run = Callable[[Any, Callable[[Msg], None]], Awaitable[Msg]]
-"""Takes the goal and what tells how far it is, and gives the result. It is cancelled when the goal is taken back."""
+"""Takes the goal and a function for feedback, and returns the result. It is cancelled when the goal is cancelled."""
 
 MAX_CALLS = 100
-"""So many calls are answered at a time."""
+"""Most calls that are answered at a time."""
 
 
 class ServiceProvider:
-    """The calls and goals that are under way. They end with the connection that they came over."""
+    """The calls and goals under way. They end with the connection that they came over."""
 
     def __init__(
         self, session: ClientSession, send: Callable[[Op], bool], foreign: Callable[[], bool]
     ) -> None:
-        """`send` gives an operation to the server; `foreign` tells whether that is none of ours."""
+        """`send` sends an operation to the server; `foreign` returns whether that is not one of ours."""
         self._session = session
         self._send = send
         self._foreign = foreign
@@ -54,16 +54,16 @@ class ServiceProvider:
         self._goals: dict[Id, asyncio.Task[None]] = {}
 
     def serve(self, service: str, type: str, request: type[Msg], call: Call) -> Op:
-        """Answer calls of `service` from now on; gives what to send."""
+        """Answer calls of `service` from now on; returns the operation to send."""
         self._types[service] = type
         return self._session.serve(service, type, lambda op: self._called(op, request, call))
 
     def provide(self, action: str, type: str, goal: type[Msg], run: Run) -> Op:
-        """Carry goals of `action` out from now on; gives what to send."""
+        """Carry out goals of `action` from now on; returns the operation to send."""
         return self._session.provide(action, type, lambda op: self._begin(op, goal, run), self._take_back)
 
     async def lose(self) -> None:
-        """The connection is gone and nobody waits for the answers any more: end what is under way, in 0.2 s at most."""
+        """Cancel all calls and goals of a connection that is lost, in 0.2 s at most."""
         tasks = {*self._calls, *self._goals.values()}
         for task in tasks:
             task.cancel()
@@ -71,7 +71,7 @@ class ServiceProvider:
             await asyncio.wait(tasks, timeout=0.2)
 
     def refuse(self, op: CallService | SendActionGoal, error: ProtocolError) -> None:
-        """Tell the server that what it asked for cannot be done."""
+        """Answer the server that its request cannot be carried out."""
         if isinstance(op, CallService):
             self._decline(op, str(error))
         else:
@@ -99,7 +99,7 @@ class ServiceProvider:
             self._answer(op, text, ok=True)
 
     def _decline(self, op: CallService, sentence: str) -> None:
-        """Say no. rosbridge_server drops values that are no object, and whoever called waits for ever."""
+        """Refuse a call. rosbridge_server drops values that are no object, and the caller would wait for ever."""
         values: object = sentence
         if self._foreign():
             response = TYPES.get(f"{self._types.get(op.service)}Response")
@@ -145,7 +145,8 @@ class ServiceProvider:
             self._send(outcome)
 
     def _aborted(self, op: SendActionGoal, sentence: str) -> ActionResult:
-        """Without the sentence for rosbridge_server, which drops values that are no object."""
+        """The result of a goal that was aborted; without the sentence for rosbridge_server, which drops values that
+        are no object."""
         values = b"{}" if self._foreign() else msgspec.json.encode(sentence)
         return _result(op, values, GoalStatus.STATUS_ABORTED, ok=False)
 

@@ -1,4 +1,4 @@
-"""Message classes made at run time from what `/rosapi/message_details` tells, for types that nobody generated."""
+"""Message classes made at run time from the answer of `/rosapi/message_details`, for types without a generated class."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ from bridge.msgs.builtin_interfaces import Duration, Time
 __all__ = ["learn"]
 
 MAX_TYPES = 500
-"""How many definitions one answer may hold."""
+"""Most definitions in one answer."""
 MAX_FIELDS = 1000
-"""How many fields one type may have."""
+"""Most fields of one type."""
 MAX_DEPTH = 50
-"""How deep types may lie in each other."""
+"""Deepest nesting of types."""
 MAX_ELEMENTS = 1_000_000
-"""How many values the fixed arrays of an empty message may hold together."""
+"""Most values in the fixed arrays of an empty message."""
 
 _SCALARS: dict[str, Any] = {
     "bool": bool,
@@ -54,7 +54,7 @@ _OTHER_NAMES = {
     "builtin_interfaces/Duration": "duration",
     "Header": "std_msgs/Header",
 }
-"""What rosapi calls types beside their names in ROS text: those of IDL, and a bounded text's class."""
+"""Other names of types in rosapi's answers: those of IDL, and the class of a bounded text."""
 _ARRAY_OF = {kind: cls for kind, code in CODES.items() for cls in ARRAYS.values() if cls.code == code}
 _ZEROS: dict[Any, Any] = {"bool": False, "string": "", "wstring": "", "float32": 0.0, "float64": 0.0}
 _BYTES = ("uint8", "char", "byte")
@@ -81,10 +81,10 @@ class _Typedef(msgspec.Struct, frozen=True):
 
 
 def learn(typedefs: Sequence[Mapping[str, Any]]) -> type[Msg]:
-    """The class of the first type in an answer of `/rosapi/message_details`; the others are what it is made of.
+    """The class of the first type in an answer of `/rosapi/message_details`; the others are its parts.
 
-    Names of ROS 1 and ROS 2 are understood. A type that is told as `bridge.msgs` has it is that class. The same answer
-    gives the same class. ProtocolError says what is wrong with an answer.
+    Names of ROS 1 and ROS 2 are understood. A type that is described as `bridge.msgs` has it is that class. The same
+    answer gives the same class. ProtocolError names the fault of an answer.
     """
     try:
         return _learned(msgspec.json.encode(typedefs))
@@ -109,7 +109,7 @@ def _learned(answer: bytes) -> type[Msg]:
 def _made(
     name: str, told: Mapping[str, _Typedef], made: dict[str, type[Msg]], way: tuple[str, ...]
 ) -> type[Msg]:
-    """The class of `name`; `made` are those made for this answer, `way` the types that it is needed for."""
+    """The class of `name`; `made` are those made for this answer, `way` the types that need it."""
     if name in made:
         return made[name]
     if name in way or len(way) > MAX_DEPTH:
@@ -148,7 +148,8 @@ def _kinds(name: str, told: _Typedef) -> dict[str, tuple[str, int]]:
 
 
 def _kind(told: str, length: int, where: str) -> tuple[str, int]:
-    """`told` may hold the array as well, as in `sequence<double, 8>` or `double[3]`."""
+    """The type of one element and the array length; `told` may hold the array as well, as in `sequence<double, 8>` or
+    `double[3]`."""
     sequence = _SEQUENCE.fullmatch(told)
     if sequence:
         told, length = sequence["inner"], 0
@@ -174,7 +175,7 @@ def _named(told: str) -> str:
 
 
 def _constants(told: _Typedef, kinds: Mapping[str, Any]) -> tuple[tuple[str, Any], ...]:
-    """What can be a constant; rosapi of ROS 2 tells defaults and Python's own attributes among them."""
+    """The constants of a type; rosapi of ROS 2 lists defaults and Python's own attributes among them."""
     return tuple(
         (name, _value(value))
         for name, value in zip(told.constnames, told.constvalues, strict=False)
@@ -221,7 +222,8 @@ def _class(
 def _same(
     known: type[Msg], fields: Sequence[tuple[str, Any, type[Msg] | None]], rostypes: tuple[str, ...]
 ) -> bool:
-    """`known` has these fields, of classes that are known themselves; bounds are not told and do not count."""
+    """Whether `known` has these fields, of classes that are known themselves; bounds are not described and do not
+    count."""
     names = [field.encode_name for field in msgspec.structs.fields(known)]
     inside = all(inner is None or TYPES.get(inner.MSGTYPE) is inner for _, _, inner in fields)
     bare = tuple(re.sub(r"<=\d+", "", rostype) for rostype in known.ROSTYPES)
@@ -233,7 +235,7 @@ def _rostype(kind: str, length: int) -> str:
 
 
 def _elements(length: int, inner: type[Msg] | None) -> int:
-    """How many values an empty field holds; one of any length holds none."""
+    """Number of values in an empty field; a field of any length holds none."""
     return (1 if length < 0 else length) * (_held(inner) if inner else 1)
 
 
@@ -253,7 +255,7 @@ def _field(name: str, kind: str, length: int, inner: type[Msg] | None) -> tuple[
 
 
 def _hint(kind: str, length: int, inner: type[Msg] | None) -> tuple[Any, Any]:
-    """The annotation of a field and its default, or what makes that."""
+    """The annotation of a field and its default, or the factory of its default."""
     item: Any = _SCALARS[kind] if inner is None else inner
     if length < 0:
         return item, inner if inner is not None else _ZEROS.get(kind, 0)

@@ -1,6 +1,6 @@
-"""What writes messages of one class as CBOR, made once for each class; a message is gone through once.
+"""Writers of CBOR, made once for each message class, that visit each value of a message once.
 
-Its names and the heads of what lies within it stand ready, as the bytes that go before each of its values.
+The names and heads of its parts are prepared as the bytes that go before each of its values.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ _HEAD_2, _HEAD_4, _HEAD_8 = (struct.Struct(f">B{code}").pack for code in "HIQ")
 """A head whose number takes 2, 4 or 8 bytes."""
 
 Writer = Callable[[Any], bytes]
-"""Gives a value as CBOR. Raises TypeError, AttributeError, OverflowError, struct.error or UnicodeEncodeError for a value
-that is not of its kind."""
+"""Returns a value as CBOR. Raises TypeError, AttributeError, OverflowError, struct.error or UnicodeEncodeError for a
+value of another kind."""
 
 
 @functools.lru_cache(maxsize=1024)
 def message_writer(cls: type[Msg], ros2: bool) -> Writer:
-    """What writes a `cls`; with `ros2` times have ROS 2's names. ProtocolError for a class that has no CBOR form."""
+    """The writer of `cls`; with `ros2` times have ROS 2's names. ProtocolError for a class that has no CBOR form."""
     before, paths, writers = b"", [], []
     for part in _parts(cls, "", ros2):
         if isinstance(part, bytes):
@@ -65,7 +65,7 @@ def head(kind: int, number: int) -> bytes:
 def _parts(
     cls: type[Msg], prefix: str, ros2: bool
 ) -> Iterator[bytes | tuple[str, Callable[[bytes], Writer]]]:
-    """What is the same in each `cls`, and for each value its path and what makes its writer of the bytes before it."""
+    """The constant bytes of a `cls`, and for each value its path and the maker of its writer from the bytes before it."""
     fields = fields_of(cls)
     names = ROS2_NAMES if ros2 and is_time(cls) else {}
     yield head(MAP, len(fields))
@@ -89,7 +89,7 @@ def _joined(paths: list[str], writers: list[Writer], end: bytes) -> Writer:
 
 
 def _maker(field: Field, ros2: bool) -> Callable[[bytes], Writer]:
-    """What makes the writer of a field's value."""
+    """The maker of the writer of a field's value."""
     if field.type is not None:
         return functools.partial(_several, message_writer(field.type, ros2))
     if field.array and field.base == "string":

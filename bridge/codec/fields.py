@@ -1,4 +1,4 @@
-"""What a message class is made of, each field with its exact ROS type."""
+"""The fields of a message class, each with its exact ROS type."""
 
 from __future__ import annotations
 
@@ -62,24 +62,24 @@ class Field:
 
     name: str
     key: str
-    """Its name on the wire."""
+    """Name on the wire."""
     hint: Any
-    """Its type in Python."""
+    """Type in Python."""
     rostype: str
-    """Its exact ROS type: `float64[36]`."""
+    """Exact ROS type, as in `float64[36]`."""
     base: str
     """The ROS type of one element: `float64`, `string`, `geometry_msgs/Pose`, `time`."""
     array: bool
-    """It holds several."""
+    """Whether it holds several elements."""
     length: int | None
-    """How many, where the type says so exactly."""
+    """Number of elements, where the type fixes it."""
     type: type[Msg] | None
     """The class of one element where that is a message."""
 
 
 @functools.lru_cache(maxsize=1024)
 def fields_of(cls: type[Msg]) -> tuple[Field, ...]:
-    """The fields of `cls` in their order, without those that only reading knows (ROS 2's names in `Time`)."""
+    """The fields of `cls` in their order, without those for reading only (ROS 2's names in `Time`)."""
     known = [field for field in msgspec.structs.fields(cls) if not _optional(field.type)]
     told: tuple[str, ...] | None = getattr(cls, "ROSTYPES", None)
     if told is None:
@@ -92,12 +92,12 @@ def fields_of(cls: type[Msg]) -> tuple[Field, ...]:
 
 
 def is_time(cls: type[Msg] | None) -> bool:
-    """`cls` is a moment or a length of time, whose fields ROS 1 and ROS 2 name differently."""
+    """Whether `cls` is an instant or a length of time, whose fields ROS 1 and ROS 2 name differently."""
     return cls is not None and issubclass(cls, Time)
 
 
 def bare(hint: Any) -> Any:
-    """`hint` without what `Annotated` says of it."""
+    """`hint` without its `Annotated` metadata."""
     return bare(typing.get_args(hint)[0]) if typing.get_origin(hint) is typing.Annotated else hint
 
 
@@ -130,7 +130,7 @@ def _optional(hint: Any) -> bool:
 
 
 def _derived(hint: Any) -> str:
-    """The ROS type of a field whose class does not tell it; the widest number is taken."""
+    """The ROS type of a field whose class does not have it; the widest number is taken."""
     hint = bare(hint)
     if hint in _DERIVED:
         return _DERIVED[hint]

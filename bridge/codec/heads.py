@@ -1,4 +1,4 @@
-"""What CBOR (RFC 8949) is made of, looked at before it is decoded: how many values, and which tags."""
+"""Heads of CBOR values (RFC 8949), checked before decoding: the number of values, and their tags."""
 
 from __future__ import annotations
 
@@ -8,16 +8,17 @@ __all__ = ["check_cbor"]
 
 _BYTES, _TEXT, _TAG = 2, 3, 6
 _FOLLOWING = {24: 1, 25: 2, 26: 4, 27: 8}
-"""How many bytes of a number follow the first of a value, by the low bits of that."""
+"""Number of bytes that follow the first byte of a value, by its low bits."""
 _ARRAYS = range(64, 88)
 """Tags of number arrays (RFC 8746)."""
 
 
 def check_cbor(raw: bytes, most: int) -> None:
-    """ProtocolError when a CBOR text holds more than `most` values, a number array counted as one, or tags but of arrays.
+    """ProtocolError when a CBOR text holds more than `most` values, a number array counted as one, or tags other than
+    those of arrays.
 
-    Other tags make dates, patterns, fractions and cycles of a few bytes, whose making can take as long as the sender
-    likes. Whether it is CBOR at all is for who decodes it.
+    Other tags make dates, patterns, fractions and cycles of a few bytes, whose making can take any time. Whether the
+    text is CBOR at all is left to the decoder.
     """
     place, left = 0, most
     while place < len(raw):

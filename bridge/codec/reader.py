@@ -1,4 +1,4 @@
-"""Messages from decoded JSON or CBOR, each field checked; what is wrong is named with its value and what is allowed."""
+"""Messages from decoded JSON or CBOR, each field checked; an error names the field, its value and what is allowed."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ __all__ = ["WIDTHS", "from_builtins", "least_and_most", "shown", "to_builtins"]
 
 M = TypeVar("M", bound=Msg)
 Reader = Callable[[Any, str], Any]
-"""Makes a field's value of what was decoded; the text is the field's path, for the error."""
+"""Makes a field's value of the decoded one; the text is the field's path, for the error."""
 
 _TYPED = tuple(ARRAYS.values())
 WIDTHS = {"b": 8, "B": 8, "h": 16, "H": 16, "i": 32, "I": 32, "q": 64, "Q": 64}
@@ -30,7 +30,7 @@ WIDTHS = {"b": 8, "B": 8, "h": 16, "H": 16, "i": 32, "I": 32, "q": 64, "Q": 64}
 
 
 def to_builtins(msg: Msg) -> dict[str, Any]:
-    """`msg` as dicts, lists and numbers; bytes and typed arrays stay what they are."""
+    """`msg` as dicts, lists and numbers; bytes and typed arrays are left as they are."""
     return typing.cast("dict[str, Any]", msgspec.to_builtins(msg, builtin_types=(bytes, *_TYPED)))
 
 
@@ -111,13 +111,13 @@ def _held(code: str) -> str:
 
 
 def least_and_most(code: str) -> tuple[int, int]:
-    """What a whole number with this code of `array.array` may be; the code is one of `WIDTHS`."""
+    """The range of a whole number with this code of `array.array`, one of `WIDTHS`."""
     bits = WIDTHS[code]
     return (0, 2**bits - 1) if code.isupper() else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
 
 
 def _within(read: Reader, told: list[msgspec.Meta]) -> Reader:
-    """Also checks what a type is annotated with: least and most of a number, of a length."""
+    """A reader that also checks the annotations of a type: range of a number, length of a text or array."""
 
     def checked(obj: Any, path: str) -> Any:
         value = read(obj, path)
@@ -205,7 +205,7 @@ def _wrong(path: str, value: object, allowed: str) -> ProtocolError:
 
 
 def shown(value: object) -> str:
-    """`value` as it may stand in a sentence: JSON where possible, at most 60 characters."""
+    """`value` for a sentence: JSON where possible, at most 60 characters."""
     try:
         text = msgspec.json.encode(value, enc_hook=str).decode()
     except (OverflowError, UnicodeEncodeError, TypeError, ValueError, RecursionError):

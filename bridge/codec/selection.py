@@ -20,10 +20,11 @@ Pick = Callable[[Any], Any]
 
 
 def select(msg: Msg, paths: Sequence[str]) -> Msg:
-    """`msg` with only the fields that `paths` name, as in `pose.pose.position`; a message of a smaller class.
+    """`msg` with only the fields of `paths`, as in `pose.pose.position`; a message of a smaller class.
 
-    A path through an array is about each of its elements; one into a time gives the whole time. Where one path is the
-    beginning of another, the shorter one counts. ProtocolError for a path that leads nowhere; it says what there is.
+    A path through an array applies to each of its elements; one into a time gives the whole time. Where one path is
+    the beginning of another, the shorter one counts. ProtocolError for a path that leads nowhere; it lists the fields
+    there.
     """
     return _picker(type(msg), tuple(paths))(msg)  # type: ignore[no-any-return]
 
@@ -41,7 +42,8 @@ def _picker(cls: type[Msg], paths: tuple[str, ...]) -> Pick:
 
 
 def _smaller(cls: type[Msg], paths: Iterable[list[str]], place: str) -> tuple[type[Msg], Pick]:
-    """A class with those fields of `cls`, and what makes one; `place` is where `cls` stands in the message."""
+    """A class with those fields of `cls`, and the function that makes one; `place` is the path of `cls` in the
+    message."""
     wanted: dict[str, list[list[str]]] = {}
     for first, *rest in paths:
         wanted.setdefault(first, []).append(rest)
@@ -69,7 +71,7 @@ def _smaller(cls: type[Msg], paths: Iterable[list[str]], place: str) -> tuple[ty
 
 
 def _part(field: Field, rests: list[list[str]], place: str) -> tuple[Field, Any, Pick]:
-    """Of one field its smaller type and what takes it from the message."""
+    """The smaller type of one field and the function that takes it from the message."""
     get = attrgetter(field.name)
     if [] in rests or is_time(field.type):
         return field, field.hint, get

@@ -1,4 +1,4 @@
-"""Times as ROS 2 names them: `sec` and `nanosec` instead of ROS 1's `secs` and `nsecs`."""
+"""Times in the naming of ROS 2: `sec` and `nanosec` instead of ROS 1's `secs` and `nsecs`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bridge.msgs import Msg
 __all__ = ["ROS2_NAMES", "named_for_ros2"]
 
 ROS2_NAMES = {"secs": "sec", "nsecs": "nanosec"}
-"""Of the two numbers of a time, by their names in ROS 1."""
+"""ROS 2's names of the two numbers of a time, by their names in ROS 1."""
 Renamer = Callable[[dict[str, Any]], None]
 """Changes the names in a message's dict, in place."""
 
@@ -34,7 +34,7 @@ def named_for_ros2(text: bytes, cls: type[Msg]) -> bytes:
 
 @functools.lru_cache(maxsize=1024)
 def _renamer(cls: type[Msg]) -> Renamer | None:
-    """What renames the times in a `cls` that was made a dict; None when it holds none."""
+    """The function that renames the times in a `cls` as a dict; None when it holds none."""
     if is_time(cls):
         return _rename_time
     works = [
@@ -58,7 +58,7 @@ def _rename_fields(works: list[tuple[str, bool, Renamer]], obj: dict[str, Any]) 
 
 @functools.lru_cache(maxsize=1024)
 def _ambiguous(cls: type[Msg]) -> bool:
-    """Something in a `cls` that is no time has a field of such a name, too."""
+    """Whether a `cls` has a field of such a name that belongs to no time."""
     if is_time(cls):
         return False
     return any(_clashes(field) for field in fields_of(cls))

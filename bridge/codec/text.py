@@ -20,7 +20,8 @@ M = TypeVar("M", bound=Msg)
 
 
 def to_json(msg: Msg, ros2: bool = False) -> bytes:
-    """`msg` as JSON text in UTF-8; NaN and infinities become `null`. ProtocolError for what JSON cannot say.
+    """`msg` as JSON text in UTF-8; NaN and infinities become `null`. ProtocolError for values that JSON cannot
+    represent.
 
     With `ros2` times have ROS 2's names.
     """

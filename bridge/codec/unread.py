@@ -1,4 +1,5 @@
-"""Messages that are passed on as they came: checked like any other, and read only when somebody wants them otherwise."""
+"""Messages that are passed on unchanged: checked like any other, and decoded only for a client that wants another
+form."""
 
 from __future__ import annotations
 
@@ -34,9 +35,10 @@ class Unread:
 
 
 def unread(raw: msgspec.Raw, type: type[Msg]) -> Unread | None:
-    """The text as it is, if it holds each field of `type`, each of its kind, and no other; None where it must be read.
+    """The text as it is, if it holds each field of `type`, each of its kind, and no other; None where it must be
+    decoded.
 
-    What was left out, spelled as in ROS 2 or wrong is for `from_json`: it fills in, translates and tells.
+    Missing, ROS 2's and wrong fields are left to `from_json`, which fills in, translates and reports.
     """
     decoder = _decoder(type)
     if decoder is None:
@@ -50,7 +52,7 @@ def unread(raw: msgspec.Raw, type: type[Msg]) -> Unread | None:
 
 @functools.lru_cache(maxsize=1024)
 def _decoder(type: type[Msg]) -> msgspec.json.Decoder[Any] | None:
-    """None for a type that cannot be checked so."""
+    """The checking decoder; None for a type that cannot be checked this way."""
     try:
         return msgspec.json.Decoder(_strict(type))
     except (TypeError, ValueError):
@@ -59,7 +61,7 @@ def _decoder(type: type[Msg]) -> msgspec.json.Decoder[Any] | None:
 
 @functools.lru_cache(maxsize=1024)
 def _strict(type: type[Msg]) -> Any:
-    """A record with the fields of `type`, all of them needed and no other allowed."""
+    """A record with the fields of `type`, all of them required and no other allowed."""
     fields = fields_of(type)
     return msgspec.defstruct(
         type.__name__,
@@ -72,7 +74,7 @@ def _strict(type: type[Msg]) -> Any:
 
 
 def _needed(hint: Any) -> Any:
-    """What JSON must hold for a field of this type."""
+    """The JSON type that a field of this type requires."""
     if typing.get_origin(hint) is typing.Annotated:
         inner, *told = typing.get_args(hint)
         return typing.Annotated[(_needed(inner), *told)]

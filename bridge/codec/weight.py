@@ -1,4 +1,4 @@
-"""How much memory a message takes, about: for bounds on what waits and on what is kept."""
+"""Approximate memory of messages, for bounds on queues and latched messages."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from bridge.msgs import Msg
 __all__ = ["weight"]
 
 _VALUE = 32
-"""What a number, a record or a place in a list takes [byte]."""
+"""Memory of a number, a record or a place in a list [byte]."""
 _NUMBERS = (float, int)  # bool is one of them
 
 
 def weight(msg: Msg) -> int:
-    """What `msg` takes, about [byte]."""
+    """Approximate memory of `msg` [byte]."""
     fixed, others = _parts(type(msg))
     return fixed + sum(_of(getattr(msg, name)) for name in others)
 
@@ -39,7 +39,7 @@ def _of(value: Any) -> int:
 
 @functools.lru_cache(maxsize=4096)
 def _parts(cls: type[Msg]) -> tuple[int, tuple[str, ...]]:
-    """What all messages of a class take, and the names of the fields that some take more for."""
+    """The memory that all messages of a class take, and the names of the fields that take more in some."""
     fixed, others = _VALUE, []
     for field in msgspec.structs.fields(cls):
         hint = field.type

@@ -1,4 +1,4 @@
-"""Where a robot is: its address taken apart, its name looked up, and why it could not be reached in plain words."""
+"""Addresses of robots: parsing, name look-up, and plain reasons for failed connections."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ __all__ = ["BadAddress", "LinkLost", "cause", "host_and_port", "look_up"]
 
 
 class LinkLost(Exception):
-    """There is no connection, or it is of no use any more; the text says why."""
+    """There is no usable connection; the text gives the reason."""
 
 
 class BadAddress(LinkLost):
-    """The address can never work, so that trying again makes no sense."""
+    """The address can never work, so that another attempt makes no sense."""
 
 
 def host_and_port(url: str) -> tuple[str, int]:
-    """The two in `ws://HOST:PORT/...`, port 80 (wss: 443) when it names none; BadAddress when it is none."""
+    """The two parts of `ws://HOST:PORT/...`, port 80 (wss: 443) by default; BadAddress for anything else."""
     try:
         parts = urlsplit(url)
         port = (443 if parts.scheme == "wss" else 80) if parts.port is None else parts.port
@@ -35,9 +35,9 @@ def host_and_port(url: str) -> tuple[str, int]:
 
 
 async def look_up(host: str, timeout: float) -> str:
-    """The numeric address of `host`, IPv4 where it has both; OSError when unknown within `timeout` [s].
+    """The numeric address of `host`, IPv4 where it has both; OSError when it is unknown within `timeout` [s].
 
-    It is asked for in a thread that nobody waits for, because a lookup cannot be cancelled.
+    The look-up runs in a thread that is not waited for, because it cannot be cancelled.
     """
     with contextlib.suppress(ValueError):
         return str(ipaddress.ip_address(host))
@@ -49,7 +49,7 @@ async def look_up(host: str, timeout: float) -> str:
             answer: str | OSError = _resolved(host)
         except OSError as error:
             answer = error
-        with contextlib.suppress(RuntimeError):  # the loop is closed: nobody wants to know any more
+        with contextlib.suppress(RuntimeError):  # the loop is closed: the answer is no longer needed
             loop.call_soon_threadsafe(_settle, found, answer)
 
     threading.Thread(target=ask, name=f"look up {host}", daemon=True).start()
@@ -61,7 +61,7 @@ async def look_up(host: str, timeout: float) -> str:
 
 
 def cause(error: OSError) -> str:
-    """Why a machine could not be reached, in a few plain words."""
+    """The reason of a failed connection in a few plain words."""
     if error.errno == errno.ECONNREFUSED:
         return "connection refused"
     return os.strerror(error.errno).lower() if error.errno else str(error)

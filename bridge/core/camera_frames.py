@@ -1,7 +1,7 @@
-"""One camera frame on its own WebSocket: a 24-byte header, then the JPEG file.
+"""Camera frames on a WebSocket of their own: a 24-byte header, then the JPEG file.
 
-Header, big-endian: `PHF1`, sequence number (uint32), stamp (float64), width (uint32), height (uint32).
-The receiver answers each with the text `ack SEQ`.
+Header, big-endian: `PHF1`, sequence number (uint32), stamp (float64), width (uint32), height (uint32). The receiver
+answers each with the text `ack SEQ`.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ class Frame:
     """One picture of a camera."""
 
     seq: int
-    """Counts up by one a picture, modulo 2**32; a gap means pictures that were left out."""
+    """Sequence number, modulo 2**32; a gap means pictures that were left out."""
     stamp: float
-    """When the shutter opened [s], on the clock that `/rosapi/get_time` tells."""
+    """Time of exposure [s], on the clock of `/rosapi/get_time`."""
     width: int
     """[pixel]"""
     height: int
@@ -33,12 +33,12 @@ class Frame:
 
 
 def pack(seq: int, stamp: float, jpeg: bytes, width: int, height: int) -> bytes:
-    """The frame as it travels; `seq` is taken modulo 2**32."""
+    """The bytes of a frame; `seq` is taken modulo 2**32."""
     return _HEADER.pack(_MAGIC, seq & 0xFFFFFFFF, stamp, width, height) + jpeg
 
 
 def unpack(raw: bytes) -> Frame:
-    """The frame in one binary message; ProtocolError when it is none."""
+    """The frame in one binary message; ProtocolError for anything else."""
     _check(raw)
     _, seq, stamp, width, height = _HEADER.unpack_from(raw)
     return Frame(seq, stamp, width, height, raw[_HEADER.size :])

@@ -1,4 +1,4 @@
-"""Where the rosbridge servers in use do otherwise than their specification says, and what is done about it here."""
+"""Compatibility with the rosbridge servers in use, where they differ from their specification."""
 
 from __future__ import annotations
 
@@ -9,28 +9,28 @@ __all__ = ["Compat"]
 
 @dataclass(frozen=True, slots=True)
 class Compat:
-    """Which habits of the servers in use are kept. As it comes it is what today's clients lean on."""
+    """The habits of the servers in use that are kept. The defaults are those that today's clients depend on."""
 
     refusal_as_success: bool = True
     """A client that answers a call of its service with `result: false` reaches the caller as `result: true`, with the
     values it gave.
 
-    Both servers in use do so: for them the exchange went well, and what failed stands in the values. roslibpy's users
-    read the values in their ordinary callback and would get an error with nothing in it instead. A refusal without
-    any values, or with a sentence in their place, stays one: who reads values would stumble over it. When False the caller gets `result: false` as the provider
-    said.
+    Both servers in use do so: for them the exchange succeeded, and the failure stands in the values. Users of roslibpy
+    read the values in their ordinary callback and would get an empty error instead. A refusal without any values, or
+    with a sentence in their place, remains one, because a reader of values could not handle it. When False the caller
+    gets the provider's `result: false`.
     """
     missing_values_as_defaults: bool = True
-    """A client that answers a call with `result: true` and without `values` is taken to mean a response of defaults.
+    """An answer with `result: true` and without `values` counts as a response of defaults.
 
     Services without a response leave `values` out, and the ROS 1 server then never answers the caller, who waits for
-    ever. When False the caller is told at once, by `result: false`, that the answer was incomplete.
+    ever. When False the caller gets `result: false` at once, because the answer was incomplete.
     """
     shortest_queue: bool = True
     """Of several `queue_length`s of a client for one topic the shortest counts.
 
-    The specification says the longest. With the shortest, which the servers in use take, a client that asks for 1 to be
-    up to date stays so whatever other parts of its page ask for. When False the longest counts, and 0, which leaves
+    The specification says the longest. With the shortest, as in the servers in use, a client that asks for 1 to be up
+    to date stays so even when other parts of its page ask for more. When False the longest counts, and 0, which leaves
     the length to the server, before all.
     """
     sticky_fragment_size: bool = True
@@ -40,7 +40,7 @@ class Compat:
     once and count on it for the answers of services too. When False it holds for what it came with.
     """
     unknown_compression_as_none: bool = True
-    """A `compression` that nobody knows counts as `none`, which every client can read.
+    """An unknown `compression` counts as `none`, which every client can read.
 
     When False the operation is refused with a sentence.
     """

@@ -1,4 +1,4 @@
-"""Between latitude and longitude and metres east and north of a place, on the WGS 84 ellipsoid.
+"""Conversion between latitude and longitude and metres east and north of a datum, on the WGS 84 ellipsoid.
 
 The earth is taken as the plane that touches it at the datum, scaled by its two radii of curvature there. At middle
 latitudes that is 2 mm off at 100 m from the datum and 0.3 m at 1 km.
@@ -22,7 +22,7 @@ class Datum:
     __slots__ = ("_metres_east", "_metres_north", "latitude", "longitude")
 
     def __init__(self, latitude: float, longitude: float) -> None:
-        """In degrees, -90 to 90 and -180 to 180; a pole has no east and is refused with ValueError, as is NaN."""
+        """Latitude -90 to 90 and longitude -180 to 180 [deg]; ValueError for a pole, which has no east, and for NaN."""
         if not (abs(latitude) < 90 and abs(longitude) <= 180):
             raise ValueError(
                 f"A datum lies between -90 and 90 degrees north and -180 and 180 degrees east, "
@@ -36,11 +36,11 @@ class Datum:
         self._metres_east = math.radians(A / root * math.cos(math.radians(latitude)))
 
     def to_local(self, latitude: float, longitude: float) -> tuple[float, float]:
-        """East and north of the datum [m]; the shorter way round the earth. NaN gives NaN."""
+        """East and north of the datum [m], the shorter way round the earth. NaN gives NaN."""
         around = (longitude - self.longitude + 180) % 360 - 180
         return around * self._metres_east, (latitude - self.latitude) * self._metres_north
 
     def to_geographic(self, east: float, north: float) -> tuple[float, float]:
-        """Latitude and longitude [deg] of the place `east` and `north` of the datum [m]; longitude in [-180, 180)."""
+        """Latitude and longitude [deg] of the point `east` and `north` of the datum [m]; longitude in [-180, 180)."""
         longitude = self.longitude + east / self._metres_east
         return self.latitude + north / self._metres_north, (longitude + 180) % 360 - 180

@@ -1,4 +1,4 @@
-"""How a link is doing, for the operator."""
+"""The state of a link, as the operator sees it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ CONTROL_TIMEOUT = 2.0
 
 
 class Phase(enum.Enum):
-    """Where a link is in its life."""
+    """The phases of a link."""
 
     CONNECTING = "connecting"
     CONNECTED = "connected"
@@ -28,8 +28,9 @@ class LinkState:
 
     phase: Phase
     sentence: str
-    """What is the case, in plain words."""
+    """The state in plain words."""
     attempt: int
-    """Attempts since the last connection, this one included; 0 when connected."""
+    """Attempts since the last connection, including this one; 0 when connected."""
     retry_in: float
-    """Seconds from this state's beginning to the next attempt; 0 except in WAITING. A changed network makes it sooner."""
+    """Time from the beginning of this state to the next attempt [s]; 0 except in WAITING. A changed network makes it
+    sooner."""

@@ -1,4 +1,4 @@
-"""The network thread: one asyncio loop beside whatever else a program does, where its sockets live."""
+"""The network thread: an asyncio loop for sockets, beside the main thread of a program."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ T = TypeVar("T")
 
 
 class NetworkThread:
-    """An asyncio loop in a thread, running from its making to `close`. Every method may be called from any other thread."""
+    """An asyncio loop in a thread, running from its making to `close`. Every method may be called from any other
+    thread."""
 
     def __init__(self, name: str = "network") -> None:
         self.loop = asyncio.new_event_loop()
@@ -32,7 +33,8 @@ class NetworkThread:
             self.loop.close()
 
     def start(self, coroutine: Coroutine[Any, Any, T]) -> concurrent.futures.Future[T]:
-        """Run a coroutine in the loop; the future may be waited for or cancelled. NotConnected once the thread has ended."""
+        """Run a coroutine in the loop; the future may be waited for or cancelled. NotConnected once the thread has
+        ended."""
         try:
             return asyncio.run_coroutine_threadsafe(coroutine, self.loop)
         except RuntimeError as error:
@@ -41,7 +43,7 @@ class NetworkThread:
 
     @property
     def inside(self) -> bool:
-        """The caller is in this thread."""
+        """Whether the caller is in this thread."""
         return threading.current_thread() is self._thread
 
     def call(self, function: Callable[..., object], *args: Any) -> None:
@@ -52,17 +54,18 @@ class NetworkThread:
             if not self.loop.is_closed():
                 raise
 
-    def close(self, patience: float = 2.0) -> None:
-        """Cancel what still runs, wait for it at most `patience` [s], and end the thread. Again does nothing."""
+    def close(self, timeout: float = 2.0) -> None:
+        """Cancel what still runs, wait for it for `timeout` [s] at most, and end the thread. A second call does
+        nothing."""
         if self.loop.is_closed():
             return
-        asyncio.run_coroutine_threadsafe(self._cancel_all(patience), self.loop).result(patience + 1.0)
+        asyncio.run_coroutine_threadsafe(self._cancel_all(timeout), self.loop).result(timeout + 1.0)
         self.loop.call_soon_threadsafe(self.loop.stop)
-        self._thread.join(patience)
+        self._thread.join(timeout)
 
-    async def _cancel_all(self, patience: float) -> None:
+    async def _cancel_all(self, timeout: float) -> None:
         tasks = [task for task in asyncio.all_tasks() if task is not asyncio.current_task()]
         for task in tasks:
             task.cancel()
         if tasks:
-            await asyncio.wait(tasks, timeout=patience)
+            await asyncio.wait(tasks, timeout=timeout)

@@ -1,7 +1,7 @@
-"""Which topics of a robot that is not ours stand for which of ours: one choice for the handheld and the robot side.
+"""The choice of a foreign robot's topics for ours, one for the handheld and the robot side.
 
-The usual names come first. Where there is none the type decides, and among several of one type the name that says
-most; what is known to be something else of that type is never taken.
+The usual names come first. Without one the type decides, and among several of one type the name that says most; a
+topic that is known to be something else of that type is never taken.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ DRIVE, CAMERA = "/cmd_vel", "/camera/image/compressed"
 """Our names of the drive command and of the pictures."""
 
 OURS = "pilothouse_msgs/"
-"""How types begin that nobody has by accident: their topics have our names or are others."""
+"""Prefix of types that only our robots have: their topics have our names or are others."""
 
 USUAL: Mapping[str, tuple[str, ...]] = {
     "/odom": ("/odometry/filtered", "/odometry"),
@@ -30,38 +30,38 @@ USUAL: Mapping[str, tuple[str, ...]] = {
     "/imu/data": ("/imu",),
     "/fix": ("/gps/fix",),
 }
-"""What robots call ours otherwise, the likeliest first."""
+"""Usual names of our topics on other robots, the likeliest first."""
 
 _UNFIT = {
     "sensor_msgs/CompressedImage": ("depth",),
     "nav_msgs/OccupancyGrid": ("costmap",),
     "nav_msgs/Path": ("local",),
 }
-"""Of some types, words in the names of topics that hold something else than the usual one does."""
+"""By type, words in the names of topics that hold something else than the usual one does."""
 
 _FAVOURED = ("front", "rgb", "color", "filtered")
 _AVOIDED = ("ground_truth", "rear", "back", "raw")
 """Words that speak for one of several topics of a type, and against one."""
 
 _SIDES = ("/range/left", "/range/right", "/range/rear")
-"""Where nothing but the name says what is measured: a sensor that looks ahead is no other one's."""
+"""Topics whose name alone says what is measured: a sensor that looks ahead cannot stand for them."""
 
 _EXACT = frozenset({*(entry.name for entry in TOPICS if entry.on_demand and entry.name != CAMERA), *_SIDES})
-"""Ours that have that name or are others."""
+"""Our topics that are taken by their name only."""
 
 _STEERS = ("teleop", "joy", "cmd_vel")
-"""Words of which one must be in the name of a topic that drives: others of its types are measurements."""
+"""The name of a topic that drives must contain one of these words: others of its types are measurements."""
 
 _DRIVES = {Twist.MSGTYPE: False, TwistStamped.MSGTYPE: True}
 
 
 class Command(NamedTuple):
-    """Where drive commands go."""
+    """The topic for drive commands."""
 
     topic: str
-    """Its name."""
+    """Name of the topic."""
     stamped: bool
-    """It takes TwistStamped instead of Twist."""
+    """Whether it takes TwistStamped instead of Twist."""
 
 
 def source(ours: str, kind: str, topics: Mapping[str, str]) -> str:
@@ -84,7 +84,7 @@ def source(ours: str, kind: str, topics: Mapping[str, str]) -> str:
 
 
 def command(topics: Mapping[str, str]) -> Command | None:
-    """Where of `topics` drive commands go; None when no name of such a type says that it takes them."""
+    """The topic of `topics` that drive commands go to; None when the name of none shows that it takes them."""
     found = [
         Command(name, _DRIVES[kind])
         for name, kind in topics.items()
@@ -102,13 +102,13 @@ def drive_message(twist: Twist, now: float, *, stamped: bool) -> Twist | TwistSt
 
 
 def _far(one: Command) -> tuple[bool, bool, bool, int, str]:
-    """How far a topic is from the usual one; the least is best. Plain commands are what most tools send."""
+    """Distance of a topic from the usual one; the least is best. Most tools send plain commands."""
     name = one.topic
     return (name != DRIVE, not name.endswith("cmd_vel"), one.stamped, len(name), name)
 
 
 def _distance(name: str, usual: str) -> tuple[bool, int, int, str]:
-    """How far a name is from the usual one; the least is best."""
+    """Distance of a name from the usual one; the least is best."""
     low, own = name.lower(), usual.strip("/").split("/")[0].split("_")[0]
     favour = sum(word in low for word in _AVOIDED) - sum(word in low for word in _FAVOURED)
     return (own not in low, favour, len(name), name)

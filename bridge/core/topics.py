@@ -29,18 +29,18 @@ class Topic:
     name: str
     type: type[Msg]
     rate: float
-    """Messages a second while it flows [Hz]; 0 when it is sent once per change and latched."""
+    """Messages per second while it flows [Hz]; 0 when it is sent once per change and latched."""
     to: str
     """`handheld` or `robot`."""
     doc: str
     on_demand: bool = False
-    """Made only while somebody subscribes to it."""
+    """Whether it is made only while a client subscribes to it."""
     once: bool = False
-    """Sent when something happens and not latched: a subscriber gets only what comes later."""
+    """Whether it is sent when something happens and not latched: a subscriber gets only later messages."""
 
     @property
     def latched(self) -> bool:
-        """A new subscriber gets the last message at once."""
+        """Whether a new subscriber gets the last message at once."""
         return self.rate == 0 and not self.once
 
 
@@ -189,7 +189,7 @@ CAMERA = "/camera/image/compressed"
 
 
 def camera_topics(cameras: Iterable[str]) -> dict[str, str]:
-    """Name of each camera to the topic of its pictures, in the order in which the robot tells them."""
+    """The topic of each camera's pictures by the camera's name, in the robot's order."""
     named = {name: f"/camera/{name}/image/compressed" for name in cameras}
     return {name: one if number else CAMERA for number, (name, one) in enumerate(named.items())}
 

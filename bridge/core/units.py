@@ -1,6 +1,6 @@
-"""Angles between the robot's convention and people's, and the wrapping of both.
+"""Conversion of angles between the robot's convention and people's, and their wrapping.
 
-Inside, angles are REP-103 yaw [rad]: 0 east, anticlockwise. On the glass they are headings [deg]: 0 north,
+Inside, angles are REP-103 yaw [rad]: 0 east, anticlockwise. On the display they are headings [deg]: 0 north,
 clockwise, in [0, 360).
 """
 
@@ -12,7 +12,7 @@ __all__ = ["heading_from_yaw", "wrap", "yaw_from_heading"]
 
 
 def wrap(angle: float) -> float:
-    """`angle` [rad] brought into [-pi, pi)."""
+    """`angle` [rad] wrapped into [-pi, pi)."""
     return (angle + math.pi) % math.tau - math.pi
 
 

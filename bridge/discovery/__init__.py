@@ -1,1 +1,1 @@
-"""How robots and handhelds find each other on the local network."""
+"""The local network: beacons by which robots and handhelds find each other, and changes of the route to a robot."""

@@ -1,4 +1,4 @@
-"""How a robot makes itself known on the local network: twice a second it says hello to everybody, by UDP.
+"""The beacon of a robot: twice a second it announces itself on the local network by UDP.
 
 A hello is one JSON object in one datagram to port 48900, broadcast on each interface and on loopback.
 """
@@ -24,19 +24,19 @@ __all__ = ["PORT", "Beacon", "Hello", "Listener", "broadcast_addresses"]
 log = logging.getLogger(__name__)
 
 PORT = 48900
-"""Where hellos are sent."""
+"""UDP port of the hellos."""
 PERIOD = 0.5
-"""Between two hellos [s]."""
+"""Time between two hellos [s]."""
 _SIOCGIFBRDADDR = 0x8919
 _LOOPBACK = "127.255.255.255"
 
 
 class Hello(Msg, frozen=True, gc=False):
-    """What a robot says about itself."""
+    """A robot's announcement of itself."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Hello"
     name: str = ""
-    """What people call it, as in `Patrol-1`."""
+    """Its name for people, as in `Patrol-1`."""
     kind: str = ""
     """As in `RobotInfo.kind`."""
     model: str = ""
@@ -45,21 +45,21 @@ class Hello(Msg, frozen=True, gc=False):
     icon: str = ""
     """As in `RobotInfo.icon`."""
     url: str = ""
-    """Of its bridge, as in `ws://192.168.1.7:9090`."""
+    """URL of its bridge, as in `ws://192.168.1.7:9090`."""
     http: str = ""
-    """Of its web page; empty when it has none."""
+    """URL of its web page; empty when it has none."""
     battery: float = math.nan
-    """0 empty to 1 full; NaN when it does not know."""
+    """Charge, 0 empty to 1 full; NaN when it is not known."""
     driver: str = ""
-    """Who has control; empty when it is free."""
+    """Name of the client that has control; empty when control is free."""
     driver_id: str = ""
-    """The `client_id` that has control; two handhelds may bear one name, but not one id."""
+    """The `client_id` that has control; two handhelds may have one name, but not one id."""
     boot: str = ""
     """Identity of this run of the robot side."""
 
 
 class Beacon:
-    """Says hello until it is closed."""
+    """Sends hellos until it is closed."""
 
     def __init__(
         self,
@@ -69,7 +69,8 @@ class Beacon:
         addresses: Callable[[], Iterable[str]] | None = None,
         period: float = PERIOD,
     ) -> None:
-        """`hello` is asked each time. `addresses` are those to send to; by default all broadcast addresses."""
+        """`hello` is called for each datagram. `addresses` returns the addresses to send to; by default all broadcast
+        addresses."""
         self._hello = hello
         self._port = port
         self._addresses = addresses or broadcast_addresses
@@ -77,7 +78,7 @@ class Beacon:
         self._work: asyncio.Task[None] | None = None
 
     async def run(self) -> None:
-        """Say hello every `period` [s] until `close()`. A network that is down now is tried again next time."""
+        """Send a hello every `period` [s] until `close()`. A network that is down now is tried again next time."""
         self._work = asyncio.create_task(self._repeat())
         try:
             await self._work
@@ -86,7 +87,7 @@ class Beacon:
                 raise
 
     async def close(self) -> None:
-        """Say no more; `run` returns."""
+        """Stop sending; `run` returns."""
         if self._work is not None:
             self._work.cancel()
             await asyncio.wait({self._work})
@@ -114,21 +115,21 @@ class Beacon:
 
 
 class Listener:
-    """Hears the hellos of all robots around."""
+    """Receives the hellos of all robots on the local network."""
 
     def __init__(
         self, on_hello: Callable[[Hello, tuple[str, int]], None], *, port: int = PORT, host: str = ""
     ) -> None:
-        """`on_hello(hello, (host, port))` is told each hello and the address it came from."""
+        """`on_hello(hello, (host, port))` is called with each hello and the address that it came from."""
         self.port = port
-        """Where it listens; with 0 a free one, known after `start()`."""
+        """UDP port; with 0 a free one, known after `start()`."""
         self._host = host
         self._on_hello = on_hello
         self._transport: asyncio.DatagramTransport | None = None
         self._gone: asyncio.Future[None] | None = None
 
     async def start(self) -> None:
-        """Begin to listen, beside others who do so on this machine; BridgeError when that is not possible."""
+        """Begin to listen, beside other listeners on this machine; BridgeError when that is not possible."""
         loop = asyncio.get_running_loop()
         self._gone = loop.create_future()
         sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -173,7 +174,7 @@ class _Ear(asyncio.DatagramProtocol):
 
 
 def broadcast_addresses() -> list[str]:
-    """Where to send what everybody on the local networks is to hear, loopback included."""
+    """The broadcast addresses of all interfaces, loopback included."""
     found = {_LOOPBACK}
     for _, name in socket.if_nameindex():
         address = _broadcast_address(name)
@@ -183,7 +184,7 @@ def broadcast_addresses() -> list[str]:
 
 
 def _broadcast_address(interface: str) -> str | None:
-    """Of one interface; None when it has none or the system does not say."""
+    """The broadcast address of one interface; None when it has none or the system does not report it."""
     try:
         import fcntl
     except ImportError:

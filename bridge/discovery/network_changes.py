@@ -1,4 +1,4 @@
-"""How this machine reaches another one: from which of its addresses, and whether it slept meanwhile."""
+"""Changes of the route from this machine to another one, and sleep of this machine."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ from typing import Protocol
 __all__ = ["NetworkChanges", "Network", "SystemNetwork"]
 
 ANYWHERE = ("192.0.2.1", 9)
-"""An address for documentation (RFC 5737): stands for the rest of the world. Nothing is sent to it."""
+"""An address for documentation (RFC 5737) that stands for the rest of the world. Nothing is sent to it."""
 _MIN_SLEEP = 2.0
-"""A clock that jumped by more than this tells of a sleep [s]."""
+"""Smallest jump of the clock that counts as sleep [s]."""
 
 
 class Network(Protocol):
-    """What a link has to know about the machine that it is on."""
+    """The network of a machine, as far as a link needs to know it."""
 
     def source(self, address: tuple[str, int]) -> str | None:
-        """The address of this machine from which packets to `address` would leave now; None without a way there."""
+        """The address of this machine from which packets to `address` would leave now; None without a route."""
 
     def has(self, local: str) -> bool:
-        """`local` is an address of this machine."""
+        """Whether `local` is an address of this machine."""
 
     def slept(self) -> float:
-        """How long this machine has slept [s], from any beginning; sleeping alone makes it more."""
+        """Total time that this machine has slept [s], from any beginning; it grows by sleep only."""
 
 
 class SystemNetwork:
-    """The network of the machine that this runs on."""
+    """The network of the machine that runs this program."""
 
     def source(self, address: tuple[str, int]) -> str | None:
         """As in `Network`; asks the system's routes and sends nothing."""
@@ -53,24 +53,24 @@ class SystemNetwork:
         return True
 
     def slept(self) -> float:
-        """As in `Network`; where the system does not count sleep, its calendar against a clock that stands still in it."""
+        """As in `Network`; where the system does not count sleep, its calendar minus a clock that stops in sleep."""
         if hasattr(time, "CLOCK_BOOTTIME"):
             return time.clock_gettime(time.CLOCK_BOOTTIME) - time.clock_gettime(time.CLOCK_MONOTONIC)
         return time.time() - time.monotonic()
 
 
 class NetworkChanges:
-    """Notices that the way to an address changed, or that the machine slept, since it was last looked at."""
+    """Detects a new route to an address, or sleep of the machine, since the last check."""
 
     def __init__(self, network: Network, address: tuple[str, int] | None) -> None:
-        """`address` is where to, numeric; None where it is not known."""
+        """`address` is the numeric destination; None where it is not known."""
         self._network = network
         self._address = ANYWHERE if address is None else address
         self._source = network.source(self._address)
         self._slept = network.slept()
 
     def has_changed(self) -> bool:
-        """There is a way that was not there when it was last looked at, or the machine slept since."""
+        """Whether there is a route that was not there at the last check, or the machine slept since."""
         source, slept = self._network.source(self._address), self._network.slept()
         moved = source != self._source and source is not None
         woke = slept - self._slept > _MIN_SLEEP

@@ -22,7 +22,7 @@ package at once: its module is written anew. Exit codes: 0 done, 2 wrong text or
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; the exit code."""
+    """Run the command line; returns the exit code."""
     parser = argparse.ArgumentParser(
         "python -m bridge.generate",
         description="Make typed Python classes of ROS .msg, .srv and .action text.",

@@ -20,7 +20,7 @@ _CONSTANTS = {"bool": "bool", "string": "str", "wstring": "str"}
 
 
 def class_text(part: Part, library: Library, names: Names) -> str:
-    """The class of `part`; what it uses is noted in `names`."""
+    """The Python text of the class of `part`; the names that it uses are noted in `names`."""
     parent = library.ancestor(part)
     fields = part.fields[len(parent.fields) if parent else 0 :]
     constants = [] if parent else part.constants

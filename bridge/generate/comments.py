@@ -1,4 +1,4 @@
-"""The comments of a ROS text, which its parser passes over, by the name of the field or constant they belong to."""
+"""Comments of a ROS text, which its parser ignores, by the name of their field or constant."""
 
 from __future__ import annotations
 
@@ -15,12 +15,13 @@ _UNQUOTED_TEXT = re.compile(r"\s*w?string\s+\w+\s*=\s*[^\s'\"]")
 
 @dataclass(slots=True)
 class Comments:
-    """What the comments of one part say."""
+    """The comments of one part."""
 
     part: str = ""
-    """Of the whole: what stands first, apart from the first field or above a constant, and what follows the last."""
+    """Comment of the whole: the text before everything else, apart from the first field or above a constant, and that
+    at the end."""
     of: dict[str, str] = field(default_factory=dict)
-    """Of each field and constant by its name: what stands right above it, then what stands behind it."""
+    """Comment of each field and constant by its name: the text right above it, then the text behind it."""
 
 
 def read_comments(text: str) -> Comments:

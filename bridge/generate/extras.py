@@ -1,6 +1,7 @@
-"""What our own classes have beside their ROS text: methods, names that are no ROS constants, defaults, ancestry.
+"""Extras of our own classes that ROS text cannot express: methods, names that are no ROS constants, defaults,
+ancestry.
 
-None of it changes what travels. Types that are not named here are made by their text alone.
+None of it changes the messages on the wire. Types that are not named here are made by their text alone.
 """
 
 from __future__ import annotations
@@ -109,4 +110,4 @@ DEFAULTS = {
     "sensor_msgs/NavSatStatus": {"service": "1"},
     "sensor_msgs/Range": {"range": "math.nan"},
 }
-"""What a field is when nobody says, as Python, where ROS's zero would be taken for a measurement."""
+"""Default values as Python, for fields where ROS's zero would be taken for a measurement."""

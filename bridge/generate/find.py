@@ -1,4 +1,4 @@
-"""The files of a run: those that are given, and those beside them that they need."""
+"""The input files of a run: those that are given, and those beside them that they need."""
 
 from __future__ import annotations
 
@@ -12,9 +12,10 @@ __all__ = ["definitions"]
 
 
 def definitions(given: Iterable[Path], package: str | None, known: Callable[[str], bool]) -> list[Definition]:
-    """What the `given` files say, a folder standing for all in it, and the messages that they need.
+    """The definitions in the `given` files, a folder standing for all in it, and the messages that they need.
 
-    What is neither given nor `known` is looked for beside the file that needs it. TextError where it is not found.
+    A message that is neither given nor `known` is searched for beside the file that needs it. TextError where it is
+    not found.
     """
     found: dict[Path, Definition] = {path: read(path, package) for path in _files(given)}
     waiting = [(path, definition.parts[0].package) for path, definition in found.items()]

@@ -1,4 +1,4 @@
-"""How the fields of ROS look in Python: annotations, defaults and literals."""
+"""Fields of ROS in Python: annotations, defaults and literals."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ RANGES = {
     "char": (0, 255),
     "byte": (-128, 255),
 }
-"""Least and most of each whole number."""
+"""Least and greatest value of each whole number."""
 NUMBERS = {"float32", "float64", *RANGES}
 _PLAIN = {"float32": "float", "float64": "float", "bool": "bool", "string": "str", "wstring": "str"}
 _BYTES = ("uint8", "char", "byte")
@@ -46,12 +46,12 @@ _TAKEN = {
     "ROSTYPES",
     "UNITS",
 }
-"""What a field cannot be called in a class, where it would hide what the next annotation needs."""
+"""Names that a field cannot have in a class, because the next annotation needs them."""
 
 
 @dataclass
 class Names:
-    """What the classes of a module use, so that it is imported or defined above them."""
+    """The names that the classes of a module use, to be imported or defined above them."""
 
     base: set[str] = field(default_factory=set)
     arrays: set[str] = field(default_factory=set)
@@ -62,11 +62,11 @@ class Names:
     aliases: dict[str, str] = field(default_factory=dict)
     """Annotations with a size, by their name."""
     local: dict[str, str] = field(default_factory=dict)
-    """What each type is called in this module, by its ROS name."""
+    """Name of each type in this module, by its ROS name."""
     math: bool = False
-    """`math.nan` or `math.inf` is used."""
+    """Whether `math.nan` or `math.inf` is used."""
     additions: bool = False
-    """A base class of `bridge.msgs.additions` is used."""
+    """Whether a base class of `bridge.msgs.additions` is used."""
 
 
 def python_name(name: str, classes: set[str]) -> str:
@@ -75,7 +75,7 @@ def python_name(name: str, classes: set[str]) -> str:
 
 
 def hint_of(kind: Kind, names: Names) -> str:
-    """The annotation of a field of `kind`; what it uses is noted in `names`."""
+    """The annotation of a field of `kind`; the names that it uses are noted in `names`."""
     item = _item(kind, names)
     if kind.many is Many.ONE:
         return item
@@ -131,8 +131,8 @@ def default_of(
 ) -> tuple[str, bool]:
     """The default of a field as Python, and whether it is a factory.
 
-    `local` tells what a type is called here, `holds_list` whether messages may share its value. TextError for a default
-    that the type cannot hold.
+    `local` gives the name of a type here, `holds_list` whether its values can be changed and must not be shared.
+    TextError for a default that the type cannot hold.
     """
     kind = each.kind
     if each.default is not None:

@@ -15,7 +15,7 @@ _LIST = re.compile(r"(?!(?:uint8|char|byte)\b).*\]")
 
 
 def known(rosname: str) -> bool:
-    """bridge.msgs has a class called `rosname`."""
+    """Whether bridge.msgs has a class called `rosname`."""
     return rosname in TYPES
 
 
@@ -44,14 +44,14 @@ class Library:
         return tuple(each.kind.rostype for each in part.fields) if part else TYPES[rosname].ROSTYPES
 
     def holds_list(self, rosname: str) -> bool:
-        """A value of it holds something that can be changed, so that no two messages may share it."""
+        """Whether a value of it holds something that can be changed, so that messages must not share it."""
         return rosname not in ("time", "duration") and any(
             _LIST.fullmatch(each) or ("/" in each and "[" not in each and self.holds_list(each))
             for each in self.rostypes(rosname)
         )
 
     def ancestor(self, part: Part) -> Part | None:
-        """Whose fields `part` begins with, where its class is a subclass of that one's."""
+        """The part whose fields `part` begins with, where its class is a subclass of that one's."""
         parent = self.parts.get(EXTENDS.get(part.rosname, ""))
         if parent is None:
             return None
@@ -61,7 +61,7 @@ class Library:
         return parent
 
     def ordered(self, package: str) -> list[Part]:
-        """The parts of `package`, by alphabet but each behind those that it is made of; TextError for a circle."""
+        """The parts of `package` in alphabetical order, but each behind its own parts; TextError for a circle."""
         done: dict[str, Part] = {}
         for name in sorted(name for name, part in self.parts.items() if part.package == package):
             self._place(name, package, done, ())

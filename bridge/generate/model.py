@@ -1,4 +1,4 @@
-"""What a ROS text says: kinds of values, fields, constants, and the parts of a message, service or action."""
+"""The content of a ROS text: kinds of values, fields, constants, and the parts of a message, service or action."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ Value = bool | int | float | str | list["bool | int | float | str"]
 
 
 class TextError(BridgeError):
-    """A ROS text, or what was asked of it, is wrong: one sentence that says where and what."""
+    """A fault in a ROS text, or in the request for it: one sentence with place and reason."""
 
 
 class Many(Enum):
-    """How many values a field holds."""
+    """The number of values that a field holds."""
 
     ONE = "one"
     ANY = "any"
@@ -36,7 +36,7 @@ class Kind:
     """Of a text [characters]; 0 for any length."""
     many: Many = Many.ONE
     size: int = 0
-    """How many at most or exactly."""
+    """Number of elements, at most or exactly."""
 
     @property
     def rostype(self) -> str:
@@ -53,7 +53,7 @@ class Kind:
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """One field with what its comment says."""
+    """One field with its comment."""
 
     name: str
     kind: Kind
@@ -64,7 +64,7 @@ class Field:
 
 @dataclass(frozen=True, slots=True)
 class Constant:
-    """One constant with what its comment says."""
+    """One constant with its comment."""
 
     name: str
     base: str
@@ -74,7 +74,7 @@ class Constant:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """What becomes one class: a message, a half of a service, a third of an action."""
+    """The source of one class: a message, a half of a service, a third of an action."""
 
     package: str
     name: str
@@ -96,7 +96,7 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class Definition:
-    """All that one file says."""
+    """The content of one file."""
 
     source: str
     """The file, for sentences."""

@@ -13,7 +13,7 @@ from bridge.generate.model import Part
 __all__ = ["MARK", "package_module"]
 
 MARK = "made by `python -m bridge.generate`"
-"""Stands in the first line of every file that the generator may write over."""
+"""Part of the first line of every file that the generator may overwrite."""
 _TIMES = {"time": "Time", "duration": "Duration"}
 _TAKEN = {
     "Annotated",
@@ -28,7 +28,7 @@ _TAKEN = {
     *RANGES,
     *_TIMES.values(),
 }
-"""What a module's own classes must not hide."""
+"""Names that a module's own classes must not hide."""
 
 
 def package_module(package: str, library: Library, home: str) -> str:
@@ -58,7 +58,7 @@ def package_module(package: str, library: Library, home: str) -> str:
 
 
 def _local_names(parts: list[Part]) -> dict[str, str]:
-    """What types are called in a package's modules: as in ROS, unless another one or Python has that name."""
+    """Names of types in a package's module: as in ROS, unless another type or Python has that name."""
     local = {"time": "Time", "duration": "Duration"}
     for part in parts:
         local[part.rosname] = f"{part.name}_" if part.name in _TAKEN else part.name
@@ -73,7 +73,7 @@ def _local_names(parts: list[Part]) -> dict[str, str]:
 
 
 def _imports(names: Names, own: set[str], library: Library, home: str) -> dict[str, set[str]]:
-    """What is imported from which of our modules."""
+    """The imports of the module, by the module they come from."""
     imports: dict[str, set[str]] = {}
 
     def add(source: str, found: Iterable[str]) -> None:
@@ -117,7 +117,7 @@ def _import_lines(names: Names, imports: dict[str, set[str]]) -> Iterator[str]:
 
 
 def _order(source: str) -> tuple[int, list[object]]:
-    """As ruff orders modules: those further up first, numbers by their value."""
+    """ruff's order of modules: those further up first, numbers by their value."""
     return -len(source) + len(source.lstrip(".")), _natural(source)
 
 
@@ -129,7 +129,7 @@ def _from(source: str, names: Iterable[str]) -> list[str]:
 
 
 def _name_order(name: str) -> tuple[bool, bool, list[object], list[object]]:
-    """As ruff orders what is imported from a module: constants, classes, the rest."""
+    """ruff's order of the names in an import: constants, classes, the rest."""
     return not name.isupper(), not name[0].isupper(), _natural(name.lower()), _natural(name)
 
 

@@ -1,4 +1,4 @@
-"""ROS text to definitions: rosbags' parser for what it means, its lines for the comments."""
+"""Definitions from ROS text: rosbags' parser for its meaning, its lines for the comments."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from bridge.generate.model import Constant, Definition, Field, Kind, Many, Part,
 __all__ = ["SUFFIXES", "read"]
 
 SUFFIXES = {".msg": ("",), ".srv": ("Request", "Response"), ".action": ("Goal", "Result", "Feedback")}
-"""What the classes of each kind of file are called behind the file's own name."""
+"""Endings of the classes of each kind of file, behind the file's own name."""
 _SAID = {
     "Request": "What `{}` is asked.",
     "Response": "What `{}` answers.",
@@ -42,7 +42,7 @@ def _package_of(path: Path, package: str | None) -> str:
 
 
 def read(path: Path, package: str | None = None) -> Definition:
-    """What the file at `path` says; TextError for what cannot be read or is no ROS text."""
+    """The definition in the file at `path`; TextError for a file that cannot be read or is no ROS text."""
     suffixes = SUFFIXES.get(path.suffix)
     if suffixes is None:
         raise TextError(f"{path} ends neither in .msg nor in .srv nor in .action.")

@@ -1,6 +1,6 @@
-"""The messages of the socket, as typed immutable records, and the table of all of them by ROS name.
+"""Message classes as typed immutable records, and the table of all of them by ROS name.
 
-The packages are made of ROS text by `python -m bridge.generate`; `additions.py`, `arrays.py`, `base.py` and
+`python -m bridge.generate` makes one module per ROS package; `additions.py`, `arrays.py`, `base.py` and
 `builtin_interfaces.py` are written by hand.
 """
 
@@ -47,7 +47,7 @@ TYPES: dict[str, type[Msg]] = {
     for cls in vars(package).values()
     if isinstance(cls, type) and issubclass(cls, Msg) and cls.MSGTYPE
 }
-"""Every known message class by its ROS 1 name; services by their halves, actions by their thirds."""
+"""All known message classes by ROS 1 name; a service has two of them, an action three."""
 
 
 def ros1_name(name: str) -> str:

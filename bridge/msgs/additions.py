@@ -1,6 +1,6 @@
-"""What message classes have that no ROS text can say: methods, in base classes without fields, and other names.
+"""Additions to generated message classes: methods, in base classes without fields, and other names.
 
-`bridge/generate/extras.py` says which class is made with which of these.
+`bridge/generate/extras.py` lists the classes that each of these is added to.
 """
 
 from __future__ import annotations
@@ -26,17 +26,17 @@ __all__ = [
 ]
 
 MOTIONS = ("loop", "random", "intermittent")
-"""In what order and with which pauses a mission's points are visited."""
+"""Orders and pauses in which a mission's points are visited."""
 MAX_DWELL = 600.0
 """Longest stay at a point in intermittent motion [s]."""
 MANOEUVRES = ("twist", "steer", "course", "tilt", "hover", "take_off", "land", "surface", "rest")
-"""How a robot may be told to move."""
+"""Kinds of manoeuvres of all robots."""
 MAX_LAPS = 999
-"""Most rounds of a mission that may be asked for."""
+"""Most rounds of a mission."""
 PLACE_KINDS = ("place", "office", "home", "dock", "reception", "lab", "hall")
-"""What a named place may be."""
+"""Kinds of named places."""
 REACTIONS = ("stop", "report", "circle")
-"""What a patrol may do about an intruder: halt, only tell of it, or go once round it looking at it, and then on."""
+"""Reactions of a patrol to an intruder: halt, only report it, or circle it once with the camera on it, then continue."""
 TASKS = (
     "patrol",
     "deliver",
@@ -50,7 +50,7 @@ TASKS = (
     "land",
     "surface",
 )
-"""What a robot may be asked to do."""
+"""Tasks of all robots."""
 
 
 def zeros36() -> list[float]:
@@ -59,7 +59,7 @@ def zeros36() -> list[float]:
 
 
 class Quaternion(Msg, frozen=True, gc=False):
-    """A quaternion's angles."""
+    """Methods of a quaternion."""
 
     if TYPE_CHECKING:
         x: float
@@ -104,7 +104,7 @@ class Quaternion(Msg, frozen=True, gc=False):
 
 
 class Twist(Msg, frozen=True, gc=False):
-    """A twist of a ground robot."""
+    """Methods of a twist."""
 
     if TYPE_CHECKING:
         linear: Msg = Msg()

@@ -1,4 +1,4 @@
-"""The base of every message, an immutable record that knows its ROS type names, and the whole numbers of ROS."""
+"""The base of every message class, an immutable record with its ROS type names, and ROS's whole numbers."""
 
 from __future__ import annotations
 

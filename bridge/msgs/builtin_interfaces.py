@@ -1,4 +1,4 @@
-"""ROS's two built-in types, an instant and a length of time, which ROS 1 and ROS 2 write differently."""
+"""ROS's two built-in types, time and duration, which ROS 1 and ROS 2 spell differently."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ _Count: TypeAlias = Annotated[int, Meta(ge=-(2**31), le=2**32 - 1)]
 
 
 class Time(Msg, frozen=True, gc=False):
-    """An instant of the robot's clock or the operators': docs/bridge.md says which stamp is of which.
+    """An instant of the robot's clock or of the operators' clock; docs/bridge.md lists the stamps of each.
 
-    ROS 1 calls the fields `secs` and `nsecs`, ROS 2 `sec` and `nanosec`; both are understood, and the
-    ROS 1 names are sent because both servers accept them.
+    ROS 1 calls the fields `secs` and `nsecs`, ROS 2 `sec` and `nanosec`; both are understood, and the ROS 1 names are
+    sent because both servers accept them.
     """
 
     MSGTYPE: ClassVar[str] = "time"
@@ -27,7 +27,7 @@ class Time(Msg, frozen=True, gc=False):
     secs: _Count = 0
     """Whole seconds since the clock's epoch [s]."""
     nsecs: _Count = 0
-    """The rest [ns], 0 to 999999999."""
+    """The fraction [ns], 0 to 999999999."""
     sec: _Count | msgspec.UnsetType = msgspec.UNSET
     nanosec: _Count | msgspec.UnsetType = msgspec.UNSET
 
@@ -45,7 +45,7 @@ class Time(Msg, frozen=True, gc=False):
 
     @classmethod
     def at(cls, seconds: float) -> Time:
-        """The instant `seconds` [s] after the epoch, to the nanosecond a float can say."""
+        """The instant `seconds` [s] after the epoch, as precise as a float."""
         whole = int(seconds // 1)
         nanoseconds = round((seconds - whole) * 1e9)
         if nanoseconds == 1_000_000_000:

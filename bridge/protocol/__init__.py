@@ -1,4 +1,4 @@
-"""rosbridge v2 without I/O: text in, operations out, and what each side must remember about the other."""
+"""rosbridge v2 without I/O: frames to operations and back, and the state of each side."""
 
 from __future__ import annotations
 

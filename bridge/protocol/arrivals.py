@@ -1,4 +1,4 @@
-"""From frames to operations: text, text in a binary frame, CBOR, several at once, in fragments, in a picture."""
+"""Operations of incoming frames: text, text in a binary frame, CBOR, several at once, in fragments, in a picture."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from bridge.protocol.wire import parse, parse_binary, parse_each
 __all__ = ["Arrival", "Arrivals"]
 
 Arrival = Op | BinaryPublish | ProtocolError
-"""An operation, or what was wrong with one."""
+"""An operation, or the error of a faulty one."""
 _PACKED = {Fragment, Png}
 
 
 class Arrivals:
-    """What comes over one connection. Bounded: by bytes in each frame, in all unfinished fragments, in a picture."""
+    """The incoming frames of one connection. Bounded: bytes of each frame, of all unfinished fragments, of a picture."""
 
     def __init__(
         self,
@@ -37,7 +37,8 @@ class Arrivals:
         self._fragments = Fragments(limit_bytes, most, lifetime, given_up=self._lost.append)
 
     def take(self, frame: str | bytes, now: float) -> list[Arrival]:
-        """What is in a frame that came at `now` [s], in its order. Fragments and pictures give what they held, once whole."""
+        """The operations in a frame that came at `now` [s], in order. Fragments and pictures give their content, once
+        whole."""
         if len(frame) > self._limit:
             return [ProtocolError(f"A frame may have at most {self._limit} bytes, not {len(frame)}.")]
         if isinstance(frame, bytes) and frame[:1] > b"\x7f":  # a CBOR map begins so, JSON text never does
@@ -54,14 +55,15 @@ class Arrivals:
         return _Unpacking(self._limit, self._fragments, self._lost, now).unpacked(found)
 
     def expire(self, now: float) -> list[ProtocolError]:
-        """What is given up at `now` [s] because the rest did not come; to be called every second or so."""
+        """The errors of the texts that are given up at `now` [s], unfinished for too long; to be called every second
+        or so."""
         self._fragments.expire(now)
         lost, self._lost[:] = list(self._lost), []
         return lost
 
 
 class _Unpacking:
-    """One frame being unpacked. A picture may stand in fragments, and nothing else within another."""
+    """One frame being unpacked. A picture may be in fragments, and nothing else within another."""
 
     def __init__(self, limit: int, fragments: Fragments, lost: list[ProtocolError], now: float) -> None:
         self._left = limit

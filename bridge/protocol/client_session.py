@@ -1,4 +1,4 @@
-"""What a client remembers about its server, without I/O."""
+"""The client's side of the protocol, without I/O: subscriptions, advertisements, pending calls and goals."""
 
 from __future__ import annotations
 
@@ -40,18 +40,18 @@ __all__ = ["MAX_CLIENT_FRAME", "ClientSession", "Given", "Provided", "Served", "
 
 AnyOp = TypeVar("AnyOp", bound=Op)
 MAX_CLIENT_FRAME = 33_554_432
-"""The largest frame that a client takes, a big map is one, and the most that may wait in fragments [byte]."""
+"""The largest frame that a client takes, as for a big map, and the most that may wait in fragments [byte]."""
 _MAX_VALUES = 250_000
-"""Values in one binary frame that a client reads, a number array counted as one: a path of some thousand poses."""
+"""Most values in one binary frame to a client, a number array counted as one: a path of some thousand poses."""
 MAX_CALLS = 1000
-"""So many calls may wait for their answer."""
+"""Most calls that wait for their answer."""
 MAX_GOALS = 1000
-"""So many goals may be under way, and as many be given to us."""
+"""Most goals under way, and as many to carry out."""
 
 
 @dataclass(frozen=True, slots=True)
 class Subscription:
-    """One subscription of a client, remembered over reconnects."""
+    """One subscription of a client, kept over reconnects."""
 
     op: Subscribe
     type: type[Msg]
@@ -61,7 +61,7 @@ class Subscription:
 
 @dataclass(frozen=True, slots=True)
 class Served:
-    """One service that a client answers, remembered over reconnects."""
+    """One service that a client answers, kept over reconnects."""
 
     op: AdvertiseService
     call: Callable[[CallService], object]
@@ -70,13 +70,13 @@ class Served:
 
 @dataclass(frozen=True, slots=True)
 class Provided:
-    """One action that a client carries goals out of, remembered over reconnects."""
+    """One action that a client carries goals out of, kept over reconnects."""
 
     op: AdvertiseAction
     start: Callable[[SendActionGoal], object]
-    """Takes the goal; what becomes of it goes out with its `id` and `action`."""
+    """Takes the goal; feedback and result are sent with its `id` and `action`."""
     cancel: Callable[[Id], object]
-    """Takes the id of a goal that is taken back, or whose sender can no longer be told."""
+    """Takes the id of a goal that is cancelled, or whose sender is gone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,13 +88,14 @@ class Given:
 
 
 class ClientSession:
-    """What a client remembers.
+    """The state of a client.
 
-    Its subscriptions and what it advertises for ever, its calls and goals until answered or until the connection is lost.
+    Subscriptions and advertisements are kept for ever, calls and goals until answered or until the connection is
+    lost.
     """
 
     def __init__(self, *, limit_bytes: int = MAX_CLIENT_FRAME) -> None:
-        """`limit_bytes` bounds a frame, what waits in fragments, and what is unpacked of one frame [byte]."""
+        """`limit_bytes` bounds a frame, the waiting fragments, and the unpacked content of one frame [byte]."""
         self.subscriptions: dict[str, dict[Id, Subscription]] = {}
         """By topic and id."""
         self.advertised: dict[str, Advertise] = {}
@@ -106,13 +107,13 @@ class ClientSession:
         self.given: dict[Id, Given] = {}
         """Goals to carry out, by the id that the server gave them."""
         self.level: str | None = None
-        """Which remarks the server is asked for on a new connection; None for not asking."""
+        """Level of remarks that the server is asked for on a new connection; None for not asking."""
         self.ros2 = False
-        """The server's types are spelled `pkg/msg/Type`; what is given out to be sent is spelled so then."""
+        """Whether the server's types are spelled `pkg/msg/Type`; operations to send are then spelled so."""
         self.calls = Calls("call", MAX_CALLS)
         """Calls until answered."""
         self.goals = Goals("goal", MAX_GOALS)
-        """Goals of ours until the server says what became of them."""
+        """Goals of this client until their result."""
         self._limit = limit_bytes
         self._arrivals = self._nothing_yet()
         self._numbers = itertools.count(1)
@@ -120,20 +121,20 @@ class ClientSession:
     def receive(self, frame: str | bytes, now: float) -> list[Arrival]:
         """The operations in a frame that came at `now` [s], any clock that only goes forward; never raises.
 
-        What is wrong stands among them as a ProtocolError. Fragments and pictures are unpacked.
+        A fault stands among them as a ProtocolError. Fragments and pictures are unpacked.
         """
         return self._arrivals.take(frame, now)
 
     def subscribe(
         self, op: Subscribe, type: type[Msg], callback: Callable[[Any, float], object]
     ) -> tuple[Subscribe, Unsubscribe]:
-        """Remember a subscription; gives what to send now and what to send at its end."""
+        """Add a subscription; returns the operation to send now and the one to send at its end."""
         named = msgspec.structs.replace(op, id=f"subscribe:{op.topic}:{next(self._numbers)}")
         self.subscriptions.setdefault(op.topic, {})[named.id] = Subscription(named, type, callback)
         return self._spelled(named), Unsubscribe(topic=op.topic, id=named.id)
 
     def unsubscribe(self, op: Unsubscribe) -> bool:
-        """Forget a subscription; False when it was forgotten before."""
+        """Remove a subscription; False when it was removed before."""
         of_topic = self.subscriptions.get(op.topic, {})
         known = of_topic.pop(op.id, None) is not None
         if not of_topic:
@@ -141,45 +142,45 @@ class ClientSession:
         return known
 
     def subscribers(self, topic: str) -> list[Subscription]:
-        """Who wants a message on `topic`."""
+        """The subscriptions of `topic`."""
         return list(self.subscriptions.get(topic, {}).values())
 
     def advertise(self, topic: str, type: type[Msg], *, latch: bool = False) -> Advertise:
-        """Remember that this client publishes on `topic`; gives what to send now."""
+        """Add an advertisement of `topic`; returns the operation to send now."""
         op = Advertise(topic=topic, type=type.MSGTYPE, latch=latch, id=f"advertise:{topic}")
         self.advertised[topic] = op
         return self._spelled(op)
 
     def unadvertise(self, topic: str) -> Unadvertise | None:
-        """Forget that this client publishes on `topic`; gives what to send, None when it never did."""
+        """Remove an advertisement; returns the operation to send, None when there was none."""
         op = self.advertised.pop(topic, None)
         return None if op is None else Unadvertise(topic=topic, id=op.id)
 
     def call(self, service: str, args: bytes, answer: Answer, *, timeout: float | None = None) -> CallService:
-        """Remember a call; gives what to send now. ProtocolError when too many wait for their answer.
+        """Add a call; returns the operation to send. ProtocolError when too many wait for their answer.
 
-        `answer` is called once at most, with None when the connection is lost first. `timeout` is how long the server may
-        wait for whoever answers [s].
+        `answer` is called once at most, with None when the connection is lost first. `timeout` is how long the server
+        may wait for the provider [s].
         """
         return self.calls.ask(CallService(service=service, args=Raw(args), timeout=timeout), answer)
 
     def on_response(self, op: ServiceResponse) -> bool:
-        """Pass an answer to whoever waits for it; False when nobody does."""
+        """Pass a response to its caller; False when none waits for it."""
         return self.calls.on_response(op)
 
     def serve(self, service: str, type: str, call: Callable[[CallService], object]) -> AdvertiseService:
-        """Remember that this client answers calls of `service`, of ROS type `type`; gives what to send now."""
+        """Add a service of ROS type `type`; returns the operation to send now."""
         op = AdvertiseService(service=service, type=type)
         self.services[absolute(service)] = Served(op, call)
         return self._spelled(op)
 
     def stop_serving(self, service: str) -> UnadvertiseService | None:
-        """Forget that this client answers calls of `service`; gives what to send, None when it never did."""
+        """Remove a service; returns the operation to send, None when there was none."""
         served = self.services.pop(absolute(service), None)
         return None if served is None else UnadvertiseService(service=served.op.service)
 
     def called(self, op: CallService) -> None:
-        """Pass a call of the server to whoever answers it. ProtocolError when nobody does."""
+        """Pass a call of the server to its service. ProtocolError when there is none."""
         served = self.services.get(service_and_id(op)[0])
         if served is None:
             raise wrong(op, f"This client has no service {shown(op.service)}.")
@@ -188,24 +189,24 @@ class ClientSession:
     def goal(
         self, action: str, type: str, args: bytes, feedback: Feedback | None, result: Result
     ) -> SendActionGoal:
-        """Remember a goal for the server; gives what to send now. ProtocolError when too many are under way.
+        """Add a goal for the server; returns the operation to send. ProtocolError when too many are under way.
 
-        `feedback` is called as often as the server says how far it is, None for not asking; `result` once at most, with
-        None when the connection is lost first.
+        `feedback` is called with each feedback, None for not asking; `result` once at most, with None when the
+        connection is lost first.
         """
         op = SendActionGoal(action=action, action_type=type, args=Raw(args))
         return self._spelled(self.goals.send(op, feedback, result))
 
     def cancel(self, id: Id) -> CancelActionGoal | None:
-        """What to send to take a goal back; its result is still to come. None when it is not under way."""
+        """The operation that cancels a goal; its result is still to come. None when it is not under way."""
         return self.goals.cancel(id)
 
     def on_feedback(self, op: ActionFeedback) -> bool:
-        """Pass on how far a goal is; False when nobody wants to know."""
+        """Pass feedback on to the goal's sender; False when it is not wanted."""
         return self.goals.on_feedback(op)
 
     def on_result(self, op: ActionResult) -> bool:
-        """Pass on what became of a goal; False when nobody waits for it."""
+        """Pass a result on to the goal's sender; False when none waits for it."""
         return self.goals.on_result(op)
 
     def provide(
@@ -215,20 +216,20 @@ class ClientSession:
         start: Callable[[SendActionGoal], object],
         cancel: Callable[[Id], object],
     ) -> AdvertiseAction:
-        """Remember that this client carries goals of `action` out, of ROS type `type`; gives what to send now."""
+        """Add an action of ROS type `type`; returns the operation to send now."""
         op = AdvertiseAction(action=action, type=type)
         self.actions[absolute(action)] = Provided(op, start, cancel)
         return self._spelled(op)
 
     def stop_providing(self, action: str) -> UnadvertiseAction | None:
-        """Take no more goals of `action`; gives what to send, None when it never did. Those given are carried on."""
+        """Remove an action; returns the operation to send, None when there was none. Goals under way continue."""
         provided = self.actions.pop(absolute(action), None)
         return None if provided is None else UnadvertiseAction(action=provided.op.action)
 
     def goal_given(self, op: SendActionGoal) -> None:
-        """Pass a goal of the server to whoever carries it out.
+        """Pass a goal of the server to its action.
 
-        ProtocolError when nobody does, when one of that id is under way already, or when there are too many.
+        ProtocolError when there is none, when a goal with that id is under way already, or when there are too many.
         """
         provided = self.actions.get(absolute(op.action))
         if provided is None:
@@ -242,18 +243,18 @@ class ClientSession:
         provided.start(op)
 
     def goal_cancelled(self, op: CancelActionGoal) -> bool:
-        """Tell who carries the goal out that it is taken back; False when it is not under way."""
+        """Cancel a goal of the server; False when it is not under way."""
         given = self.given.get(op.id)
         if given is not None:
             given.provided.cancel(op.id)
         return given is not None
 
     def goal_ended(self, id: Id) -> bool:
-        """A goal that was given is over; False when it was before."""
+        """Remove a goal of the server; False when it was removed before."""
         return self.given.pop(id, None) is not None
 
     def lose(self) -> None:
-        """The connection is gone, and with it all answers, unfinished fragments, and whoever gave goals."""
+        """End everything that belongs to the lost connection: answers, unfinished fragments, goals of the server."""
         self._arrivals = self._nothing_yet()
         given, self.given = self.given, {}
         with contextlib.ExitStack() as stack:
@@ -263,7 +264,7 @@ class ClientSession:
             stack.callback(self.calls.lose)
 
     def opening(self) -> Iterator[Op]:
-        """Everything to say on a new connection."""
+        """All operations to send on a new connection."""
         if self.level is not None:
             yield SetLevel(level=self.level)
         for advertised in list(self.advertised.values()):

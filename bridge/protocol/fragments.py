@@ -1,4 +1,4 @@
-"""Long operations in slices: `fragment` operations from a text, and the text from `fragment` operations."""
+"""Fragments of long operations: `fragment` operations from a text, and the text from `fragment` operations."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from bridge.protocol.ops import Fragment, Id
 __all__ = ["MAX_SLICES", "Fragments", "split"]
 
 MAX_SLICES = 10_000
-"""A text is not cut into more slices than this: they become longer instead."""
+"""Most slices of one text; a longer text gets longer slices instead."""
 SLICE_COST = 64
-"""What a slice that waits costs beside its text [byte]."""
+"""Memory of a waiting slice beside its text [byte]."""
 _HIGH_HALF = re.compile(r"\\u[dD][89abAB][0-9a-fA-F]{2}")
 _LOW_HALF = re.compile(r"\\u[dD][c-fC-F][0-9a-fA-F]{2}")
 _ENCODER = msgspec.json.Encoder()
 
 
 def split(text: bytes, size: int, id: str) -> list[bytes]:
-    """`text`, the JSON of one operation, as `fragment` operations of at most `size` characters of it each.
+    """`text`, the JSON of one operation, as `fragment` operations of at most `size` characters each.
 
-    No slice ends within a character or an escape of JSON; one escape longer than `size` stays whole. A text that
-    fits into one slice comes back as it is, alone. `id` should not be empty: roslib overlooks slices whose id is.
+    No slice ends within a character or an escape of JSON; one escape longer than `size` stays whole. A text that fits
+    into one slice is returned as it is, alone. `id` should not be empty: roslib ignores slices with an empty id.
     ProtocolError when `size` is below 1 or `text` is not UTF-8.
     """
     if size < 1:
@@ -60,7 +60,7 @@ def _slices(text: str, size: int) -> list[str]:
 
 
 def _cut(text: str, start: int, end: int) -> int:
-    """Where a slice from `start`, which is no place within an escape, ends: at `end`, or before an escape there."""
+    """The end of a slice from `start`, which is not within an escape: `end`, or before an escape there."""
     if end >= len(text):
         return len(text)
     begin = _escape_before(text, start, end)
@@ -73,7 +73,7 @@ def _cut(text: str, start: int, end: int) -> int:
 
 
 def _escape_before(text: str, start: int, end: int) -> int | None:
-    """Where the last escape that begins before `end` begins, the first half of a pair counting for both."""
+    """The beginning of the last escape that begins before `end`, the first half of a pair counting for both."""
     place = text.rfind("\\", max(start, end - 6), end)
     if place < 0:
         return None
@@ -103,7 +103,7 @@ class _Unfinished:
 
 
 class Fragments:
-    """Puts slices together again, several texts at a time, in whatever order they come."""
+    """Joins slices, several texts at a time, in any order."""
 
     def __init__(
         self,
@@ -115,8 +115,8 @@ class Fragments:
     ) -> None:
         """At most `limit_bytes` wait in at most `most` unfinished texts.
 
-        A text to which nothing was added for `lifetime` [s] is given up, and so is the one that waited longest when
-        there is one too many, or one that is begun anew. `given_up` is told about each in a sentence.
+        A text without a new slice for `lifetime` [s] is given up, and so is the one that waited longest when there is
+        one too many, or one that is begun anew. `given_up` is called with one error for each.
         """
         self._limit = limit_bytes
         self._most = most
@@ -127,18 +127,18 @@ class Fragments:
 
     @property
     def held(self) -> int:
-        """What waits [byte], each slice counted with `SLICE_COST` more than its text."""
+        """Waiting bytes, each slice counted with `SLICE_COST` more than its text."""
         return self._held
 
     def __len__(self) -> int:
-        """How many texts are unfinished."""
+        """Number of unfinished texts."""
         return len(self._sets)
 
     def add(self, op: Fragment, now: float) -> str | None:
-        """Take a slice in at `now` [s], any clock that only goes forward; gives the text when it is complete.
+        """Add a slice at `now` [s], any clock that only goes forward; returns the text when it is complete.
 
-        `num` and `total` may come as floats, of `total` the whole part counts. A slice that contradicts those before
-        it begins its text anew. ProtocolError for a slice that can belong to no text, or is one too many for
+        `num` and `total` may be floats, of which the whole part of `total` counts. A slice that contradicts those
+        before it begins its text anew. ProtocolError for a slice that can belong to no text, or is one too many for
         `limit_bytes`; its text is given up then.
         """
         self.expire(now)

@@ -1,4 +1,4 @@
-"""Several subscriptions of one client to one topic as the one delivery that they get."""
+"""Merging of several subscriptions of one client to one topic into one delivery."""
 
 from __future__ import annotations
 
@@ -16,33 +16,33 @@ from bridge.protocol.ops import COMPRESSIONS, Op, Reduction, Subscribe
 __all__ = ["Subscribed", "checked_size", "merged", "wish"]
 
 MAX_FIELDS = 100
-"""So many paths may stand in `Reduction.fields`."""
+"""Most paths in `Reduction.fields`."""
 
 
 @dataclass(frozen=True, slots=True)
 class Subscribed:
-    """What one client wants of one topic, all its subscriptions taken together. Hashable."""
+    """The delivery of one topic to one client, merged from all its subscriptions. Hashable."""
 
     name: str
     """The topic as the client wrote it."""
     period: float = 0.0
     """Shortest time between two messages [s]."""
     queue: int = 0
-    """How many messages may wait; 0 as many as the server sees fit."""
+    """Most messages that may wait; 0 for the server's choice."""
     compression: str = "none"
     """One of `COMPRESSIONS`."""
     fragment_size: int | None = None
-    """Longest text frame [characters]; None for no end. Binary frames are never cut."""
+    """Longest text frame [characters]; None for no limit. Binary frames are never cut."""
     reduction: Reduction | None = None
-    """How much of each message it wants; None for all."""
+    """The part of each message that is sent; None for all."""
     ros2: bool = False
-    """It spells types as `pkg/msg/Type` and wants times as `sec` and `nanosec`."""
+    """Whether it spells types as `pkg/msg/Type` and wants times as `sec` and `nanosec`."""
 
 
 def wish(op: Subscribe, compat: Compat, ros2: bool = False) -> Subscribed:
-    """What one subscription asks for. `ros2` is how the client spells types when `op` names none.
+    """The delivery that one subscription asks for. `ros2` is the client's spelling of types when `op` names none.
 
-    ProtocolError, naming the field, its value and what is allowed, when it cannot be had.
+    ProtocolError, with the field, its value and what is allowed, when it is impossible.
     """
     compression = op.compression or "none"
     if compression not in COMPRESSIONS:
@@ -66,10 +66,10 @@ def wish(op: Subscribe, compat: Compat, ros2: bool = False) -> Subscribed:
 
 
 def merged(wishes: Iterable[Subscribed], compat: Compat) -> Subscribed:
-    """What several ask for, one at least, as one delivery, under the name of the first.
+    """One delivery for several subscriptions, under the name of the first.
 
-    The faster rate, the smaller fragments, the later in `COMPRESSIONS`; the same reduction stays, with different ones
-    everything is sent. For the queue see `Compat.shortest_queue`.
+    The faster rate wins, the smaller fragments, the later in `COMPRESSIONS`; the same reduction stays, with different
+    ones everything is sent. For the queue see `Compat.shortest_queue`.
     """
     several = list(wishes)
     first = several[0]
@@ -90,7 +90,7 @@ def merged(wishes: Iterable[Subscribed], compat: Compat) -> Subscribed:
 
 
 def checked_size(op: Op) -> int | None:
-    """The `fragment_size` in an operation; None where it has none. ProtocolError when nothing can be cut so."""
+    """The `fragment_size` of an operation; None where it has none. ProtocolError when it is no usable size."""
     size = op.fragment_size
     if size is UNSET or size is None:
         return None
@@ -100,7 +100,7 @@ def checked_size(op: Op) -> int | None:
 
 
 def _number(op: Subscribe, field: str, value: float | None) -> float:
-    """A number from 0; what is below counts as 0, as it does for the servers in use."""
+    """A number from 0; a negative one counts as 0, as it does for the servers in use."""
     if value is None or value <= 0:
         return 0
     if value <= 2**53:

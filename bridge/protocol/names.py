@@ -23,42 +23,42 @@ __all__ = [
 ]
 
 MAX_NAME_LENGTH = 256
-"""[characters]"""
+"""Longest name that is kept [characters]."""
 MAX_ID_LENGTH = 1024
-"""[characters]"""
+"""Longest id that is kept [characters]."""
 _ROS2 = re.compile(r"^[^/]+/(?:msg|srv|action)/[^/]+$")
 
 
 def absolute(name: str) -> str:
-    """A topic's, service's or action's name with its leading slash, as ROS resolves a relative one."""
+    """The absolute name of a topic, service or action, as ROS resolves a relative one."""
     return name if name.startswith("/") else f"/{name}"
 
 
 def checked_name(name: str, op: Op, field: str) -> str:
-    """`name` made absolute; ProtocolError when it is empty or too long to be remembered."""
+    """`name` made absolute; ProtocolError when it is empty or too long to be kept."""
     if 0 < len(name) <= MAX_NAME_LENGTH:
         return absolute(name)
     raise wrong(op, f"{field} must have 1 to {MAX_NAME_LENGTH} characters, not {len(name)}.")
 
 
 def checked_id(op: Op) -> Id:
-    """The operation's id; ProtocolError when it is too long to be remembered."""
+    """The operation's id; ProtocolError when it is too long to be kept."""
     if not isinstance(op.id, str) or len(op.id) <= MAX_ID_LENGTH:
         return op.id
     raise wrong(op, f"id must have at most {MAX_ID_LENGTH} characters, not {len(op.id)}.")
 
 
 def plain_id(id: Id) -> str | float | None:
-    """The id as an error carries it: None where there is none, or one too long to repeat."""
+    """The id for an error: None where there is none, or one too long to repeat."""
     if id is UNSET or (isinstance(id, str) and len(id) > MAX_ID_LENGTH):
         return None
     return id
 
 
 def service_and_id(op: CallService) -> tuple[str, Id]:
-    """The absolute name of what is called and the id to answer with.
+    """The absolute name of the called service and the id to answer with.
 
-    Clients of old write the id behind the name, as in `/rosapi/topics#33`; it counts where there is no other.
+    Old clients write the id behind the name, as in `/rosapi/topics#33`; it counts where there is no other.
     """
     name, mark, old_id = op.service.partition("#")
     if mark and op.id in (None, UNSET):
@@ -78,5 +78,5 @@ def ros2_name(type: str, kind: str = "msg") -> str:
 
 
 def wrong(op: Op, sentence: str) -> ProtocolError:
-    """The error that `sentence` tells about `op`, with the operation's name and id."""
+    """A ProtocolError with `sentence`, and the name and id of `op`."""
     return ProtocolError(sentence, op=str(op.__struct_config__.tag), id=plain_id(op.id))

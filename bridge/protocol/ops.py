@@ -43,18 +43,18 @@ __all__ = [
 ]
 
 Id = str | int | float | UnsetType | None
-"""Names an interaction; given back as it came. UNSET where the sender gave none."""
+"""Identifies an interaction; returned unchanged. UNSET where the sender gave none."""
 
 LEVELS = ("info", "warning", "error", "none")
-"""What a client may ask to be told, from everything to nothing."""
+"""Levels of remarks that a client may ask for, from everything to nothing."""
 
 COMPRESSIONS = ("none", "png", "cbor", "cbor-raw")
-"""How a message may travel; when several subscriptions of a client differ, the later in this row wins."""
+"""Compressions of messages; of several that one client asks for, the later in this row wins."""
 
 Number = int | float | None
 """Clients send whole numbers as floats, and null where they mean nothing."""
 MISSING = Raw(b"{}")
-"""Stands where a message, arguments or values were left out: that very object, and an empty one to whoever reads it."""
+"""Stands for a missing message, arguments or values: this very object, which reads as an empty one."""
 
 
 class Op(msgspec.Struct, frozen=True, tag_field="op", omit_defaults=True, kw_only=True):
@@ -62,7 +62,8 @@ class Op(msgspec.Struct, frozen=True, tag_field="op", omit_defaults=True, kw_onl
 
     id: Id = UNSET
     fragment_size: Number | UnsetType = UNSET
-    """Longest text frame [characters] that the sender wants from now on, longer ones come as `Fragment`s; null for no end."""
+    """Longest text frame [characters] that the sender wants from now on, longer ones come as `Fragment`s; null for no
+    limit."""
 
 
 class Advertise(Op, frozen=True, tag="advertise"):
@@ -71,12 +72,12 @@ class Advertise(Op, frozen=True, tag="advertise"):
     topic: str
     type: str | None = None
     latch: bool | None = False
-    """Whoever subscribes later gets the last message at once."""
+    """Whether later subscribers get the last message at once."""
     queue_size: Number = 100
 
 
 class Unadvertise(Op, frozen=True, tag="unadvertise"):
-    """Takes an `Advertise` back; without `id` all of them for `topic`."""
+    """Ends an `Advertise`; without `id` all of them for `topic`."""
 
     topic: str
 
@@ -90,53 +91,53 @@ class Publish(Op, frozen=True, tag="publish"):
     latch: bool | None = False
     queue_size: Number = 100
     stamp: float | None = None
-    """When the sender meant it [s], operators' clock; None when it does not say."""
+    """The operators' clock [s] at the operator's input; None when the sender does not say."""
 
 
 class Reduction(msgspec.Struct, frozen=True, omit_defaults=True):
-    """How much of each message a subscriber wants; None where it wants all. Hashable: a key of what is encoded once."""
+    """The part of each message that a subscriber wants; None where it wants all. Hashable: a key of encoded forms."""
 
     fields: tuple[str, ...] | None = None
-    """Paths of the only fields that are to travel, as in `pose.pose.position`."""
+    """Paths of the only fields to send, as in `pose.pose.position`."""
     beams: int | None = None
-    """At most so many ranges of a LaserScan; of those that fall together the nearest is kept."""
+    """Most ranges of a LaserScan; of those that are merged the nearest is kept."""
     width: int | None = None
-    """At most so many columns of a picture [px]; its shape is kept."""
+    """Most columns of a picture [px]; its shape is kept."""
     quality: int | None = None
     """JPEG quality of a picture, 1 to 95."""
     resolution: float | None = None
-    """Least edge of a map's cell [m]; of cells that fall together the most occupied is kept."""
+    """Least edge of a map's cell [m]; of cells that are merged the most occupied is kept."""
 
 
 class Subscribe(Op, frozen=True, tag="subscribe"):
-    """The sender wants what is published on `topic`."""
+    """The sender wants the messages on `topic`."""
 
     topic: str
     type: str | None = None
     throttle_rate: Number = 0
     """Shortest time between two messages [ms]."""
     queue_length: Number = 0
-    """How many messages may wait; 0 as many as the server sees fit."""
+    """Most messages that may wait; 0 for the server's choice."""
     compression: str | None = "none"
     """One of `COMPRESSIONS`; anything else counts as `none`."""
     reduce: Reduction | None = None
 
 
 class Unsubscribe(Op, frozen=True, tag="unsubscribe"):
-    """Takes a `Subscribe` back; without `id` all of them for `topic`."""
+    """Ends a `Subscribe`; without `id` all of them for `topic`."""
 
     topic: str
 
 
 class CallService(Op, frozen=True, tag="call_service"):
-    """Asks for something to be done once and answered."""
+    """A request to a service, answered once."""
 
     service: str
     args: Raw = MISSING
     """An object, or a list of the fields in their order, as JSON text."""
     compression: str | None = "none"
     timeout: Number = None
-    """How long the answer may take [s]; None as long as it wants."""
+    """Longest time for the answer [s]; None for no limit."""
 
 
 class ServiceResponse(Op, frozen=True, tag="service_response", omit_defaults=False):
@@ -156,7 +157,7 @@ class AdvertiseService(Op, frozen=True, tag="advertise_service"):
 
 
 class UnadvertiseService(Op, frozen=True, tag="unadvertise_service"):
-    """Takes an `AdvertiseService` back."""
+    """Ends an `AdvertiseService`."""
 
     service: str
 
@@ -169,38 +170,38 @@ class AdvertiseAction(Op, frozen=True, tag="advertise_action"):
 
 
 class UnadvertiseAction(Op, frozen=True, tag="unadvertise_action"):
-    """Takes an `AdvertiseAction` back."""
+    """Ends an `AdvertiseAction`."""
 
     action: str
 
 
 class SendActionGoal(Op, frozen=True, tag="send_action_goal"):
-    """Asks for something that takes a while; its `id` names the goal."""
+    """A goal of an action; its `id` identifies the goal."""
 
     action: str
     action_type: str = ""
     args: Raw = MISSING
     """The goal as JSON text: an object, or a list of the fields in their order."""
     feedback: bool | None = False
-    """The sender wants to hear how it goes."""
+    """Whether the sender wants feedback."""
     compression: str | None = "none"
 
 
 class CancelActionGoal(Op, frozen=True, tag="cancel_action_goal"):
-    """Takes the goal called `id` back."""
+    """Cancels the goal `id`."""
 
     action: str
 
 
 class ActionFeedback(Op, frozen=True, tag="action_feedback", omit_defaults=False):
-    """How far the goal called `id` is."""
+    """Feedback of the goal `id`."""
 
     action: str
     values: Raw = MISSING
 
 
 class ActionResult(Op, frozen=True, tag="action_result", omit_defaults=False):
-    """What became of the goal called `id`."""
+    """The result of the goal `id`."""
 
     action: str
     values: Raw = MISSING
@@ -215,9 +216,9 @@ class Fragment(Op, frozen=True, tag="fragment", omit_defaults=False):
 
     data: str
     num: int | float
-    """Its place among the slices, from 0."""
+    """Index of the slice, from 0."""
     total: int | float
-    """How many slices there are. The ROS 1 server sends 3.7 where it means 3; the whole part counts."""
+    """Number of slices. The ROS 1 server sends 3.7 where it means 3; the whole part counts."""
 
 
 class Png(Op, frozen=True, tag="png", omit_defaults=False):
@@ -230,20 +231,20 @@ class Png(Op, frozen=True, tag="png", omit_defaults=False):
 
 
 class Status(Op, frozen=True, tag="status", omit_defaults=False):
-    """A remark of the server; sent only to those who asked by `SetLevel`."""
+    """A remark of the server, sent to clients that asked for it by `SetLevel`."""
 
     level: str = "error"
     msg: str = ""
 
 
 class SetLevel(Op, frozen=True, tag="set_level"):
-    """Which remarks the sender wants: one of `LEVELS`."""
+    """The least level of remarks that the sender wants: one of `LEVELS`."""
 
     level: str = "error"
 
 
 class Auth(Op, frozen=True, tag="auth"):
-    """Credentials for a ROS 1 server that asks for them; taken and not looked at."""
+    """Credentials for a ROS 1 server that asks for them; accepted and ignored."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -277,4 +278,4 @@ OPS: tuple[type[Op], ...] = (
     SetLevel,
     Auth,
 )
-"""All of them."""
+"""All operations."""

@@ -1,4 +1,4 @@
-"""What was asked of the other side and is not answered yet: calls of services and goals of actions."""
+"""Pending requests to the other side: calls of services and goals of actions."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Answer = Callable[[ServiceResponse | None], object]
 """Called once with the answer, or with None when there will be none."""
 Feedback = Callable[[ActionFeedback], object]
 Result = Callable[[ActionResult | None], object]
-"""Called once with what became of the goal, or with None when nobody will say."""
+"""Called once with the result, or with None when it will never be known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,11 +54,11 @@ class Calls:
         self._numbers = itertools.count(1)
 
     def __len__(self) -> int:
-        """How many wait for their answer."""
+        """Number of calls that wait."""
         return len(self._waiting)
 
     def ask(self, op: CallService, answer: Answer) -> CallService:
-        """Remember a call; gives it with the id to send. ProtocolError when too many wait."""
+        """Add a call; returns it with the id to send. ProtocolError when too many wait."""
         if len(self._waiting) >= self._most:
             raise ProtocolError(
                 f"{op.service} cannot be called: {self._most} calls wait for their answer already."
@@ -68,24 +68,24 @@ class Calls:
         return named
 
     def on_response(self, op: ServiceResponse) -> bool:
-        """Pass an answer to whoever waits for it; False when nobody does."""
+        """Pass a response to its caller; False when none waits for it."""
         call = self._waiting.pop(op.id, None)
         if call is not None:
             call.answer(op)
         return call is not None
 
     def forget(self, id: Id) -> bool:
-        """Nobody waits for this answer any more; False when nobody did."""
+        """Remove a call; False when it was not waiting."""
         return self._waiting.pop(id, None) is not None
 
     def lose(self, service: str | None = None) -> None:
-        """Nothing will be answered any more: by this service, or at all."""
+        """End the calls that will never be answered: of this service, or all."""
         gone = [id for id, call in self._waiting.items() if service in (None, call.service)]
         _tell_all([self._waiting.pop(id).answer for id in gone])
 
 
 class Goals:
-    """Goals that the other side carries out, until it says what became of them."""
+    """Goals that the other side carries out, until their result."""
 
     def __init__(self, prefix: str, most: int) -> None:
         """The ids are `PREFIX:ACTION:NUMBER`; at most `most` may be under way."""
@@ -95,15 +95,15 @@ class Goals:
         self._numbers = itertools.count(1)
 
     def __len__(self) -> int:
-        """How many are under way."""
+        """Number of goals under way."""
         return len(self._waiting)
 
     def __iter__(self) -> Iterator[SendActionGoal]:
-        """Those under way, as they were sent."""
+        """The goals under way, as they were sent."""
         return iter([goal.op for goal in self._waiting.values()])
 
     def send(self, op: SendActionGoal, feedback: Feedback | None, result: Result) -> SendActionGoal:
-        """Remember a goal; gives it with the id to send. ProtocolError when too many are under way."""
+        """Add a goal; returns it with the id to send. ProtocolError when too many are under way."""
         if len(self._waiting) >= self._most:
             raise ProtocolError(f"{op.action} takes no goal: {self._most} are under way already.")
         named = msgspec.structs.replace(
@@ -113,12 +113,12 @@ class Goals:
         return named
 
     def cancel(self, id: Id) -> CancelActionGoal | None:
-        """What to send to take a goal back; its result is still to come. None when it is not under way."""
+        """The operation that cancels a goal; its result is still to come. None when it is not under way."""
         goal = self._waiting.get(id)
         return None if goal is None else CancelActionGoal(id=id, action=goal.op.action)
 
     def on_feedback(self, op: ActionFeedback) -> bool:
-        """Pass on how far a goal is; False when nobody wants to know."""
+        """Pass feedback on to the goal's sender; False when it is not wanted."""
         goal = self._waiting.get(op.id)
         if goal is None or goal.feedback is None:
             return False
@@ -126,24 +126,24 @@ class Goals:
         return True
 
     def on_result(self, op: ActionResult) -> bool:
-        """Pass on what became of a goal; False when nobody waits for it."""
+        """Pass a result on to the goal's sender; False when none waits for it."""
         goal = self._waiting.pop(op.id, None)
         if goal is not None:
             goal.result(op)
         return goal is not None
 
     def forget(self, id: Id) -> bool:
-        """Nobody waits for this goal any more; False when nobody did."""
+        """Remove a goal; False when it was not under way."""
         return self._waiting.pop(id, None) is not None
 
     def lose(self, action: str | None = None) -> None:
-        """Nobody will say any more what becomes of the goals: of this action, or of all."""
+        """End the goals whose result will never be known: of this action, or all."""
         gone = [id for id, goal in self._waiting.items() if action in (None, absolute(goal.op.action))]
         _tell_all([self._waiting.pop(id).result for id in gone])
 
 
 def _tell_all(those: list[Callable[[None], object]]) -> None:
-    """Tell each, also when one before it raises."""
+    """Call each with None, also when one before it raises."""
     with contextlib.ExitStack() as stack:
         for tell in reversed(those):
             stack.callback(tell, None)

@@ -1,7 +1,7 @@
-"""Operations in the pixels of a picture, as rosbridge's `png` compression has them.
+"""Operations in the pixels of a picture, the `png` compression of rosbridge.
 
-The text's bytes are the red, green and blue of a nearly square picture, filled up with line breaks at the end. Pictures are
-read by Pillow, which the robot side has installed: a client that asks for this compression needs it too.
+The text's bytes are the red, green and blue of a nearly square picture, filled up with line breaks at the end. Pillow
+reads the pictures, and only the robot side installs it: another client that asks for this compression needs it too.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def to_png(text: bytes) -> Png:
 def pixels(op: Png, limit: int) -> bytes:
     """The text in a picture of 8-bit RGB or RGBA, with the line breaks that fill it up.
 
-    `limit` is how large the text may be [byte]; nothing larger is ever unpacked. ProtocolError when it is larger or no such
+    `limit` is the largest text [byte]; nothing larger is ever unpacked. ProtocolError when it is larger or no such
     picture, or when Pillow is not installed.
     """
     try:

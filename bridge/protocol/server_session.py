@@ -1,4 +1,4 @@
-"""What a server remembers about one client, without I/O."""
+"""The server's side of the protocol for one client, without I/O."""
 
 from __future__ import annotations
 
@@ -50,23 +50,23 @@ _TYPED = (Subscribe, Advertise, AdvertiseService, AdvertiseAction)
 MAX_SERVER_FRAME = 16_777_216
 """The largest frame that a server takes, and the most that may wait in fragments [byte]."""
 MAX_VALUES = 50_000
-"""Values in one binary frame, a number array counted as one."""
+"""Most values in one binary frame, a number array counted as one."""
 MAX_ADVERTISED = 1000
-"""Topics, services and actions that one client may advertise together, each id of a topic counted."""
+"""Most topics, services and actions that one client may advertise together, each id of a topic counted."""
 MAX_CALLS = 1000
-"""Calls that one client may have before it unanswered."""
+"""Most calls to one client that are unanswered."""
 MAX_GOALS = 100
-"""Goals that one client may have under way, and as many before it to carry out."""
+"""Most goals of one client that are under way, and as many that it carries out."""
 
 
 class ServerSession:
-    """What a server remembers about one client: what it wants, what it offers, what is asked of it."""
+    """The state of one client: its subscriptions and advertisements, and the requests to it."""
 
     def __init__(self, compat: Compat | None = None, *, limit_bytes: int = MAX_SERVER_FRAME) -> None:
-        """`limit_bytes` bounds a frame, what waits in fragments, and what is unpacked of one frame [byte]."""
+        """`limit_bytes` bounds a frame, the waiting fragments, and the unpacked content of one frame [byte]."""
         self.compat = compat or Compat()
         self.advertised: dict[str, dict[Id, Advertise]] = {}
-        """Topics it publishes on: the advertisements by id, by the topic's absolute name."""
+        """Topics that it publishes on: the advertisements by id, by the topic's absolute name."""
         self.services: dict[str, AdvertiseService] = {}
         """Services that it answers, by absolute name."""
         self.actions: dict[str, AdvertiseAction] = {}
@@ -74,10 +74,11 @@ class ServerSession:
         self.goals: dict[Id, SendActionGoal] = {}
         """Goals of this client that others carry out, by its own ids."""
         self.level = "none"
-        """The least remark that the client wants: one of `LEVELS`."""
+        """The least level of remarks that the client wants: one of `LEVELS`."""
         self._subscriptions = ClientSubscriptions(self.compat)
         self.ros2 = False
-        """It has spelled a type as `pkg/msg/Type`, so it wants times as `sec` and `nanosec` where it names no type."""
+        """Whether it has spelled a type as `pkg/msg/Type`, so that it wants times as `sec` and `nanosec` where it
+        names no type."""
         self._limit = limit_bytes
         self._arrivals = Arrivals(limit_bytes, most_values=MAX_VALUES)
         self._calls = Calls("service_request", MAX_CALLS)
@@ -91,17 +92,17 @@ class ServerSession:
     def receive(self, frame: str | bytes, now: float) -> list[Arrival]:
         """The operations in a frame that came at `now` [s], any clock that only goes forward; never raises.
 
-        What is wrong stands among them as a ProtocolError that names op and id where they can be read. Fragments and
-        pictures are unpacked; `fragment_size` and the spelling of types are remembered.
+        A fault stands among them as a ProtocolError that names op and id where they can be read. Fragments and
+        pictures are unpacked; `fragment_size` and the spelling of types are noted.
         """
         return [self._noted(arrival) for arrival in self._arrivals.take(frame, now)]
 
     def expire(self, now: float) -> list[ProtocolError]:
-        """What is given up at `now` [s] because the rest of its fragments did not come; to be called every second or so."""
+        """The errors of fragments that are given up at `now` [s] as incomplete; to be called every second or so."""
         return self._arrivals.expire(now)
 
     def note(self, op: Op) -> None:
-        """Remember what any operation may say beside its own matter; `receive` does it."""
+        """Note the fragment size and the spelling of types of any operation; `receive` does it."""
         if op.fragment_size is not UNSET:
             size = checked_size(op)
             if self.compat.sticky_fragment_size and size != self.fragment_size:
@@ -117,7 +118,7 @@ class ServerSession:
         self.ros2 = self.ros2 or spells_ros2(type)
 
     def answer_size(self, op: Op) -> int | None:
-        """Longest text frame [characters] of what answers `op`; None for no end."""
+        """Longest text frame [characters] of the answer to `op`; None for no limit."""
         return self.fragment_size if self.compat.sticky_fragment_size else checked_size(op)
 
     def subscribe(self, op: Subscribe) -> str:
@@ -142,7 +143,7 @@ class ServerSession:
         return self._subscriptions.changed()
 
     def advertise(self, op: Advertise) -> str:
-        """The client is going to publish; gives the topic's absolute name. ProtocolError when it is one too many."""
+        """Add an advertisement; returns the topic's absolute name. ProtocolError when it is one too many."""
         topic = checked_name(op.topic, op, "topic")
         id = checked_id(op)
         if id not in self.advertised.get(topic, {}):
@@ -151,7 +152,7 @@ class ServerSession:
         return topic
 
     def unadvertise(self, op: Unadvertise) -> str:
-        """The client no longer publishes; gives the topic's absolute name. An unknown one is no error."""
+        """Remove an advertisement; returns the topic's absolute name. An unknown one is no error."""
         topic = absolute(op.topic)
         advertised = self.advertised.get(topic, {})
         advertised.pop(op.id, None)
@@ -160,11 +161,11 @@ class ServerSession:
         return topic
 
     def latches(self, topic: str) -> bool:
-        """Whether the client said that the last message on `topic`, an absolute name, is for later subscribers too."""
+        """Whether the client latches `topic` (absolute name)."""
         return any(op.latch for op in self.advertised.get(topic, {}).values())
 
     def advertise_service(self, op: AdvertiseService) -> str:
-        """The client answers calls; gives the service's absolute name. ProtocolError when it is one too many."""
+        """Add a service of the client; returns its absolute name. ProtocolError when it is one too many."""
         service = checked_name(op.service, op, "service")
         if service not in self.services:
             self._check_room(op)
@@ -172,23 +173,23 @@ class ServerSession:
         return service
 
     def unadvertise_service(self, op: UnadvertiseService) -> str:
-        """The client no longer answers; gives the service's absolute name. Who waits for an answer is told None."""
+        """Remove a service; returns its absolute name. Waiting callers get None."""
         service = absolute(op.service)
         if self.services.pop(service, None) is not None:
             self._calls.lose(service)
         return service
 
     def ask(self, op: CallService, answer: Answer) -> CallService:
-        """Have the client answer a call of one of its services; gives what to send it.
+        """Add a call of one of the client's services; returns the operation to send.
 
-        `answer` is called once: with the client's response as `compat` has it, or with None when it is gone before.
-        ProtocolError when too many calls wait before it.
+        `answer` is called once: with the client's response as `compat` has it, or with None when the client is gone
+        before. ProtocolError when too many calls wait.
         """
         service = absolute(op.service)
         return self._calls.ask(CallService(service=service, args=op.args), answer)
 
     def on_response(self, op: ServiceResponse) -> bool:
-        """The client's answer, passed on to whoever asked; False when nobody waits for it any more."""
+        """Pass the client's response to its caller; False when none waits for it."""
         if op.values is MISSING and not (op.result and self.compat.missing_values_as_defaults):
             reason = f"{absolute(op.service)} {'answered' if op.result else 'refused'} without saying more."
             op = msgspec.structs.replace(op, values=Raw(msgspec.json.encode(reason)), result=False)
@@ -197,11 +198,11 @@ class ServerSession:
         return self._calls.on_response(op)
 
     def forget_call(self, id: Id) -> bool:
-        """Whoever made the call with this id, as `ask` gave it, waits no longer; False when nobody did."""
+        """Remove the call with this id, as `ask` gave it; False when it was not waiting."""
         return self._calls.forget(id)
 
     def advertise_action(self, op: AdvertiseAction) -> str:
-        """The client carries goals out; gives the action's absolute name. ProtocolError when it is one too many."""
+        """Add an action of the client; returns its absolute name. ProtocolError when it is one too many."""
         action = checked_name(op.action, op, "action")
         if action not in self.actions:
             self._check_room(op)
@@ -209,35 +210,35 @@ class ServerSession:
         return action
 
     def unadvertise_action(self, op: UnadvertiseAction) -> str:
-        """The client takes no more goals; gives the action's absolute name. Whose goal is under way is told None."""
+        """Remove an action; returns its absolute name. The senders of goals under way get None."""
         action = absolute(op.action)
         if self.actions.pop(action, None) is not None:
             self._goals.lose(action)
         return action
 
     def hand_goal(self, op: SendActionGoal, feedback: Feedback | None, result: Result) -> SendActionGoal:
-        """Have the client carry a goal out; gives what to send it. ProtocolError when it has too many.
+        """Add a goal for the client to carry out; returns the operation to send. ProtocolError when it has too many.
 
-        `feedback` is called as often as the client says how far it is, `result` once: with None when it is gone before.
+        `feedback` is called with each feedback, `result` once: with None when the client is gone before.
         """
         action = absolute(op.action)
         handed = SendActionGoal(action=action, action_type=op.action_type, args=op.args)
         return self._goals.send(handed, feedback, result)
 
     def cancel_handed(self, id: Id) -> CancelActionGoal | None:
-        """What to send the client to take a goal back, by the id that `hand_goal` gave; None when it is over."""
+        """The operation that cancels a goal, by the id that `hand_goal` gave; None when it is over."""
         return self._goals.cancel(id)
 
     def on_feedback(self, op: ActionFeedback) -> bool:
-        """The client says how far it is, passed on to who asked; False when nobody wants to know."""
+        """Pass the client's feedback on to the goal's sender; False when it is not wanted."""
         return self._goals.on_feedback(op)
 
     def on_result(self, op: ActionResult) -> bool:
-        """The client says what became of a goal, passed on to whose it was; False when nobody waits for it."""
+        """Pass the client's result on to the goal's sender; False when none waits for it."""
         return self._goals.on_result(op)
 
     def begin_goal(self, op: SendActionGoal) -> None:
-        """The client has a goal under way. ProtocolError when it has one of that id already, or too many."""
+        """Add a goal of the client. ProtocolError when it has one of that id already, or too many."""
         id = checked_id(op)
         checked_name(op.action, op, "action")
         if id in self.goals:
@@ -247,28 +248,28 @@ class ServerSession:
         self.goals[id] = msgspec.structs.replace(op, args=MISSING)
 
     def goal_to_cancel(self, op: CancelActionGoal) -> SendActionGoal:
-        """The client's goal that it takes back. ProtocolError when it has none of that id with that action."""
+        """The client's goal that it cancels. ProtocolError when it has none of that id with that action."""
         goal = self.goals.get(op.id)
         if goal is None or absolute(goal.action) != absolute(op.action):
             raise wrong(op, f"No goal of {shown(op.action)} with this id is under way.")
         return goal
 
     def end_goal(self, id: Id) -> SendActionGoal | None:
-        """The client's goal is over; None when it had none of that id."""
+        """Remove a goal of the client; None when it had none of that id."""
         return self.goals.pop(id, None)
 
     def set_level(self, op: SetLevel) -> None:
-        """The client wants remarks from this level on; ProtocolError when there is no such level."""
+        """Set the least level of remarks; ProtocolError when there is no such level."""
         if op.level not in LEVELS:
             raise wrong(op, f"level must be one of {', '.join(LEVELS)}, not {shown(op.level)}.")
         self.level = op.level
 
     def wants(self, level: str) -> bool:
-        """Whether a remark of this level is to be sent."""
+        """Whether the client wants remarks of this level."""
         return self.level != "none" and LEVELS.index(level) >= LEVELS.index(self.level)
 
     def lose(self) -> list[SendActionGoal]:
-        """The client is gone: forget all, tell None to whoever waits for it; gives the goals that it leaves behind."""
+        """End everything of a client that is gone; waiting senders get None. Returns its goals under way."""
         goals = list(self.goals.values())
         for forgotten in (
             self._subscriptions,

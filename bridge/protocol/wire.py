@@ -1,4 +1,4 @@
-"""Operations to text and back, without I/O: what a frame holds, or one sentence that says what is wrong with it."""
+"""Operations to JSON text or CBOR and back, without I/O; a fault is one sentence."""
 
 from __future__ import annotations
 
@@ -30,19 +30,19 @@ __all__ = [
 ]
 
 MAX_OPERATIONS = 1000
-"""So many operations may stand in one frame."""
+"""Most operations in one frame."""
 MAX_SHARED_BYTES = 1_048_576
-"""The largest frame that is looked through for several operations [byte]."""
+"""The largest frame that is searched for several operations [byte]."""
 MAX_ARGUMENT_BYTES = 1_048_576
 """The longest text of a request or a goal that is read [byte]."""
 _DEEPEST = 100
 _MAX_GAPS = 100_000
-"""Bare NaNs are looked for in so many places between the texts of a frame."""
+"""Most places between the texts of a frame that are searched for bare NaNs."""
 _MAX_SCALAR_LENGTH = 8 * MAX_ID_LENGTH
 _MAX_REDUCTION_LENGTH = 65_536
 _NAMES = tuple(str(op.__struct_config__.tag) for op in OPS)
 _FAULTS = (msgspec.MsgspecError, UnicodeError, RecursionError, OverflowError, ValueError)
-"""What msgspec and json raise for texts that are no JSON, or no JSON of this shape."""
+"""Errors that msgspec and json raise for texts that are no JSON, or no JSON of this shape."""
 
 
 @functools.cache
@@ -62,7 +62,7 @@ _FIELDS = msgspec.json.Decoder(
         ],
     )
 )
-"""The fields that any operation has, unread; a frame may hold others without number, which cost nothing so."""
+"""The fields that any operation has, undecoded; a frame may hold any number of others, which cost nothing this way."""
 _SCANNER = json.JSONDecoder()
 _STRING = rb'"[^"\\]*+(?:\\.[^"\\]*+)*+(?:"|\\?\Z)'
 _GAP_WITH_NAN = re.compile(rb"((?:[^\"NI-]++|" + _STRING + rb')*+)([^"]*+)', re.DOTALL)
@@ -70,10 +70,10 @@ _SPACES = re.compile(r"[ \t\r\n]*+")
 
 
 def parse(text: str | bytes) -> Op:
-    """The operation in one frame of text; ProtocolError with the first 80 characters when it is none.
+    """The operation in one text frame; ProtocolError with its first 80 characters when it is none.
 
-    Bare NaN and Infinity, as Python writes them, count as null. Fields that nobody knows are passed over, and so is null
-    where it means nothing.
+    Bare NaN and Infinity, as Python writes them, count as null. Unknown fields are ignored, and so is null where it
+    means nothing.
     """
     try:
         if isinstance(text, bytes) and not text.isascii():
@@ -100,10 +100,10 @@ def parse(text: str | bytes) -> Op:
 
 
 def parse_each(text: str | bytes, alone: ProtocolError | None = None) -> list[Op | ProtocolError]:
-    """The operations in one frame of text, which may hold several one after the other; what is none as its error.
+    """The operations in one text frame, which may hold several in a row; a faulty one as its error.
 
-    What follows something that is no JSON cannot be told apart and is one error with it. `alone` is what `parse` says
-    of all of it, where that was asked before.
+    Text behind something that is no JSON cannot be separated from it and is one error with it. `alone` is the error
+    of `parse` for the whole frame, where that was tried before.
     """
     if alone is None:
         try:
@@ -127,7 +127,7 @@ def parse_each(text: str | bytes, alone: ProtocolError | None = None) -> list[Op
 def parse_binary(raw: bytes, most_values: int | None = None) -> BinaryPublish:
     """The publish operation in one frame of CBOR; ProtocolError when it is none.
 
-    With `most_values` also when it holds more of them, a number array counted as one, or tags that are none of arrays.
+    Also when it holds over `most_values` values, a number array counted as one, or tags other than those of arrays.
     """
     if most_values is not None:
         check_cbor(raw, most_values)
@@ -142,7 +142,7 @@ def parse_binary(raw: bytes, most_values: int | None = None) -> BinaryPublish:
 
 
 def encode(op: Op) -> bytes:
-    """`op` as JSON text in UTF-8; ProtocolError when it holds what JSON cannot say."""
+    """`op` as JSON text in UTF-8; ProtocolError for values that JSON cannot represent."""
     try:
         return _ENCODER.encode(op)
     except (UnicodeEncodeError, OverflowError, TypeError, ValueError) as error:
@@ -151,12 +151,12 @@ def encode(op: Op) -> bytes:
 
 
 def dump(op: Op) -> str:
-    """`op` as JSON text; ProtocolError when it holds what JSON cannot say."""
+    """`op` as JSON text; ProtocolError for values that JSON cannot represent."""
     return encode(op).decode()
 
 
 def complaint(error: ProtocolError, level: str = "error") -> Status:
-    """What to tell a client about `error`: its sentence with the operation's name and id, as far as they are known."""
+    """The remark to a client about `error`: its sentence with the operation's name and id, as far as they are known."""
     if level not in LEVELS:
         raise ProtocolError(f"level must be one of {', '.join(LEVELS)}, not {shown(level)}.")
     about = "" if error.op is None else error.op if error.id is None else f"{error.op} {shown(error.id)}"
@@ -195,13 +195,13 @@ def arguments(raw: Raw, type: type[Msg]) -> Msg:
 
 @functools.lru_cache(maxsize=1024)
 def _listed(type: type[Msg]) -> type[msgspec.Struct]:
-    """The fields of `type` in their order, unread; a list may be longer."""
+    """The fields of `type` in their order, undecoded; a list may be longer."""
     fields = [(f"f{place}", Raw | UnsetType, UNSET) for place in range(len(type.__struct_fields__))]
     return msgspec.defstruct("Listed", fields, array_like=True)
 
 
 def goal_status(op: ActionResult) -> int:
-    """What became of a goal, as in action_msgs/GoalStatus; some servers say it among the values. 0 when unknown."""
+    """The status of a result, as in action_msgs/GoalStatus; some servers send it among the values. 0 when unknown."""
     status: object = op.status
     if not status:
         try:
@@ -214,9 +214,9 @@ def goal_status(op: ActionResult) -> int:
 
 
 def too_deep(text: bytes, limit: int = _DEEPEST) -> bool:
-    """Whether lists and objects of a JSON text stand in one another more than `limit` deep.
+    """Whether lists and objects of a JSON text are nested more than `limit` deep.
 
-    For what is passed on unread: many a client's parser gives up where ours does not.
+    For texts that are passed on undecoded: many a client's parser gives up where ours does not.
     """
     if text.count(b"[") + text.count(b"{") <= limit:
         return False
@@ -225,7 +225,8 @@ def too_deep(text: bytes, limit: int = _DEEPEST) -> bool:
 
 @functools.cache
 def _flat(limit: int) -> re.Pattern[bytes]:
-    """Matches what is nested at most `limit` deep; a loop over the brackets in Python takes ten times as long."""
+    """A pattern that matches texts nested at most `limit` deep; a loop over the brackets in Python takes ten times as
+    long."""
     other = rb'[^"\[\]{}]*+'
     inner = other + rb"(?:" + _STRING + other + rb")*+"
     for _ in range(limit):
@@ -234,7 +235,7 @@ def _flat(limit: int) -> re.Pattern[bytes]:
 
 
 def _without_nan(raw: bytes) -> bytes:
-    """The same JSON with `null` where Python's own encoder writes NaN or Infinity; ValueError where that is too much work."""
+    """The same JSON with `null` where Python's encoder writes NaN or Infinity; ValueError where that is too much work."""
     if b"NaN" not in raw and b"Infinity" not in raw:
         return raw
     gaps = 0
@@ -253,7 +254,7 @@ def _without_nan(raw: bytes) -> bytes:
 
 
 def _without_nulls(raw: bytes) -> bytes:
-    """The same operation without null where a null means nothing, and with whole numbers that came as floats whole."""
+    """The same operation without null where it means nothing, and with floats for whole numbers made whole."""
     kept: dict[str, object] = {}
     for name, value in msgspec.structs.asdict(_FIELDS.decode(raw)).items():
         if value is UNSET or (bytes(value) == b"null" and name not in _NULLABLE):
@@ -270,7 +271,7 @@ def _whole_numbers(obj: object) -> object:
 
 
 def _pieces(text: str | bytes) -> list[str]:
-    """The JSON objects of a text that holds nothing else, but for a last piece that is none; at most one too many."""
+    """The JSON objects of a text that holds nothing else, except for a faulty last piece; at most one too many."""
     pieces: list[str] = []
     try:
         whole = text if isinstance(text, str) else text.decode()

@@ -1,4 +1,4 @@
-"""What reading and writing share: codes, alignment, and which classes can be put into bytes at all."""
+"""The layout of messages in bytes, for reading and writing: codes, alignment, and the classes that have one."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from bridge.msgs.std_msgs import Duration
 __all__ = ["CDR_LITTLE_ENDIAN", "counted", "fields_with_widths", "time_codes"]
 
 CDR_LITTLE_ENDIAN = b"\x00\x01\x00\x00"
-"""What stands before a message in CDR; alignment counts from behind it."""
+"""Header of a message in CDR; alignment counts from behind it."""
 
 
 def fields_with_widths(cls: type[Msg]) -> tuple[Field, ...]:
-    """The fields of `cls`; ProtocolError when it does not tell the widths of its numbers."""
+    """The fields of `cls`; ProtocolError when it does not have the widths of its numbers."""
     fields = fields_of(cls)
     if not hasattr(cls, "ROSTYPES") and any(field.base in CODES for field in fields):
         raise ProtocolError(f"{cls.MSGTYPE or cls.__name__} does not tell the widths of its numbers.")
@@ -22,7 +22,7 @@ def fields_with_widths(cls: type[Msg]) -> tuple[Field, ...]:
 
 
 def counted(cls: type[Msg], cdr: bool) -> bool:
-    """ROS 1 has the publisher's count of messages before the stamp of `cls`, which the class leaves out."""
+    """Whether ROS 1 has the publisher's count of messages before the stamp of `cls`, which the class leaves out."""
     return cls.MSGTYPE == "std_msgs/Header" and not cdr and fields_of(cls)[0].name != "seq"
 
 

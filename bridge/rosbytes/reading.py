@@ -1,4 +1,4 @@
-"""Bytes of ROS to messages."""
+"""Messages from ROS's binary formats."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ M = TypeVar("M", bound=Msg)
 
 
 class _Cursor:
-    """A place in the bytes of one message."""
+    """A position in the bytes of one message."""
 
     __slots__ = ("cdr", "place", "raw")
 
@@ -37,7 +37,7 @@ class _Cursor:
         return self.raw[begin : self.place]
 
     def align(self, size: int) -> None:
-        """In CDR, go on to a multiple of `size`."""
+        """In CDR, advance to a multiple of `size`."""
         if self.cdr:
             self.place += -self.place % size
 
@@ -48,7 +48,7 @@ class _Cursor:
         return struct.unpack(f"<{code}", self.take(size))[0]
 
     def count(self) -> int:
-        """How many follow; more than there are bytes is wrong."""
+        """The number of elements that follow; ProtocolError for more than there are bytes."""
         found: int = self.number("I")
         if found > len(self.raw):
             raise ProtocolError(f"{found} elements cannot stand in {len(self.raw)} bytes")
@@ -61,7 +61,7 @@ Read = Callable[[_Cursor], Any]
 def deserialize(raw: bytes, type: type[M], cdr: bool = False) -> M:
     """The `type` in bytes as ROS 1 sends them, or with `cdr` as ROS 2 does.
 
-    ProtocolError when they are none, and for a class that does not tell its ROS types.
+    ProtocolError when they are none, and for a class that does not have its ROS types.
     """
     if cdr and raw[:2] != CDR_LITTLE_ENDIAN[:2]:
         raise ProtocolError(f"{type.MSGTYPE} is not in little-endian CDR: it begins with {raw[:4]!r}.")

@@ -1,4 +1,4 @@
-"""Messages to bytes of ROS."""
+"""Messages to ROS's binary formats."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Elements = Callable[[bytearray, Any], None]
 def serialize(msg: Msg, cdr: bool = False) -> bytes:
     """`msg` as ROS 1 would send it, or with `cdr` as ROS 2 would.
 
-    ProtocolError for a class that does not tell its ROS types, and for a value that its field cannot hold.
+    ProtocolError for a class that does not have its ROS types, and for a value that its field cannot hold.
     """
     out = bytearray()
     try:
@@ -40,7 +40,7 @@ def serialize(msg: Msg, cdr: bool = False) -> bytes:
 
 @functools.lru_cache(maxsize=512)
 def _steps(cls: type[Msg], cdr: bool) -> tuple[Step, ...]:
-    """What writes a `cls`; numbers that follow one another, however deep they lie, are one step."""
+    """The writers of a `cls`; consecutive numbers, however deeply nested, are one step."""
     steps: list[Step] = []
     run: list[tuple[str, str]] = []
     for part in _parts(cls, "", cdr):
@@ -57,7 +57,7 @@ def _steps(cls: type[Msg], cdr: bool) -> tuple[Step, ...]:
 
 
 def _parts(cls: type[Msg], prefix: str, cdr: bool) -> Iterator[tuple[str, str] | Step]:
-    """Path and code of each number, and a step for what has no length of its own."""
+    """Path and code of each number, and a step for each part of variable length."""
     if is_time(cls):
         yield from zip((f"{prefix}secs", f"{prefix}nsecs"), time_codes(cls, cdr), strict=True)
         return
@@ -169,7 +169,7 @@ def _array(code: str, cdr: bool) -> Elements:
 
 
 def _several(field: Field, path: str, cdr: bool, elements: Elements) -> Step:
-    """Writes an array: how many, unless the type says so, and then each."""
+    """The writer of an array: its length, unless the type fixes it, and then each element."""
     get, length = attrgetter(path), field.length
 
     def write(out: bytearray, msg: Any) -> None:

@@ -1,1 +1,1 @@
-"""The robot's end of the socket."""
+"""The robot's end of the socket: the rosbridge server and its camera sockets."""

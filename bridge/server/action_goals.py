@@ -1,4 +1,4 @@
-"""The goals of one client: carried out by the robot or by another client."""
+"""Goals of one client, carried out by the robot or by another client."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ __all__ = ["ActionGoals"]
 
 
 class ActionGoals:
-    """What one client set going and is to hear the end of."""
+    """The goals of one client that are under way."""
 
     def __init__(
         self,
@@ -47,7 +47,7 @@ class ActionGoals:
         door: RobotDoor,
         client_services: ClientServices,
     ) -> None:
-        """`queue` holds what waits to be sent to the client."""
+        """`queue` holds the messages that wait to be sent to the client."""
         self._client = client
         self._session = session
         self._queue = queue
@@ -58,7 +58,7 @@ class ActionGoals:
         self._tasks: set[asyncio.Task[None]] = set()
 
     def begin(self, op: SendActionGoal) -> None:
-        """Set a goal going; what is wrong with it is told as its result. ProtocolError for an id that is taken."""
+        """Begin a goal; what is wrong with it is sent as its result. ProtocolError for an id in use."""
         self._client.protocol.begin_goal(op)
         self._news[op.id] = Stream(f"{op.action} {op.id}", Lane.TELEMETRY, Subscribed(op.action))
         try:
@@ -67,12 +67,12 @@ class ActionGoals:
             self._end(op, _failed(op, str(error)))
 
     def cancel(self, op: CancelActionGoal) -> None:
-        """Take a goal back; its result is still to come. ProtocolError when it is not under way."""
+        """Cancel a goal; its result is still to come. ProtocolError when it is not under way."""
         goal = self._client.protocol.goal_to_cancel(op)
         self._cancel[goal.id]()
 
     async def close(self) -> None:
-        """The client is gone: take all its goals back."""
+        """Cancel all goals of a client that is gone."""
         for cancel in list(self._cancel.values()):
             cancel()
         await cancel_all(self._tasks)
@@ -119,7 +119,7 @@ class ActionGoals:
             self._queue.offer(news, _News(op, values, self._client.protocol.answer_size(op)))
 
     def _over(self, op: SendActionGoal, told: ActionResult | None) -> None:
-        """What another client says became of a goal."""
+        """End a goal with the result of another client."""
         if told is None:
             self._end(op, _failed(op, f"The client that carries {op.action} out is gone."))
         elif too_deep(bytes(told.values)):
@@ -137,7 +137,7 @@ class ActionGoals:
 
 
 class _News(OutgoingMessage):
-    """How far a goal is; sent as any message of a topic, so that a newer one replaces it while it waits."""
+    """Feedback of a goal; sent as a message of a topic, so that a newer one replaces it while it waits."""
 
     __slots__ = ("_op", "_size", "_values")
 
@@ -159,5 +159,5 @@ def _done(op: SendActionGoal, values: bytes, status: int) -> ActionResult:
 
 
 def _failed(op: SendActionGoal, reason: str) -> ActionResult:
-    """As the servers in use tell it: the reason in the place of the result, and the status unknown."""
+    """A failed result as the servers in use send it: the reason in the place of the values, and the status unknown."""
     return ActionResult(id=op.id, action=op.action, values=Raw(msgspec.json.encode(reason)), result=False)

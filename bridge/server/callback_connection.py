@@ -1,8 +1,9 @@
-"""A WebSocket of the server whose messages are heard at once, in the step of the loop in which they come.
+"""A WebSocket of the server that passes messages to a callback, in the step of the loop in which they arrive.
 
-Reading by tasks costs a switch of tasks a message. Here a complete message goes straight to whoever hears the
-connection, and frames that are the same for many are written as they are. Closing, answers to pings, limits and broken
-frames stay the library's own work.
+Reading by tasks costs a switch of tasks per message. Here a complete message goes straight to the connection's
+`MessageHandler`, and frames that are the same for many clients are written as they are. Closing, pongs, limits and
+broken frames remain the library's work. Its `process_event`, `send_data` and `protocol.reader`, which are used here,
+are not documented: pyproject.toml caps its version.
 """
 
 from __future__ import annotations
@@ -27,45 +28,46 @@ __all__ = ["MessageHandler", "CallbackConnection"]
 log = logging.getLogger(__name__)
 
 MAX_CONNECTIONS = 128
-"""Connections open at a time; for one more the oldest that has not shaken hands is closed, else that one."""
+"""Most open connections; one more closes the oldest one that has not shaken hands, or itself."""
 MAX_PIECES = 1000
-"""Frames that one message may come in."""
+"""Most frames of one message."""
 PIECE_BYTES = 32_768
-"""So much of what came is looked at before the clock is [byte]."""
+"""Bytes that are handled before the clock is read."""
 _DATA = (Opcode.TEXT, Opcode.BINARY, Opcode.CONT)
 
 
 class MessageHandler(Protocol):
-    """Hears a connection."""
+    """The receiver of a connection's messages."""
 
     def on_message(self, message: str | bytes) -> bool:
-        """A message came; bytes hold the UTF-8 of a text or a binary message. False when it asks for more than a turn."""
+        """Handle a message; bytes hold the UTF-8 of a text, or a binary message. False when it takes longer than a
+        turn."""
 
     def resume(self) -> bool:
-        """Do more of what was heard; False when there is still more."""
+        """Handle more of what is left; False when there is still more."""
 
     def on_pong(self, content: bytes) -> None:
-        """A pong came."""
+        """Handle a pong."""
 
     def on_drained(self) -> None:
-        """Everything written so far left this process."""
+        """Everything written so far has left this process."""
 
 
 class CallbackConnection(ServerConnection):
-    """One WebSocket; works as any other until it is heard."""
+    """One WebSocket; an ordinary connection of the library until `serve` is called."""
 
     clock = staticmethod(time.monotonic)
     batch: WriteBatch | None = None
-    """Where what is written in one step of the loop is gathered; set by the server."""
+    """Gathers the frames written in one step of the loop; set by the server."""
     connections: dict[CallbackConnection, None] | None = None
-    """All of one server, the oldest first; set by the server."""
+    """All connections of one server, the oldest first; set by the server."""
     _handler: MessageHandler | None = None
     _direct = False
-    """Messages go to the handler as they come: none waits in the library."""
+    """Messages go to the handler as they arrive: none waits in the library."""
     _queued = 0
-    """Messages that the library has and `recv` did not give yet."""
+    """Messages that the library has and `recv` has not returned yet."""
     _incomplete = False
-    """The library has some frames of a message, and not the last one."""
+    """The library has some frames of a message, but not the last one."""
     _closed = False
     _kind = Opcode.TEXT
     _pieces: list[bytes]
@@ -86,16 +88,16 @@ class CallbackConnection(ServerConnection):
         return not self._closed and self.protocol.state is State.OPEN
 
     def write(self, frames: bytes) -> None:
-        """Write whole frames of this side; returns at once."""
+        """Write whole frames; returns at once."""
         self.transport.write(frames)
 
     def abort(self) -> None:
-        """Break the connection at once; nothing that came is heard any more, but for what came before a goodbye."""
+        """Cut the connection at once; of the data received only what came before a close frame is handled."""
         self._closed = self._closed or self.protocol.state is State.OPEN
         self.transport.abort()
 
     async def serve(self, handler: MessageHandler) -> None:
-        """Have `handler` hear everything until the connection ends; ConnectionClosed when it ends badly."""
+        """Pass everything to `handler` until the connection ends; ConnectionClosed when it ends badly."""
         self.transport.set_write_buffer_limits(high=0)
         self._handler = handler
         try:
@@ -117,7 +119,7 @@ class CallbackConnection(ServerConnection):
             raise self.close_exc
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Let it in if there is room or somebody has not shaken hands."""
+        """Admit the connection if there is room, or another one that has not shaken hands."""
         super().connection_made(transport)
         if self.connections is None:
             return
@@ -129,13 +131,13 @@ class CallbackConnection(ServerConnection):
             oldest.transport.abort()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """It is gone."""
+        """Remove the connection."""
         if self.connections is not None:
             self.connections.pop(self, None)
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
-        """Take what came from the network, in pieces with a turn for others between when it is much."""
+        """Handle data from the network; much of it in pieces, with a turn for others between them."""
         if self._waits:
             self._unread += data
         elif self._direct and len(data) > PIECE_BYTES:
@@ -148,7 +150,7 @@ class CallbackConnection(ServerConnection):
                 self._wait()
 
     def _take_turn(self) -> None:
-        """Have a turn: what was heard first, then what came after it."""
+        """Handle what was left first, then the data that came after it."""
         take = super().data_received
         self._waits = False
         if self._closed or self._handler is None:
@@ -172,7 +174,7 @@ class CallbackConnection(ServerConnection):
             self.transport.resume_reading()
 
     def _release(self) -> None:
-        """It is over: keep nothing of what came, for as long as anybody still holds this connection."""
+        """Drop all data of a connection that has ended, for as long as something still refers to it."""
         self._handler = None
         self._unread.clear()
         self._undelivered.clear()
@@ -186,7 +188,7 @@ class CallbackConnection(ServerConnection):
         self.loop.call_soon(self._take_turn)
 
     def _catch_up(self, handler: MessageHandler) -> None:
-        """What was heard and not done first, then what came in the same piece."""
+        """Handle what was left first, then the messages of the same piece of data."""
         self._behind = False
         try:
             self._behind = not handler.resume()
@@ -197,7 +199,7 @@ class CallbackConnection(ServerConnection):
         self._behind = self._behind or bool(self._undelivered)
 
     def _batched(self, work: Callable[[Any], None], about: Any) -> None:
-        """Let what `work` causes leave together."""
+        """Call `work`, and send what it causes together."""
         batch = self.batch
         if batch is None or batch.held:
             work(about)
@@ -210,13 +212,13 @@ class CallbackConnection(ServerConnection):
             batch.flush()
 
     def resume_writing(self) -> None:
-        """Everything written so far left this process."""
+        """Inform the handler that everything written so far has left this process."""
         super().resume_writing()
         if self._handler is not None:
             self._handler.on_drained()
 
     def process_event(self, event: Event) -> None:
-        """Take one frame."""
+        """Handle one frame."""
         handler = self._handler
         if not isinstance(event, Frame):
             super().process_event(event)
@@ -232,14 +234,14 @@ class CallbackConnection(ServerConnection):
             self._piece(handler, event)
 
     def _to_library(self, frame: Frame) -> None:
-        """Leave a frame to the library; `recv` gives the messages that it makes of data."""
+        """Leave a frame to the library; `recv` returns the messages that it makes of data."""
         if frame.opcode in _DATA:
             self._incomplete = not frame.fin
             self._queued += frame.fin
         super().process_event(frame)
 
     def _piece(self, handler: MessageHandler, frame: Frame) -> None:
-        """One frame of a message in several; the library bounds them all together."""
+        """Handle one frame of a message in several; the library limits the size of all of them together."""
         if frame.opcode is not Opcode.CONT:
             self._kind, self._pieces = frame.opcode, []
         self._pieces.append(bytes(frame.data))

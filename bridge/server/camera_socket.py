@@ -1,4 +1,4 @@
-"""The server's side of one connection of somebody who watches a camera."""
+"""The server's end of a camera's own WebSocket."""
 
 from __future__ import annotations
 
@@ -28,21 +28,21 @@ class Socket(Protocol):
 
 
 class CameraSocket:
-    """Somebody who watches one camera; gets the newest picture, as good and as often as the link carries it."""
+    """One watcher of one camera; gets the newest picture, as good and as often as the link carries it."""
 
     def __init__(
         self, socket: Socket, clock: Callable[[], float] | None = None, *, coarsest: int = COARSEST
     ) -> None:
-        """`clock` tells the time that acknowledgements take [s], None is the loop's; `coarsest` as in PictureQuality."""
+        """`clock` measures the acknowledgements [s], None is the loop's; `coarsest` as in PictureQuality."""
         self._socket = socket
         self._newest: Picture | None = None
         self._clock = clock or asyncio.get_running_loop().time
         self.quality = PictureQuality(coarsest)
-        """What may be sent when."""
+        """Decides the level and the time of the next picture."""
         self._wake = asyncio.Event()
 
     async def run(self) -> None:
-        """Serve until the connection ends; raises what the socket raises when it ends badly."""
+        """Serve until the connection ends; raises the socket's error when it ends badly."""
         writer = asyncio.create_task(self._write())
         try:
             async for text in self._socket:
@@ -51,7 +51,7 @@ class CameraSocket:
             await cancel_all([writer])
 
     def offer(self, picture: Picture) -> None:
-        """Have a picture sent as soon as there is room for it; a newer one replaces one that still waits."""
+        """Send a picture as soon as there is room for it; a newer one replaces one that still waits."""
         self._newest = picture
         self._wake.set()
 

@@ -1,4 +1,4 @@
-"""What one client does wrong, in the log: each kind once, and in the end how often."""
+"""The log of one client's faults: each kind once, and at the end the number of the rest."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ __all__ = ["ClientFaults"]
 log = logging.getLogger(__name__)
 
 _MAX_KINDS = 50
-"""So many kinds are told apart for one client."""
+"""Most kinds of faults that are distinguished for one client."""
 _VARIES = re.compile(r"\"[^\"]*\"?|'[^']*'?|[\d.]+|/[\w/.~-]+")
-"""What differs among complaints of one kind: quoted texts, numbers, names."""
+"""Parts of a sentence that differ among faults of one kind: quoted texts, numbers, names."""
 
 
 class ClientFaults:
-    """Counts what one client does wrong."""
+    """Counts the faults of one client."""
 
     def __init__(self, client: str) -> None:
         """`client` is its name for the log."""
@@ -27,7 +27,7 @@ class ClientFaults:
         self._seen: Counter[str] = Counter()
 
     def note(self, error: ProtocolError) -> None:
-        """Log it, unless one of its kind was before."""
+        """Log a fault, unless one of its kind was logged before."""
         kind = f"{error.op} {_VARIES.sub('', str(error))}"[:200]
         if kind not in self._seen and len(self._seen) >= _MAX_KINDS:
             kind = "anything else"
@@ -36,7 +36,7 @@ class ClientFaults:
             log.warning("%s: %s", self._client, error)
 
     def close(self) -> None:
-        """Log how many were not logged."""
+        """Log the number of faults that were not logged."""
         silent = sum(self._seen.values()) - len(self._seen)
         if silent:
             log.warning("%s: %d more of the same", self._client, silent)

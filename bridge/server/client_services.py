@@ -1,4 +1,4 @@
-"""Services and actions that clients offer to each other: calls and goals are handed on, and answers back."""
+"""Services and actions that clients offer to each other: calls and goals are passed on, and answers back."""
 
 from __future__ import annotations
 
@@ -36,33 +36,33 @@ from bridge.server.flow.priority_lanes import Lane
 __all__ = ["ANSWER_TIMEOUT", "ClientServices", "Peer"]
 
 ANSWER_TIMEOUT = 60.0
-"""How long a client may take to answer a call when the caller does not say [s]."""
+"""Time for a client's answer to a call when the caller does not set one [s]."""
 
 
 class Peer(Protocol):
-    """A client, as others deal with it."""
+    """A client as other clients see it."""
 
     protocol: ServerSession
 
     def send(self, op: Op, lane: Lane = Lane.REPLY, size: int | None = None) -> None:
-        """Send it an operation; returns at once."""
+        """Send an operation; returns at once."""
 
 
 class ClientServices:
-    """Who of the clients offers which service and action, and what is under way between them."""
+    """The services and actions of all clients, and the calls between them."""
 
     def __init__(self, services: Collection[str], actions: Collection[str]) -> None:
         """`services` and `actions` are the robot's own: no client may offer those."""
         self.services: dict[str, Peer] = {}
-        """By absolute name."""
+        """Provider by absolute name of the service."""
         self.actions: dict[str, Peer] = {}
-        """By absolute name."""
+        """Provider by absolute name of the action."""
         self._own_services = services
         self._own_actions = actions
         self._asked: dict[Peer, dict[object, Callable[[], None]]] = {}
 
     def advertise_service(self, peer: Peer, op: AdvertiseService) -> None:
-        """`peer` answers a service from now on, in the place of whoever did before; ProtocolError for the robot's own."""
+        """Have `peer` answer a service, in the place of its provider before; ProtocolError for the robot's own."""
         name = absolute(op.service)
         if name in self._own_services or name.startswith("/rosapi/"):
             raise ProtocolError(f"{shown(name)} is this robot's own service.")
@@ -73,13 +73,13 @@ class ClientServices:
             before.protocol.unadvertise_service(UnadvertiseService(service=name))
 
     def unadvertise_service(self, peer: Peer, op: UnadvertiseService) -> None:
-        """`peer` answers it no longer; who waits for an answer is told."""
+        """End a service of `peer`; waiting callers get a refusal."""
         name = peer.protocol.unadvertise_service(op)
         if self.services.get(name) is peer:
             del self.services[name]
 
     def advertise_action(self, peer: Peer, op: AdvertiseAction) -> None:
-        """`peer` carries goals out from now on, in the place of whoever did before; ProtocolError for the robot's own."""
+        """Have `peer` carry out an action, in the place of its provider before; ProtocolError for the robot's own."""
         name = absolute(op.action)
         if name in self._own_actions:
             raise ProtocolError(f"{shown(name)} is this robot's own action.")
@@ -90,15 +90,15 @@ class ClientServices:
             before.protocol.unadvertise_action(UnadvertiseAction(action=name))
 
     def unadvertise_action(self, peer: Peer, op: UnadvertiseAction) -> None:
-        """`peer` takes no more goals; whose goal is under way is told."""
+        """End an action of `peer`; the senders of goals under way get a failure."""
         name = peer.protocol.unadvertise_action(op)
         if self.actions.get(name) is peer:
             del self.actions[name]
 
     def call(self, caller: Peer, name: str, id: Id, op: CallService) -> None:
-        """Hand a call on to who answers the service `name`, which somebody does; the answer comes later.
+        """Pass a call on to the provider of the service `name`, which must exist; the answer comes later.
 
-        ProtocolError when it cannot be handed on.
+        ProtocolError when it cannot be passed on.
         """
         provider = self.services[name]
         size = caller.protocol.answer_size(op)
@@ -145,10 +145,10 @@ class ClientServices:
         feedback: Callable[[ActionFeedback], None],
         result: Callable[[ActionResult | None], None],
     ) -> Callable[[], None]:
-        """Hand a goal on to who carries the action `name` out, which somebody does; gives what takes it back.
+        """Pass a goal on to the provider of the action `name`, which must exist; returns a function that cancels it.
 
-        `result` is called once, with None when nobody will say what became of it. ProtocolError when it cannot be
-        handed on.
+        `result` is called once, with None when the result will never be known. ProtocolError when it cannot be passed
+        on.
         """
         provider = self.actions[name]
         if too_deep(bytes(op.args)):
@@ -164,7 +164,7 @@ class ClientServices:
         return cancel
 
     def leave(self, peer: Peer) -> None:
-        """`peer` is gone: what it offered, and what it waits for."""
+        """Remove all services, actions and calls of a client that is gone."""
         for offered in (self.services, self.actions):
             for name in [name for name, provider in offered.items() if provider is peer]:
                 del offered[name]
@@ -181,7 +181,7 @@ class ClientServices:
 
 
 def _request(provider: Peer, name: str, op: CallService) -> CallService:
-    """The call as the provider gets it: a list of arguments by their names, where the type is known."""
+    """The call for the provider: a list of arguments becomes an object where the type is known."""
     args = bytes(op.args).strip()
     if too_deep(args):
         raise ProtocolError("args are nested too deeply.")

@@ -1,4 +1,4 @@
-"""Who is there and what for: the robot and its clients as nodes, for `rosapi`."""
+"""The node graph for `rosapi`: the robot and its clients with their topics, services and actions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["NodeGraph"]
 
 
 class NodeGraph:
-    """Looks at what a server has at the moment."""
+    """The present state of a server as a graph."""
 
     def __init__(
         self,
@@ -24,7 +24,7 @@ class NodeGraph:
         clients: Mapping[Operator, Peer],
         offers: Callable[[str], bool],
     ) -> None:
-        """All are looked at again for every answer; of the table's topics only those are told that the robot `offers`."""
+        """All arguments are read anew for every answer; of the robot's topics those that it `offers` are listed."""
         self._switchboard = switchboard
         self._services = services
         self._actions = actions
@@ -33,7 +33,7 @@ class NodeGraph:
         self._offers = offers
 
     def graph(self) -> Graph:
-        """How `rosapi` asks."""
+        """The questions that `rosapi` asks."""
         return Graph(self._topics, self._service_types, self._action_types, self._nodes)
 
     def _topics(self) -> dict[str, str]:

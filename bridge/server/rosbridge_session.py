@@ -1,4 +1,4 @@
-"""Rosbridge sessions: the server's end of one client's connection, from its first operation to its last."""
+"""Rosbridge sessions, the server's end of one client's connection from its first operation to its last."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""The robot's end of the socket: a rosbridge v2 server that publishes, answers services and hears commands.
+"""The rosbridge v2 server of a robot: publishes, answers services, takes commands, streams camera frames.
 
-Each message is encoded once in each form, however many clients want it. Each client has its own way out, where
-a newer message of a stream replaces one that still waits, so that a slow client costs the others nothing.
+Each message is encoded once in each form, however many clients subscribe. Each client has a send queue of its own,
+where a newer message of a stream replaces one that still waits, so that a slow client costs the others nothing.
 Clients may publish to each other on topics that are not the robot's own, and offer each other services and actions.
 Camera frames travel on WebSockets of their own at `/camera/NAME`.
 """
@@ -50,15 +50,15 @@ __all__ = ["BridgeServer"]
 log = logging.getLogger(__name__)
 
 _CAMERA_PATH = re.compile(r"/camera/([\w-]+)/?(?:\?.*)?$")
-_UNSENT = 65536
-"""Bytes that may wait for one client in this process and again in the kernel; then newer messages replace older."""
+_MAX_UNSENT_BYTES = 65536
+"""Most bytes that wait for one client in this process and again in the kernel; then newer messages replace older ones."""
 
-_DEAD = 15_000
-"""How long a client may leave unacknowledged what was sent to it [ms]; then it is disconnected."""
-_BEAT = 1.0
-"""How often every client is looked after [s]."""
-_FAREWELL = 0.5
-"""How long clients have to say goodbye before they are cut off [s]."""
+_DEAD_TIMEOUT = 15_000
+"""A client that leaves data unacknowledged for this long is disconnected by the kernel [ms]."""
+_CHECK_PERIOD = 1.0
+"""Time between two checks of every client [s]."""
+_CLOSE_TIMEOUT = 0.5
+"""Time for clients to close before they are cut off [s]."""
 
 
 def _ignore(topic: str, msg: Msg) -> None:
@@ -70,7 +70,7 @@ def _any(_: str) -> bool:
 
 
 class BridgeServer:
-    """Serves any number of clients; all methods belong to the event loop it was started in."""
+    """The rosbridge server; serves any number of clients. All methods belong to the event loop it was started in."""
 
     def __init__(
         self,
@@ -84,7 +84,7 @@ class BridgeServer:
         params: Mapping[str, Any] | None = None,
         compat: Compat | None = None,
     ) -> None:
-        """`now` is the operators' clock [s], told by `/rosapi/get_time`.
+        """`now` is the operators' clock [s], the answer of `/rosapi/get_time`.
 
         The robot `offers` those of its topics that `rosapi` tells of. `cameras` are the names that may be asked for; None
         allows any; whoever has the door's pictures gives them to `publish_frame`.
@@ -93,13 +93,13 @@ class BridgeServer:
         pictures and maps in a worker thread. `params` are there from the start, for `/rosapi/get_param`.
         """
         self.port = 0
-        """Where it listens; 0 until started."""
+        """Port that it listens on; 0 until started."""
         self.sessions: set[Operator] = set()
-        """The clients connected now; who only watches a camera is none."""
+        """The connected clients; watchers of a camera are not among them."""
         cameras = None if cameras is None else list(cameras)
         self._door = door
         self._wanted: dict[str, Callable[[], None]] = {}
-        """By topic that a client wants, the call that ends its messages."""
+        """By topic with subscribers, the function that ends its messages."""
         self._switchboard = Switchboard(
             door.topics.values(), self._want, reduce=reduce, now=now, cameras=cameras or ()
         )
@@ -140,16 +140,19 @@ class BridgeServer:
                 open_timeout=5,
                 ping_interval=5,
                 ping_timeout=10,
-                close_timeout=_FAREWELL,
+                close_timeout=_CLOSE_TIMEOUT,
                 max_size=MAX_SERVER_FRAME,
-                write_limit=_UNSENT,
+                write_limit=_MAX_UNSENT_BYTES,
                 server_header="Pilothouse",
                 logger=_quiet_log(),
             )
         except OSError as error:
             raise BridgeError(_cannot_listen(host, port, error)) from error
         self.port = next(iter(self._server.sockets)).getsockname()[1]
-        self._tasks |= {asyncio.create_task(self._beat()), asyncio.create_task(self._measure())}
+        self._tasks |= {
+            asyncio.create_task(self._check_clients()),
+            asyncio.create_task(self._measure_round_trips()),
+        }
 
     async def close(self) -> None:
         """Close all connections and stop listening; nothing is left running. Takes a second at most."""
@@ -161,7 +164,7 @@ class BridgeServer:
             return
         server.close()
         try:
-            async with asyncio.timeout(_FAREWELL):
+            async with asyncio.timeout(_CLOSE_TIMEOUT):
                 await server.wait_closed()
         except TimeoutError:
             for ws in list(self._open):
@@ -169,7 +172,7 @@ class BridgeServer:
             await server.wait_closed()
 
     def publish(self, topic: str, msg: Msg) -> None:
-        """Send `msg` to everybody who subscribed; BridgeError for a topic that is not in the table.
+        """Send `msg` to all subscribers; BridgeError for a topic that is not in the table.
 
         It leaves at the end of this step of the loop. Of a stream a newer message replaces one that still waits for a
         slow client. All others are kept in order; a client for whom too many wait is disconnected.
@@ -177,11 +180,11 @@ class BridgeServer:
         self._switchboard.publish(topic, msg)
 
     def publish_frame(self, camera: str, frame: bytes) -> None:
-        """Send a packed camera frame to whoever watches `camera`; it replaces one that still waits."""
+        """Send a packed camera frame to the watchers of `camera`; it replaces one that still waits."""
         self._switchboard.publish_frame(camera, self._levels.picture(frame))
 
     def _want(self, topic: str, wanted: bool) -> None:
-        """The first client came who wants a topic of the robot, or the last one left."""
+        """Note the first subscriber of a topic of the robot, or that the last one left."""
         if wanted:
             own = topic in self._door.topics  # pictures of a camera may go as frames alone
             self._wanted[topic] = self._door.subscribe(self, topic, self.publish if own else _ignore)
@@ -235,15 +238,15 @@ class BridgeServer:
             finally:
                 await client.close()
 
-    async def _beat(self) -> None:
-        """Look after the clients."""
+    async def _check_clients(self) -> None:
+        """Check all clients regularly."""
         while True:
-            await asyncio.sleep(_BEAT)
+            await asyncio.sleep(_CHECK_PERIOD)
             for client in list(self._clients.values()):
                 client.check_alive()
 
-    async def _measure(self) -> None:
-        """Measure the ways to the clients."""
+    async def _measure_round_trips(self) -> None:
+        """Measure the round trips to all clients regularly."""
         while True:
             await asyncio.sleep(PING_PERIOD)
             for client in list(self._clients.values()):
@@ -264,9 +267,9 @@ def _address(ws: ServerConnection) -> str:
 
 
 def _tune(ws: ServerConnection) -> None:
-    """Keep the kernel from queueing old news for a slow client, and from waiting long for a dead one."""
+    """Limit the kernel's queue for a slow client, and its patience with a dead one."""
     sock = ws.transport.get_extra_info("socket")
-    for option, value in (("TCP_NOTSENT_LOWAT", _UNSENT), ("TCP_USER_TIMEOUT", _DEAD)):
+    for option, value in (("TCP_NOTSENT_LOWAT", _MAX_UNSENT_BYTES), ("TCP_USER_TIMEOUT", _DEAD_TIMEOUT)):
         if hasattr(socket, option):
             with contextlib.suppress(OSError):
                 sock.setsockopt(socket.IPPROTO_TCP, getattr(socket, option), value)
@@ -281,7 +284,7 @@ def _cannot_listen(host: str, port: int, error: OSError) -> str:
 
 
 def _quiet_log() -> logging.Logger:
-    """A log for the WebSocket library: what it calls errors are strangers who knock and leave."""
+    """A log for the WebSocket library, kept quiet: most of its errors are strangers that connect and leave."""
     quiet = logging.getLogger("bridge.server.server.websockets")
     quiet.setLevel(logging.CRITICAL)
     return quiet

@@ -1,4 +1,4 @@
-"""Who wants which topic, who publishes on it, and what the last message of each latched one was."""
+"""Subscriptions, publishers and latched messages of all topics of one server."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from bridge.server.flow.quality_levels import Picture
 __all__ = ["CAMERA_TOPIC", "MAX_TOPICS", "Channel", "Listener", "Switchboard", "Watcher"]
 
 MAX_TOPICS = 2000
-"""So many topics of clients may there be at a time."""
+"""Most topics of clients."""
 MAX_LATCHED_BYTES = 67_108_864
-"""What one client may have kept for later subscribers [byte]."""
+"""Most bytes that one client may have latched."""
 MAX_LATCHED_BYTES_IN_ALL = 268_435_456
-"""What all of them may [byte]."""
+"""Most bytes that all clients may have latched."""
 LARGE = frozenset(
     {
         "nav_msgs/OccupancyGrid",
@@ -35,68 +35,68 @@ LARGE = frozenset(
         "sensor_msgs/PointCloud2",
     }
 )
-"""Types whose messages let the others go first."""
-KEPT = 100
-"""Messages of a client's topic that wait for a slow subscriber when they are no samples of a stream."""
+"""Types of large messages, which are sent after the others."""
+MAX_QUEUED = 100
+"""Most messages of a client's topic that wait for a slow subscriber when they are no samples of a stream."""
 
 
 MsgClass = type[Msg]
 
 
 class Listener(Protocol):
-    """Takes the messages of the topics it subscribed to."""
+    """A subscriber of topics."""
 
     def deliver(self, stream: Stream, message: OutgoingMessage) -> None:
-        """Take one message; returns at once."""
+        """Handle one message; returns at once."""
 
 
 class Watcher(Protocol):
-    """Takes the frames of one camera."""
+    """A watcher of one camera."""
 
     def offer(self, picture: Picture) -> None:
-        """Take one picture; returns at once."""
+        """Handle one picture; returns at once."""
 
 
 class Channel:
-    """One topic: the robot's own, or one that clients made."""
+    """One topic: the robot's own, or one of clients."""
 
     def __init__(self, name: str, type: str, entry: Topic | None = None) -> None:
         self.name = name
         self.type = type
         """ROS 1 name."""
         self.entry = entry
-        """Its writer in the robot's table; None for a topic of clients."""
+        """Its line in the robot's table; None for a topic of clients."""
         self.cls: MsgClass | None = entry.type if entry else TYPES.get(type)
         """None when the type is not known here: its messages are passed on as they are."""
         self.streams: dict[Listener, Stream] = {}
-        """Who wants it, and in what form."""
+        """Subscribers, each with its stream."""
         self.publishers: set[object] = set()
-        """Clients that said they publish on it."""
+        """Clients that advertised it."""
         self.last: dict[object, OutgoingMessage] = {}
-        """The last message of each publisher who latches; the robot itself is None."""
+        """The last message of each publisher that latches; the robot itself is None."""
         self.latched = entry is not None and entry.latched and entry.to != "robot"
-        """The robot's last message is kept for later subscribers."""
+        """Whether the robot's last message is kept for later subscribers."""
         self.lane, self.keep = _manner(self)
 
     @property
     def idle(self) -> bool:
-        """Whether nobody needs it any more."""
+        """Whether it is a client's topic without publishers and subscribers."""
         return self.entry is None and not self.streams and not self.publishers
 
 
 def _manner(channel: Channel) -> tuple[Lane, int]:
-    """In which lane its messages go and how many may wait, 0 for all."""
+    """The lane of its messages, and the number of them that may wait; 0 for all."""
     entry, cls = channel.entry, channel.cls
     if channel.type in LARGE:
         return Lane.BULK, 1
     if entry is not None:
         return (Lane.TELEMETRY, 1) if entry.rate > 0 else (Lane.EVENT, 0)
     sampled = cls is not None and "header" in cls.__struct_fields__
-    return Lane.TELEMETRY, 1 if sampled else KEPT
+    return Lane.TELEMETRY, 1 if sampled else MAX_QUEUED
 
 
 class Switchboard:
-    """Passes messages on to listeners and frames on to watchers, and says which topics are wanted at all."""
+    """Passes messages on to subscribers and pictures on to watchers, and reports the demand for each topic."""
 
     def __init__(
         self,
@@ -107,17 +107,18 @@ class Switchboard:
         now: Callable[[], float] = float,
         cameras: Iterable[str] = (),
     ) -> None:
-        """`on_demand(topic, wanted)` hears that the first one came who wants `topic`, or that the last one left.
+        """`on_demand(topic, wanted)` is called when the first subscriber of `topic` comes and when the last one
+        leaves.
 
-        Who watches one of `cameras` wants its topic, and who watches any other that of the first.
-        `reduce` makes less of messages for who wants less; `now` is the operators' clock [s].
+        A watcher of one of `cameras` counts as a subscriber of its topic, and of any other camera as one of the first
+        one's. `reduce` makes less of messages for those who ask for it; `now` is the operators' clock [s].
         """
         self.topics = {entry.name: entry for entry in topics}
-        """The robot's own."""
+        """The robot's own, by absolute name."""
         self.channels = {
             entry.name: Channel(entry.name, entry.type.MSGTYPE, entry) for entry in self.topics.values()
         }
-        """All topics there are, by absolute name."""
+        """All topics, by absolute name."""
         self._on_demand = on_demand
         self._reduce = reduce
         self._now = now
@@ -133,9 +134,9 @@ class Switchboard:
         self.pass_on(channel, msg, None, latch=channel.latched)
 
     def pass_on(self, channel: Channel, msg: Msg | Raw | Unread, publisher: object, *, latch: bool) -> None:
-        """Pass a message of `publisher`, None is the robot, on to all who want it, and to later ones when latched.
+        """Pass a message of `publisher`, None for the robot, on to all subscribers, and to later ones when latched.
 
-        ProtocolError when clients have too much latched already: nobody gets it then.
+        ProtocolError when clients have too much latched already: no subscriber gets it then.
         """
         if not channel.streams and not latch:
             return
@@ -146,9 +147,9 @@ class Switchboard:
             listener.deliver(stream, message)
 
     def subscribe(self, listener: Listener, topic: str, wanted: Subscribed, type: str = "") -> None:
-        """`listener` wants `topic` in this form from now on, and at once what is latched there.
+        """Subscribe `topic` for `listener` in this form; what is latched there is delivered at once.
 
-        ProtocolError when there is no such topic and its type is not told, or too many topics.
+        ProtocolError when there is no such topic and no type is given, or too many topics.
         """
         channel = self.channels.get(topic) or self._make(topic, type)
         if not self.wanted(topic) and channel.entry is not None:
@@ -162,13 +163,13 @@ class Switchboard:
             listener.deliver(stream, message)
 
     def alter(self, listener: Listener, topic: str, wanted: Subscribed) -> None:
-        """`listener` wants `topic` in this form from now on; no error when it does not want it at all."""
+        """Change the form of a subscription; no error when there is none."""
         channel = self.channels.get(topic)
         if channel is not None and listener in channel.streams:
             channel.streams[listener].want(wanted, channel.keep)
 
     def unsubscribe(self, listener: Listener, topic: str) -> Stream | None:
-        """`listener` no longer wants `topic`; gives what was delivered by, None when it never did."""
+        """End a subscription; returns its stream, None when there was none."""
         channel = self.channels.get(topic)
         stream = channel.streams.pop(listener, None) if channel else None
         if channel is not None and stream is not None:
@@ -178,13 +179,13 @@ class Switchboard:
         return stream
 
     def advertise(self, publisher: object, topic: str, type: str) -> Channel:
-        """`publisher` is going to publish on `topic`; ProtocolError as for `subscribe`."""
+        """Note that `publisher` is going to publish on `topic`; ProtocolError as for `subscribe`."""
         channel = self.channels.get(topic) or self._make(topic, type)
         channel.publishers.add(publisher)
         return channel
 
     def unadvertise(self, publisher: object, topic: str) -> None:
-        """`publisher` no longer publishes on `topic`, and what it latched there is forgotten."""
+        """Note that `publisher` no longer publishes on `topic`, and forget what it latched there."""
         channel = self.channels.get(topic)
         if channel is not None:
             channel.publishers.discard(publisher)
@@ -194,29 +195,29 @@ class Switchboard:
             self._tidy(channel)
 
     def check(self, topic: str, type: str | None) -> None:
-        """ProtocolError when there is `topic` already and it is of another type."""
+        """ProtocolError when `topic` exists and has another type."""
         channel = self.channels.get(topic)
         if channel is not None and type and type != "*" and ros1_name(type) != channel.type:
             raise ProtocolError(f"{topic} is {channel.type}, not {type[:100]}.")
 
     def check_fields(self, topic: str, paths: Sequence[str] | None) -> None:
-        """ProtocolError when `topic` is one of the robot's and has not the fields that `paths` name.
+        """ProtocolError when `topic` is one of the robot's and lacks the fields of `paths`.
 
-        More than a subscription may name are not looked at.
+        More paths than a subscription may have are not checked.
         """
         entry = self.topics.get(topic)
         if entry is not None and paths is not None and len(paths) <= MAX_FIELDS:
             check_paths(entry.type, paths)
 
     def watch(self, watcher: Watcher, camera: str) -> None:
-        """`watcher` wants the frames of `camera` from now on."""
+        """Note that `watcher` wants the frames of `camera`."""
         topic = self._topic_of(camera)
         if not self.wanted(topic):
             self._on_demand(topic, True)
         self._watchers.setdefault(camera, set()).add(watcher)
 
     def unwatch(self, watcher: Watcher, camera: str) -> None:
-        """`watcher` no longer wants the frames of `camera`."""
+        """Note that `watcher` no longer wants the frames of `camera`."""
         self._watchers[camera].discard(watcher)
         if not self._watchers[camera]:
             del self._watchers[camera]
@@ -226,18 +227,19 @@ class Switchboard:
         return self._cameras.get(camera, CAMERA_TOPIC)
 
     def publish_frame(self, camera: str, picture: Picture) -> None:
-        """Pass a picture on to whoever watches `camera`."""
+        """Pass a picture on to the watchers of `camera`."""
         for watcher in self._watchers.get(camera, ()):
             watcher.offer(picture)
 
     def wanted(self, topic: str) -> bool:
-        """Whether anybody wants `topic`."""
+        """Whether `topic` has a subscriber."""
         channel = self.channels.get(topic)
         subscribed = channel is not None and bool(channel.streams)
         return subscribed or any(self._topic_of(camera) == topic for camera in self._watchers)
 
     def _latch(self, channel: Channel, message: OutgoingMessage, publisher: object) -> None:
-        """Keep a message for later subscribers in the place of the publisher's last one; the robot's own are not counted."""
+        """Keep a message for later subscribers in the place of the publisher's last one; the robot's own are not
+        counted."""
         if publisher is not None:
             before = channel.last.get(publisher)
             freed = 0 if before is None else before.size
@@ -256,7 +258,7 @@ class Switchboard:
         channel.last[publisher] = message
 
     def _count(self, publisher: object, more: int) -> None:
-        """`publisher` has so much more latched, None is the robot [byte]."""
+        """Add to the latched bytes of `publisher`; the robot, None, is not counted."""
         if publisher is not None:
             self._latched[publisher] = self._latched.get(publisher, 0) + more
             if not self._latched[publisher]:

@@ -1,1 +1,1 @@
-"""How much goes to one client, in which order, and how good its pictures are."""
+"""Flow control towards one client: how much is sent, in which order, and how good its pictures are."""

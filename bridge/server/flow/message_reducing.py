@@ -1,4 +1,4 @@
-"""Smaller pictures and coarser maps, made in a worker thread: what takes long must not hold up the loop."""
+"""Smaller pictures and coarser maps, made in a worker thread, because they take too long for the event loop."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ log = logging.getLogger(__name__)
 
 
 class _Work:
-    """What is to be made of the messages of one topic in one way; the newest message wins."""
+    """The reduction of one topic's messages in one way; the newest message wins."""
 
     def __init__(self) -> None:
         self.message: OutgoingMessage | None = None
@@ -27,7 +27,7 @@ class _Work:
 
 
 class MessageReducer:
-    """Makes each message smaller once for all who want it the same way, one at a time for each topic and way."""
+    """Reduces each message once for all who want it the same way, one at a time for each topic and way."""
 
     def __init__(self) -> None:
         self._works: dict[tuple[str, Reduction], _Work] = {}
@@ -35,7 +35,7 @@ class MessageReducer:
         self._worker: ThreadPoolExecutor | None = None
 
     def offer(self, queue: SendQueue, stream: Stream, message: OutgoingMessage) -> None:
-        """Have `message` sent by `queue` once it is made smaller; a newer one replaces one that still waits."""
+        """Reduce `message`, then offer it to `queue`; a newer one replaces one that still waits."""
         reduction = stream.form.reduction
         if reduction is None:
             queue.offer(stream, message)
@@ -51,7 +51,7 @@ class MessageReducer:
         work.streams[stream] = queue
 
     async def close(self) -> None:
-        """Give up what is still to be made."""
+        """Cancel all reductions."""
         await cancel_all(self._tasks)
         worker, self._worker = self._worker, None
         if worker is not None:

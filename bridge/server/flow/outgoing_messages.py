@@ -1,4 +1,4 @@
-"""Messages on their way out: encoded and put into WebSocket frames once for all who want them in the same form."""
+"""Outgoing messages, encoded and framed once for all clients that want them in the same form."""
 
 from __future__ import annotations
 
@@ -23,14 +23,15 @@ __all__ = ["Form", "OutgoingMessage", "Reduce", "ping_frame", "op_frames", "text
 K = TypeVar("K")
 V = TypeVar("V")
 Reduce = Callable[[Msg, Reduction], Msg]
-"""Makes less of a message; itself where nothing can be made less. Does not look at `Reduction.fields`."""
+"""Makes less of a message, or returns it unchanged. `Reduction.fields` is not its business."""
 
 MAX_FORMS = 16
-"""In so many forms a message is kept; what is latched lives long, and a client may ask for any number one after the other."""
+"""Most forms in which a message is kept; a latched one lives long, and a client may ask for any number one after the
+other."""
 MAX_LARGE_FORMS = 2
-"""In so many forms a message is kept that is `LARGE_BYTES` in them."""
+"""As `MAX_FORMS`, for forms of over `LARGE_BYTES`."""
 LARGE_BYTES = 1_048_576
-"""[byte]"""
+"""Size of a large form [byte]."""
 _TEXT, _BINARY, _PING = 0x81, 0x82, 0x89
 _HEAD_16, _HEAD_64 = struct.Struct(">BBH").pack, struct.Struct(">BBQ").pack
 """The head of a longer frame: its kind, what says how its length is told, and its length."""
@@ -39,42 +40,42 @@ _made = itertools.count(1)
 
 
 class Form(NamedTuple):
-    """In what form a message goes out: all that decides over its bytes."""
+    """The form of a message for one client: everything that decides its bytes."""
 
     name: str
     """The topic as the client wrote it."""
     compression: str = "none"
     """One of `bridge.protocol.COMPRESSIONS`."""
     fragment_size: int | None = None
-    """Longest text frame [characters]; None for no end."""
+    """Longest text frame [characters]; None for no limit."""
     reduction: Reduction | None = None
-    """How much of it goes out; None for all."""
+    """The part of it that is sent; None for all."""
     ros2: bool = False
     """Times are named as in ROS 2."""
 
     @classmethod
     def of(cls, wanted: Subscribed) -> Form:
-        """What a client asked for."""
+        """The form that a client asked for."""
         return cls(wanted.name, wanted.compression, wanted.fragment_size, wanted.reduction, wanted.ros2)
 
 
 def text_frame(text: bytes) -> bytes:
-    """`text` as one text message of a server."""
+    """`text` as one text frame of a server."""
     return _head(_TEXT, len(text)) + text
 
 
 def ping_frame(content: bytes) -> bytes:
-    """A server's ping with up to 125 bytes in it."""
+    """A server's ping frame with up to 125 bytes."""
     return _head(_PING, len(content)) + content
 
 
 def op_frames(op: Op, size: int | None = None) -> bytes:
-    """An operation as frames of at most `size` characters of it each; ProtocolError when it cannot be encoded."""
+    """An operation as text frames of at most `size` characters; ProtocolError when it cannot be encoded."""
     return _cut(encode(op), size)
 
 
 class OutgoingMessage:
-    """One published message; encoded when first needed and once per form, however many clients want it."""
+    """One published message; encoded when first needed and once per form, for any number of clients."""
 
     __slots__ = ("_bodies", "_frames", "_msg", "_now", "_reduce", "_reduced", "_weight", "number", "topic")
 
@@ -85,14 +86,14 @@ class OutgoingMessage:
         reduce: Reduce | None = None,
         now: Callable[[], float] = float,
     ) -> None:
-        """`msg` as Raw is JSON text of a type that is not known; it can be passed on, but not as `cbor-raw`. Unread it
-        is passed on as it is to all who want it as it is.
+        """`msg` as Raw is JSON text of an unknown type; it can be passed on, but not as `cbor-raw`. Unread is passed
+        on as it is to all who want it unchanged.
 
         `now` is the operators' clock [s].
         """
         self.topic = topic
         self.number = next(_made)
-        """Of two messages the older one's is smaller."""
+        """Serial number; the older one of two messages has the smaller."""
         self._weight = -1
         self._msg = msg
         self._reduce = reduce
@@ -113,7 +114,7 @@ class OutgoingMessage:
 
     @property
     def size(self) -> int:
-        """What it takes, about [byte]; not counted are the forms in which it goes out."""
+        """Approximate memory [byte], without the encoded forms."""
         if self._weight < 0:
             msg = self._msg.text if isinstance(self._msg, Unread) else self._msg
             self._weight = weight(msg) if isinstance(msg, Msg) else len(msg)
@@ -121,13 +122,13 @@ class OutgoingMessage:
 
     @property
     def msg(self) -> Msg | Raw:
-        """All of it."""
+        """The whole message."""
         if isinstance(self._msg, Unread):
             self._msg = self._msg.read()
         return self._msg
 
     def reduced(self, reduction: Reduction | None) -> Msg | Raw:
-        """As much of the message as is wanted; ProtocolError when it has no such fields."""
+        """The part of the message that `reduction` leaves; ProtocolError when it lacks the fields."""
         msg = self.msg
         if reduction is None or isinstance(msg, Raw):
             return msg
@@ -174,7 +175,7 @@ class OutgoingMessage:
 
 
 def _keep(forms: dict[K, V], key: K, form: V, size: int) -> None:
-    """Keep a form of `size` [byte] in the place of the oldest when there are many."""
+    """Keep a form of `size` [byte], in the place of the oldest when there are many."""
     most = MAX_LARGE_FORMS if size > LARGE_BYTES else MAX_FORMS
     while len(forms) >= most:
         forms.pop(next(iter(list(forms))), None)  # a copy: a worker thread may be at it as well
@@ -203,7 +204,7 @@ def _cut(text: bytes, size: int | None) -> bytes:
 
 
 def _head(kind: int, length: int) -> bytes:
-    """The head of a frame that is not masked, as RFC 6455, 5.2 has it."""
+    """The head of an unmasked frame (RFC 6455, 5.2)."""
     if length < 126:
         return bytes((kind, length))
     if length < 65536:

@@ -1,14 +1,14 @@
-"""How good and how frequent the pictures for one watcher may be, judged by how long their acknowledgement takes.
+"""Picture quality for one camera watcher: level and rate, judged by the time that acknowledgements take.
 
-The acknowledgement of a picture takes the way there and back (`base`), the time that its bytes take on the link, and
-the time that it waits behind others. Only the last two can be mended from here, so `base` is taken off: it is the
-least latency of late, and it is believed only once pictures of the coarsest level went through, whose bytes hardly
-count. What is left decides the pause before the next picture (the link is kept about four fifths busy, so that
-nothing queues) and the level: coarser when most pictures of late took too long, or one far too long, finer after a
-while in which the finer ones would mostly have fitted, and the more reluctantly the more often that was a mistake. A
-single late one says little: the watcher was busy, and a coarser picture would have waited just as long.
+The acknowledgement of a picture takes the round trip (`base`), the time of its bytes on the link, and the time that
+it waits behind others. Only the last two can be changed here, so `base` is subtracted: it is the least latency of
+late, and it is trusted only once pictures of the coarsest level went through, whose bytes hardly count. The excess
+decides the pause before the next picture (the link is kept about four fifths busy, so that nothing queues) and the
+level: coarser when most recent pictures took too long, or one far too long; finer after a while in which finer ones
+would mostly have fitted, and later after each failure. A single late one means little: the watcher was busy, and a
+coarser picture would have waited just as long.
 
-Pure: every call is told the time [s] of one and the same clock.
+Pure: every call gets the time [s] of one and the same clock.
 """
 
 from __future__ import annotations
@@ -21,27 +21,27 @@ from typing import NamedTuple
 __all__ = ["COARSEST", "LEVELS", "PictureQuality"]
 
 LEVELS = 4
-"""Level 0 is the picture as it was taken; each next one is a fraction of the size of the one before."""
+"""Number of levels. Level 0 is the picture as it was taken; each next one has a fraction of its size."""
 COARSEST = LEVELS - 1
 
 SLOW_LATENCY = 0.12
-"""Pictures that take longer than this beyond the way there and back are too large for the link [s]."""
+"""Pictures that take longer than this beyond the round trip are too large for the link [s]."""
 VERY_SLOW_LATENCY = 0.3
-"""One that takes this long is enough to know [s]."""
+"""One picture that takes longer than this beyond the round trip is proof enough [s]."""
 RECENT_COUNT = 5
-"""Pictures of a level by which it is judged; the one in the middle counts."""
+"""Pictures of a level by which it is judged, by their median."""
 FAST_LATENCY = 0.07
-"""The finer picture is tried when it would take less than this [s]."""
+"""A finer level is tried when its pictures would take less than this beyond the round trip [s]."""
 MAX_PAUSE = 0.5
-"""Between two pictures on the slowest link [s]: two a second."""
+"""Longest time between two pictures, on the slowest link [s]."""
 MAX_LOAD = 0.8
-"""Part of the link's time that pictures may take."""
+"""Fraction of the link's time that pictures may take."""
 GOOD_TIME = (2.0, 60.0)
-"""How long all has to go well before a finer level is tried: at first, and at most after failures [s]."""
+"""Time without a slow picture before a finer level is tried: at first, and at most after failures [s]."""
 MAX_UNACKNOWLEDGED = (2, 8)
-"""Pictures that may be unacknowledged at a time: on a short way, and on the longest."""
+"""Most unacknowledged pictures: on a short link, and on the longest."""
 FRAME_PERIOD = 1 / 15
-"""Between two pictures of a camera, about [s]: how many are under way on a long way follows from it."""
+"""Typical time between two pictures of a camera [s], for the number of pictures on a long link."""
 
 
 class _Sent(NamedTuple):
@@ -52,17 +52,17 @@ class _Sent(NamedTuple):
 
 
 class PictureQuality:
-    """The judge for one watcher; starts with the best pictures."""
+    """The quality for one watcher; starts with the best pictures."""
 
     def __init__(self, coarsest: int = COARSEST) -> None:
-        """`coarsest` is the highest level that can be made; 0 where there is but the original."""
+        """`coarsest` is the highest level that can be made; 0 where there is only the original."""
         self._coarsest = coarsest
         self.level = 0
-        """Of the next picture, 0 to the coarsest."""
+        """Level of the next picture, 0 to the coarsest."""
         self.pause = 0.0
         """Least time between two pictures now [s]."""
         self.base = 0.0
-        """The way there and back [s]; 0 until it is known."""
+        """Round-trip time [s]; 0 until it is known."""
         self._under_way: deque[_Sent] = deque()
         self._sizes = [math.nan] * LEVELS
         self._last = -math.inf
@@ -73,19 +73,19 @@ class PictureQuality:
         self._climbed = -math.inf
 
     def delay(self, now: float) -> float | None:
-        """How long to wait before the next picture [s]; 0 at once, None until one is acknowledged."""
+        """Time to wait before the next picture [s]; 0 for none, None until one is acknowledged."""
         if len(self._under_way) >= self._max_unacknowledged(now):
             return None
         return max(0.0, self._last + self.pause - now)
 
     def on_sent(self, seq: int, size: int, level: int, now: float) -> None:
-        """Picture number `seq` of `size` bytes was handed to the socket at `level`."""
+        """Note that picture number `seq` of `size` bytes was sent at `level`."""
         self._under_way.append(_Sent(seq, size, level, now))
         self._sizes[level] = size
         self._last = now
 
     def on_ack(self, seq: int, now: float) -> bool:
-        """The watcher has picture `seq` and all before it; False, and nothing changes, when it is not under way."""
+        """Note the acknowledgement of picture `seq` and all before it; False, and no change, when it is not under way."""
         if all(sent.seq != seq for sent in self._under_way):
             return False
         while True:
@@ -122,7 +122,7 @@ class PictureQuality:
             self._good_since = math.inf
 
     def _finer_would_take(self, excess: float) -> float:
-        """Beyond the way there and back [s]; by the sizes that were seen, or three times the bytes."""
+        """Latency of the finer level beyond the round trip [s], by the sizes seen so far, or three times the bytes."""
         ratio = self._sizes[self.level - 1] / self._sizes[self.level] if self.level else 1.0
         return excess * (ratio if ratio >= 1.0 else 3.0)
 

@@ -1,4 +1,5 @@
-"""What waits to be sent to one client, so that a slow one costs memory for a few messages a topic and no more."""
+"""Priority lanes of one client's waiting messages, so that a slow one costs memory for a few messages per topic and
+no more."""
 
 from __future__ import annotations
 
@@ -14,36 +15,39 @@ from bridge.server.flow.outgoing_messages import Form, OutgoingMessage
 __all__ = ["MAX_BYTES", "MAX_FRAMES", "Lane", "PriorityLanes", "Stream"]
 
 MAX_FRAMES = 256
-"""Frames that may wait in order in one lane; a client for whom more wait does not read."""
+"""Most frames that may wait in one ordered lane; a client with more does not read."""
 MAX_REPLIES = 4096
-"""Frames that may wait in the lane of replies: all that one may have asked for is answered in one step when who answers is gone."""
+"""Most frames in the lane of replies: a client may have asked so much of another one that it is all answered in one
+step when that leaves."""
 MAX_BYTES = 8_388_608
-"""Bytes that may wait in order in one lane."""
+"""Most bytes that may wait in one ordered lane."""
 MAX_QUEUE_LENGTH = {2: 100, 3: 100, 4: 4}
-"""How many messages of one topic may wait at most, whatever its `queue_length`, by lane."""
+"""Most messages of one topic that may wait, by lane, whatever its `queue_length`."""
 MAX_WAITING_BYTES = 25_165_824
-"""Bytes of messages of topics that may wait, one that is larger alone; else the oldest are forgotten, samples first."""
+"""Most bytes of topics' messages that may wait, except for one that is larger alone; then the oldest are dropped,
+samples first."""
 MAX_UNCOUNTED_BYTES = 8_388_608
-"""After so many bytes that came to wait all that waits is counted anew; so much more than `MAX_WAITING_BYTES` may it be before."""
+"""The waiting bytes are counted anew after so many more came; they may exceed `MAX_WAITING_BYTES` by as many until
+then."""
 MESSAGE_COST = 512
-"""What a message takes beside what it holds [byte]."""
+"""Memory of a message beside its content [byte]."""
 MAX_SAMPLES = 8
-"""After so many samples one message of the bulk lane goes out before the next."""
+"""After so many samples one message of the bulk lane is sent before the next."""
 
 
 class Lane(IntEnum):
-    """What goes first when not everything can go."""
+    """The order of sending when not everything can be sent."""
 
     CONTROL = 0
-    """Answers about STOP and control."""
+    """Responses about STOP and control."""
     REPLY = 1
-    """Other answers, calls and goals to carry out, remarks."""
+    """Other responses, calls and goals to carry out, remarks."""
     EVENT = 2
-    """What happens once or is latched: must arrive, and in order."""
+    """Messages that happen once or are latched: all must arrive, in order."""
     TELEMETRY = 3
-    """Samples; the newest counts."""
+    """Samples; only the newest counts."""
     BULK = 4
-    """Maps and pictures; the newest counts, and they are large."""
+    """Maps and pictures; only the newest counts, and they are large."""
 
 
 _WHOLE = (Lane.CONTROL, Lane.REPLY, Lane.EVENT)
@@ -52,37 +56,37 @@ _BULK_FIRST = (Lane.EVENT, Lane.BULK, Lane.TELEMETRY)
 
 
 class Stream:
-    """One client's delivery of one topic."""
+    """The delivery of one topic to one client."""
 
     __slots__ = ("due", "form", "gone", "heavy", "lane", "ordered", "period", "topic", "waiting")
 
     def __init__(self, topic: str, lane: Lane, wanted: Subscribed, keep: int = 1) -> None:
-        """`keep` is how many messages may wait when the client does not say; 0 all, in the lane's own order."""
+        """`keep` is how many messages may wait when the client does not say; 0 for all, in the order of the lane."""
         self.topic = topic
         self.lane = lane
         self.due = -math.inf
-        """When the next message may go out [s], the loop's clock."""
+        """Earliest time of the next message [s], the loop's clock."""
         self.gone = False
-        """Nothing more is to be sent."""
+        """Whether the subscription has ended."""
         self.waiting: deque[OutgoingMessage] = deque()
         self.want(wanted, keep)
 
     def want(self, wanted: Subscribed, keep: int = 1) -> None:
-        """What the client wants from now on."""
+        """Change the form in which the client wants the topic."""
         self.form = Form.of(wanted)
         self.period = wanted.period
         """Shortest time between two messages [s]."""
         self.ordered = keep == 0 and wanted.period == 0 and wanted.queue == 0
-        """Every message goes out, in order with those of other topics."""
+        """Whether every message is sent, in order with those of other topics."""
         reduction = wanted.reduction
         self.heavy = reduction is not None and self.lane is Lane.BULK
-        """Making less of a message takes long."""
+        """Whether its messages take long to reduce."""
         length = min(wanted.queue or max(1, keep), MAX_QUEUE_LENGTH[self.lane])
         self.waiting = deque(self.waiting, maxlen=length)
 
 
 class PriorityLanes:
-    """Queues for what must arrive in order, and for each topic a few places, where the newest wins."""
+    """Queues for frames that must arrive in order, and a few places per topic, where the newest message wins."""
 
     def __init__(self) -> None:
         self._frames: tuple[deque[bytes], ...] = tuple(deque() for _ in Lane)
@@ -91,12 +95,12 @@ class PriorityLanes:
         self._uncounted = 0
         self._passed = 0
         self.held = False
-        """The next message is due and too large for what room there was when last asked."""
+        """Whether the next message is due and was too large for the room at the last call."""
         self.holding = Lane.CONTROL
-        """The lane of the message that is held, or was last."""
+        """Lane of the message that is held, or was last."""
 
     def push(self, lane: Lane, frame: bytes) -> bool:
-        """Queue a frame that must not be lost; False when too many wait in this lane already."""
+        """Queue a frame that must not be lost; False when this lane is full."""
         frames = self._frames[lane]
         most = MAX_REPLIES if lane is Lane.REPLY else MAX_FRAMES
         if len(frames) >= most or (frames and self._bytes[lane] + len(frame) > MAX_BYTES):
@@ -106,7 +110,7 @@ class PriorityLanes:
         return True
 
     def offer(self, stream: Stream, message: OutgoingMessage) -> None:
-        """Have a message wait; when its topic or all of them have no place left, the oldest is forgotten."""
+        """Queue a message of a topic; when there is no place left, the oldest is dropped."""
         stream.waiting.append(message)
         self._streams[stream.lane][stream] = None
         self._uncounted += _cost(message)
@@ -114,13 +118,13 @@ class PriorityLanes:
             self._lighten(message)
 
     def remove(self, stream: Stream) -> None:
-        """Nothing of this topic is wanted any more."""
+        """Drop all messages of a topic that is no longer wanted."""
         stream.gone = True
         stream.waiting.clear()
         self._streams[stream.lane].pop(stream, None)
 
     def clear(self) -> None:
-        """Nothing is wanted any more."""
+        """Drop everything."""
         self.held = False
         self._bytes = [0] * len(Lane)
         for frames in self._frames:
@@ -132,13 +136,13 @@ class PriorityLanes:
             streams.clear()
 
     def is_blocked(self, lane: Lane) -> bool:
-        """Whether frames wait in this lane, behind which others must stand."""
+        """Whether frames wait in this lane, so that others must queue behind them."""
         return bool(self._frames[lane])
 
     def pop(self, now: float, fits: Callable[[int], bool] = lambda _: True) -> bytes | None:
         """The next frame to send at `now` [s]; None when nothing is due, or the next is `held`.
 
-        `fits` tells whether there is room for so many bytes. ProtocolError when the next cannot be encoded.
+        `fits` returns whether there is room for so many bytes. ProtocolError when the next cannot be encoded.
         """
         self.held = False
         for lane in _WHOLE:
@@ -157,7 +161,7 @@ class PriorityLanes:
         return None
 
     def delay(self, now: float) -> float | None:
-        """Seconds until something is due; None when nothing waits."""
+        """Time until something is due [s]; None when nothing waits."""
         if any(self._frames):
             return 0.0
         dues = [stream.due for streams in self._streams for stream in streams]
@@ -173,7 +177,7 @@ class PriorityLanes:
         return None if self.held else frame
 
     def _lighten(self, newest: OutgoingMessage) -> None:
-        """Count what waits, and forget the oldest of it, but never `newest`, until the rest is within bounds."""
+        """Count the waiting bytes, and drop the oldest messages, but never `newest`, until they are within bounds."""
         self._uncounted = 0
         held = sum(
             _cost(message) for streams in self._streams for each in streams for message in each.waiting

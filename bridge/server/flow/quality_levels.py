@@ -1,4 +1,4 @@
-"""One picture of a camera in as many levels of quality as its watchers need, each made once."""
+"""Quality levels of a camera's picture, each made once for all watchers that need it."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from bridge.server.flow.picture_quality import COARSEST
 __all__ = ["QualityLevels", "Picture", "Shrink"]
 
 Shrink = Callable[[bytes, int], Awaitable[bytes]]
-"""Makes a JPEG file smaller, to a level from 1 to `bridge.server.flow.picture_quality.COARSEST`; BridgeError when it cannot or will not."""
+"""Makes a JPEG file smaller, to a level from 1 to `picture_quality.COARSEST`; BridgeError when it cannot."""
 
 
 class QualityLevels:
-    """Makes the levels of all pictures and ends what is still being made."""
+    """Makes the levels of all pictures."""
 
     def __init__(self, shrink: Shrink | None) -> None:
         """Without `shrink` every picture stays as it is."""
@@ -26,11 +26,11 @@ class QualityLevels:
         """The highest level that can be made."""
 
     def picture(self, frame: bytes) -> Picture:
-        """The packed `frame` as a picture with levels; ProtocolError when it is none."""
+        """The packed `frame` as a picture with levels; ProtocolError when it is no frame."""
         return Picture(frame, self)
 
     def begin(self, jpeg: bytes, level: int) -> asyncio.Future[bytes] | None:
-        """Have `jpeg` made smaller; None when nobody can."""
+        """Begin to make `jpeg` smaller; None without a `shrink`."""
         if self._shrink is None or level == 0:
             return None
         making: asyncio.Future[bytes] = asyncio.ensure_future(self._shrink(jpeg, level))
@@ -39,7 +39,7 @@ class QualityLevels:
         return making
 
     async def close(self) -> None:
-        """End what is still being made."""
+        """Cancel all work."""
         left = list(self._making)
         for making in left:
             making.cancel()
@@ -48,17 +48,17 @@ class QualityLevels:
     def _done(self, making: asyncio.Future[bytes]) -> None:
         self._making.discard(making)
         if not making.cancelled():
-            making.exception()  # whoever waits for it is told; when nobody does any more, nobody needs to be
+            making.exception()  # retrieved, so that asyncio does not report it when no watcher waits for it any more
 
 
 class Picture:
-    """One packed frame and what was made of it."""
+    """One packed frame with its levels."""
 
     __slots__ = ("_frame", "_levels", "_made", "_making", "frame")
 
     def __init__(self, frame: bytes, levels: QualityLevels) -> None:
         self.frame = frame
-        """As it was taken, packed."""
+        """The packed frame as it was taken."""
         self._frame = unpack(frame)
         self._levels = levels
         self._made = {0: frame}
@@ -66,13 +66,14 @@ class Picture:
 
     @property
     def seq(self) -> int:
-        """Its number."""
+        """Sequence number."""
         return self._frame.seq
 
     async def at(self, level: int) -> bytes:
-        """Packed, at `level`, with the header of the original; the original where no smaller one can be made.
+        """The packed frame at `level`, with the header of the original; the original where no smaller one can be
+        made.
 
-        Made when first asked for, and once, however many ask.
+        Made when first asked for, and once for all watchers.
         """
         if level not in self._made:
             if level not in self._making:

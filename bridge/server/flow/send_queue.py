@@ -1,4 +1,4 @@
-"""The way out to one client: straight to its connection while there is room, by lanes while there is none."""
+"""The send queue of one client: straight to its connection while there is room, through priority lanes otherwise."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ log = logging.getLogger(__name__)
 TURN_TIME = 0.005
 """Longest time for one client before the others have their turn [s]; one frame may hold a thousand operations."""
 _MAX_REFUSED_TOPICS = 100
-"""So many topics are logged of one client that cannot be sent."""
+"""Most topics of one client for which a failure to send is logged."""
 
 
 class FrameWriter(Protocol):
-    """What frames are written to."""
+    """The connection that frames are written to."""
 
     paused: bool
-    """Not everything written so far has left this process."""
+    """Whether some of the data written so far is still in this process."""
 
     @property
     def is_open(self) -> bool:
@@ -37,36 +37,36 @@ class FrameWriter(Protocol):
         """Write whole WebSocket frames; returns at once."""
 
     def abort(self) -> None:
-        """Break the connection at once."""
+        """Cut the connection at once."""
 
 
 class WriteBatch:
-    """Gathers what clients get in one step of the loop, so that it leaves in one write for each."""
+    """Gathers the frames of one step of the loop, for one write per client."""
 
     def __init__(self, call_soon: Callable[[Callable[[], None]], object]) -> None:
         """`call_soon` has a function called at the end of this step of the loop."""
         self.held = False
-        """Whoever set it calls `flush` itself."""
+        """Whether the batch waits for an explicit `flush`."""
         self._call_soon = call_soon
         self._waiting: list[SendQueue] = []
         self._frames: list[bytes] = []
         self._piece = b""
 
     def add(self, queue: SendQueue) -> None:
-        """Have a queue flushed at the end of this step."""
+        """Flush a queue at the end of this step."""
         if not self._waiting and not self.held:
             self._call_soon(self.flush)
         self._waiting.append(queue)
 
     def flush(self) -> None:
-        """Have everything leave that was gathered."""
+        """Write everything that was gathered."""
         waiting, self._waiting = self._waiting, []
         for queue in waiting:
             queue.flush()
         self._frames, self._piece = [], b""
 
     def joined(self, frames: list[bytes]) -> bytes:
-        """`frames` in one piece, made once for clients that get the same one after the other."""
+        """`frames` in one piece, made once for consecutive clients that get the same."""
         if len(frames) == 1:
             return frames[0]
         if frames != self._frames:
@@ -75,7 +75,8 @@ class WriteBatch:
 
 
 class SendQueue:
-    """The way out to one client. What cannot leave soon waits in lanes, bounded by a window of unanswered pings."""
+    """Sends the messages of one client. What cannot leave soon waits in lanes, bounded by a window of unanswered
+    pings."""
 
     def __init__(
         self, writer: FrameWriter, batch: WriteBatch, name: str, clock: Callable[[], float] = time.monotonic
@@ -93,10 +94,10 @@ class SendQueue:
         self._closing = False
         self._refused: set[str] = set()
         self.window = SendWindow(self._clock())
-        """What is under way."""
+        """The bytes under way."""
 
     def send(self, lane: Lane, frame: bytes) -> None:
-        """Send what must not be lost. A client for whom too much waits is cut off."""
+        """Send a frame that must not be lost. A client with too many waiting frames is disconnected."""
         writer = self._writer
         if lane is Lane.CONTROL and not writer.paused:
             self._gather(self._urgent, frame)
@@ -145,11 +146,11 @@ class SendQueue:
         window.sent += size
 
     def remove(self, stream: Stream) -> None:
-        """Nothing of this topic is wanted any more."""
+        """Drop all messages of a topic that is no longer wanted."""
         self._lanes.remove(stream)
 
     def flush(self) -> None:
-        """Write what was gathered, with a ping behind it when one is due."""
+        """Write the gathered frames, with a ping behind them when one is due."""
         frames, self._frames = self._frames, []
         if self._urgent:
             frames = self._urgent + frames
@@ -163,19 +164,19 @@ class SendQueue:
             self._writer.write(data)
 
     def ping(self, content: bytes) -> None:
-        """Send a ping at once, before all that waits; not while the connection takes nothing."""
+        """Send a ping at once, before all that waits; not while the connection is paused."""
         if self._writer.is_open and not self._writer.paused:
             self._writer.write(ping_frame(content))
 
     def on_pong(self, content: bytes) -> None:
-        """A pong came."""
+        """Handle a pong."""
         if self.window.on_pong(content, self._clock()):
             self.send_waiting()
             if not self._frames and not self._urgent:
                 self._batch.add(self)  # for a ping: the window may have fallen below what is under way
 
     def send_waiting(self) -> None:
-        """Send of what waits as much as there is room for."""
+        """Send waiting messages while there is room."""
         now = self._clock()
         while not self._writer.paused and self._lanes.is_blocked(Lane.CONTROL):
             self._gather(self._urgent, self._lanes.pop(now) or b"")
@@ -193,7 +194,7 @@ class SendQueue:
         self._arm(now)
 
     def check_alive(self) -> None:
-        """Ask for a sign of life when it is time, and cut off who gives none; to be called every second or so."""
+        """Send a ping when one is due, and disconnect a client that answers none; to be called every second or so."""
         if not self._writer.is_open:
             if self._closing:
                 self._writer.abort()
@@ -205,7 +206,7 @@ class SendQueue:
             self.flush()
 
     def close(self) -> None:
-        """Send nothing more, and keep nothing: what others still hold of this client must not hold what waited for it."""
+        """Drop everything: references to this client must not keep its messages in memory."""
         self._lanes.clear()
         self._frames.clear()
         self._urgent.clear()
@@ -227,7 +228,7 @@ class SendQueue:
             self._refuse(message.topic, error)
 
     def _refuse(self, topic: str, error: ProtocolError) -> None:
-        """Log once of each topic that it cannot be sent: the next message cannot either."""
+        """Log once per topic that it cannot be sent: the next message cannot either."""
         if topic not in self._refused and len(self._refused) < _MAX_REFUSED_TOPICS:
             self._refused.add(topic)
             log.warning("%s is not sent to %s: %s", topic, self._name, error)
@@ -239,7 +240,7 @@ class SendQueue:
         self.window.sent += len(frame)
 
     def _arm(self, now: float) -> None:
-        """Come back when a throttled message is due; whatever waits for room comes with the room."""
+        """Set a timer for the next throttled message; messages that wait for room are sent when there is room."""
         if self._lanes.held or not self._has_room() or not self._writer.is_open:
             return
         delay = self._lanes.delay(now)

@@ -45,21 +45,21 @@ class _Sent(NamedTuple):
 
 
 class SendWindow:
-    """What one client was sent, what of it arrived, and how much more may follow."""
+    """The bytes sent to one client, those acknowledged, and the room for more."""
 
     def __init__(self, now: float) -> None:
         """`now` [s] is of any clock that only goes forward; the same for all methods."""
         self.limit = START_WINDOW
-        """How much may be on its way [byte]."""
+        """Most bytes that may be under way."""
         self.sent = 0
-        """All that was sent [byte]."""
+        """Bytes sent since the connection."""
         self.acknowledged = 0
-        """Of that, what is known to have arrived [byte]."""
+        """Bytes known to have arrived."""
         self._pings: PendingPings[_Sent] = PendingPings()
         self._marked = 0
         self._last = -math.inf
         self.stalls_at = math.inf
-        """From when on the client counts as standing still [s]: it gets nothing until it answers."""
+        """Time from which the client counts as stalled [s]: it gets nothing until it answers."""
         self._min_delay = math.inf
         self._min_delay_time = now
         self._usual_rtt = 0.0
@@ -68,7 +68,7 @@ class SendWindow:
 
     @property
     def under_way(self) -> int:
-        """What may still wait on its way [byte]."""
+        """Bytes that may still be on their way."""
         return self.sent - self.acknowledged
 
     def has_room(self, now: float) -> bool:
@@ -76,12 +76,12 @@ class SendWindow:
         return self.sent - self.acknowledged < self.limit and now < self.stalls_at
 
     def fits(self, size: int) -> bool:
-        """Whether a message of `size` [byte] may be sent: within the limit, or larger and with hardly any before it."""
+        """Whether a message of `size` [byte] may be sent: within the limit, or larger with hardly anything under way."""
         under_way = self.sent - self.acknowledged
         return under_way + size <= self.limit or under_way <= self.limit >> 3
 
     def needs_ping(self, now: float, waiting: bool = False) -> bool:
-        """Whether a ping must follow what was sent, or is due for its own sake; `waiting` is for what does not fit."""
+        """Whether a ping is due, to follow data or for its own sake; `waiting` is for a message that does not fit."""
         fresh = self.sent - self._marked
         if waiting and fresh > 0:
             return not self._pings.is_full
@@ -92,7 +92,7 @@ class SendWindow:
         return now - self._last >= (BUSY_PING_PERIOD if fresh > 0 else IDLE_PING_PERIOD)
 
     def ping(self, now: float) -> bytes:
-        """Note that a ping is sent now, behind everything else; gives its content, 8 bytes."""
+        """Note a ping that is sent now, behind everything else; returns its content, 8 bytes."""
         if not self._pings:
             self.stalls_at = now + STALL_TIME + 4 * self._usual_rtt
         self._marked = self.sent
@@ -100,7 +100,7 @@ class SendWindow:
         return self._pings.send(now, _Sent(self.sent, self.acknowledged))
 
     def on_pong(self, content: bytes, now: float) -> bool:
-        """Take the answer to a ping in, which answers all before it as well; False when it is none of ours."""
+        """Handle a pong, which answers all pings before it as well; False when it answers none of these."""
         ping = self._pings.on_pong(content)
         if ping is None:
             return False
@@ -120,7 +120,7 @@ class SendWindow:
         return bool(self._pings) and now - self._pings.oldest >= DEAD_TIMEOUT
 
     def _update_min_delay(self, took: float, now: float) -> None:
-        """Keep the shortest time that a ping ever took; after a while drain the way and look anew."""
+        """Keep the shortest round trip of any ping; after a while let the link drain and measure it anew."""
         if took <= self._min_delay:
             self._min_delay, self._min_delay_time = took, now
         elif now - self._min_delay_time > MIN_DELAY_LIFETIME:

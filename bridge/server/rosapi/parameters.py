@@ -1,4 +1,4 @@
-"""The parameters that clients keep on the robot for each other: names and JSON texts, bounded."""
+"""Parameters that clients keep on the robot for each other: names and JSON texts, bounded."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from bridge.core.errors import ProtocolError
 __all__ = ["Parameters"]
 
 MAX_PARAMETERS = 1000
-"""So many parameters may there be."""
+"""Most parameters."""
 MAX_BYTES = 1_048_576
-"""Bytes of all names and values together."""
+"""Most bytes of all names and values together."""
 
 
 class Parameters:
     """Values by name, as JSON texts."""
 
     def __init__(self, first: Mapping[str, Any] | None = None) -> None:
-        """`first` are values that are there from the start."""
+        """`first` are the initial values."""
         self._values: dict[str, str] = {}
         self._bytes = 0
         for name, value in (first or {}).items():
@@ -29,11 +29,11 @@ class Parameters:
 
     @property
     def names(self) -> list[str]:
-        """Of all that there are."""
+        """The names of all parameters."""
         return list(self._values)
 
     def has(self, name: str) -> bool:
-        """Whether there is one of this name."""
+        """Whether there is a parameter of this name."""
         return _resolved(name) in self._values
 
     def get(self, name: str, default: str = "") -> str:
@@ -41,7 +41,7 @@ class Parameters:
         return self._values.get(_resolved(name), default or "null")
 
     def set(self, name: str, value: str) -> None:
-        """Keep a value; ProtocolError when it is no JSON or there is no room for it."""
+        """Set a value; ProtocolError when it is no JSON or there is no room for it."""
         try:
             msgspec.json.decode(value, type=msgspec.Raw)
         except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
@@ -56,7 +56,7 @@ class Parameters:
         self._bytes = grown
 
     def delete(self, name: str) -> bool:
-        """Forget a value; False when there was none."""
+        """Delete a value; False when there was none."""
         name = _resolved(name)
         value = self._values.pop(name, None)
         self._bytes -= _size(name, value)
@@ -64,7 +64,7 @@ class Parameters:
 
 
 def _resolved(name: str) -> str:
-    """ROS 2 writes `node:param` and ROS 1 `/ns/param`; a relative name is under the root."""
+    """The absolute name. ROS 2 writes `node:param` and ROS 1 `/ns/param`; a relative name is under the root."""
     return name if name.startswith("/") else f"/{name}"
 
 

@@ -1,4 +1,4 @@
-"""A message type as ROS text with all that it is made of, as `topics_and_raw_types` tells it."""
+"""Message types as ROS text with all their parts, for `topics_and_raw_types`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _RULE = "=" * 80
 
 @functools.lru_cache(maxsize=256)
 def full_text(type: str) -> str:
-    """The fields of `type`, then each type they are made of under a rule and its name; empty when it is not known."""
+    """The fields of `type`, then each part's under a rule and its name; empty when it is not known."""
     found = typedefs(type)
     parts = [_fields(each) for each in found[:1]]
     parts += [f"{_RULE}\nMSG: {each['type']}\n{_fields(each)}" for each in found[1:]]

@@ -33,7 +33,7 @@ class Node(NamedTuple):
 
 
 class Graph(NamedTuple):
-    """How to find out who is there and what for; each is asked anew for every answer."""
+    """Questions about the graph; each is asked anew for every answer."""
 
     topics: Callable[[], Mapping[str, str]]
     """ROS 1 type by topic."""
@@ -70,8 +70,8 @@ class RosApi:
     def answer(self, service: str, args: Raw) -> bytes | None:
         """The response of `service` (absolute name) as JSON text; None when it is not answered here.
 
-        `args` is an object, or a list of the fields in their order; what is neither counts as empty. ProtocolError
-        when it asks for what cannot be.
+        `args` is an object, or a list of the fields in their order; anything else counts as empty. ProtocolError when
+        it asks for the impossible.
         """
         known = self._answers.get(service)
         if known is None:
@@ -204,7 +204,7 @@ def _details(type: str, half: str) -> dict[str, Any]:
 
 
 def _given(args: Raw, fields: tuple[str, ...]) -> dict[str, str]:
-    """The texts among the arguments by name, an empty one for what is missing."""
+    """The texts among the arguments by name, empty for a missing one."""
     if len(args) > MAX_ARGUMENT_BYTES:
         raise ProtocolError(f"args may have at most {MAX_ARGUMENT_BYTES} bytes, not {len(args)}.")
     values = msgspec.json.decode(args)

@@ -1,4 +1,4 @@
-"""What message types are made of, in the form in which `rosapi/message_details` tells it."""
+"""Descriptions of message types, in the form of `rosapi/message_details`."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ _BUILT_IN = ("time", "duration")
 
 
 def typedefs(type: str | builtins.type[Msg]) -> list[dict[str, Any]]:
-    """`type`, by its ROS 1 name or class, and all that it is made of, each once; empty when it is not known.
+    """The description of `type`, a ROS 1 name or class, and of all its parts, each once; empty when it is not known.
 
-    Each has its fields in order with the exact type of one element and `fieldarraylen`: -1 no array, 0 any length (a bound
-    cannot be told), else the length. `examples` are the defaults as text, `[]` for an array, `{}` for a message.
-    Times are built in, as in ROS 1: they come without a definition.
+    Each has its fields in order with the exact type of one element and `fieldarraylen`: -1 for no array, 0 for any
+    length (a bound cannot be described), else the length. `examples` are the defaults as text, `[]` for an array,
+    `{}` for a message. Times are built in, as in ROS 1: they come without a description.
     """
     first = TYPES.get(type) if isinstance(type, str) else type
     found: dict[str, dict[str, Any]] = {}
