@@ -52,7 +52,7 @@ class StationDoor(Door):
             now=station.clock,
             on_message=listener(station),
             on_demand=self._want,
-            on_gone=station.gone,
+            on_gone=station.on_gone,
         )
         self.offers = Offered(station.info, station.bus, simulated=station.robot.resettable)
         """Whether the robot has a topic of the table, by its name."""
@@ -85,7 +85,7 @@ class StationDoor(Door):
         except Refusal as refusal:
             return CommandResponse(False, refusal.notice, **coded(refusal.notice))
         finally:
-            self._station.show_control()
+            self._station.publish_control()
 
     def close(self) -> None:
         """Let go of the station; no other call follows."""

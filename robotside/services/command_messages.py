@@ -28,6 +28,6 @@ def listener(station: Station) -> Callable[[Operator, str, Msg, float | None], N
                 orders.go_to(client, Waypoint(pose.x, pose.y, pose.yaw))
             except (Refusal, NotRecorded) as problem:
                 station.events.say("command", problem.notice, "warn")
-        station.hear(client, topic, msg, stamp)
+        station.on_message(client, topic, msg, stamp)
 
     return hear

@@ -70,7 +70,7 @@ class Answering:
                     ageless=ageless,
                     response=response,
                 )
-                station.show_control()
+                station.publish_control()
                 if job.binding and asked.command_id and answer.success:
                     told = Answered(sender, name, asked.command_id, to_json(answer).decode())
                     station.records.answers.keep(told)

@@ -88,7 +88,7 @@ class _MissionOrders:
             if problem:
                 raise Refusal(problem)
         stamp = Time.at(self._station.clock())
-        self._station.keep(msgspec.structs.replace(mission, stamp=stamp, home=mission.home[:1]))
+        self._station.missions.store(msgspec.structs.replace(mission, stamp=stamp, home=mission.home[:1]))
 
     def mission(self, _: Operator, __: GetMissionRequest) -> GetMissionResponse:
         """Give the stored mission."""

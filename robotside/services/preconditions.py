@@ -7,7 +7,8 @@ from bridge.core.robot_catalogue import Operator
 from robotside.control.command_gate import STOP_SENTENCE
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
-from robotside.station.station import NO_MAP, Station
+from robotside.station.fitness import NO_MAP
+from robotside.station.station import Station
 from robotside.tasks.autonomy import LOW_BELOW
 from robotside.tasks.engine import TO_CHARGE, Task
 from robotside.tasks.task_factory import words_for
@@ -45,7 +46,7 @@ class Permits:
         if self._station.controls.stopped:
             raise Refusal(STOP_SENTENCE)
         self.need_control(client)
-        problem = self._station.unfit or self._station.lost
+        problem = self._station.fitness.unfit or self._station.fitness.lost
         if problem:
             raise Refusal(problem)
 

@@ -29,12 +29,12 @@ def press_stop(station: Station, name: str, client_id: str = "", given: float = 
 
     Refusal while the robot may not have obeyed: STOP is pressed all the same, and who pressed it goes on asking.
     """
-    station.press_stop(name, client_id, given)
-    doubt = station.stop_doubt
+    station.stop.press(name, client_id, given)
+    doubt = station.stop.doubt
     if doubt:
         said = f"STOP is pressed, but {doubt[0].lower()}{doubt[1:]}"
         raise Refusal(Notice(Code.STOP_UNSURE, said))
-    return f"Stopped. {station.stop_unkept}".strip()
+    return f"Stopped. {station.stop.unkept}".strip()
 
 
 class _StopOrders:
@@ -58,5 +58,5 @@ class _StopOrders:
         if asked.stamp < controls.stop_given:
             said = "STOP was pressed after that was asked for: it stays."
             raise Refusal(Notice(Code.STOP_PRESSED_SINCE, said))
-        self._station.release_stop(controls.name(client), controls.id(client))
+        self._station.stop.release(controls.name(client), controls.id(client))
         return "STOP is released."

@@ -22,7 +22,7 @@ async def robot(state, *points):
     async with serving(state, FakeRobot()) as serves:
         station, states = serves.station, Record()
         station.autonomy.place(ORIGIN)
-        station.keep(Mission(waypoints=list(points), laps=1))
+        station.missions.store(Mission(waypoints=list(points), laps=1))
         station.bus.subscribe("/task/status", lambda _, msg: states(msg.state))
         yield serves, states
 
@@ -60,7 +60,7 @@ async def test_a_task_that_is_taken_back_leaves_the_robot_at_rest(tmp_path, libr
 @BOTH
 async def test_a_task_is_refused_while_stop_is_pressed(tmp_path, library):
     async with robot(tmp_path, NEAR) as (serves, _), peer(library, serves.server.port) as client:
-        serves.station.press_stop("Anna")
+        serves.station.stop.press("Anna")
         await client.do("goal", **TASK, args={"task": "patrol"})
         assert "STOP is pressed; hold Release to drive again." in await refusal(client, library)
         assert serves.station.robot._robot.at_rest

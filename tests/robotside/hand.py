@@ -78,7 +78,7 @@ class Hand:
         """Hold the controls there."""
         topic = "/cmd_manoeuvre" if isinstance(order, Manoeuvre) else "/cmd_vel"
         for _ in range(round(seconds / 0.1)):
-            self.station.hear(self.anna, topic, order, None)
+            self.station.on_message(self.anna, topic, order, None)
             self.wait(0.1)
 
     def ask(

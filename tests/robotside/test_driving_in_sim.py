@@ -151,14 +151,14 @@ def test_a_late_manoeuvre_is_dropped_like_a_late_twist(hand: Make) -> None:
     run = hand("minnow")
     run.anna.asked_time = True
     order = steer(0.2, throttle=0.5)
-    run.station.hear(run.anna, "/cmd_manoeuvre", order, run.now - 0.5)
+    run.station.on_message(run.anna, "/cmd_manoeuvre", order, run.now - 0.5)
     assert "it came 0.5 s late" in run.events[-1]
     said = len(run.events)
     run.wait(3.2)
     stamped = msgspec.structs.replace(order, header=Header(Time.at(run.now - 0.4)))
-    run.station.hear(run.anna, "/cmd_manoeuvre", stamped, None)
+    run.station.on_message(run.anna, "/cmd_manoeuvre", stamped, None)
     assert "it came 0.4 s late" in run.events[said]
-    run.station.hear(run.anna, "/cmd_manoeuvre", order, run.now)
+    run.station.on_message(run.anna, "/cmd_manoeuvre", order, run.now)
     run.wait(0.1)
     assert run.robot.simulation.vehicle.order.kind == "steer"  # type: ignore[attr-defined]  # the drive's
     run.wait(0.25)

@@ -110,7 +110,7 @@ class Trial:
                 valid, moved = (given if cut.stamped else moment), True
         assert moved
         assert not self.robot.moving
-        scene.station.gone(client)
+        scene.station.on_gone(client)
         scene.clients.clear()
 
     def _pass(self, client: FakeClient, cut: Cut, end: float, until: float, valid: float) -> float:
@@ -123,7 +123,7 @@ class Trial:
             if scene.clock < end:
                 client.last_heard = scene.clock
             elif not closed:
-                scene.station.gone(client)
+                scene.station.on_gone(client)
                 closed = True
             if step == TICK or scene.clock >= until:
                 scene.station.step(scene.now)

@@ -26,7 +26,7 @@ def test_who_drives_over_a_line_towards_a_wall_sees_it_pass_and_the_wall_come_ne
     for topic in heard:
         run.station.bus.subscribe(topic, lambda name, message: heard[name].append(message))
     for _ in range(80):
-        run.station.hear(run.anna, "/cmd_vel", Twist.planar(0.6, 0.0), run.now)
+        run.station.on_message(run.anna, "/cmd_vel", Twist.planar(0.6, 0.0), run.now)
         run.wait(0.05)
     run.station.close()
     bright = [message.values[3] > 0.5 for message in heard["/line_sensor"] if isinstance(message, LineSensor)]

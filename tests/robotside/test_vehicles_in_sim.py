@@ -33,7 +33,7 @@ class Hand(Run):
     def push(self, twist: Twist, seconds: float) -> None:
         """Hold the stick there."""
         for _ in range(round(seconds * 20)):
-            self.station.hear(self.anna, "/cmd_vel", twist, None)
+            self.station.on_message(self.anna, "/cmd_vel", twist, None)
             self.wait(0.05)
 
     @property

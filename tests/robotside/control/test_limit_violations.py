@@ -81,7 +81,7 @@ def test_everyone_is_told_every_few_seconds_while_it_goes_on(scene: Scene) -> No
 
 def test_somebody_else_who_asks_too_much_is_told_at_once(scene: Scene) -> None:
     scene.drive(Twist.planar(5.0, 0.0))
-    scene.station.gone(scene.anna)
+    scene.station.on_gone(scene.anna)
     scene.clients.remove(scene.anna)
     scene.drive(Twist.planar(6.0, 0.0), scene.client("bert"))
     assert len(scene.events("command")) == 2

@@ -128,7 +128,7 @@ def test_a_lost_handheld_does_not_stop_a_task_unless_told_to(scene: Scene, how: 
     def lose(client: FakeClient) -> None:
         scene.clients.remove(client)
         if how == "gone":
-            scene.station.gone(client)
+            scene.station.on_gone(client)
         scene.run(2.5)
 
     anna, bert = named(scene, "anna"), named(scene, "bert")
@@ -315,6 +315,6 @@ def test_who_drove_and_is_gone_leaves_a_robot_that_goes_home_by_itself_alone(sce
     scene.station.autonomy.engine.start(home, scene.now)
     before = len(scene.robot.commands)
     scene.clients.remove(scene.anna)
-    scene.station.gone(scene.anna)
+    scene.station.on_gone(scene.anna)
     assert len(scene.robot.commands) == before
     assert scene.task.state == "RUNNING"

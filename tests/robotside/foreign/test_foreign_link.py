@@ -250,7 +250,7 @@ async def test_a_robot_side_drives_patrols_and_stops_through_another_and_rests_w
         assert (robot.info.name, robot.info.max_speed) == ("Rex", 0.7)
         engine = serves.station.autonomy.engine
         serves.station.autonomy.place(ORIGIN)
-        await until(lambda: not serves.station.unfit)
+        await until(lambda: not serves.station.fitness.unfit)
 
         client.publish("/cmd_vel", SPEED)
         await until(lambda: SPEED in far.commands)
@@ -266,7 +266,7 @@ async def test_a_robot_side_drives_patrols_and_stops_through_another_and_rests_w
         await until(lambda: far.at_rest)
         assert await order(client, "/stop/release") == "STOP is released."
         # behind it is released a moment later
-        await until(lambda: not (robot.trouble or serves.station.unfit))
+        await until(lambda: not (robot.trouble or serves.station.fitness.unfit))
         assert await order(client, "/task/resume") == "Resumed."
         await until(lambda: far.pose[0] > 0.5)
 

@@ -155,8 +155,8 @@ async def test_a_task_is_paused_while_somebody_else_has_the_robot(tmp_path: Path
     async with two(tmp_path) as it:
         station = it.front.station
         station.autonomy.place(ORIGIN)
-        await until(lambda: not station.unfit)
-        station.keep(Mission(waypoints=[Waypoint(4.0, 0.0)]))
+        await until(lambda: not station.fitness.unfit)
+        station.missions.store(Mission(waypoints=[Waypoint(4.0, 0.0)]))
         await it.anna.call("/task/start", StartTaskRequest(), CommandResponse)
         await until(lambda: it.robot.pose[0] > 0.1)
         await order(it.fred, "/stop")

@@ -44,7 +44,7 @@ def test_a_wild_stick_never_gets_the_body_over_the_fence(robot: SimRobot, tmp_pa
             wanted = Twist.planar(rng.choice([0.7, 0.7, -0.7, 0.3]), turn)
             until, silent = now + rng.uniform(0.3, 4.0), rng.choice([0.0, 0.0, 1.0])
         if step % 6 == 0 and now < until - silent:
-            station.hear(anna, "/cmd_vel", wanted, None)
+            station.on_message(anna, "/cmd_vel", wanted, None)
         station.step(now)
         x, y, _ = robot.simulation.pose()
         rooms.append(float(fence.clearance(np.array([[x, y]]))[0]) - robot.info.radius)

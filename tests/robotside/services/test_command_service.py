@@ -65,7 +65,7 @@ async def test_what_cannot_be_written_is_refused_and_not_shown(slow: Slow) -> No
     slow.write(FULL)
     assert ((await answer).success, (await answer).message) == (False, FULL)
     assert await other == SetPlaceResponse(False, FULL, code="records_unwritten")
-    assert slow.station.mission == slow.last("/mission") == Mission()
+    assert slow.station.missions.current == slow.last("/mission") == Mission()
     assert slow.records.places.all() == []
 
 

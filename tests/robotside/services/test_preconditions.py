@@ -71,7 +71,7 @@ def test_the_mission_that_is_patrolled_is_changed_only_with_control(scene: Scene
     request = SetMissionRequest(mission=Mission(waypoints=[Waypoint(1.0, 1.0)]))
     bert = scene.client("bert")
     assert "has control" in scene.refused("/mission/set", request, bert)
-    scene.station.gone(scene.anna)
+    scene.station.on_gone(scene.anna)
     assert scene.ask("/mission/set", request, bert).success
     scene.run(0.1)
     assert scene.control.driver_id == "bert"
@@ -79,8 +79,8 @@ def test_the_mission_that_is_patrolled_is_changed_only_with_control(scene: Scene
 
 def test_who_says_where_the_robot_is_takes_control(scene: Scene) -> None:
     bert = scene.client("bert")
-    scene.station.hear(bert, "/initialpose", PLACED, None)
+    scene.station.on_message(bert, "/initialpose", PLACED, None)
     assert scene.control.driver_id == "bert"
-    scene.station.hear(scene.anna, "/initialpose", PLACED, None)
+    scene.station.on_message(scene.anna, "/initialpose", PLACED, None)
     assert "has control" in scene.events("command")[-1]
     assert sum("placed the robot" in said for said in scene.events("localisation")) == 1

@@ -197,7 +197,7 @@ def test_what_one_client_was_answered_is_no_answer_for_another(scene: Scene) -> 
 def test_a_place_off_the_map_is_refused_with_what_the_map_holds(scene: Scene, x: float, shown: str) -> None:
     before = scene.station.autonomy.pose_estimator.pose
     far = PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(x, 0.0))))
-    scene.station.hear(scene.anna, "/initialpose", far, None)
+    scene.station.on_message(scene.anna, "/initialpose", far, None)
     assert scene.station.autonomy.pose_estimator.pose == before
     assert scene.events("command") == [
         f"The place at ({shown}, 0.0) is off the map, which is x -11.0 to 11.0 m, y -7.0 to 7.0 m."
@@ -234,5 +234,5 @@ def test_a_mission_survives_a_restart(tmp_path: Path) -> None:
     scene.set(*SQUARE, motion="intermittent", dwell=3.0)
     again = Scene(FakeRobot(), tmp_path)
     mission = again.ask("/mission/get", GetMissionRequest()).mission  # type: ignore[attr-defined]
-    assert mission == scene.station.mission
+    assert mission == scene.station.missions.current
     assert mission.waypoints == SQUARE

@@ -136,7 +136,7 @@ async def test_a_client_hears_how_far_its_task_is_and_takes_it_back(tmp_path: Pa
         with pytest.raises(Refused, match="does not know yet where it is"):
             await client.goal("/task/run", RunTaskGoal()).result(5.0)
         station.autonomy.place(ORIGIN)
-        station.keep(Mission(waypoints=SQUARE))
+        station.missions.store(Mission(waypoints=SQUARE))
         goal = client.goal("/task/run", RunTaskGoal(client_name="script"), on_feedback=told)
         feedback = (await told.reach(1))[0]
         assert isinstance(feedback, RunTaskFeedback)
@@ -151,7 +151,7 @@ async def test_a_goal_ends_with_its_client(tmp_path: Path) -> None:
     async with serving(tmp_path, robot) as serves:
         station = serves.station
         station.autonomy.place(ORIGIN)
-        station.keep(Mission(waypoints=SQUARE))
+        station.missions.store(Mission(waypoints=SQUARE))
         station.bus.subscribe("/task/status", lambda _, msg: over(msg.state))  # type: ignore[attr-defined]
         async with connected(serves) as client:
             client.goal("/task/run", RunTaskGoal(client_name="script"))

@@ -48,7 +48,7 @@ def test_the_robot_is_at_rest_within_half_a_second_of_the_last_drive_command(sce
 
 def test_a_socket_that_closes_while_driving_stops_the_robot_at_once(scene: Scene) -> None:
     scene.drive(Twist.planar(0.3, 0.2))
-    scene.station.gone(scene.anna)
+    scene.station.on_gone(scene.anna)
     assert scene.robot.commands[-1] is None
     assert scene.control.driver == ""
 
@@ -124,7 +124,7 @@ def test_a_goal_in_a_wall_is_said_and_not_driven_to(scene: Scene) -> None:
 def test_a_pose_that_is_no_number_is_said_and_ignored(scene: Scene) -> None:
     before = scene.station.autonomy.pose_estimator.pose
     bad = PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(math.nan, 0.0))))
-    scene.station.hear(scene.anna, "/initialpose", bad, None)
+    scene.station.on_message(scene.anna, "/initialpose", bad, None)
     assert scene.station.autonomy.pose_estimator.pose == before
     assert scene.events("command")
 
@@ -190,9 +190,10 @@ def test_what_others_call_things_is_cut_wherever_it_is_kept(scene: Scene) -> Non
     scene.ask("/control/acquire", CommandRequest(client_id="c" * 900_000, client_name=long))
     assert (scene.control.driver, len(scene.control.driver_id)) == (shown, 64)
     scene.set(Waypoint(4.0, 0.0, name=long), home=[Waypoint(0.0, 0.0, name=long)])
-    assert {place.name for place in (*scene.station.mission.waypoints, *scene.station.mission.home)} == {
-        "A " + "b" * 58
-    }
+    assert {
+        place.name
+        for place in (*scene.station.missions.current.waypoints, *scene.station.missions.current.home)
+    } == {"A " + "b" * 58}
     assert len(scene.refused("/task/start", StartTaskRequest(task=long))) <= 300
     assert "at most 64 characters, not 65" in scene.refused("/task/pause", CommandRequest("c" * 65))
     assert scene.ask("/stop", CommandRequest("c" * 65)).success
@@ -242,7 +243,7 @@ def test_only_who_has_control_may_place_the_robot_while_somebody_has_it(scene: S
     scene.ask("/control/acquire", CommandRequest(client_name="Anna"))
     before = scene.station.autonomy.pose_estimator.pose
     there = PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(3.0, 3.0))))
-    scene.station.hear(scene.client("bert"), "/initialpose", there, None)
+    scene.station.on_message(scene.client("bert"), "/initialpose", there, None)
     assert scene.station.autonomy.pose_estimator.pose == before
     assert scene.events("command")[-1].startswith("Anna has control")
 

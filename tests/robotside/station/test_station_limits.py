@@ -160,7 +160,7 @@ def test_from_outside_the_fence_no_task_starts_and_the_way_back_by_hand_is_free(
     scene.robot.pose = (8.0, 0.0, math.pi)
     placed = Pose(Point(8.0, 0.0), Quaternion.from_yaw(math.pi))
     there = PoseWithCovarianceStamped(pose=PoseWithCovariance(placed))
-    scene.station.hear(scene.anna, "/initialpose", there, None)
+    scene.station.on_message(scene.anna, "/initialpose", there, None)
     scene.run(1.0)
     said = scene.refused("/task/start", StartTaskRequest())
     assert said.startswith("The robot at (8.")

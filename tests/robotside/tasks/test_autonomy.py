@@ -64,7 +64,7 @@ def test_a_robot_that_was_placed_by_a_finger_finds_its_exact_pose(tmp_path: Path
     scene = Scene(hall, tmp_path)
     told = Pose(Point(-5.5, 1.6), Quaternion.from_yaw(0.5))
     scene.run(0.5)
-    scene.station.hear(
+    scene.station.on_message(
         scene.anna, "/initialpose", PoseWithCovarianceStamped(pose=PoseWithCovariance(told)), None
     )
     scene.run(2.0)
@@ -153,7 +153,7 @@ def test_a_robot_that_was_carried_away_says_that_it_is_unsure_creeps_and_can_be_
     scene.ask("/task/pause")
     x, y, yaw = scene.robot.pose
     told = Pose(Point(x + 0.4, y - 0.3), Quaternion.from_yaw(yaw + 0.2))
-    scene.station.hear(
+    scene.station.on_message(
         scene.anna, "/initialpose", PoseWithCovarianceStamped(pose=PoseWithCovariance(told)), None
     )
     scene.run(1.0)
@@ -172,7 +172,7 @@ def test_a_pose_told_by_a_finger_half_a_metre_off_is_put_right_by_the_next_sweep
         scene.robot.pose = (x, y, yaw)
         told = Pose(Point(x + off, y - 0.3), Quaternion.from_yaw(yaw + 0.2))
         stamped = PoseWithCovarianceStamped(pose=PoseWithCovariance(told))
-        scene.station.hear(scene.anna, "/initialpose", stamped, None)
+        scene.station.on_message(scene.anna, "/initialpose", stamped, None)
         scene.run(0.5)
         pose = scene.station.autonomy.pose_estimator.pose
         assert pose is not None

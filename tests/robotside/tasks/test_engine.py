@@ -92,7 +92,7 @@ def test_the_patrol_goes_on_when_every_handheld_is_gone(scene: Scene) -> None:
     scene.set(*SQUARE, laps=1)
     scene.start()
     scene.run(1.0)
-    scene.station.gone(scene.anna)
+    scene.station.on_gone(scene.anna)
     assert not scene.robot.at_rest
     assert scene.run_task().state == "SUCCEEDED"
 

@@ -22,7 +22,7 @@ from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
 from bridge.msgs.pilothouse_msgs import CommandRequest, Event, SetMissionRequest, StartTaskRequest
 from robotside.control.neutral_interlock import LET_GO
 from robotside.core.pose2 import ORIGIN
-from robotside.station.station import NO_MAP
+from robotside.station.fitness import NO_MAP
 from tests.fakes import FakeRobot
 from tests.robotside.scene import SQUARE, Scene
 
@@ -56,12 +56,14 @@ def lost_map(tmp_path: Path) -> Iterator[Scene]:
 def test_without_a_map_it_drives_by_hand_and_says_why_it_does_nothing_else(lost_map: Scene) -> None:
     lost_map.drive(Twist.planar(0.3, 0.0))
     assert lost_map.robot.twist == Twist.planar(0.3, 0.0)
-    mission = SetMissionRequest(mission=msgspec.structs.replace(lost_map.station.mission, waypoints=SQUARE))
+    mission = SetMissionRequest(
+        mission=msgspec.structs.replace(lost_map.station.missions.current, waypoints=SQUARE)
+    )
     assert lost_map.refused("/mission/set", mission) == NO_MAP
     assert lost_map.refused("/task/start", StartTaskRequest()) == NO_MAP
     lost_map.go_to(1.0, 0.0)
     placed = PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(1.0, 0.0))))
-    lost_map.station.hear(lost_map.anna, "/initialpose", placed, None)
+    lost_map.station.on_message(lost_map.anna, "/initialpose", placed, None)
     assert lost_map.events("command") == [NO_MAP, NO_MAP]
     assert lost_map.of("/pose") == []
 
@@ -139,7 +141,7 @@ def test_a_robot_whose_first_map_is_of_no_use_is_driven_by_hand(tmp_path: Path) 
     assert said.startswith("The map is of no use: its cells are 1e-09 m wide")
     scene.drive(AHEAD)
     assert robot.commands[-1] == AHEAD
-    assert scene.station.unfit == NO_MAP
+    assert scene.station.fitness.unfit == NO_MAP
     scene.station.close()
 
 
@@ -155,7 +157,7 @@ def test_a_map_that_does_not_fit_into_the_memory_is_left_out(
     lost_map.run(1.0)
     said = "The map is of no use: 30800 cells are too many for this computer."
     assert lost_map.events("localisation")[-1] == said
-    assert lost_map.station.unfit == NO_MAP
+    assert lost_map.station.fitness.unfit == NO_MAP
 
 
 def test_a_map_without_cells_is_of_no_use(lost_map: Scene) -> None:

@@ -1,0 +1,52 @@
+"""Placement of the robot on its map by an operator."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from bridge.core.codes import Code
+from bridge.core.robot_catalogue import Operator
+from robotside.control.command_gate import Controls
+from robotside.core.notice import Notice, Problem
+from robotside.core.pose2 import Pose2
+from robotside.records.events import Say
+from robotside.station.fitness import Fitness
+from robotside.tasks.autonomy import Autonomy
+
+__all__ = ["Placing"]
+
+
+class Placing:
+    """Places the robot for who has control or takes it: tasks and the fence go by where the robot is."""
+
+    def __init__(
+        self,
+        controls: Controls,
+        autonomy: Autonomy,
+        fitness: Fitness,
+        say: Say,
+        clock: Callable[[], float],
+    ) -> None:
+        """`clock` is the operators' [s]."""
+        self._controls, self._autonomy, self._fitness = controls, autonomy, fitness
+        self._say, self._clock = say, clock
+
+    def place(self, client: Operator, pose: Pose2) -> None:
+        """Take `pose` in `map` for where the robot is; an event says so, or why not."""
+        problem = self._problem(client, pose)
+        if problem:
+            self._say("command", problem, "warn")
+            return
+        self._autonomy.place(pose)
+        name, who = self._controls.name(client), self._controls.id(client)
+        text = f"{name} placed the robot at ({pose.x:.1f}, {pose.y:.1f})."
+        placed = Notice(Code.POSITION_PLACED, text, actor_id=who, name=name, x=pose.x, y=pose.y)
+        self._say("localisation", placed, at=(pose.x, pose.y))
+
+    def _problem(self, client: Operator, pose: Pose2) -> Problem:
+        problem = self._controls.acquire(client, self._clock())
+        if not all(map(math.isfinite, pose)):
+            return Notice(Code.POSITION_INVALID, "The pose to place the robot at is not all numbers.")
+        planner = self._autonomy.navigator.planner
+        return problem or self._fitness.mapless or planner.off_map("The place", pose.x, pose.y)
