@@ -17,13 +17,13 @@ from bridge.core.address import host_and_port
 from bridge.core.errors import BridgeError, NotConnected
 from bridge.core.network_thread import NetworkThread
 from bridge.core.topic_choice import drive_message
+from bridge.core.topics import CAMERA
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, ControlStatus
 from bridge.msgs.rosapi_msgs import TopicsResponse
 from robotside.core.text import plain
 from robotside.foreign.foreign_topics import CONTROL, Found, match, usual
-from robotside.tasks.autonomy import CAMERA
 
 __all__ = ["ForeignLink", "Listener"]
 

@@ -12,6 +12,7 @@ from urllib.parse import urlsplit
 import msgspec
 
 from bridge.core.address import host_and_port
+from bridge.core.topics import CAMERA
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Event, RobotInfo
@@ -20,7 +21,6 @@ from bridge.msgs.std_msgs import Time
 from robotside.core.text import plain
 from robotside.foreign.foreign_link import ForeignLink, Listener
 from robotside.foreign.foreign_topics import Found
-from robotside.tasks.autonomy import CAMERA
 
 __all__ = ["ForeignRobot", "Link"]
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Operator
+from robotside.autonomy.autonomy import LOW_BELOW
 from robotside.control.command_gate import STOP_SENTENCE
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.station.fitness import NO_MAP
 from robotside.station.station import Station
-from robotside.tasks.autonomy import LOW_BELOW
 from robotside.tasks.engine import TO_CHARGE, Task
 from robotside.tasks.task_factory import words_for
 

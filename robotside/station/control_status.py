@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import ControlStatus
 from bridge.msgs.std_msgs import Time
+from robotside.autonomy.readiness import Readiness
 from robotside.control.command_gate import Controls
 from robotside.control.teleop import LOST_LINK_STOPS_TASK, Options
 from robotside.core.bus import Publish
@@ -16,7 +17,6 @@ from robotside.core.notice import Notice
 from robotside.records.events import Say
 from robotside.station.rest_detector import RestDetector
 from robotside.tasks.engine import Engine
-from robotside.tasks.readiness import Readiness
 
 __all__ = ["ControlStatusPublisher"]
 

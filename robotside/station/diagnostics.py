@@ -6,8 +6,8 @@ import math
 
 from bridge.msgs.diagnostic_msgs import DiagnosticArray, DiagnosticStatus
 from bridge.msgs.std_msgs import Header, Time
+from robotside.autonomy.autonomy import Autonomy
 from robotside.control.command_gate import Controls
-from robotside.tasks.autonomy import Autonomy
 
 __all__ = ["diagnostics"]
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from bridge.core.codes import Code
+from robotside.autonomy.autonomy import Autonomy
 from robotside.control.command_gate import Controls
 from robotside.core.notice import Notice, Problem
 from robotside.limits.limits import LimitKeeper
-from robotside.tasks.autonomy import Autonomy
 
 __all__ = ["NO_MAP", "Fitness"]
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from bridge.msgs.pilothouse_msgs import TaskOrder
+from robotside.autonomy.autonomy import Autonomy
 from robotside.control.command_gate import Controls
 from robotside.core.refusal import Refusal
 from robotside.station.fitness import Fitness
-from robotside.tasks.autonomy import Autonomy
 
 __all__ = ["HomeReturn"]
 

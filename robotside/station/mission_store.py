@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Mission
+from robotside.autonomy.autonomy import Autonomy
 from robotside.core.notice import Notice
 from robotside.records import Records
 from robotside.records.events import Say
-from robotside.tasks.autonomy import Autonomy
 
 __all__ = ["MissionStore"]
 

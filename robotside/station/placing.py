@@ -7,12 +7,12 @@ from collections.abc import Callable
 
 from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Operator
+from robotside.autonomy.autonomy import Autonomy
 from robotside.control.command_gate import Controls
 from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Pose2
 from robotside.records.events import Say
 from robotside.station.fitness import Fitness
-from robotside.tasks.autonomy import Autonomy
 
 __all__ = ["Placing"]
 

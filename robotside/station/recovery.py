@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from robotside.autonomy.autonomy import Autonomy
 from robotside.core.bus import Bus
 from robotside.records import Records
-from robotside.tasks.autonomy import Autonomy
 from robotside.tasks.interrupted_task import InterruptedTask
 from robotside.tasks.task_history import TaskHistory
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from robotside.autonomy.autonomy import Autonomy
 from robotside.kinds.registry import kind_of
 from robotside.station.port_watch import PortWatch
-from robotside.tasks.autonomy import Autonomy
 
 __all__ = ["RestDetector"]
 

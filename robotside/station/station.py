@@ -22,6 +22,8 @@ from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
 from bridge.msgs.nav_msgs import OccupancyGrid
 from bridge.msgs.pilothouse_msgs import Event, IntruderArray, Manoeuvre, RobotInfo
 from bridge.msgs.std_msgs import Header, Time
+from robotside.autonomy.autonomy import Autonomy
+from robotside.autonomy.readiness import Readiness
 from robotside.control.command_gate import Controls
 from robotside.control.guarded_robot import Guarded, port_info
 from robotside.control.safe_state import SafeState
@@ -52,8 +54,6 @@ from robotside.station.remarks import Remarks
 from robotside.station.rest_detector import RestDetector
 from robotside.station.stop_control import StopControl
 from robotside.tasks.agenda import Agenda
-from robotside.tasks.autonomy import Autonomy
-from robotside.tasks.readiness import Readiness
 from robotside.tasks.task_factory import tasks_of
 
 __all__ = ["Station"]

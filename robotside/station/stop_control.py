@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import RobotInfo
+from robotside.autonomy.readiness import Readiness
 from robotside.control.command_gate import Controls
 from robotside.control.guarded_robot import Guarded
 from robotside.control.stop_consequences import still_moves
@@ -17,7 +18,6 @@ from robotside.motion.measured import MeasuredState
 from robotside.records import Records
 from robotside.records.events import Say
 from robotside.tasks.engine import Engine
-from robotside.tasks.readiness import Readiness
 
 __all__ = ["StopControl"]
 

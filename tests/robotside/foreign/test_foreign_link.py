@@ -14,6 +14,7 @@ import pytest
 
 from bridge.client.client import BridgeClient
 from bridge.core.address import BadAddress
+from bridge.core.topics import CAMERA
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
@@ -33,7 +34,6 @@ from robotside.foreign.foreign_robot import ForeignRobot
 from robotside.foreign.foreign_topics import Found
 from robotside.serving.station_server import Addresses, Serving
 from robotside.station.station import Station
-from robotside.tasks.autonomy import CAMERA
 from tests.bridge.client.foreign_server import ForeignServer, foreign
 from tests.bridge.wires import wire
 from tests.fakes import FakeRobot

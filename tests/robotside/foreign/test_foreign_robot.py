@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 import pytest
 
+from bridge.core.topics import CAMERA
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
@@ -17,7 +18,6 @@ from bridge.msgs.std_msgs import Header, Time
 from robotside.foreign.foreign_link import Listener
 from robotside.foreign.foreign_robot import JPEG, REPEAT, RESTS, ForeignRobot
 from robotside.foreign.foreign_topics import Found
-from robotside.tasks.autonomy import CAMERA
 
 URL = "ws://robot:9090"
 SPEED, REST = Twist.planar(0.3, 0.0), Twist()

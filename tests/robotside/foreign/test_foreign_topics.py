@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from bridge.core.topics import CAMERA
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import LineSensor
 from bridge.msgs.sensor_msgs import Range
 from robotside.foreign.foreign_topics import CONTROL, match, usual
-from robotside.tasks.autonomy import CAMERA
 
 TURTLEBOT = {
     "/odom": "nav_msgs/Odometry",

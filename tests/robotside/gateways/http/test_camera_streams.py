@@ -12,11 +12,11 @@ import httpx
 import msgspec
 import pytest
 
+from bridge.core.topics import CAMERA
 from bridge.msgs.sensor_msgs import CompressedImage
 from robotside.gateways.http import browser_connection as visit
 from robotside.gateways.http import camera_streams as streams
 from robotside.serving.station_server import Serving
-from robotside.tasks.autonomy import CAMERA
 from tests.fakes import FakeRobot
 from tests.robotside.gateways.scaling.test_picture_scaling import PHOTO, size
 from tests.robotside.serving.test_station_server import serving

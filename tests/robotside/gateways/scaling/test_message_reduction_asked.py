@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from robotside.tasks.autonomy import CAMERA
+from bridge.core.topics import CAMERA
 from tests.bridge.peers import Peer, peer
 from tests.robotside.gateways.http.test_camera_streams import filming, shoot
 from tests.robotside.gateways.scaling.test_picture_scaling import PHOTO, size

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from robotside.tasks.checklist import CheckInputs, checks
+from robotside.autonomy.checklist import CheckInputs, checks
 
 WELL = CheckInputs(
     battery=0.8, low_below=0.15, silent=(), placed=True, sure=True, stop_tested=True, offset=-0.02

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from bridge.core.codes import Code
+from bridge.core.topics import CAMERA
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseStamped
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry, Path
@@ -26,6 +27,7 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header, Time
+from robotside.autonomy.sensor_health import needed
 from robotside.core.bus import Bus
 from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Points, Pose2
@@ -46,13 +48,11 @@ from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.patrol import patrol_route
 from robotside.tasks.behaviours.situation import Seen, Situation
 from robotside.tasks.engine import TO_CHARGE, Engine
-from robotside.tasks.sensor_health import needed
 from robotside.tasks.task_factory import TaskFactory
 from robotside.tasks.task_status_publisher import TaskStatusPublisher
 
-__all__ = ["CAMERA", "LOW_BELOW", "Autonomy"]
+__all__ = ["LOW_BELOW", "Autonomy"]
 
-CAMERA = "/camera/image/compressed"
 
 GO_HOME_BELOW = 0.10
 """A task that moves the robot ends and it goes home when the battery has less than this left, 0 to 1."""

@@ -16,9 +16,9 @@ from bridge.msgs.geometry_msgs import (
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import LineSensor
 from bridge.msgs.sensor_msgs import Imu, LaserScan, Range
+from robotside.autonomy.sensor_health import SENSOR_TIMEOUT, SensorHealth, needed
 from robotside.core.pose2 import Pose2
 from robotside.motion.stopping_path import PlanarVelocity
-from robotside.tasks.sensor_health import SENSOR_TIMEOUT, SensorHealth, needed
 
 MOVING = Twist(Vector3(0.3, 0.1), Vector3(0.0, 0.0, 0.2))
 ODOM = Odometry(pose=PoseWithCovariance(Pose(Point(0.0, 0.0, -2.0))), twist=TwistWithCovariance(MOVING))

@@ -7,10 +7,10 @@ from collections.abc import Callable
 
 from bridge.msgs.pilothouse_msgs import Check, Checklist
 from bridge.msgs.std_msgs import Time
+from robotside.autonomy.autonomy import LOW_BELOW, Autonomy
+from robotside.autonomy.checklist import CheckInputs, checks
+from robotside.autonomy.sensor_health import SensorHealth
 from robotside.core.bus import Publish
-from robotside.tasks.autonomy import LOW_BELOW, Autonomy
-from robotside.tasks.checklist import CheckInputs, checks
-from robotside.tasks.sensor_health import SensorHealth
 
 __all__ = ["Readiness"]
 
