@@ -12,39 +12,30 @@ from kivy.uix.widget import Widget
 import widgets
 from app.layout.layout import SAYS, SLIDER, Control, Layout
 from app.link.channels import OFFER, OUTCOME
-from app.link.commands import Outcome
 from app.link.control_mixer import Parts, Piloting, Reach
 from app.link.drive_slot import Drive
 from app.link.feeds import Post
 from app.screens.drive.arm_control import ARM, ArmHand
+from app.screens.drive.asking_controls import AskingControls
+from app.screens.drive.control_reach import ControlReach
 from app.screens.drive.drive_blocked import InVain, grounded
-from app.screens.drive.speed_card import SpeedCard, allowed
+from app.screens.drive.speed_card import SpeedCard
 from app.screens.drive.tilt_control import TILT, TiltHand
 from app.session.dashboard import Dashboard
-from app.session.layout_actions import ACTIONS, Actions
+from app.session.layout_actions import Actions
 from app.session.session import Session
-from bridge.msgs.geometry_msgs import PoseStamped
 from bridge.msgs.nav_msgs import Odometry
-from bridge.msgs.pilothouse_msgs import FlightState, TaskOrder, TaskStatus, Waypoint
+from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets.controls.sticks.stick import Stick
 from widgets.controls.sticks.tilt_circle import TiltCircle
 
-__all__ = ["Hands"]
+__all__ = ["DriveControls"]
 
-FIRST = 0.6
-"""Share of the robot's greatest speed that the slider begins with."""
 CAPTIONS = {"landed": "take off first", "turned_over": "on its back"}
 """What stands on a stick in a phase of a flight in which it moves nothing."""
-VAIN = {
-    "landed": ("task.land",),
-    "flying": ("task.take_off",),
-    "turned_over": ("task.land", "task.take_off"),
-}
-OWN = Reach()
-"""What the controls mean where the robot does not say what it can."""
 
 
-class Hands(EventDispatcher):
+class DriveControls(EventDispatcher):
     """Made once for a screen, which puts the widgets where they belong. Everything here happens in the UI thread."""
 
     chosen = StringProperty("")
@@ -55,19 +46,12 @@ class Hands(EventDispatcher):
     ) -> None:
         """`actions` does what a slide confirms, `in_vain` tells why a push does nothing."""
         self._session, self._dashboard = session, dashboard
-        self._actions, self._in_vain = actions, in_vain
+        self._in_vain = in_vain
         self.places: dict[str, list[Widget]] = {}
         """Widgets by slot, in the order of the layout."""
-        self.speed: SpeedCard | None = None
-        """How fast the others are at the end of their way; None where nothing says that."""
+        self._reach = ControlReach(session, self._on_reach)
         self._sticks: list[tuple[Stick, Control]] = []
-        self._asking: list[tuple[Any, Control]] = []
-        """Controls that ask for something once."""
-        self._asked: tuple[Any, str, str] | None = None
-        """The control that asked last, by which command, and for which task; None once that is answered."""
-        self._limited = False
-        self.reach = OWN
-        """What the controls mean at the end of their way now."""
+        self._asking = AskingControls(session, actions)
         self.arm = ArmHand(session, dashboard, in_vain)
         super().__init__()
         self._names_all = len({one.slot for one in layout.controls if _drives(one)}) > 1
@@ -133,13 +117,18 @@ class Hands(EventDispatcher):
         return [(one, left[one.slot].pop(0)) for one in layout.controls]
 
     def _add(self, one: Control) -> None:
-        widget = self._slider() if one.widget == SLIDER else self._made(one)
+        widget = self._reach.make_slider() if one.widget == SLIDER else self._made(one)
         self.places.setdefault(one.slot, []).append(widget)
 
-    def _slider(self) -> SpeedCard:
-        self.speed = SpeedCard()
-        self.speed.bind(maximum_speed=self._limit)
-        return self.speed
+    @property
+    def speed(self) -> SpeedCard | None:
+        """How fast the others are at the end of their way; None where nothing says that."""
+        return self._reach.speed
+
+    @property
+    def reach(self) -> Reach:
+        """What the controls mean at the end of their way now."""
+        return self._reach.reach
 
     def _made(self, one: Control) -> Any:
         kind = getattr(widgets, one.widget)
@@ -153,22 +142,8 @@ class Hands(EventDispatcher):
             self._caption(widget, one)
             widget.bind(on_command=lambda stick, said: self._pushed(stick, said, one))
         else:
-            self._asking.append((widget, one))
-            self._wire(widget, one)
+            self._asking.add(widget, one)
         return widget
-
-    def _wire(self, widget: Any, one: Control) -> None:
-        """What a control that is no stick asks for when it is used."""
-        words = ACTIONS.get(one.action, ("", ""))
-        for name, value in (("text", one.title or _within(words[0])), ("icon", one.icon or words[1])):
-            if value and hasattr(widget, name):
-                setattr(widget, name, value)
-        if hasattr(widget, "on_confirm"):
-            widget.bind(on_confirm=lambda _: self._act(widget, one.action))
-        elif hasattr(widget, "on_course"):
-            widget.bind(on_course=lambda _, yaw: self._follow(widget, yaw))
-        elif PoseStamped in getattr(widget, "sends", ()):
-            widget.bind(on_command=lambda _, goal: self._go_to(widget, goal))
 
     # what the fingers do
 
@@ -191,24 +166,6 @@ class Hands(EventDispatcher):
         session = self._session
         return tuple(session.robot.info.manoeuvres) if session.link.steers else ()
 
-    def _act(self, widget: Any, what: str) -> None:
-        name = self._actions.confirm(what)
-        self._asked = (widget, name, what.removeprefix("task.")) if name else None
-
-    def _follow(self, widget: Any, yaw: float) -> None:
-        self._start(widget, TaskOrder(task="follow_heading", heading=yaw))
-
-    def _go_to(self, widget: Any, goal: PoseStamped) -> None:
-        point, yaw = goal.pose.position, goal.pose.orientation.yaw
-        self._start(widget, TaskOrder(task="go_to", goals=[Waypoint(point.x, point.y, yaw)]))
-
-    def _start(self, widget: Any, order: TaskOrder) -> None:
-        session, self._asked = self._session, (widget, "start", order.task)
-        if session.running:
-            session.tasking.start_instead(order)
-        else:
-            session.tasking.start(order)
-
     # what the screen calls
 
     @property
@@ -220,7 +177,7 @@ class Hands(EventDispatcher):
     def grips(self) -> list[Any]:
         """What a finger may hold besides and is on the glass."""
         arm = [self.arm.panel] if self.chosen == ARM else []
-        return [*(widget for widget, _ in self._asking if self.shown(widget)), *arm]
+        return [*(widget for widget in self._asking.widgets if self.shown(widget)), *arm]
 
     def hear(self, channel: str, post: Post) -> None:
         """A message came: what the robot may, and what became of what was asked for."""
@@ -230,20 +187,7 @@ class Hands(EventDispatcher):
             self._retake()
         elif channel == OUTCOME:
             self.arm.hear(post.value)
-            self._answer(post.value)
-
-    def _answer(self, outcome: Outcome) -> None:
-        """Tell the control that asked."""
-        if self._asked is None:
-            return
-        widget, name, task = self._asked
-        order = outcome.fields.get("order")
-        if outcome.name != name or (order is not None and order.task != task):
-            return
-        if hasattr(widget, "answer"):
-            widget.answer(outcome.phase)
-        if outcome.phase != "sent":
-            self._asked = None
+            self._asking.on_outcome(post.value)
 
     def shown(self, widget: Widget) -> bool:
         """It is on the glass, and not the other one of its slot."""
@@ -251,8 +195,9 @@ class Hands(EventDispatcher):
 
     def rest(self) -> None:
         """Every control lets go."""
-        for widget, _ in (*self._sticks, *self._asking):
-            widget.rest()
+        for stick, _ in self._sticks:
+            stick.rest()
+        self._asking.rest()
         self.arm.rest()
 
     def tick(self) -> None:
@@ -262,18 +207,7 @@ class Hands(EventDispatcher):
         for stick, one in self._sticks:
             stick.state = "live" if session.may_drive and not phase else "disabled"
             self._caption(stick, one, phase if session.may_drive else "")
-        able = {action.name: action for action in self._actions.slides()}
-        asked = session.may_ask and not session.robot_stop.latched
-        for widget, one in self._asking:
-            action = able.get(one.action)
-            may = (action is not None and action.able) if one.action else asked
-            may = may and (not one.action or one.action not in self._vain())
-            widget.state = "live" if may else "disabled"
-            if action is not None and not one.title and hasattr(widget, "text"):
-                widget.text = _within(action.text)
-        slides = [widget for widget, _ in self._asking if hasattr(widget, "kin")]
-        for widget in slides:
-            widget.kin = [other.text for other in slides if other is not widget]
+        self._asking.tick()
         self._tell_driven()
         self.arm.tick()
 
@@ -304,58 +238,13 @@ class Hands(EventDispatcher):
         way = told.twist.twist.linear
         return f"{math.hypot(way.x, way.y, way.z):.1f}\u00a0m/s"
 
-    def _vain(self) -> tuple[str, ...]:
-        """The actions that do nothing: what flies need not take off, what stands need not land, what lies on its back can neither."""
-        flight: FlightState | None = self._session.feeds.latest("/flight")
-        if flight is None or self._session.feeds.state("/flight") != "live":
-            return ()
-        return VAIN.get(flight.phase, ())
-
     def take_limits(self) -> None:
         """The slider's range is the robot's; where it stood is kept."""
-        limits, info = self._session.feeds.latest("/limits"), self._session.robot.info
-        fastest, _ = allowed(info, limits)
-        if self.speed is not None:
-            self._range(self.speed, fastest)
-        self._limited = self._limited or bool(info.max_speed)
-        self._limit()
+        self._reach.update()
 
-    def _range(self, speed: SpeedCard, fastest: float) -> None:
-        limits = self._session.feeds.latest("/limits")
-        speed.speed_limit = limits.max_speed if limits is not None else math.nan
-        speed.turn_limit = limits.max_yaw_rate if limits is not None else math.nan
-        fader = speed.ids.fader
-        if self._limited and fader.maximum == fastest:
-            return
-        fader.minimum, fader.maximum, fader.step = fastest / 10, fastest, 0.0
-        wanted = speed.maximum_speed if self._limited else fastest * FIRST
-        fader.value = min(max(wanted, fader.minimum), fastest)
-        speed.maximum_speed = fader.value
-
-    def _limit(self, *_: object) -> None:
-        """Slow on the slider is slow in everything but turning, which is never below half, and steering, which is whole."""
-        info = self._session.robot.info
-        fastest, turn = allowed(info, self._session.feeds.latest("/limits"))
-        speed = self.speed.maximum_speed if self.speed is not None else fastest
-        share = min(1.0, speed / fastest)
-        self.reach = Reach(
-            speed=speed,
-            yaw_rate=turn * (0.5 + 0.5 * share),
-            climb=info.max_climb * share,
-            tilt=(info.max_tilt or OWN.tilt) * share,
-            steering=info.max_steering or OWN.steering,
-        )
-        ends = {
-            "max_speed": speed,
-            "max_yaw_rate": self.reach.yaw_rate,
-            "max_tilt": self.reach.tilt,
-            "max_steering": self.reach.steering,
-            "most": share,
-        }
-        for stick, _control in self._sticks:
-            for name, end in ends.items():
-                if hasattr(stick, name):
-                    setattr(stick, name, end)
+    def _on_reach(self) -> None:
+        for stick, _ in self._sticks:
+            self._reach.show_on(stick)
         self._retake()
 
     def _retake(self) -> None:
@@ -365,8 +254,3 @@ class Hands(EventDispatcher):
 
 def _drives(one: Control) -> bool:
     return one.widget != SLIDER and issubclass(getattr(widgets, one.widget), Stick)
-
-
-def _within(words: str) -> str:
-    """Words as they are written within a sentence."""
-    return words[:1].lower() + words[1:]

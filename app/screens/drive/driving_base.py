@@ -17,7 +17,7 @@ from app.link.camera_decoder import Picture
 from app.link.channels import OFFER
 from app.link.feeds import Post
 from app.screens.drive.drive_blocked import InVain
-from app.screens.drive.drive_controls import Hands
+from app.screens.drive.drive_controls import DriveControls
 from app.screens.drive.instruments import Instruments
 from app.screens.drive.small_sensors import Senses
 from app.screens.shell.check_card import CheckCard
@@ -62,7 +62,7 @@ class Driving(FloatLayout):
         confirmed = (Action(one.action) for one in layout.controls if one.action)
         self.does = Actions((*layout.actions, *confirmed), session, app)
         self.instruments = Instruments(layout, self.dashboard, session.feeds)
-        self.hands = Hands(layout, session, self.dashboard, self.does, self.in_vain)
+        self.hands = DriveControls(layout, session, self.dashboard, self.does, self.in_vain)
         self.senses = Senses(session.feeds)
         for gauge, topics in self.instruments.senses:
             self.senses.add(gauge, topics)

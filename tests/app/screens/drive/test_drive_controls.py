@@ -1,4 +1,4 @@
-"""Hands of the drive screen: what is held follows what slider, limits and kind of the robot come to mean."""
+"""DriveControls of the drive screen: what is held follows what slider, limits and kind of the robot come to mean."""
 
 from __future__ import annotations
 
