@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
-from functools import partial
 from typing import Any
 
-from kivy.clock import Clock
 from kivy.lang import Builder
 from kivy.properties import ListProperty, NumericProperty, ObjectProperty, StringProperty
-from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
-from kivy.uix.widget import Widget
 
 from app.layout import arrange
 from app.layout.arrange import Rect
@@ -20,24 +15,23 @@ from app.link.camera_decoder import Picture
 from app.link.channels import EVENT, OFFER, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
+from app.screens.mission.map_corner import MapCorner
 from app.screens.mission.map_pointing import MODES, Pointing
+from app.screens.mission.map_tools import MapTools, float_over
 from app.screens.mission.mission_maps import Maps
+from app.screens.mission.mission_on_map import MissionOnMap
 from app.screens.mission.mission_panel import MissionPanel
 from app.screens.parts.placing import put
 from app.screens.shell.check_card import CheckCard
 from app.session.dashboard import Dashboard
-from app.session.fence_refusals import summary
 from app.session.session import Session
-from bridge.msgs.pilothouse_msgs import Place, RobotInfo, TaskStatus
+from bridge.msgs.pilothouse_msgs import Place, RobotInfo
 from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import Compass, Video
 from widgets.map.map_overlay import MapOverlay
-from widgets.parts.kit import IconButton
 
 __all__ = ["MissionScreen"]
 
-SCALE = 64.0
-"""Height that scale and legend take up at the foot of the map [dp]."""
 
 Builder.load_string("""
 <MissionScreen>:
@@ -93,17 +87,18 @@ class MissionScreen(FloatLayout):
         self._pointing = Pointing(self, self.session)
         self.selection = self._pointing.bar
         self.checks = CheckCard(self.session, self.dashboard)
-        self.corner = BoxLayout(orientation="vertical", spacing="8dp", size_hint=(None, None))
+        self._drawing = MissionOnMap(self.session, self._maps, self.panel, self._pointing)
+        self._corner = MapCorner(self.selection, self.checks)
+        self.corner = self._corner.box
         """Over the map: what is selected and the check list, one above the other."""
+        self._tools = MapTools(self.session, self._look, self.change_map)
         self._form, self._body, self._dp = "wide", Rect(0, 0, 1, 1), 1.0
-        self._cover: Rect | None = None
-        self._settle_soon = Clock.create_trigger(self._settle, -1)
         self._build()
         self._bind_map()
         self.bind(mode=self._mode_changed, sheet=self._rearrange)
         self.session.mission.on_change = self._chain(self.session.mission.on_change)
-        self._bar = self.notice = self._body
-        self._show_draft()
+        self.notice = self._body
+        self._drawing.show_draft()
 
     @property
     def map(self) -> MapOverlay:
@@ -113,7 +108,7 @@ class MissionScreen(FloatLayout):
     def _chain(self, first: Callable[[], object]) -> Callable[[], None]:
         def both() -> None:
             first()
-            self._show_draft()
+            self._drawing.show_draft()
 
         return both
 
@@ -124,32 +119,15 @@ class MissionScreen(FloatLayout):
         ids.ground.add_widget(self.map)
         for widget in (self.video, self.compass, self.panel.readouts):
             widget.size_hint = (None, None)
-        self._build_tools()
+        ids.update(self._tools.buttons)
         self.add_widget(self.panel)
         self.panel.tasks.size_hint = (None, None)
         self.panel.tasks.bind(on_command=lambda _, name: self._pointing.set_going(name))
         self.panel.lacking.bind(on_choose=lambda _, screen: self.app.show(screen))
         ids.handle.bind(on_touch_down=self._pull)
         ids.floats.add_widget(self.corner)
-        for listed in (self.selection, self.checks):
-            listed.bind(height=self._settle_soon)
         ids.update({"map": self.map, "video": self.video, "selection": self.selection, "panel": self.panel})
         ids.update({"tasks": self.panel.tasks, "send": self.panel.ids.send, "motion": self.panel.motion})
-
-    def _build_tools(self) -> None:
-        self._tools: dict[str, IconButton] = {}
-        for name, icon, act in (
-            ("zoom_in", "add", partial(self._look, "zoom_in")),
-            ("zoom_out", "remove", partial(self._look, "zoom_out")),
-            ("centre", "my_location", partial(self._look, "centre_on_robot")),
-            ("fit", "fit_screen", partial(self._look, "fit")),
-            ("layers", "layers", self.change_map),
-            ("undo", "undo", self.session.mission.undo),
-            ("redo", "redo", self.session.mission.redo),
-        ):
-            button = IconButton(icon=icon)
-            button.bind(on_release=lambda _, act=act: act())
-            self._tools[name] = self.ids[name] = button
 
     def _look(self, how: str) -> None:
         """Change what is seen of the map that is on the glass now, which need not be the first one."""
@@ -159,8 +137,8 @@ class MissionScreen(FloatLayout):
         bind = self.dashboard.bind
         self._maps.follow(self._pointing)
         bind(self.map, "/robot/info", self._show_info, fresh=False)
-        bind(self.map, "/task/status", self._show_task, fresh=False)
-        bind(self.map, "/limits", lambda _: self._show_draft(), fresh=False)
+        bind(self.map, "/task/status", self._drawing.show_task, fresh=False)
+        bind(self.map, "/limits", lambda _: self._drawing.show_draft(), fresh=False)
         bind(self.compass, "/pose")
         bind(
             self.video,
@@ -180,7 +158,7 @@ class MissionScreen(FloatLayout):
         self.map.mode = self.mode
         self._rearrange()
         self.dashboard.enter()
-        self._show_draft()
+        self._drawing.show_draft()
         self._show_info(self.session.robot.info)
         self.map.fit()
 
@@ -195,21 +173,24 @@ class MissionScreen(FloatLayout):
         put(self.map, places["map"])
         whole = places["modes"]
         put(self.ids.modes, Rect(whole.x, whole.y, whole.width * len(self.modes) / len(MODES), whole.height))
-        self._float(self.video, places.get("video"))
+        float_over(self.ids.floats, self.video, places.get("video"))
         self.video.show_chip = form == "wide"
-        self._float(self.compass, places.get("compass"))
+        float_over(self.ids.floats, self.compass, places.get("compass"))
         self.panel.take_form(form)
         self.panel.sheet_open = bool(self.sheet) and tall
-        self._float(self.panel.readouts, places.get("readouts"))
+        float_over(self.ids.floats, self.panel.readouts, places.get("readouts"))
         put(self.panel, places["panel"])
         put(self.ids.handle, places.get("handle", Rect(-100, -100, 1, 1)))
         self.ids.handle.opacity = 1 if tall else 0
         self._place_tasks(places.get("tasks"))
-        self._place_tools(places["tools"], dp, tall)
+        self._tools.arrange(
+            self.ids.floats, places["tools"], dp, tall=tall, has_pictures=self._maps.pictures() is not None
+        )
         self._place_floats(places)
-        self._bar, self.notice = places["selection"], places["notice"]
+        self.notice = places["notice"]
         self._pointing.show()
-        self._settle()
+        up = bool(self.sheet) and tall
+        self._corner.arrange(self.map, places["selection"], self.notice, form, dp, sheet_up=up)
         return places["stop"]
 
     def _place_floats(self, places: dict[str, Rect]) -> None:
@@ -231,41 +212,11 @@ class MissionScreen(FloatLayout):
 
     def show_selection(self, shown: bool) -> None:
         """Have the bar that says what is selected on the glass, or away; the map that is edited is not covered by more."""
-        wanted: list[Widget] = [self.selection] if shown else []
-        if self.mode == "view":
-            wanted.append(self.checks)
-        if list(reversed(self.corner.children)) != wanted:
-            self.corner.clear_widgets()
-            for widget in wanted:
-                self.corner.add_widget(widget)
-        self._settle_soon()
-
-    def _settle(self, *_: object) -> None:
-        """The corner hangs from the modes, or on a phone stands on its lower edge and lifts scale and legend."""
-        corner, bar, area, wide = self.corner, self._bar, self.map, self._form == "wide"
-        low = area.y + area.insets[1]
-        self.selection.width = self.checks.wide = corner.width = bar.width
-        self.checks.brief, corner.height = not wide, corner.minimum_height
-        corner.pos = bar.x, bar.top - corner.height if wide else bar.y
-        self.checks.room = bar.top - low if wide else self.notice.top - bar.y
-        covers = (self.checks.unfolded and self.checks.parent is corner) or (
-            bool(self.selection.trouble) and self.selection.parent is corner
-        )
-        area.foot = 0.0 if wide or not corner.height else math.nan if covers else max(0.0, corner.top - low)
-        covered, begins = self._cover, low + (area.foot if math.isfinite(area.foot) else 0)
-        foot = Rect(area.x, begins, area.width, SCALE * self._dp)
-        if covered is not None and covered.overlaps(foot):
-            area.foot = math.nan
-        age = Rect(*area.badge_pos, *area.badge_size)
-        area.says_age = covered is None or not covered.overlaps(age)
-        up = bool(self.sheet) and self._form == "tall"
-        up = up or (covered is not None and covered.overlaps(Rect(*corner.pos, *corner.size)))
-        corner.opacity, corner.disabled = float(not up), up
+        self._corner.show(selection=shown, checks=self.mode == "view")
 
     def clear(self, cover: Rect | None) -> None:
         """Take away what would be seen only in part behind what is said over the map."""
-        self._cover = cover
-        self._settle()
+        self._corner.clear(cover)
 
     def _place_tasks(self, rect: Rect | None) -> None:
         """On a phone the task's buttons, or what stands for them, are beside STOP; elsewhere in the panel."""
@@ -281,34 +232,6 @@ class MissionScreen(FloatLayout):
                 self.add_widget(beside)
             beside.size_hint = (None, None)
             beside.width, beside.pos = rect.width, (rect.x, rect.y)
-
-    def _place_tools(self, rect: Rect, dp: float, tall: bool) -> None:
-        names = ["centre", "layers", "undo", "redo"] if tall else list(self._tools)
-        if self.session.robot.lacks_tasks:
-            names = [name for name in names if name not in ("undo", "redo")]
-        if self._maps.pictures() is None:
-            names = ["fit" if name == "layers" else name for name in names if name != "layers" or tall]
-        side = rect.width
-        fit = max(1, int((rect.height + 8 * dp) // (side + 6 * dp)))
-        if len(names) > fit:  # two fingers do as well
-            names = [name for name in names if name not in ("zoom_in", "zoom_out")][-fit:]
-        for name, button in self._tools.items():
-            self._float(button, None)
-            if name in names:
-                index = names.index(name)
-                step = (rect.height - side) / max(1, min(fit, len(names)) - 1)
-                self._float(button, Rect(rect.x, rect.top - side - index * step, side, side))
-
-    def _float(self, widget: Widget, rect: Rect | None) -> None:
-        """Put a widget over the map, or away where there is no room for it."""
-        floats = self.ids.floats
-        if rect is None:
-            if widget.parent is floats:
-                floats.remove_widget(widget)
-            return
-        if widget.parent is None:
-            floats.add_widget(widget)
-        put(widget, rect)
 
     def _rearrange(self, *_: object) -> None:
         self.arrange(self._body, self._form, self._dp)
@@ -341,7 +264,7 @@ class MissionScreen(FloatLayout):
         """Come onto the glass."""
         self._take_offer()
         self.dashboard.enter()
-        self._show_draft()
+        self._drawing.show_draft()
         self.tick()
 
     def leave(self) -> None:
@@ -358,8 +281,7 @@ class MissionScreen(FloatLayout):
         self.dashboard.tick()
         self.panel.tick()
         self.checks.tick()
-        self.ids.undo.disabled = not self.session.mission.can_undo
-        self.ids.redo.disabled = not self.session.mission.can_redo
+        self._tools.tick()
         self._pointing.tick()
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
@@ -367,34 +289,9 @@ class MissionScreen(FloatLayout):
         self.video.show_frame(picture.width, picture.height, picture.rgba, picture.taken)
         self.video.rate, self.video.latency = rate, latency
 
-    # what the map shows
-
-    def _show_draft(self) -> None:
-        draft = self.session.mission.draft
-        self.map.waypoints = list(draft.points)
-        self.map.home = list(draft.home or ())
-        if self.map.selected >= len(draft.points):
-            self.map.selected = -1
-        self.map.motion_name = draft.motion
-        self._show_refused()
-        self.panel.show_draft()
-        self._pointing.show()
-
-    def _show_refused(self, *_: object) -> None:
-        self.panel.refused = summary(self.session.refusals.draft(self.session.mission.draft))
-
     def _show_info(self, info: RobotInfo) -> None:
-        self.map.robot_radius = info.radius or 0.2
-        self.map.camera_fov = info.camera_fov
-        self._show_draft()
+        self._drawing.show_info(info)
         self._rearrange()
-
-    def _show_task(self, status: TaskStatus) -> None:
-        """Points are marked as visited only while the robot drives the very points that are drawn."""
-        same = self.session.running and status.waypoints == len(self.map.waypoints)
-        coming = status.waypoint if same and status.task == "patrol" else 0
-        self.map.coming = coming - 1 if coming else -1
-        self.map.visited = max(0, coming - 1) if status.motion != "random" else 0
 
     def _show_outcome(self, outcome: Outcome) -> None:
         name = {"cancel": "stop"}.get(outcome.name, outcome.name)

@@ -1,0 +1,49 @@
+"""The mission on the map: the draft's points and home, what the fence refuses, and how far the robot has come."""
+
+from __future__ import annotations
+
+from app.screens.mission.map_pointing import Pointing
+from app.screens.mission.mission_maps import Maps
+from app.screens.mission.mission_panel import MissionPanel
+from app.session.fence_refusals import summary
+from app.session.session import Session
+from bridge.msgs.pilothouse_msgs import RobotInfo, TaskStatus
+
+__all__ = ["MissionOnMap"]
+
+DEFAULT_RADIUS = 0.2
+"""Of a robot that does not publish its own [m]."""
+
+
+class MissionOnMap:
+    """Draws on the map that is on the glass."""
+
+    def __init__(self, session: Session, maps: Maps, panel: MissionPanel, pointing: Pointing) -> None:
+        self._session, self._maps, self._panel, self._pointing = session, maps, panel, pointing
+
+    def show_draft(self) -> None:
+        """Bring the draft up to date, on the map and in the panel."""
+        draft, area = self._session.mission.draft, self._maps.shown
+        area.waypoints = list(draft.points)
+        area.home = list(draft.home or ())
+        if area.selected >= len(draft.points):
+            area.selected = -1
+        area.motion_name = draft.motion
+        self._panel.refused = summary(self._session.refusals.draft(draft))
+        self._panel.show_draft()
+        self._pointing.show()
+
+    def show_info(self, info: RobotInfo) -> None:
+        """The robot's size and its camera's field of view."""
+        area = self._maps.shown
+        area.robot_radius = info.radius or DEFAULT_RADIUS
+        area.camera_fov = info.camera_fov
+        self.show_draft()
+
+    def show_task(self, status: TaskStatus) -> None:
+        """Points are marked as visited only while the robot drives the very points that are drawn."""
+        area = self._maps.shown
+        same = self._session.running and status.waypoints == len(area.waypoints)
+        coming = status.waypoint if same and status.task == "patrol" else 0
+        area.coming = coming - 1 if coming else -1
+        area.visited = max(0, coming - 1) if status.motion != "random" else 0
