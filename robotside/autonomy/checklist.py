@@ -17,7 +17,7 @@ MAX_OFFSET = 1.0
 
 @dataclass(frozen=True, slots=True)
 class CheckInputs:
-    """What was found."""
+    """The inputs of the checks."""
 
     battery: float
     """0 empty to 1 full; NaN while not known."""
@@ -28,11 +28,11 @@ class CheckInputs:
     placed: bool
     """It has a pose in `map`."""
     sure: bool
-    """What the laser sees agrees with the map."""
+    """The laser agrees with the map."""
     stop_tested: bool
     """STOP was pressed since the start, and brought the robot to rest."""
     offset: float
-    """How far the clock of the handheld that was heard last is ahead of the robot's [s]; NaN while not known."""
+    """Lead of the last handheld's clock over the robot's [s]; NaN while not known."""
     trouble: str = ""
     """Why the robot cannot be reached, as one sentence; empty when it can."""
 

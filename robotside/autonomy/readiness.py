@@ -16,13 +16,13 @@ __all__ = ["Readiness"]
 
 
 class Readiness:
-    """What is known of one robot before it moves; times are of the operators' clock [s] unless said otherwise."""
+    """Publishes the checklist of one robot; times are of the operators' clock [s] unless stated otherwise."""
 
     def __init__(self, clock: Callable[[], float], publish: Publish, kind: str = "wheels") -> None:
         """Of a robot of a `kind`, as its information calls it."""
         self._clock, self._publish = clock, publish
         self.sensor_health = SensorHealth(kind)
-        """What the robot measures of itself."""
+        """The robot's newest measurements."""
         self.stop_tested = Time()
         """When STOP, pressed since the start, last brought the robot to rest; 0 when never."""
         self._stopping = False
@@ -30,7 +30,7 @@ class Readiness:
         self._checks: list[Check] = []
 
     def on_operator_time(self, stamp: float) -> None:
-        """Somebody stamped something with `stamp`, of what is supposed to be the operators' clock; NaN says nothing."""
+        """A message came with the `stamp` of an operator's clock [s]; NaN changes nothing."""
         if math.isfinite(stamp):
             self._offset = stamp - self._clock()
 

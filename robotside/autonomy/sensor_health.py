@@ -87,7 +87,7 @@ class SensorHealth:
         return replace(self._measured, pose=pose, spread=spread, sure=sure)
 
     def silent(self, now: float) -> list[str]:
-        """What people call the sensors that are not alive."""
+        """The names of the sensors that are not alive."""
         names = _NAMES | _MORE
         known = dict.fromkeys(needed(self._kind, self._heard), -math.inf) | self._heard
         return [names[topic] for topic, heard in known.items() if now - heard > SENSOR_TIMEOUT]

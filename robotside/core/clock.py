@@ -43,5 +43,5 @@ class RobotClock:
         return [before + passed * number / count for number in range(1, count + 1)]
 
     def real(self, stamp: float) -> float:
-        """Real time [s] at which the robot's clock said `stamp` [s]; good for moments about the last tick."""
+        """Real time [s] at which the robot's clock showed `stamp` [s]; good for moments about the last tick."""
         return self._last - (self.now - stamp) / self._speed

@@ -1,6 +1,6 @@
 """The robot's own configuration, `--config robot.toml`: limits, fence, safe state, database, names.
 
-Whatever is wrong with it is one sentence that names the file, the setting, its value and what is allowed; a robot whose
+Any mistake in it is one sentence that names the file, the setting, its value and what is allowed; a robot whose
 limits cannot be read does not start. docs/robot.toml.example has every setting.
 """
 
@@ -74,7 +74,7 @@ class LimitSettings(_Section, frozen=True):
     max_height: _Above | None = None
     """Above the map's origin [m]."""
     max_slope_degrees: _Degrees | None = None
-    """Of the ground, as the robot's own tilt tells it [deg]."""
+    """Of the ground, as the robot's own tilt measures it [deg]."""
     braking: _Above | None = None
     """Deceleration that can be counted on [m/s2]; None for that of the robot's kind."""
     keep_in: tuple[Ring, ...] = ()
@@ -125,11 +125,11 @@ class Config(_Section, frozen=True):
 
 
 DEFAULT_CONFIG = Config()
-"""What there is without a file."""
+"""The configuration without a file."""
 
 
 def load(path: Path) -> Config:
-    """What the file says; BadConfig when it cannot be read or used."""
+    """The configuration of a file; BadConfig when it cannot be read or used."""
     try:
         if path.stat().st_size > MAX_BYTES:
             raise BadConfig(f"{path}: a settings file has at most {MAX_BYTES:,} bytes.")
@@ -142,7 +142,7 @@ def load(path: Path) -> Config:
 
 
 def parse(text: str, name: str = "robot.toml") -> Config:
-    """What `text` says; BadConfig, whose sentence begins with `name`, when it cannot be used."""
+    """The configuration of a `text`; BadConfig, whose sentence begins with `name`, when it cannot be used."""
     try:
         config = read(text, Config, name, largest=math.inf)
     except FileFault as fault:
@@ -154,7 +154,7 @@ def parse(text: str, name: str = "robot.toml") -> Config:
 
 
 def _sentence(fault: FileFault, name: str) -> str:
-    """What is wrong with the file of that `name`, in the words of its sections."""
+    """The mistake in the file of that `name`, in the words of its sections."""
     section, _, key = fault.where.rpartition(".")
     if fault.known:
         return f"{name}: {section or 'the file'} has no {key!r}; there are {', '.join(fault.known)}."

@@ -23,11 +23,11 @@ class Notice(str):
 
     __slots__ = ("actor_id", "code", "parameters")
     code: str
-    """As of `bridge.core.codes`; empty only for what another program said without one."""
+    """As of `bridge.core.codes`; empty only for a text of another program that has none."""
     actor_id: str
-    """The `client_id` of who caused it, or whom it is about; empty when nobody, or it is not known."""
+    """The `client_id` of the client that caused it, or that it is about; empty for none, and when it is not known."""
     parameters: Mapping[str, str]
-    """What it names, by the keys of its code."""
+    """Its parameters, by the keys of its code."""
 
     def __new__(cls, code: Code, text: str, /, *, actor_id: str = "", **parameters: str | float) -> Self:
         """The sentence `text` of a `code`, with a value for each of its parameters; numbers in SI units."""
@@ -68,7 +68,7 @@ class _Coded(Protocol):
 
 
 def coded(text: str) -> dict[str, Any]:
-    """The fields of a message that tell the code of a `text`; empty ones where it has none."""
+    """The fields of a message that carry the code of a `text`; empty ones where it has none."""
     if not isinstance(text, Notice):
         return {"code": "", "actor_id": "", "parameters": []}
     pairs = [KeyValue(key, value) for key, value in text.parameters.items()]

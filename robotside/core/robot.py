@@ -13,7 +13,7 @@ __all__ = ["Equipped", "Levelled", "Manoeuvrable", "Resettable", "Robot", "Stopp
 
 
 class Robot(Protocol):
-    """What the robot side needs of a robot. All calls come from one thread."""
+    """The interface of a robot for the robot side. All calls come from one thread."""
 
     info: RobotInfo
     """Who it is and what it can do; does not change while it runs."""
@@ -32,7 +32,7 @@ class Robot(Protocol):
         """Topic and message of everything measured up to `now` [s, robot clock] since the last call.
 
         A simulation advances to `now`; the first call sets its origin and yields `/map`, if there is a map. What is
-        on `/events` is told to the operators as the robot side's own, numbered and stamped by it.
+        on `/events` is passed on to the operators as the robot side's own, numbered and stamped by it.
         """
 
     def want(self, topic: str, wanted: bool) -> None:
@@ -44,7 +44,7 @@ class Robot(Protocol):
 
 @runtime_checkable
 class Stoppable(Protocol):
-    """A robot that has a STOP of its own, which stays pressed whatever becomes of this robot side."""
+    """A robot that has a STOP of its own, which stays pressed even if this robot side fails."""
 
     def press_stop(self) -> None:
         """Press it, and again as soon as the robot can be reached, until `release_stop`."""
@@ -58,7 +58,7 @@ class Manoeuvrable(Protocol):
     """A robot that moves by more than twists; its `info` says which kinds of manoeuvre it knows."""
 
     def manoeuvre(self, order: Manoeuvre) -> None:
-        """Move by `order` until told otherwise; ValueError with one sentence when it cannot, which changes nothing."""
+        """Move by `order` until the next order; ValueError with one sentence when it cannot, which changes nothing."""
 
 
 @runtime_checkable
@@ -75,10 +75,10 @@ class Equipped(Protocol):
     """A robot with payloads that take orders; its `info` says which are mounted."""
 
     def command(self, payload: str, order: Msg) -> None:
-        """Tell a payload what to do; ValueError with one sentence when it cannot, which changes nothing."""
+        """Command a payload; ValueError with one sentence when it cannot, which changes nothing."""
 
     def hold_payloads(self) -> None:
-        """Whatever moves on it stays as it is now."""
+        """Every payload that moves stops where it is now."""
 
 
 @runtime_checkable

@@ -8,7 +8,7 @@ __all__ = ["Demand"]
 
 
 class Demand:
-    """Tells the robot when the first one wants a topic and when the last one does no longer."""
+    """Calls the robot when the first client wants a topic, and when the last one does no longer."""
 
     def __init__(self, want: Callable[[str, bool], None]) -> None:
         self._want = want

@@ -16,9 +16,9 @@ from robotside.motion.measured import MeasuredState
 __all__ = ["CONTACT_TIME", "kept_off"]
 
 CONTACT_TIME = 1.0
-"""A touch within so long of the last one is the same contact, and told no more [s]."""
+"""A touch within so long of the last one is the same contact, and not reported again [s]."""
 MIN_COSINE = 0.25
-"""What is touched with less than this cosine of its bearing is beside a robot that goes ahead and astern only."""
+"""An obstacle with less than this cosine of its bearing is beside a robot that goes ahead and astern only."""
 
 
 def kept_off(order: Order, info: RobotInfo, measured: MeasuredState) -> Order:

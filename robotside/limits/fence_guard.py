@@ -25,9 +25,9 @@ __all__ = [
 GAP = 0.10
 """Kept between the body and the fence on the way of a command that is obeyed at once [m]."""
 TRACK_GAP = 0.02
-"""Kept on the way that the robot takes from how it moves now [m]: it lags behind what it was told before."""
+"""Kept on the way that the robot takes from how it moves now [m]: it lags behind its last command."""
 RETURN_GAIN = 1.0
-"""What slides along nearer than GAP goes inward for what lacks of that [1/s]: it would be pushed out bit by bit."""
+"""Gain by which a robot that slides along nearer than GAP moves inward [1/s]: otherwise it would drift out."""
 SIGMAS, MAX_UNCERTAINTY = 2.0, 2.0
 """A place counts as off by so many standard deviations, and by no more than so much [m]: beyond that the fence is not promised."""
 LEVEL_DISTANCE = 1.5
@@ -80,7 +80,7 @@ class FenceGuard:
         return _greatest(lambda part: wanted.scaled(part, part if steers else 1.0), test)
 
     def outward(self, pose: Pose2, moving: PlanarVelocity) -> float:
-        """How fast it goes towards the nearest fence [m/s]; negative when away from it."""
+        """The speed towards the nearest fence [m/s]; negative when away from it."""
         x, y = self.inward(pose)
         return -(moving.x * x + moving.y * y)
 

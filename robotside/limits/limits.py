@@ -70,7 +70,7 @@ class ClampedTwist(NamedTuple):
 
     twist: Twist
     why: Problem = ""
-    """What holds it back by more than half, as one sentence; empty when nothing does."""
+    """The reason, as one sentence, when it is held back by more than half; empty otherwise."""
 
 
 class KeptOrder(NamedTuple):
@@ -109,13 +109,13 @@ class LimitKeeper:
             max_speed=min(info.max_speed, settings.max_speed or math.inf),
             max_yaw_rate=min(info.max_yaw_rate, settings.max_yaw_rate or math.inf),
         )
-        """Who it is, with the speeds that it is allowed."""
+        """The robot's information, with the speeds that it is allowed."""
         self._last: tuple[Twist, MeasuredState, ClampedTwist] = (
             Twist(),
             MeasuredState(),
             ClampedTwist(Twist()),
         )
-        """What was asked for last, and what came of it."""
+        """The last request and its result."""
 
     @property
     def message(self) -> Limits:
@@ -249,7 +249,7 @@ class LimitKeeper:
         )
 
     def adrift(self, measured: MeasuredState) -> Problem:
-        """What to say of a robot that is carried over its fence, whether it may go back or STOP is pressed; empty for nothing.
+        """The sentence about a robot that is carried over its fence, whether it may go back or STOP is pressed; empty for none.
 
         Call it whenever something new is measured.
         """
@@ -372,7 +372,7 @@ def _highest(settings: LimitSettings) -> float:
 
 
 def _level_cut(asked: float, allowed: float) -> Problem:
-    """What is to be said of a height that was asked for and of the one that it goes to; empty where that is the same."""
+    """The sentence about a height that is not the one asked for; empty where both are the same."""
     if math.isnan(asked) or asked == allowed:
         return ""
     return _no_farther(allowed, up=asked > allowed)

@@ -43,10 +43,10 @@ FIX_TIMEOUT = 3.0
 """Without fix and compass for this long the robot supposes to stand at the map's origin [s]."""
 
 GUESS_REACH, GUESS_YAW = 4.0, 0.35
-"""How wrong a guess by satellite and compass may be [m, rad]."""
+"""The largest error of a guess by satellite and compass [m, rad]."""
 
 PLACED_REACH, PLACED_YAW = 1.0, 0.5
-"""How wrong a pose told by an operator's finger may be [m, rad]."""
+"""The largest error of a pose that an operator sets on the map [m, rad]."""
 
 
 FIX_SPREAD = 1.0
@@ -66,7 +66,7 @@ _NO_IDEA = Notice(
 )
 
 MAX_PUSH = 0.3
-"""So far the wheels may run against something before it is told [m]."""
+"""Distance that the wheels may turn against an obstacle before it is reported [m]."""
 
 _PUSHES = Notice(
     Code.POSITION_UNSURE,
@@ -100,7 +100,7 @@ class OdometryTrack:
         self._poses.append((stamp, pose))
 
     def forget(self) -> None:
-        """What was remembered was wrong."""
+        """The remembered path was wrong."""
         self._poses.clear()
 
     def at(self, stamp: float) -> Pose2 | None:
@@ -154,7 +154,7 @@ class PoseEstimator:
 
     @property
     def sure(self) -> bool:
-        """What the laser sees agrees with the map."""
+        """The laser agrees with the map."""
         return self._localiser is not None and self._localiser.sure
 
     @property
@@ -169,7 +169,7 @@ class PoseEstimator:
 
     @property
     def spread(self) -> float:
-        """How far off its place may be in the worst direction, one standard deviation [m]; NaN while it has no idea."""
+        """The uncertainty of the place in the worst direction, one standard deviation [m]; NaN while it has no idea."""
         if self.pose is None or self._localiser is None:
             return math.nan
         return math.sqrt(_worst(self._localiser.covariance) + self._uncertainty.variance)
@@ -240,7 +240,7 @@ class PoseEstimator:
         self.place(pose)
 
     def on_odometry(self, msg: Odometry) -> None:
-        """Move on by the wheels and tell everyone the new pose."""
+        """Move on by the wheels and publish the new pose."""
         odom = Pose2.from_msg(msg.pose.pose)
         stamp = msg.header.stamp
         if self._odom is not None:
@@ -258,7 +258,7 @@ class PoseEstimator:
             self._tell(stamp, pose, odom, self._localiser)
 
     def _against(self) -> float:
-        """Bearing of what it may push against [rad]; NaN for nothing, and where a laser sees better. One that is not told lies ahead of its way."""
+        """Bearing of what it may push against [rad]; NaN for nothing, and where a laser sees better. One without a bearing lies ahead of its way."""
         if self._touch is None or self._swept:
             return math.nan
         bearing = self._touch.bearing

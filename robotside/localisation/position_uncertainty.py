@@ -35,7 +35,7 @@ class PositionUncertainty:
         self._known, self._since = variance, self._reckoned
 
     def settle(self) -> None:
-        """Somebody said where it is."""
+        """An operator has set its place."""
         self.fix(0.0)
 
     def on_walls_seen(self) -> None:

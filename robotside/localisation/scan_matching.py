@@ -132,7 +132,7 @@ class Localiser:
         self._bad = 0
 
     def lift(self) -> None:
-        """Somebody carries the robot elsewhere: what its wheels tell next does not follow from what they told before."""
+        """The robot is carried elsewhere: its next odometry does not follow from the last."""
         self._odom = None
 
     def correct_place(self, x: float, y: float, spread: float) -> None:
@@ -209,7 +209,7 @@ class Localiser:
         return into
 
     def distrust(self) -> None:
-        """What it believes may be wrong: it is unsure until sweeps, echoes or fixes have fitted for a while."""
+        """The pose may be wrong: it is unsure until sweeps, echoes or fixes have fitted for a while."""
         self._bad = DISTRUSTED_SWEEPS
 
     def correct(self, points: Points) -> None:

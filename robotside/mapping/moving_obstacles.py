@@ -13,7 +13,7 @@ from robotside.mapping.distances import within
 __all__ = ["ROOM_SHARE", "MovingObstacles"]
 
 COMPARED_AGE = 0.4
-"""What is seen is compared with what was seen so long before [s]."""
+"""The age of the sweep that the newest one is compared with [s]."""
 
 MIN_MOTION = 0.12
 """Where nothing was within this of it then, it has moved [m]: faster than a third of a metre a second."""

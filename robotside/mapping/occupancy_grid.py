@@ -46,12 +46,12 @@ class Grid:
 
     @classmethod
     def unknown(cls) -> Grid:
-        """No map at all: a few cells at the origin that nobody can stand in."""
+        """No map at all: a few cells at the origin that are all occupied."""
         return cls(np.ones((2, 2), dtype=np.bool_), 0.1, 0.0, 0.0)
 
     @classmethod
     def from_msg(cls, msg: OccupancyGrid) -> Grid:
-        """What the map message says; unknown cells count as occupied."""
+        """The grid of a map message; unknown cells count as occupied."""
         info = msg.info
         data = np.asarray(msg.data, dtype=np.int8).reshape(info.height, info.width)
         corner = info.origin.position
@@ -102,7 +102,7 @@ class Grid:
         return replace(self, occupied=occupied)
 
     def seeing(self, points: Points, reach: float) -> Generator[None, None, Grid]:
-        """What `marked` gives, bit by bit and without looking at the whole map again.
+        """The result of `marked`, step by step and without looking at the whole map again.
 
         `distance` is right up to `reach` [m] from `points`; farther from them it may be that of the map without them.
         """

@@ -14,7 +14,7 @@ MAX_OBSTACLE_RANGE = 1.5
 """Beyond this a cone is too wide to say where something stands [m]."""
 
 TOUCHING_SHARE = 0.7
-"""What is too close to be measured is supposed to be at this part of the shortest range."""
+"""An obstacle too close to be measured is assumed at this part of the shortest range."""
 
 MAX_ECHO_RANGE = 4.0
 """Beyond this an echo says nothing of where the robot is [m]."""

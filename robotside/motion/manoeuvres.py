@@ -32,7 +32,7 @@ __all__ = [
 ]
 
 Order: TypeAlias = Twist | Manoeuvre
-"""How to move until told otherwise."""
+"""The way to move until the next order."""
 
 STREAMED_KINDS = ("twist", "steer", "tilt")
 """The kinds that a person gives as a stream."""
@@ -41,11 +41,11 @@ VERTICAL_KINDS = ("take_off", "land", "surface")
 
 GRAVITY = 9.81
 LEAN_TIME = 0.3
-"""What leans goes on by so much time of its acceleration until another order is felt [s]."""
+"""A robot that leans goes on accelerating for so long until the next order takes effect [s]."""
 COURSE_GAIN = 0.9
 """Turn rate for a heading that is off [1/s]."""
 DEFAULT_HEIGHT = 1.0
-"""Above where it stands, to which a robot takes off that is told no height [m]."""
+"""Height above its place to which a robot takes off without a given height [m]."""
 _TOLERANCE = 1e-9
 
 
@@ -92,7 +92,7 @@ def paced(order: Order, info: RobotInfo, share: float) -> Order:
 
 
 def settled(order: Order, info: RobotInfo) -> Order:
-    """What a person's `order` means to the robot: one that flies and is told to lean no more stays where it is.
+    """The order that the robot gets for a person's `order`: one that flies and is to lean no more stays where it is.
 
     Level alone it would float on.
     """
@@ -104,9 +104,9 @@ def settled(order: Order, info: RobotInfo) -> Order:
 
 
 def leads_to(order: Manoeuvre, info: RobotInfo, measured: MeasuredState) -> Twist:
-    """The twist that comes of `order`, in `base_link`; `info` is of what the robot can do, whatever it may.
+    """The twist that comes of `order`, in `base_link`; `info` is of what the robot can do, not of its limits.
 
-    Up and down it tells only what a hand says: a height is kept by `levelled`.
+    Up and down it has only the order of a hand: a height is kept by `levelled`.
     """
     v, w = order.twist.linear, order.twist.angular
     match order.kind:
@@ -164,7 +164,7 @@ def kept(order: Manoeuvre, leads: Twist, may: Twist, info: RobotInfo) -> Order:
 
 
 def _leaning(may: Twist, order: Manoeuvre) -> Twist:
-    """`may` without the way that it has where it does not lean to: told to keep that it would, and ever more of it."""
+    """`may` without the way that it has where it does not lean to: ordered to keep that speed it would, and ever more of it."""
     v = may.linear
     return Twist(Vector3(v.x if order.pitch else 0.0, v.y if order.roll else 0.0, v.z), may.angular)
 
@@ -211,7 +211,7 @@ def _eased(steering: float, leads: Twist, may: Twist) -> float:
 
 
 def _turn(yaw: float, info: RobotInfo, measured: MeasuredState) -> float:
-    """Towards a heading [rad/s]; 0 for the present one, or while nobody knows it."""
+    """Towards a heading [rad/s]; 0 for the present one, or while it is unknown."""
     if math.isnan(yaw) or measured.pose is None:
         return 0.0
     return within(COURSE_GAIN * wrap(yaw - measured.pose.yaw), info.max_yaw_rate)

@@ -13,12 +13,12 @@ __all__ = ["MeasuredState"]
 
 @dataclass(frozen=True, slots=True)
 class MeasuredState:
-    """What the robot knows of itself; NaN and None for what it does not measure."""
+    """The newest measurements; NaN and None for what the robot does not measure."""
 
     pose: Pose2 | None = None
     """In `map`."""
     moving: PlanarVelocity = REST
-    """As its wheels tell."""
+    """By its odometry."""
     height: float = math.nan
     """Above the map's origin, which for boats is the water [m]."""
     roll: float = 0.0
@@ -26,7 +26,7 @@ class MeasuredState:
     pitch: float = 0.0
     """[rad], positive is nose down."""
     spread: float = 0.0
-    """How far off the pose may be in the worst direction, one standard deviation [m]; NaN without a pose."""
+    """The uncertainty of the pose in the worst direction, one standard deviation [m]; NaN without a pose."""
     sure: bool = True
     """The robot holds the pose for right."""
     landed: bool = False
@@ -34,4 +34,4 @@ class MeasuredState:
     overturned: bool = False
     """It says itself that it lies there on its back."""
     touched: float | None = None
-    """Bearing in `base_link` of what its bumper touches [rad]; None for nothing, and where it cannot tell."""
+    """Bearing in `base_link` of what its bumper touches [rad]; None for nothing, and where it is unknown."""

@@ -46,13 +46,13 @@ def back(inward: tuple[float, float], way: float) -> Twist:
 
 
 class DriftMonitor:
-    """Tells once that a robot drifts over its fence, and again when it was back in between."""
+    """Reports once that a robot drifts over its fence, and again after it was back."""
 
     def __init__(self) -> None:
         self._said = False
 
     def check(self, name: str, room: float, outward: float, *, returns: bool = False) -> Problem:
-        """What to say of a robot with this `room` [m] that goes `outward` [m/s]; empty for nothing."""
+        """The sentence about a robot with this `room` [m] that goes `outward` [m/s]; empty for none."""
         if room > RETURN_UNTIL:
             self._said = False
         if self._said or room > RETURN_BELOW or outward < MIN_DRIFT:

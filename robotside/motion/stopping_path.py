@@ -13,7 +13,7 @@ from robotside.kinds.vehicle_kind import Handling
 __all__ = ["REACTION_TIME", "REST", "PlanarVelocity", "reach", "track"]
 
 REACTION_TIME = 0.15
-"""From a command until the next one can tell otherwise and is felt [s]: a period of odometry, and the drive's own lag."""
+"""From a command until the next one takes effect [s]: a period of odometry, and the drive's own lag."""
 
 MAX_SPACING = 0.08
 """Between two places that are looked at, at most [m]."""

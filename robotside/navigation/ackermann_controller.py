@@ -1,4 +1,4 @@
-"""The path controller for steered front wheels: bends that they can drive, backwards too, and arcs that a long body fits through."""
+"""The path controller for steered front wheels: bends that they can drive, backwards too, with room for a long body."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ END_TOLERANCE, MISSED_DISTANCE = 0.15, 0.6
 """At the end of a way it is so far from it along the way, or past it; farther away than the second it has missed it [m]."""
 
 SWING_TIME, PERIOD = 0.8, 0.05
-"""From straight to the tightest bend the front wheels take so long, and so often they are told [s]."""
+"""From straight to the tightest bend the front wheels take so long, and they are commanded so often [s]."""
 
 MAX_SWING_SPEED, CREEP_SPEED = 0.3, 0.15
 """No faster than this they are let swing first, and so fast it creeps meanwhile where it cannot stand [m/s]."""
@@ -242,7 +242,7 @@ class AckermannController(GroundBound):
         return abs(bend - self._steered) > 0.3 * self._bend
 
     def _swing(self, bend: float, way: float) -> None:
-        """Stand, or creep where that is all that can be told, until the front wheels have swung round."""
+        """Stand, or creep where no other command is possible, until the front wheels have swung round."""
         self._speed = 0.0
         if isinstance(self._robot, Manoeuvrable) and "steer" in self._robot.info.manoeuvres:
             lock = self._robot.info.max_steering or DEFAULT_STEERING

@@ -36,7 +36,7 @@ MIN_FREE_LENGTH = 0.35
 
 @dataclass(frozen=True, slots=True)
 class AvoidanceResult:
-    """What to do now."""
+    """The command for now."""
 
     twist: Twist
     blocked: bool

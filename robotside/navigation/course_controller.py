@@ -70,7 +70,7 @@ class CourseController(SinglePath):
         return False
 
     def ready(self) -> str:
-        """What stands on the ground takes off first."""
+        """A robot that stands on the ground takes off first."""
         if self.aloft:
             return ""
         self.take_off()

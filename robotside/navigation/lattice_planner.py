@@ -1,7 +1,7 @@
-"""The lattice planner for robots that cannot turn where they stand: bends no tighter than they drive, and backwards where that is shorter.
+"""The lattice planner for robots that cannot turn in place: drivable bends, and backwards where that is shorter.
 
 A search over poses (hybrid A*): from each pose a bend to the left, to the right or straight on, ahead or back; what is
-left of the way by the map tells where to look first, and a last bend and a straight line that reach the goal end it.
+left of the way by the map shows where to search first, and a last bend and a straight line that reach the goal end it.
 """
 
 from __future__ import annotations
@@ -187,7 +187,7 @@ class LatticePlanner:
                 end = _after(ends[-1].pose, bend, way)
                 ends.append(_Node(end, ends[-1].cost + cost, ends[-1], bend, way))
             ways.append(ends)
-        # a few places tell of most ways that they do not fit
+        # a few places rule out most ways that do not fit
         for step in (ROUGH_SPACING, 2 * FINE_SPACING):
             rooms = self._rooms_along(ways, step)
             ways = [ends for ends, room in zip(ways, rooms, strict=True) if room >= need]

@@ -36,7 +36,7 @@ READY_TIMEOUT = 20.0
 """To get ready to go [s]."""
 
 SEARCH_STEPS = 40
-"""Steps of a search for a way in one update: a few milliseconds, so that whoever presses STOP is heard."""
+"""Steps of a search for a way in one update: a few milliseconds, so that a STOP is handled in time."""
 
 MAX_REST_SPEED, REST_TIMEOUT = 0.15, 3.0
 """Slower than this it stands, and after so long it is taken to [m/s, s]."""
@@ -46,7 +46,7 @@ MAX_STUCK = 3
 
 
 class LegState(Enum):
-    """How the way to the goal stands."""
+    """The state of the way to the goal."""
 
     UNDER_WAY = "under way"
     ARRIVED = "arrived"
@@ -78,7 +78,7 @@ PATH_CONTROLLERS: dict[str, Callable[[Robot], PathController]] = {
     "lattice": AckermannController,
     "course": CourseController,
 }
-"""How robots follow a path, by `path_controller` of their kind."""
+"""The path controllers, by `path_controller` of the robot's kind."""
 
 
 def path_controller_of(robot: Robot) -> PathController:
@@ -100,7 +100,7 @@ class Navigator:
         self.kind = info.kind
         """Of robot, as its information calls it."""
         self.controller: PathController = path_controller_of(robot)
-        """How it goes along a way."""
+        """Follows the path."""
         self._radius = required_radius(info)
         self.set_map(grid)
         self._goal: Goal | None = None
@@ -122,9 +122,9 @@ class Navigator:
     def set_map(self, grid: Grid) -> None:
         """Plan on `grid` from now on; only between two tasks."""
         self.planner = Planner(grid, self._radius)
-        """What plans the ways on the map."""
+        """Plans paths on the map."""
         self.obstacles = ObstacleMemory(grid)
-        """What was seen that is not on the map."""
+        """Obstacles that the map does not show."""
 
     @property
     def remaining(self) -> float:
@@ -154,7 +154,7 @@ class Navigator:
         return self._turning
 
     def move(self, twist: Twist) -> None:
-        """Move so until the next order, `update` or `rest`, with nobody looking for obstacles but the caller."""
+        """Move so until the next order, `update` or `rest`, with no one but the caller avoiding obstacles."""
         self._robot.drive(twist)
 
     def measured(self, height: float) -> None:
@@ -162,7 +162,7 @@ class Navigator:
         self.controller.measured = height
 
     def flies(self, phase: str) -> None:
-        """What it does in the air, of a robot that flies, as its `FlightState` says."""
+        """Take over the phase of flight of a robot that flies, as in `FlightState`."""
         self.controller.aloft = phase in ("flying", "landing")
 
     @property

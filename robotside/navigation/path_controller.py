@@ -40,15 +40,15 @@ class PathController(Protocol):
     cruise: float
     """The speed that it travels with [m/s]."""
     look: float
-    """How far along the way something new makes the guide plan anew [m]."""
+    """How far along the way something new makes the navigator plan anew [m]."""
     clear: float
     """What is nearer than this to the way is in it [m]."""
     height: float
     """To go at, above the map's origin [m]; NaN for the present one. A task sets it, and what keeps no height leaves it be."""
     measured: float
-    """Its height now, above the map's origin [m]; NaN while not known. Whoever measures it sets it."""
+    """Its height now, above the map's origin [m]; NaN while not known. The navigator sets it."""
     aloft: bool
-    """It is where it moves: what takes off is in the air. Whoever hears of its flight sets it."""
+    """It is where it moves: a robot that takes off is in the air. The navigator sets it."""
 
     @property
     def under_way(self) -> bool:
@@ -89,7 +89,7 @@ class PathController(Protocol):
 
 
 class GroundBound:
-    """What `PathController` says of heights, for what stays on the ground."""
+    """The heights of `PathController`, for robots that stay on the ground."""
 
     def __init__(self) -> None:
         self.height = self.measured = math.nan
@@ -100,7 +100,7 @@ class GroundBound:
 
 
 class SinglePath:
-    """What `PathController` says of the way, for what goes along a single path."""
+    """The way of `PathController`, for robots that follow a single path."""
 
     cruise: float
 

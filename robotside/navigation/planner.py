@@ -55,7 +55,7 @@ class Planner:
         self._need = radius + MARGIN
         self._want = radius + PREFERRED_MARGIN
         self._reach = radius + SOFT_MARGIN
-        _ = self.grid.distance  # now, and not while somebody waits for a way
+        _ = self.grid.distance  # now, and not while a search waits for it
 
     def fault(self, name: str, x: float, y: float) -> Problem:
         """Why the robot cannot stand at this place, as one sentence; empty when it can."""

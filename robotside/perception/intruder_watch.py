@@ -36,7 +36,7 @@ MAX_DISTANCE = 7.0
 """Sightings from farther away are not placed on the map [m]."""
 
 CONE_HEIGHT = (0.35, 0.95)
-"""How tall a thing at the measured distance must be to be a cone [m]."""
+"""Least and greatest height of a cone at the measured distance [m]."""
 
 MAX_SWEEP_AGE = 1.0
 """Laser points older than this against the picture are not used [s]."""

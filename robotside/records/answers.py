@@ -12,7 +12,7 @@ MAX_ANSWERS = 256
 
 
 class Answers:
-    """The newest answers, kept in the transaction of what they tell of."""
+    """The newest answers, kept in the transaction of the change that they answer."""
 
     def __init__(self, ledger: Ledger) -> None:
         self._ledger = ledger

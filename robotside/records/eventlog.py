@@ -19,11 +19,11 @@ __all__ = ["FIRST_EVENTS", "MAX_EVENTS", "EventLog"]
 MAX_EVENTS = 5000
 """Events that can still be asked for."""
 FIRST_EVENTS = 500
-"""Events for somebody who knows none of them."""
+"""Events for a client that knows none of them."""
 
 
 class EventLog:
-    """All events. A number is never given twice in one log, and who was told of an event finds it here again."""
+    """All events. A number is never given twice in one log, and every event that was published is found here again."""
 
     def __init__(self, ledger: Ledger) -> None:
         self._ledger = ledger
@@ -71,7 +71,7 @@ class EventLog:
         return max(self._ledger.stored("events"), default=0) > last
 
     def seen(self, ids: Iterable[int], identity: str) -> list[Event]:
-        """Those of the events named that somebody has seen to, as it is on the disk; none of another log."""
+        """Those of the named events that are acknowledged on the disk; none of another log."""
         rows = self._ledger.stored("events")
         known = sorted(set(ids)) if identity == self.identity else []
         return [self._signed(rows[id]) for id in known if id in rows and rows[id].acknowledged_by]

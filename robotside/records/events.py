@@ -20,7 +20,7 @@ MAX_TEXT = 300
 
 
 class Say(Protocol):
-    """Tells the operator something."""
+    """Writes a sentence to the operator's log."""
 
     def __call__(
         self, kind: str, notice: Notice, level: str = "info", *, at: tuple[float, float] | None = None
@@ -59,7 +59,7 @@ class Events:
         return self._log.since(number, boot)
 
     def answer(self, asked: GetEventsRequest) -> GetEventsResponse:
-        """What who asked has missed: later events, and which of the `open` ones somebody has seen to."""
+        """The events that a client has missed: later ones, and which of its `open` ones are acknowledged."""
         later = self._log.since(asked.since, asked.boot, asked.most)
         more = asked.most > 0 and bool(later) and self._log.more(later)
         seen = [event for event in self._log.seen(asked.open, asked.boot) if event.id <= asked.since]

@@ -27,7 +27,7 @@ class PlaceSource(Protocol):
 
 
 def take_over(robot: object, records: Records, say: Say) -> None:
-    """Keep the places that `robot` knows, if it knows any, nobody has kept one yet, and it was never done before."""
+    """Keep the places that `robot` knows, if none is kept yet and they were never taken over before."""
     if not isinstance(robot, PlaceSource) or records.setting(_DONE) or records.places.all():
         return
     places = robot.places

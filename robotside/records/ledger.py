@@ -16,7 +16,7 @@ __all__ = ["Ledger", "Writer"]
 
 
 class Writer(Protocol):
-    """Writes jobs one after the other and tells of each what came of it."""
+    """Writes jobs one after the other and reports the outcome of each."""
 
     def submit(self, job: Job, told: Callable[[Job, str], None]) -> bool:
         """Write `job` when its turn comes, then call `told` with why it is not written, empty when it is.
@@ -41,7 +41,7 @@ class Ledger:
 
     @contextmanager
     def together(self) -> Iterator[Job]:
-        """Write all that is changed within as one; the job tells what came of it, and is done at once if nothing was."""
+        """Write all that is changed within as one; the job has the outcome, and is done at once if nothing was changed."""
         if self._open is not None:
             yield self._open
             return
@@ -61,7 +61,7 @@ class Ledger:
         return self.memory.stored[table]
 
     def order(self, table: str, key: Key, value: Any, then: Callable[[], object] | None = None) -> None:
-        """Change a row because somebody asks for it, None deletes it; `then` is called once it is on the disk."""
+        """Change a row on request, None deletes it; `then` is called once it is on the disk."""
         with self.together() as job:
             job.orders.append(Put(table, key, value))
             self.memory.apply(job.orders[-1])
@@ -115,7 +115,7 @@ class Ledger:
         write(puts, told)
 
     def say(self, sentence: str) -> None:
-        """Tell of trouble that is no job's."""
+        """Report trouble that belongs to no job."""
         self.on_trouble(sentence)
 
     def _hand_in(self, job: Job) -> None:

@@ -27,7 +27,7 @@ __all__ = ["CannotOpen", "open_records"]
 _BACKENDS = ("sqlite", "postgresql")
 
 SKIPPED_AFTER_CRASH = 1_000
-"""Numbers of events left out after a crash: some may have been told and are not on the disk."""
+"""Numbers of events left out after a crash: some may have been published and are not on the disk."""
 
 
 def open_records(
@@ -41,7 +41,7 @@ def open_records(
 ) -> Records:
     """Open what is kept in `directory`, or at `url` as SQLAlchemy writes it; CannotOpen says why it cannot be.
 
-    `call_soon` brings what the writing thread tells to the thread of the records, as a loop's `call_soon_threadsafe`
+    `call_soon` calls a function in the thread of the records, as a loop's `call_soon_threadsafe`
     does. Of a SQLite file `backups` are kept. `patience` [s] is waited for another program that has the records. Anything
     unusual is in `problems`.
     """
@@ -88,7 +88,7 @@ def _store(
 
 
 def _first_words(opened: Opened, directory: Path) -> tuple[list[Put], list[str]]:
-    """What is written before anything else, and what there is to say about it."""
+    """The first rows to write, and the sentences about them."""
     facts = opened.content["facts"]
     skip = max(opened.skip, SKIPPED_AFTER_CRASH if facts.get("clean") == "0" else 0)
     puts = [Put("facts", "clean", "0")]

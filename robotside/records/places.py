@@ -23,7 +23,7 @@ MAX_TEXTS = {"name": 60, "floor": 20, "tag": 64, "note": 300}
 
 
 class Places:
-    """All places; no two have the same name, whatever their letters' size."""
+    """All places; no two have the same name, capital letters or not."""
 
     def __init__(self, ledger: Ledger) -> None:
         self._ledger = ledger

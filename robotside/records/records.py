@@ -1,8 +1,8 @@
 """The one door to all records: places, missions, history, settings, home, events, schedule, queue.
 
-Everything is in memory: reading never waits. A change is seen at once by the robot itself and written by a thread of
-its own; `together` tells when it is on the disk, and only then is it answered and shown. A change that somebody asked for
-and that cannot be written is taken back; a fact (an event, how far a task is) stays in memory and is written later.
+Everything is in memory: reading never waits. The robot sees a change at once, and a thread of its own writes it; the job of
+`together` is done when the change is on the disk, and only then is it answered and shown. A change that a client asked for
+and that cannot be written is taken back; a fact (an event, the progress of a task) stays in memory and is written later.
 
     with records.together() as job:
         place = records.places.set(Place(name="Office 12", x=4.0, y=2.0))
@@ -62,7 +62,7 @@ class Records:
         return cls(empty() if stored is None else stored, ImmediateWriter(storage), storage.close)
 
     def together(self) -> AbstractContextManager[Job]:
-        """Have all changes within written as one, or none of them; the job tells what came of it."""
+        """Have all changes within written as one, or none of them; the job has the outcome."""
         return self._ledger.together()
 
     def watch(self, table: str, change: Callable[[], None]) -> None:
@@ -78,7 +78,7 @@ class Records:
         self._ledger.on_trouble = tell
 
     def setting(self, name: str, default: str = "") -> str:
-        """A setting that an operator changed; `default` when nobody did."""
+        """A setting that an operator changed; `default` when none did."""
         return str(self._ledger.rows("settings").get(name, default))
 
     def set_setting(self, name: str, value: str, then: Callable[[], object] | None = None) -> None:
@@ -89,7 +89,7 @@ class Records:
         self._ledger.order("settings", name, value, then)
 
     def note_setting(self, name: str, value: str) -> None:
-        """Have a setting so whatever the disk says; whoever caused it waits until it was tried."""
+        """Change a setting even if the disk fails; its client waits until it was tried."""
         with self._ledger.together() as job:
             job.urgent = True
             self._ledger.fact("settings", name, value)
@@ -128,7 +128,7 @@ class Records:
         self._ledger.try_again()
 
     def say_trouble(self, sentence: str) -> None:
-        """Tell whoever watches of trouble that no change has caused, as of a backup."""
+        """Report trouble that no change has caused, as of a backup."""
         self._ledger.say(sentence)
 
     def rebuild(self, write: Callable[[list[Put], Callable[[str, str], None]], bool]) -> None:

@@ -16,10 +16,10 @@ __all__ = ["RecordsPublisher"]
 
 
 class RecordsPublisher:
-    """What is kept on the topics that tell of it."""
+    """Publishes the records on their topics."""
 
     def __init__(self, records: Records, publish: Publish, say: Say, clock: Callable[[], float]) -> None:
-        """`clock` is the operators' [s]. Shows everything there is, and tells what was wrong with it."""
+        """`clock` is the operators' [s]. Publishes all records, and the trouble of opening them."""
         self._records, self._publish, self._say, self._clock = records, publish, say, clock
         for table, show in (("facts", self._mission), ("places", self._places)):
             records.watch(table, show)

@@ -54,7 +54,7 @@ class Agenda:
     ) -> None:
         """`clock` is the operators' [s]; `civil` is what the computer's own clock says, which may jump [s].
 
-        `barred(drains)` tells why no task may start by itself just now, one that needs charge or not; empty when it may.
+        `barred(drains)` gives the reason why no task may start now, one that drains the battery or not; empty when it may.
         """
         self._records, self._engine, self._task_factory = records, engine, task_factory
         self._publish, self._say, self._clock = publish, say, clock
@@ -95,7 +95,7 @@ class Agenda:
             self._go_on(now)
 
     def hold(self, why: str) -> None:
-        """Have the queue wait until somebody says so; `why` ends a sentence. Nothing happens when it is empty."""
+        """Hold the queue until it is released; `why` ends a sentence. Nothing happens when it is empty."""
         if self._records.queue.current.orders and not self.held:
             self.held = why
             self._held_under = self._engine.status.task_id if self._engine.active else 0
@@ -109,7 +109,7 @@ class Agenda:
 
     @property
     def parked(self) -> str:
-        """What waits until somebody has the queue go on, as a sentence; empty when nothing does."""
+        """The held queue as a sentence; empty when it is not held."""
         count = len(self._records.queue.current.orders)
         if not self.held or not count:
             return ""
@@ -243,7 +243,7 @@ class Agenda:
         self._say("task", Notice(Code.QUEUE_ADDED, said, task=order.task), "info")
 
     def _waiting(self) -> str:
-        """Why nobody knows when a task in the queue would have its turn; empty when it has one."""
+        """The reason why the start of a queued task is unknown; empty when it is known."""
         state = self._engine.status.state
         return f"a task is {state.lower()}" if state in _BARS else ""
 

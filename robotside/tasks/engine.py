@@ -27,7 +27,7 @@ PROGRESS_PERIOD = 0.5
 """Between two progress messages [s]."""
 
 TO_CHARGE = ("go_home", "dock")
-"""Tasks that bring it to where it can be charged, whatever the battery says."""
+"""Tasks that bring it to where it can be charged, even with a low battery."""
 
 ON_THE_WAY = ("driving", "turning")
 """Phases in which the way that is left is known."""
@@ -44,9 +44,9 @@ class Task:
     root: Behaviour
     course: Outline
     order: TaskOrder = field(default_factory=TaskOrder)
-    """What was asked for, so that it can be asked for again."""
+    """The order, so that it can be given again."""
     done: Callable[[], str] = lambda: "Done."
-    """What is said at its end."""
+    """The sentence at its end."""
     by: str = ""
     """Who started it; empty when the robot or its schedule did."""
     moves: bool = True
@@ -59,7 +59,7 @@ class Task:
 
 
 class Engine:
-    """Runs one task at a time and tells of each change once."""
+    """Runs one task at a time and reports each change once."""
 
     def __init__(
         self,
@@ -108,7 +108,7 @@ class Engine:
 
     @property
     def noted(self) -> Noted:
-        """How far the task is, for a restart."""
+        """The progress of the task, for a restart."""
         return self.task.course.noted() if self.task else Noted()
 
     def recall(self, last: int, run: TaskRun | None) -> None:

@@ -16,7 +16,7 @@ __all__ = ["InterruptedTask"]
 
 
 class InterruptedTask:
-    """The one task that was cut, as long as nobody has decided about it."""
+    """The one task that was cut, until an operator has decided about it."""
 
     def __init__(self, cut: UnderWay, engine: Engine) -> None:
         """Offer it."""

@@ -14,7 +14,7 @@ _SETTING = "manual by"
 
 
 class ManualHold:
-    """Who chose it, kept with the settings; whatever the disk says it holds, as the motion does that ends it."""
+    """The operator who chose it, kept with the settings; it holds even if the disk fails."""
 
     def __init__(self, records: Records, say: Say) -> None:
         self._records, self._say = records, say
@@ -30,7 +30,7 @@ class ManualHold:
         return f"{self.by} set the mode to MANUAL" if self.by else ""
 
     def choose(self, name: str, client_id: str = "") -> bool:
-        """`name`, whose `client_id` may be empty, chose it; False when somebody had already."""
+        """`name`, whose `client_id` may be empty, chose it; False when it was chosen already."""
         if self.by:
             return False
         self._records.note_setting(_SETTING, name)
@@ -39,7 +39,7 @@ class ManualHold:
         return True
 
     def end(self) -> bool:
-        """Somebody had the robot drive itself; False when nothing kept it from that."""
+        """An operator lets the robot drive itself again; False when it was not held."""
         if not self.by:
             return False
         self._records.note_setting(_SETTING, "")

@@ -35,7 +35,7 @@ MAX_LATENESS = 60.0
 """A start that is later than this is missed [s]."""
 
 SOON = 23 * 3600.0
-"""A time of day that comes within this needs no second look, whatever the clock did [s]."""
+"""A time of day that comes within this needs no second look, even if the clock was set [s]."""
 
 MIN_PERIOD = 60.0
 """[s]"""
@@ -58,7 +58,7 @@ class ScheduledStart(NamedTuple):
 
 
 def fault(task: ScheduledTask) -> Problem:
-    """What is wrong with the times of `task`, as one sentence; empty when nothing is."""
+    """The fault in the times of `task`, as one sentence; empty for none."""
     if bool(task.at) == bool(task.every):
         said = "A scheduled task needs either a time of day, at, or a period, every; not both and not none."
         return Notice(Code.SCHEDULE_TIME_MISSING, said)
@@ -92,9 +92,9 @@ def following(task: ScheduledTask, after: float, zone: dt.tzinfo) -> float:
 
 
 def scheduled_starts(tasks: Iterable[ScheduledTask], now: float, zone: dt.tzinfo) -> list[ScheduledStart]:
-    """What has changed about `tasks` up to `now` [s since the epoch]: those that start, that were missed, that have no time yet.
+    """The changes of `tasks` up to `now` [s since the epoch]: those that start, that were missed, that have no time yet.
 
-    However many starts were missed, only the last one is told. A clock that goes back a little starts nothing a second
+    However many starts were missed, only the last one is reported. A clock that goes back a little starts nothing a second
     time; one that goes back by more than a start has its times reckoned anew.
     """
     found = []

@@ -36,7 +36,7 @@ MAX_PLACES = 100
 """That one task may name."""
 
 MAX_MESSAGE = 200
-"""Characters kept of what is told to a person."""
+"""Characters kept of a message to a person."""
 
 MAX_NAME = 64
 """Characters kept of a name and a tag."""
@@ -48,7 +48,7 @@ MAX_NAMED = 8
 """Places that a refusal names."""
 
 MIN_HEIGHT = 0.3
-"""What flies is sent no lower [m]."""
+"""A robot that flies is sent no lower [m]."""
 
 _WORDS = {
     "patrol": "a patrol",
@@ -66,7 +66,7 @@ _WORDS = {
 
 
 def words_for(task: str) -> str:
-    """What a task is called within a sentence."""
+    """The name of a task within a sentence."""
     return _WORDS.get(task, task)
 
 
@@ -93,7 +93,7 @@ class TaskFactory:
         fault: Callable[[str, float, float], Problem],
         heights: tuple[float, float] = (-math.inf, math.inf),
     ) -> None:
-        """`fault` tells why the robot cannot or may not stand at a place that is called so; empty when it can.
+        """`fault` gives the reason why the robot cannot or may not stand at a place of that name; empty when it can.
 
         `heights` are the lowest and the highest at which it can and may be, above the map's origin [m].
         """
@@ -115,7 +115,7 @@ class TaskFactory:
         }
 
     def task(self, order: TaskOrder, by: str = "") -> Task:
-        """What does `order`, which `by` has asked for."""
+        """The task of an `order` by the operator `by`."""
         make = self._makers.get(order.task)
         if make is None:
             said = f"There is no task {order.task!r}; there are {', '.join(TASKS)}."
@@ -335,7 +335,7 @@ class TaskFactory:
 
 
 def _span_words(lowest: float, highest: float, more: str) -> str:
-    """What is allowed, as in `from 0.3 to 30 m`."""
+    """The allowed range, as in `from 0.3 to 30 m`."""
     if math.isinf(highest):
         return f"at least {lowest:g} m{more}"
     if math.isinf(lowest):

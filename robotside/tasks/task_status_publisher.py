@@ -1,4 +1,4 @@
-"""The publisher of the task's status: begin and end are published once they are on the disk, so that a restart takes nothing back."""
+"""The publisher of the task's status: begin and end once they are on the disk, so that a restart takes nothing back."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from robotside.records import Job, Records
 __all__ = ["DISK_TIMEOUT", "TaskStatusPublisher"]
 
 DISK_TIMEOUT = 2.0
-"""How long a disk that does not answer may keep back what the robot does [s]: who stands beside it must know."""
+"""The longest time that a disk without an answer may delay a status [s]: people beside the robot must know it."""
 
 
 class TaskStatusPublisher:
@@ -27,7 +27,7 @@ class TaskStatusPublisher:
         self._waiting: deque[tuple[TaskStatus, Job, float]] = deque()
 
     def show(self, status: TaskStatus) -> None:
-        """Note a status and tell it, after those that wait; a disk that fails keeps nothing back."""
+        """Note a status and publish it, after those that wait; a disk that fails delays nothing."""
         with self._records.together() as job:
             self.note(status)
             waits = bool(self._waiting) or job.binding
@@ -38,12 +38,12 @@ class TaskStatusPublisher:
             self._publish(status)
 
     def update(self) -> None:
-        """Tell what was tried, or has waited for too long; to be called now and then."""
+        """Publish each status that was tried, or has waited for too long; call it each tick."""
         now = self._clock()
         while self._waiting and (self._waiting[0][1].done or now >= self._waiting[0][2]):
             self._publish(self._waiting.popleft()[0])
 
     @property
     def all_told(self) -> bool:
-        """Nothing waits to be told."""
+        """No status waits to be published."""
         return not self._waiting

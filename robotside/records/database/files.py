@@ -15,10 +15,10 @@ from pathlib import Path
 __all__ = ["MAX_BACKUPS", "LOCK_TIMEOUT", "DatabaseFiles", "InUse"]
 
 LOCK_TIMEOUT = 5.0
-"""How long to wait for another program that has the database [s]."""
+"""The longest wait for another program that has the database [s]."""
 
 MAX_DAMAGED = 3
-"""Broken files that are kept for whoever wants to look into them."""
+"""Broken files that are kept for inspection."""
 MAX_BACKUPS = 5
 """Backups that are kept: one half are the newest ones, the others the newest of each of the days before."""
 _PARTS = ("", "-wal", "-shm", "-journal")
@@ -54,7 +54,7 @@ class DatabaseFiles:
         self._used: os.stat_result | None = None
 
     def lock(self) -> None:
-        """Have the records to ourselves until `unlock` or the end of the process, whatever ends it.
+        """Have the records to ourselves until `unlock` or the end of the process, however it ends.
 
         InUse when another process does not let go of them in time.
         """
@@ -81,7 +81,7 @@ class DatabaseFiles:
             self._lock = -1
 
     def fault(self, path: Path | None = None) -> str:
-        """What is broken in a database, this one by default; empty when it is whole or not there.
+        """The damage of a database, this one by default; empty when it is whole or not there.
 
         Raises sqlite3.OperationalError when that cannot be found out: it is locked, or may not be read.
         """
@@ -113,7 +113,7 @@ class DatabaseFiles:
         self._used = self.path.stat()
 
     def lost(self) -> str:
-        """What became of the file in use, in which whatever was written is lost; empty while it is there and whole."""
+        """The loss of the file in use, with all that was written to it; empty while it is there and whole."""
         try:
             now, log = self.path.stat(), Path(f"{self.path}-wal").stat()
         except FileNotFoundError:

@@ -26,13 +26,13 @@ class Job:
     """Rows that are written together or not at all."""
 
     orders: list[Put] = field(default_factory=list)
-    """What somebody asked for: given up and told when it cannot be written."""
+    """Changes that a client asked for: given up, with an answer, when they cannot be written."""
     facts: list[Put] = field(default_factory=list)
-    """What is so whatever the disk says: stays in memory and is tried again."""
+    """Facts: they stay in memory and are tried again if the disk fails."""
     then: list[Callable[[], object]] = field(default_factory=list)
     """Called once the orders are on the disk; never when they are not."""
     after: list[Callable[[], object]] = field(default_factory=list)
-    """Called once it was tried, whatever came of it."""
+    """Called once it was tried, written or not."""
     done: bool = False
     """It was tried."""
     problem: str = ""
@@ -40,9 +40,9 @@ class Job:
     trouble: str = ""
     """Why nothing of it is on the disk yet, orders or facts, as one sentence; empty when all is."""
     given_up: bool = False
-    """Whoever waited for it was told that nobody knows: if it is written after all, nothing may move for it."""
+    """The client that waited was answered that the outcome is unknown: if it is written after all, nothing may move for it."""
     urgent: bool = False
-    """Who caused it waits for it, though it has no orders."""
+    """Its client waits for it, though it has no orders."""
     _waiting: list[asyncio.Future[None]] = field(default_factory=list)
 
     @property
@@ -56,7 +56,7 @@ class Job:
         return self.urgent or bool(self.orders)
 
     def settle(self, problem: str) -> None:
-        """Note what came of it and tell who waits."""
+        """Note the outcome and answer those who wait."""
         self.done, self.trouble, self.problem = True, problem, problem if self.orders else ""
         for future in self._waiting:
             if not future.done():
@@ -67,7 +67,7 @@ class Job:
     async def kept(self, patience: float) -> str:
         """Wait until it was tried; returns why the orders are not on the disk, empty when they are or there were none.
 
-        After `patience` [s] the answer is that nobody knows, and `trouble` says so.
+        After `patience` [s] the answer is that the outcome is unknown, and `trouble` says so.
         """
         if not self.done:
             future = asyncio.get_running_loop().create_future()

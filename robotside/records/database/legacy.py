@@ -33,7 +33,7 @@ class LeftBehind(msgspec.Struct, frozen=True):
 
 
 def left_behind(directory: Path) -> LeftBehind:
-    """Look into `directory`. STOP counts as pressed by somebody when that was noted but cannot be read."""
+    """Look into `directory`. STOP counts as pressed when that was noted but cannot be read."""
     mission, problems = None, []
     try:
         mission = from_json((directory / "mission.json").read_bytes(), Mission)

@@ -266,4 +266,4 @@ TABLES: dict[str, _Table] = {
     ),
     "facts": _Table(FactRow, lambda text: {"value": _text(text)}, lambda row: row.value),
 }
-"""How the values of each table are kept."""
+"""The conversion of each table's values."""

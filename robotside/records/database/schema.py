@@ -33,7 +33,7 @@ def upgrade(engine: Engine, before: Callable[[], object] = lambda: None) -> None
 
 
 def _revision(engine: Engine) -> str | None:
-    """What the tables are of, by alembic's own table; None when there are none."""
+    """The revision of the tables, by alembic's own table; None when there are none."""
     with engine.connect() as connection:
         if not inspect(connection).has_table("alembic_version"):
             return None

@@ -17,7 +17,7 @@ from robotside.records.database.store import CannotOpen, Opened, Store
 __all__ = ["SKIPPED_AFTER_RESTORE", "SqliteStore"]
 
 SKIPPED_AFTER_RESTORE = 100_000
-"""Numbers of events left out after a backup was restored: some may have been told and are not in it."""
+"""Numbers of events left out after a backup was restored: some may have been published and are not in it."""
 
 
 class SqliteStore(Store):

@@ -88,7 +88,7 @@ def engine_of(url: URL, patience: float = LOCK_TIMEOUT) -> Engine:
 
 
 def not_written(error: Exception) -> NotWritten:
-    """What went wrong, as the operator may read it."""
+    """The error as a sentence for the operator."""
     cause = error.orig if isinstance(error, DBAPIError) and error.orig is not None else error
     text = " ".join(str(cause).split())
     small = text.lower()

@@ -24,7 +24,7 @@ class Opened(NamedTuple):
     problems: list[str]
     """Sentences for the operator."""
     skip: int
-    """Numbers of events to leave out: they may have been told and are not in it."""
+    """Numbers of events to leave out: they may have been published and are not in it."""
 
 
 class Store:

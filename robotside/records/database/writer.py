@@ -32,7 +32,7 @@ RETRY_PERIOD = 5.0
 BACKUP_PERIOD = 3600.0
 """From one backup to the next [s], if anything was written."""
 CLOSE_TIMEOUT = 10.0
-"""How long the last jobs may take at the end [s]."""
+"""The longest time for the last jobs at the end [s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +80,7 @@ class WriterThread:
         return True
 
     def rebuild(self, puts: list[Put], told: Callable[[str, str], None]) -> bool:
-        """Start fresh with these rows; `told` hears what was done, and why it could not be. False when too many wait."""
+        """Start fresh with these rows; `told` gets what was done and why it could not be. False when too many wait."""
         try:
             self._waiting.put_nowait(_Rebuild(puts, told))
         except queue.Full:
@@ -103,7 +103,7 @@ class WriterThread:
         self._store.close()
 
     def _turn(self) -> bool:
-        """Do what waits; True when it was told to end."""
+        """Write the waiting jobs; True at the end of the thread."""
         work = self._next(RETRY_PERIOD)
         batch: list[tuple[Job, OnWritten]] = []
         while isinstance(work, tuple):
@@ -195,7 +195,7 @@ class WriterThread:
         try:
             self._call_soon(call, *arguments)
         except RuntimeError:
-            return  # the loop has ended: nobody is left who waits
+            return  # the loop has ended: no one waits any more
 
 
 class ImmediateWriter:
@@ -205,7 +205,7 @@ class ImmediateWriter:
         self._storage = storage
 
     def submit(self, job: Job, told: OnWritten) -> bool:
-        """Write `job` and tell."""
+        """Write `job` and call back."""
         try:
             self._storage.write(job.puts)
         except NotWritten as problem:

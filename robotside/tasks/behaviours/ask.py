@@ -18,16 +18,16 @@ __all__ = ["AskAt", "Question"]
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """What is asked at one place."""
+    """The question at one place."""
 
     asks: str
     """As in: Has it been picked up at Office 12?"""
     done: str
     """As a sentence begins when it was answered: Picked up at Office 12."""
     message: str = ""
-    """For the person there; empty when there is nothing to tell."""
+    """For the person there; empty for no message."""
     tag: str = ""
-    """What the reader reads of the card that answers; empty when only a tap does."""
+    """The tag of the card that answers; empty when only a tap does."""
 
 
 class AskAt(Behaviour):

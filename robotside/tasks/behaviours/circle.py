@@ -32,7 +32,7 @@ class Circle(Behaviour):
     def __init__(
         self, navigator: Navigator, situation: Situation, say: Say, fault: Callable[[float, float], str]
     ) -> None:
-        """`fault` tells why the robot cannot or may not stand at a place; empty when it can."""
+        """`fault` gives the reason why the robot cannot or may not stand at a place; empty when it can."""
         super().__init__("circle intruders")
         self._navigator, self._situation, self._say, self._fault = navigator, situation, say, fault
         self._round: Seen | None = None

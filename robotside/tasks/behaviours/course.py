@@ -21,7 +21,7 @@ SAME_DISTANCE = 0.05
 
 
 class Noted(msgspec.Struct, frozen=True):
-    """How far a task was, as it is kept for a restart."""
+    """The progress of a task, as it is kept for a restart."""
 
     index: int = -1
     visited: int = 0
@@ -34,7 +34,7 @@ class Noted(msgspec.Struct, frozen=True):
 
 
 class Outline(Protocol):
-    """What is told of any task. Of one without points, `count` is 0."""
+    """The progress of any task. Of one without points, `count` is 0."""
 
     motion: str
     laps: int

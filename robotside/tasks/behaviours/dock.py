@@ -32,7 +32,7 @@ CHARGE_TIMEOUT = 20.0
 """So long it creeps and waits for the charge [s]."""
 
 MAX_ASIDE = 0.25
-"""Who is farther from the line to the dock begins anew [m]."""
+"""A robot farther than this from the line to the dock begins again [m]."""
 
 MAX_ASKEW = 0.5
 """The same for the direction [rad]."""
@@ -94,7 +94,7 @@ class Dock(Behaviour):
             return Status.SUCCESS
         here = now.pose.since(self._place)
         if abs(here.y) > MAX_ASIDE or abs(here.yaw) > MAX_ASKEW or here.x < -APPROACH_DISTANCE - MAX_ASIDE:
-            self._set_out()  # somebody moved it meanwhile
+            self._set_out()  # it was moved meanwhile
             return Status.RUNNING
         left = CHARGE_TIMEOUT - (now.worked - self._began)
         if left <= 0:

@@ -21,7 +21,7 @@ LEG_STATUS = {
 }
 
 STANDING_TIMEOUT = 4.0
-"""Without moving for so long it is said that it makes no way [s]."""
+"""A robot that has not moved for so long reports that it makes no way [s]."""
 
 MIN_MOVE, MIN_TURN = 0.1, 0.2
 """Less than this is no way [m, rad]."""
@@ -73,7 +73,7 @@ class DriveTo(Behaviour):
         return clock - self._since > STANDING_TIMEOUT
 
     def terminate(self, new_status: Status) -> None:
-        """Stand still, whatever the reason."""
+        """Stand still."""
         self._navigator.rest()
 
     def _sentence(self, leg: LegState) -> str:

@@ -17,7 +17,7 @@ class Dwell(Behaviour):
     """Stands as long as the course says, or for `duration` [s]; a pause does not count."""
 
     def __init__(self, duration: float, situation: Situation, course: Course | None = None) -> None:
-        """`course` tells how long and where instead, each time anew."""
+        """`course` gives time and place instead, each time anew."""
         super().__init__("dwell")
         self._duration, self._situation, self._course = duration, situation, course
         self._until = -math.inf

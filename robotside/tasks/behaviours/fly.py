@@ -22,7 +22,7 @@ MIN_RISE, RISE_TIMEOUT = 0.1, 20.0
 """To take off, it comes nearer to its height by so much [m] within so long [s]; otherwise there is something that holds it."""
 
 HEIGHT_TOLERANCE = 0.25
-"""It is where it was told within this [m]."""
+"""It has reached its height within this [m]."""
 
 SURFACE_HEIGHT = -0.12
 """A swimmer above this lies at the surface [m]."""

@@ -140,7 +140,7 @@ class FollowHeading(Behaviour):
         return Status.RUNNING
 
     def _wall(self) -> float:
-        """Free way ahead as the map, fence included, tells [m], up to the horizon."""
+        """Free way ahead by the map, fence included [m], up to the horizon."""
         need = self._navigator.radius + MARGIN
         along = np.arange(0.0, self._horizon, 0.05)
         places, yaws = self._way(along)

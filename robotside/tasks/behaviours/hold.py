@@ -52,7 +52,7 @@ class Hold(Behaviour):
         return Status.SUCCESS if self._span.over else Status.RUNNING
 
     def terminate(self, new_status: Status) -> None:
-        """Rest, whatever it was about."""
+        """Rest."""
         if self._navigator.controller.keeps_courses:
             self._navigator.rest()
 

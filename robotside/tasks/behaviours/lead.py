@@ -23,13 +23,13 @@ from robotside.tasks.behaviours.situation import Situation
 __all__ = ["FOLLOWER_TIMEOUT", "SENSOR_TIMEOUT", "STAY_TIME", "lead"]
 
 FOLLOWER_TIMEOUT = 1.5
-"""It drives on for so long after nobody was seen to follow [s]."""
+"""It drives on for so long after the follower was lost [s]."""
 
 SENSOR_TIMEOUT = 3.0
-"""A sensor that was silent for this long cannot tell who follows [s]."""
+"""A sensor that was silent for this long does not show who follows [s]."""
 
 STAY_TIME = 6.0
-"""At a place about which there is something to tell [s]."""
+"""Stop at a place that has a note [s]."""
 
 
 class _Lead(DriveTo):
@@ -64,7 +64,7 @@ class _Lead(DriveTo):
         return f"Leading the way to {goal.spoken}{waits}."
 
     def _alone(self) -> bool:
-        """Nobody has followed for a while, as far as a sensor can tell."""
+        """No one has followed for a while, by the sensor."""
         now = self._situation
         if now.follows is None or now.now - now.follows_heard > SENSOR_TIMEOUT:
             if not self._blind:
@@ -81,7 +81,7 @@ class _Lead(DriveTo):
 
 
 class _Tell(Behaviour):
-    """Tells the note of the place where it stands, and stays as long as that takes."""
+    """Says the note of the place where it stands, and stays as long as that takes."""
 
     def __init__(self, course: Course, notes: list[str], situation: Situation, say: Say) -> None:
         super().__init__("tell")
@@ -108,7 +108,7 @@ class _Tell(Behaviour):
 def lead(
     places: Places[Place], message: str, navigator: Navigator, situation: Situation, say: Say
 ) -> tuple[Course, Behaviour]:
-    """Along `places` in their order; `message` is told at the start, empty when there is nothing to tell."""
+    """Along `places` in their order; `message` is said at the start, empty for none."""
     course = Course([at_place(place) for place in places])
 
     def count() -> bool:

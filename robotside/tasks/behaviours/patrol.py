@@ -53,7 +53,7 @@ def patrol(
 ) -> Behaviour:
     """The tree that visits the points of `course`; skips what cannot be reached, fails when nothing can.
 
-    What waits in `situation.intruders` is gone round on the way; `fault` tells where the robot cannot stand.
+    What waits in `situation.intruders` is gone round on the way; `fault` gives the reason where the robot cannot stand.
     """
     drive = DriveTo(course, navigator, situation)
 

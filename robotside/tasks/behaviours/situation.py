@@ -18,7 +18,7 @@ MAX_INTRUDERS = 20
 
 @dataclass(frozen=True, slots=True)
 class Doing:
-    """What the robot does for its task."""
+    """The present action of a task."""
 
     phase: str = ""
     """driving, waiting, dwelling, holding, turning, docking, circling, taking off, landing or surfacing; empty when it does none of them."""
@@ -51,13 +51,13 @@ class Situation:
     pose: Pose2 = ORIGIN
     """Of the robot in `map`."""
     points: Points = field(default_factory=lambda: np.empty((0, 2)))
-    """What the laser sees, in `base_link`."""
+    """Points of the laser, in `base_link`."""
     confirmed_by: str = ""
-    """Who has answered the question since the last tick; empty when nobody has."""
+    """The operator who has answered the question since the last tick; empty for none."""
     tag: str = ""
-    """What the reader has read since the last tick; empty when nothing."""
+    """The tag that was read since the last tick; empty for none."""
     follows: bool | None = None
-    """Somebody follows; None while no sensor was heard that could tell."""
+    """A person follows; None without a sensor for that."""
     follows_heard: float = -math.inf
     """When that sensor was last heard [s], robot clock."""
     flight: str = ""
@@ -69,9 +69,9 @@ class Situation:
     intruders: deque[Seen] = field(default_factory=lambda: deque(maxlen=MAX_INTRUDERS))
     """Found, and not gone round yet."""
     doing: Doing = Doing()
-    """What the behaviour that was ticked last said that it does."""
+    """The action that the last behaviour reported."""
     still: float = 0.0
-    """How long that takes beside the way [s]; NaN when nobody knows."""
+    """Time of that beside the way [s]; NaN when unknown."""
 
     @property
     def worked(self) -> float:

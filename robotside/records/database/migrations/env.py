@@ -1,4 +1,4 @@
-"""How alembic runs the migrations: over the connection it is handed, within the transaction that is open there."""
+"""The run of the migrations by alembic: over the connection that it gets, within the open transaction."""
 
 from __future__ import annotations
 
