@@ -12,7 +12,9 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
+from bridge.core.codes import Code
 from bridge.msgs import Msg
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.geometry_msgs import Point, Pose, Quaternion, Twist
 from bridge.msgs.pilothouse_msgs import Event, Manoeuvre, Place, RobotInfo
 from sim.core.order_limits import check, cut
@@ -139,7 +141,7 @@ class SimRobot:
         order, excess = cut(order, self.info, self.heights)
         self._vehicle.manoeuvre(order)
         if excess and not self._excess:
-            self._unread.append(("/events", Event(level="info", kind="robot", text=excess)))
+            self._report(Code.ORDER_CUT, excess, "info", robot=self.info.name)
         self._excess = excess
 
     def stop(self) -> None:
@@ -170,9 +172,16 @@ class SimRobot:
         state, start = self._vehicle.state(), self._vehicle.scene.start
         aside = math.dist(state.position[:2], (start.x, start.y))
         if aside > _START_TOLERANCE:
-            said = f"There is no room at the start of {self.info.name}: it stands {aside:.1f} m beside it."
-            self._unread.append(("/events", Event(level="warn", kind="robot", text=said)))
+            name = self.info.name
+            said = f"There is no room at the start of {name}: it stands {aside:.1f} m beside it."
+            self._report(Code.ROBOT_BESIDE_START, said, "warn", robot=name, aside=f"{aside:.1f}")
         return Pose(Point(*state.position), Quaternion(*state.rotation))
+
+    def _report(self, code: Code, text: str, level: str, **parameters: str) -> None:
+        """Put an event on `/events`."""
+        pairs = [KeyValue(key, value) for key, value in parameters.items()]
+        event = Event(level=level, kind="robot", text=text, code=code.value, parameters=pairs)
+        self._unread.append(("/events", event))
 
     def want(self, topic: str, wanted: bool) -> None:
         """Measure an on-demand topic or no longer; other topics always come."""

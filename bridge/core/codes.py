@@ -247,5 +247,16 @@ class Code(StrEnum):
     ROBOT_RESET = "robot_reset", "The actor put the robot back to its start.", "name", "robot", "x", "y"
     ROBOT_KIND_UNKNOWN = "robot_kind_unknown", "The robot's kind is not known.", "kind"
     ROBOT_FAULT = "robot_fault", "The robot's program has a fault.", "fault"
+    ROBOT_SUNK = "robot_sunk", "The robot has sunk.", "robot"
+    ROBOT_ASTRAY = "robot_astray", "The robot has left its world.", "robot", "world"
+    ROBOT_BESIDE_START = (
+        "robot_beside_start",
+        "There is no room at its start: it stands beside it.",
+        "robot",
+        "aside",
+    )
+    ORDER_CUT = "order_cut", "An order was cut to what the robot can do.", "robot"
+    FOREIGN_REMARK = "foreign_remark", "Something to know of a robot with another program."
+    CAMERA_UNREADABLE = "camera_unreadable", "The camera's pictures cannot be shown.", "format"
     EQUIPMENT_REFUSED = "equipment_refused", "The robot's own part refuses it."
     ARM_GOAL_MISSING = "arm_goal_missing", "Nothing says where the arm shall go."

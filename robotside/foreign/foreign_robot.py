@@ -12,12 +12,14 @@ from urllib.parse import urlsplit
 import msgspec
 
 from bridge.core.address import host_and_port
+from bridge.core.codes import Code
 from bridge.core.topics import CAMERA
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Event, RobotInfo
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.std_msgs import Time
+from robotside.core.notice import Notice, coded
 from robotside.core.text import plain
 from robotside.foreign.foreign_link import ForeignLink, Listener
 from robotside.foreign.foreign_topics import Found
@@ -91,7 +93,7 @@ class ForeignRobot:
         """`url` is `ws://HOST:PORT`, BadAddress when it is none; waits `patience` [s] at most for who answers there."""
         self._lock = threading.Condition()
         self._newest: dict[str, Msg] = {}
-        self._said: deque[tuple[str, str]] = deque(maxlen=32)
+        self._said: deque[Notice] = deque(maxlen=32)
         self._found: Found | None = None
         self._remarks: tuple[str, ...] = ()
         self._refused = False
@@ -147,7 +149,8 @@ class ForeignRobot:
         newest.pop("/robot/info", None)
         self._repeat(now)
         events: list[tuple[str, Msg]] = [
-            ("/events", Event(level=level, kind="robot", text=text)) for level, text in said
+            ("/events", Event(level="warn", kind="robot", text=str(notice), **coded(notice)))
+            for notice in said
         ]
         return [*events, *((topic, self._dated(topic, msg, now)) for topic, msg in newest.items())]
 
@@ -166,7 +169,7 @@ class ForeignRobot:
             self._found, self._unreached, self._told = found, "", True
             if tuple(found.remarks) != self._remarks:
                 self._remarks = tuple(found.remarks)
-                self._said.extend(("warn", remark) for remark in found.remarks)
+                self._said.extend(Notice(Code.FOREIGN_REMARK, remark) for remark in found.remarks)
             self._lock.notify_all()
 
     def lost(self, sentence: str) -> None:
@@ -210,7 +213,7 @@ class ForeignRobot:
         said = f"The camera's pictures are {kind}, not JPEG: they are left out."
         with self._lock:
             if not self._refused:
-                self._said.append(("warn", said))
+                self._said.append(Notice(Code.CAMERA_UNREADABLE, said, format=kind))
             self._refused = True
 
     def _wait(self, patience: float) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from bridge.core.codes import Code
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event
 from sim.core.constants import STEPS_PER_SECOND
@@ -59,7 +61,7 @@ class Mishaps:
         self._name, self._world, self._weather = info.name, scene.world, scene.weather
         self._dives = info.dives
         self._drowning = SINKING_CHECKS if info.floats else CONFIRM_CHECKS
-        self._active: dict[str, _Condition] = {}
+        self._active: dict[Code, _Condition] = {}
 
     def is_due(self, steps: int) -> bool:
         """Whether to check after so many physics `steps`."""
@@ -67,22 +69,31 @@ class Mishaps:
 
     def update(self, state: State) -> Iterator[Event]:
         """Events to report now."""
-        for text, patience, happens in self._conditions(state):
-            if self._active.setdefault(text, _Condition(patience)).update(happens):
-                yield Event(level="alarm", kind="robot", text=text, position=Point(*state.position))
+        parameters = {Code.ROBOT_ASTRAY: [KeyValue("world", self._world.name)]}
+        for code, text, patience, happens in self._conditions(state):
+            if self._active.setdefault(code, _Condition(patience)).update(happens):
+                yield Event(
+                    level="alarm",
+                    kind="robot",
+                    text=f"{self._name} {text}.",
+                    position=Point(*state.position),
+                    code=code.value,
+                    parameters=[KeyValue("robot", self._name), *parameters.get(code, [])],
+                )
 
     def clear(self) -> None:
         """Forget all mishaps: the robot was put back."""
         self._active.clear()
 
-    def _conditions(self, state: State) -> Iterator[tuple[str, int, bool]]:
-        """Each mishap, for how many checks it must last, and whether it is so now."""
+    def _conditions(self, state: State) -> Iterator[tuple[Code, str, int, bool]]:
+        """Each mishap and the words for it after the robot's name, for how many checks it must last, and whether it is so now."""
         x, y, z = state.position
-        ground, name = self._world.ground, self._name
+        ground = self._world.ground
         if not self._dives:
             over = rotate(state.rotation, (0.0, 0.0, 1.0))[2] < _MIN_UPRIGHT
-            yield f"{name} has turned over.", CONFIRM_CHECKS, over
+            yield Code.ROBOT_OVERTURNED, "has turned over", CONFIRM_CHECKS, over
         if self._world.water and not self._dives:
-            yield f"{name} has sunk.", self._drowning, self._weather.surface(x, y) - z > _SUNK_DEPTH
+            sunk = self._weather.surface(x, y) - z > _SUNK_DEPTH
+            yield Code.ROBOT_SUNK, "has sunk", self._drowning, sunk
         gone = abs(x) > ground.length / 2 + OUTSIDE_MARGIN or abs(y) > ground.width / 2 + OUTSIDE_MARGIN
-        yield f"{name} has left {self._world.name}.", CONFIRM_CHECKS, gone
+        yield Code.ROBOT_ASTRAY, f"has left {self._world.name}", CONFIRM_CHECKS, gone

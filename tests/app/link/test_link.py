@@ -50,7 +50,6 @@ class Operator:
             self.settings,
             now=time.monotonic,
             client_id=client_id,
-            client_name=name,
             wants_control=wants_control,
         )
         self.said: list[tuple[str, Any]] = []

@@ -125,7 +125,8 @@ def test_a_robot_without_camera_offers_none() -> None:
 def test_what_is_missing_is_told_once_even_when_the_link_comes_back() -> None:
     line = Line(lambda listener: listener.found(found(remarks=("There is no laser.",))))
     robot = ForeignRobot(URL, patience=0.0, connect=line)
-    assert robot.read(0.0) == [("/events", Event(level="warn", kind="robot", text="There is no laser."))]
+    remark = Event(level="warn", kind="robot", text="There is no laser.", code="foreign_remark")
+    assert robot.read(0.0) == [("/events", remark)]
     robot.lost("The connection was cut.")
     robot.found(found(remarks=("There is no laser.",)))
     assert robot.read(1.0) == []
