@@ -32,7 +32,7 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser = _Parser(prog="main.py", description="Pilothouse: supervise and drive robots.")
     parser.add_argument("url", nargs="?", help="robot to connect to, as in ws://192.168.1.7:9090")
     parser.add_argument(
-        "--layout", help=f"drive screen, whatever the robot is: a .toml file, {', '.join(layouts.names())}"
+        "--layout", help=f"drive screen for any robot: a .toml file, {', '.join(layouts.names())}"
     )
     parser.add_argument("--screen", default="mission", choices=SCREENS, help="screen to show once connected")
     parser.add_argument("--theme", choices=THEMES, help="look; the last one unless given")

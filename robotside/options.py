@@ -1,4 +1,4 @@
-"""What may be said on the command line of `python -m robotside`, and what is wrong with what was said."""
+"""Phrases on the command line of `python -m robotside`, and what is wrong with what was said."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def read(argv: Sequence[str] | None) -> argparse.Namespace:
     words = list(sys.argv[1:] if argv is None else argv)
     if words and words[0].startswith("-") and words[0] not in ("-h", "--help"):
         words.insert(0, "serve")
-    about = "The robot's computer. Before options `serve` may be left out; `serve --help` tells them."
+    about = "The robot's computer. `serve` may be left out before options; `serve --help` lists them."
     parser = _Parser(prog="python -m robotside", description=about)
     commands = parser.add_subparsers(dest="command", required=True)
     _add_serve(commands.add_parser("serve", help="serve one robot, or several in one simulated world"))
@@ -174,7 +174,7 @@ def configs(options: argparse.Namespace, count: int) -> list[Config]:
     files: list[Path] = options.config
     if len(files) not in (0, 1, count):
         raise UserMistake(
-            f"--config is said once, or {count} times for {count} robots, not {len(files)} times."
+            f"--config is given once, or {count} times for {count} robots, not {len(files)} times."
         )
     read = [load(file) for file in files] or [DEFAULT_CONFIG]
     if len(read) == count:

@@ -45,14 +45,14 @@ class Kept:
         self.values: Mapping[str, Any] = value if isinstance(value, Mapping) else {}
         """What was kept, unchecked."""
         if value is not None and not isinstance(value, Mapping):
-            self._wrong.append(f"what is kept is no table but {shown(value)}")
+            self._wrong.append(f"the stored value is no table but {shown(value)}")
 
     @property
     def sentence(self) -> str:
         """What was no good, in one sentence; empty when all is well."""
         if not self._wrong:
             return ""
-        return f"In the settings of {self._about} {', '.join(self._wrong)}: as usual again."
+        return f"In the settings of {self._about} {', '.join(self._wrong)}: reset to default."
 
     def flag(self, name: str, *, usual: bool) -> bool:
         """True or false."""

@@ -197,7 +197,7 @@ class Inquiry:
         except subprocess.TimeoutExpired:
             process.kill()
             process.communicate()
-            self._fail(f"it said nothing within {PATIENCE:.0f} s")
+            self._fail(f"it did not answer within {PATIENCE:.0f} s")
         except OSError as error:
             self._fail(error.strerror or str(error))
         else:

@@ -11,7 +11,7 @@ STANDING = {
     "ready": "ready",
     "drives": "drives",
     "silent": "silent: drives nothing",
-    "let go": "pushed: drives once it was let go",
+    "let go": "Release the stick first, then push it again.",
 }
 
 

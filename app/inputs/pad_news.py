@@ -33,7 +33,7 @@ class PadNews:
         elif news.what == "unplugged":
             shell.say(f"{news.name} is unplugged.", "info", about="gamepad")
         elif news.what == "unplugged driving":
-            shell.say(f"{news.name} is unplugged: the robot was told to rest.", "warn", about="gamepad")
+            shell.say(f"{news.name} is unplugged: the robot rests.", "warn", about="gamepad")
         else:
             self._tell_silence(shell, news.name)
 
@@ -48,10 +48,10 @@ class PadNews:
         """With a way out the first time: what hangs on a cable and is held still tells nothing either."""
         shell.unsay("gamepad")
         if name in self._offered:
-            shell.say("The gamepad is silent: told to rest.", "warn", about="gamepad")
+            shell.say("The gamepad is silent: the robot rests.", "warn", about="gamepad")
         else:
             self._offered.add(name)
-            text = "The gamepad is silent: told to rest. Is it wired?"
+            text = "The gamepad is silent: the robot rests. Is it wired?"
             shell.notices.offer(text, "Wired", lambda: self._trust(name), icon="cable")
 
     def _trust(self, name: str) -> None:

@@ -259,7 +259,7 @@ class Intents:
         self.pending = None
         if pending.question:
             words = self._acts.words(pending.heard.intent)
-            self._told(pending.heard, Verdict("lapsed", f"Not done, nobody said yes: {words}."))
+            self._told(pending.heard, Verdict("lapsed", f"Not done, no yes came: {words}."))
         else:
             self._told(pending.heard, self._act(pending.heard, pending.decided))
 

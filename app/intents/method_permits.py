@@ -107,7 +107,5 @@ class Permits:
             void = void or len(right) < len(row)
             found[method] = right
         if void:
-            self.problem = (
-                "What each method may do was kept in a way that means nothing; that part is as usual again."
-            )
+            self.problem = "The stored permissions could not be read in part; that part is reset to default."
         return found

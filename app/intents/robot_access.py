@@ -42,7 +42,7 @@ class RobotAccess:
         if not session.connected:
             return "There is no link to the robot."
         if session.control == "other":
-            return f"{session.authority.status.driver or 'Somebody else'} has control; ask for it first."
+            return f"{session.authority.status.driver or 'Another person'} has control; ask for it first."
         return "" if session.may_ask else "It is not known yet who has control."
 
     def why_latched(self) -> str:

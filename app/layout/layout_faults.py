@@ -71,4 +71,4 @@ def check_apart(where: str, sticks: Iterable[tuple[str, str, Sequence[str]]]) ->
         names.add((slot, name))
         for part in parts:
             if parts.count(part) > 1 or owners.setdefault(part, slot) != slot:
-                raise LayoutError(f"{where} has two controls that say {part}; each says something else.")
+                raise LayoutError(f"{where} has two controls for {part}; each must have its own.")

@@ -108,7 +108,7 @@ class Authority:
 
     @property
     def asked(self) -> bool:
-        """Somebody else asks this handheld for control."""
+        """Another person asks this handheld for control."""
         return self.who == "mine" and bool(self.status.requested_by)
 
     @property

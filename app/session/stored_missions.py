@@ -68,7 +68,7 @@ class KeptMissions:
         """What is missing before the points on the map can be kept under a name, as a sentence; empty when nothing."""
         if not self._robot.mission.draft.points:
             return "There are no points on the map to save; set some on the mission screen."
-        return "" if name.strip() else "It needs a name."
+        return "" if name.strip() else "Enter a name."
 
     # what comes in
 

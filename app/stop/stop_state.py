@@ -72,7 +72,7 @@ def judge(known: Known, now: float) -> Verdict:
     if known.latched is None and math.isnan(known.asked_at) and not math.isnan(known.lost_at):
         return Verdict("lost", _last_heard(known, now))
     if known.released:
-        return Verdict("released", "Somebody has released STOP.")
+        return Verdict("released", "STOP was released.")
     if math.isnan(known.asked_at):
         return Verdict("ready")
     if known.refusal:

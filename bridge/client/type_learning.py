@@ -89,7 +89,7 @@ def learn(typedefs: Sequence[Mapping[str, Any]]) -> type[Msg]:
     try:
         return _learned(msgspec.json.encode(typedefs))
     except (TypeError, ValueError, OverflowError, RecursionError) as error:
-        raise ProtocolError(f"This tells no message type: {error}.") from error
+        raise ProtocolError(f"This is no description of a message type: {error}.") from error
 
 
 @functools.lru_cache(maxsize=256)
@@ -97,9 +97,9 @@ def _learned(answer: bytes) -> type[Msg]:
     try:
         told = msgspec.json.decode(answer, type=list[_Typedef])
     except msgspec.MsgspecError as error:
-        raise ProtocolError(f"This tells no message type: {error}.") from error
+        raise ProtocolError(f"This is no description of a message type: {error}.") from error
     if not told:
-        raise ProtocolError("The robot tells nothing about this type.")
+        raise ProtocolError("The robot does not describe this type.")
     if len(told) > MAX_TYPES:
         raise ProtocolError(f"{told[0].type} is made of {len(told)} types; at most {MAX_TYPES} are taken.")
     known = {_named(each.type): each for each in told}

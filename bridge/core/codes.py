@@ -54,13 +54,13 @@ class Code(StrEnum):
         "driver",
     )
     CONTROL_OBJECTED_LATELY = "control_objected_lately", "The actor has objected lately.", "name", "seconds"
-    CONTROL_NOT_ASKED = "control_not_asked", "Nobody asks for control."
+    CONTROL_NOT_ASKED = "control_not_asked", "No one asks for control."
     MODE_MANUAL = "mode_manual", "The actor chose MANUAL: nothing starts by itself.", "name"
     MODE_UNKNOWN = "mode_unknown", "There is no such mode.", "mode"
     SETTING_CHANGED = "setting_changed", "The actor changed a setting.", "name", "setting", "value"
     SETTING_UNKNOWN = "setting_unknown", "There is no such setting.", "setting"
     SETTING_VALUE_UNKNOWN = "setting_value_unknown", "The setting has no such value.", "setting", "value"
-    NOBODY_DRIVES = "nobody_drives", "Nobody drives the robot: it goes into its safe state.", "phase"
+    NOBODY_DRIVES = "nobody_drives", "No one drives the robot: it goes into its safe state.", "phase"
 
     # drive commands
 

@@ -98,7 +98,7 @@ TOPICS: tuple[Topic, ...] = (
     Topic("/rudder", pilothouse_msgs.RudderState, 10, "handheld", "rudder and propeller"),
     Topic("/compass", pilothouse_msgs.Compass, 10, "handheld", "heading, roll and pitch by compass"),
     Topic("/depth", sensor_msgs.FluidPressure, 10, "handheld", "pressure of water and air where it is"),
-    Topic("/range/down", sensor_msgs.Range, 20, "handheld", "height above what is under it, by ultrasound"),
+    Topic("/range/down", sensor_msgs.Range, 20, "handheld", "height above the ground, by ultrasound"),
     Topic("/flight", pilothouse_msgs.FlightState, 10, "handheld", "whether it is in the air"),
     Topic(
         "/camera/image/compressed",
@@ -126,7 +126,7 @@ TOPICS: tuple[Topic, ...] = (
         vision_msgs.Detection2DArray,
         5,
         "handheld",
-        "what the camera sees while a task watches or somebody looks",
+        "objects in the camera picture, while a task or a client watches",
     ),
     Topic(
         "/intruders",
@@ -147,11 +147,9 @@ TOPICS: tuple[Topic, ...] = (
     Topic("/schedule", pilothouse_msgs.Schedule, 0, "handheld", "what it starts by itself, and when"),
     Topic("/places", pilothouse_msgs.PlaceArray, 0, "handheld", "the places that have names"),
     Topic("/limits", pilothouse_msgs.Limits, 0, "handheld", "how fast and where it may go"),
-    Topic("/checklist", pilothouse_msgs.Checklist, 0, "handheld", "what is looked at before it first moves"),
+    Topic("/checklist", pilothouse_msgs.Checklist, 0, "handheld", "checks before the first move"),
     Topic("/tag", pilothouse_msgs.TagRead, 0, "handheld", "the card at its reader"),
-    Topic(
-        "/following", pilothouse_msgs.Following, 5, "handheld", "whether somebody whom it leads comes along"
-    ),
+    Topic("/following", pilothouse_msgs.Following, 5, "handheld", "whether the guided person follows"),
     Topic("/events", pilothouse_msgs.Event, 0, "handheld", "what happened, each once", once=True),
     Topic("/diagnostics", diagnostic_msgs.DiagnosticArray, 1, "handheld", "the robot's opinion of its parts"),
     Topic("/tf", tf2_msgs.TFMessage, 20, "handheld", "map, odom and base_link"),
@@ -177,7 +175,7 @@ TOPICS: tuple[Topic, ...] = (
         geometry_msgs.PoseWithCovarianceStamped,
         0,
         "robot",
-        "where it really is in `map`, told by the operator",
+        "its true pose in `map`, set by the operator",
     ),
 )
 

@@ -267,9 +267,7 @@ class Switchboard:
     def _make(self, topic: str, type: str) -> Channel:
         name = ros1_name(type)
         if "/" not in name:
-            raise ProtocolError(
-                f"There is no topic {topic[:100]} here, and to make one its type must be told."
-            )
+            raise ProtocolError(f"There is no topic {topic[:100]} here, and a new one needs its type.")
         if len(self.channels) - len(self.topics) >= MAX_TOPICS:
             raise ProtocolError(
                 f"There are {MAX_TOPICS} topics of clients already; {topic[:100]} is one too many."

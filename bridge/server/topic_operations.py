@@ -144,7 +144,7 @@ class TopicOperations:
         channels = self._switchboard.channels
         channel = channels.get(topic) or channels.get(absolute(topic))
         if channel is None:
-            raise ProtocolError(f"This robot does not listen to {shown(topic)}, and nobody advertised it.")
+            raise ProtocolError(f"This robot does not listen to {shown(topic)}, and no client advertised it.")
         if channel.entry is not None:
             try:
                 self._context.door.check_listens(channel.name)

@@ -159,9 +159,7 @@ class Autonomy:
         for topic, sense in needed(self._kind, self._heard).items():
             heard = self._heard.get(topic, -math.inf)
             if not now - heard <= SILENCE:
-                since = (
-                    f"has been silent for {SILENCE} s" if heard > -math.inf else "has not said anything yet"
-                )
+                since = f"has been silent for {SILENCE} s" if heard > -math.inf else "has sent no data yet"
                 return f"the {sense} {since if sense != 'sonars' else since.replace('has', 'have', 1)}"
         return ""
 

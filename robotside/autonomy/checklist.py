@@ -44,7 +44,7 @@ def checks(looked: CheckInputs) -> list[Check]:
 
 def _battery(looked: CheckInputs) -> Check:
     if math.isnan(looked.battery):
-        return Check("battery", "unknown", "The battery has not told its charge yet.")
+        return Check("battery", "unknown", "The battery has not reported its charge yet.")
     if looked.battery < looked.low_below:
         said = f"The battery is below {looked.low_below:.0%}; charge it first."
         return Check("battery", "bad", said)
@@ -76,7 +76,7 @@ def _stop(looked: CheckInputs) -> Check:
 
 def _clock(looked: CheckInputs) -> Check:
     if math.isnan(looked.offset):
-        return Check("clock", "unknown", "No handheld has told its clock yet.")
+        return Check("clock", "unknown", "No handheld has sent its clock yet.")
     if abs(looked.offset) > MAX_OFFSET:
         side = "ahead of" if looked.offset > 0 else "behind"
         said = f"The handheld's clock is {number(abs(looked.offset))} s {side} the robot's"

@@ -33,7 +33,7 @@ TO_OBJECT = 10.0
 AGAIN = 30.0
 """Whom a driver objected to may ask the same driver again so long afterwards [s]."""
 
-NOT_ASKED = Notice(Code.CONTROL_NOT_ASKED, "Nobody asks for control.")
+NOT_ASKED = Notice(Code.CONTROL_NOT_ASKED, "No one asks for control.")
 
 LONGEST_NAME = 40
 """Characters kept of what a client calls itself."""

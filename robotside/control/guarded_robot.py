@@ -133,7 +133,7 @@ class Guarded:
             place = self._robot.reset()
             self._wanted = self._given = None
             return place
-        raise ValueError(f"{self.info.name} is real: nobody can put it back from here.")
+        raise ValueError(f"{self.info.name} is real: it cannot be reset from here.")
 
     def _take(self, order: Order) -> None:
         if self._stopped():

@@ -168,7 +168,7 @@ class Helm:
         stands = measured.landed and not measured.overturned  # of that it is told why nothing moves it
         if not (kind_of(info.kind).flies and stands and twist.linear.z > 0):
             return ""
-        said = f"{info.name} stands on the ground: sticks start no rotors, the task take_off does."
+        said = f"{info.name} stands on the ground: The sticks cannot start the rotors. Slide to take off."
         return Notice(Code.DRIVE_ON_GROUND, said, robot=info.name)
 
     def _strange(self, order: Order) -> Problem:
@@ -248,7 +248,7 @@ class Helm:
         name, client_id = self._controls.name(client), self._controls.id(client)
         said, code = f"{name} objected: {asker.name} does not get control.", Code.CONTROL_OBJECTED
         self._say("control", Notice(code, said, actor_id=client_id, name=name, asker=asker.name))
-        return f"You keep control; {asker.name} is told."
+        return f"You keep control; {asker.name} is notified."
 
     def _handed(self, now: float) -> None:
         """Control may have gone to somebody else, with whom the robot begins at rest."""
@@ -306,4 +306,4 @@ def _asks(asker: Asker, held: Driver) -> Notice:
 
 
 def _nobody_drives(does: str) -> Notice:
-    return Notice(Code.NOBODY_DRIVES, f"Nobody drives the robot: it {does}.", phase=does)
+    return Notice(Code.NOBODY_DRIVES, f"No one drives the robot: it {does}.", phase=does)

@@ -102,7 +102,7 @@ class ForeignRobot:
         self._rests, self._due = 0, -math.inf
         host_and_port(url)
         place = urlsplit(url).netloc.rpartition("@")[2]  # a password is nobody's business
-        self._unreached = f"The robot cannot be reached: nobody has answered yet at {place}."
+        self._unreached = f"The robot cannot be reached: no answer yet from {place}."
         self._held = ""
         self._silent, self._silent_since = False, math.inf
         self._told = False

@@ -24,7 +24,7 @@ __all__ = ["Action", "Answering"]
 PATIENCE = 10.0
 """How long an answer waits for the disk [s]."""
 
-UNKEPT = "A restart would not know of it."
+UNKEPT = "This could not be saved and would be lost on restart."
 """Said of what was done and is not on the disk."""
 
 Action = Callable[[Operator, Any], str | CommandResponse]

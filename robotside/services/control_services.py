@@ -88,7 +88,7 @@ class _Steering:
             if not agenda.manual.end():
                 said = "There is no task to go on with; start one."
                 raise Refusal(Notice(Code.TASK_NONE_LEFT, said))
-            return "The robot may start by itself what is scheduled and queued."
+            return "The robot may start scheduled and queued tasks by itself."
         fresh = agenda.stay_manual(station.controls.name(client), station.controls.id(client))
         if not engine.running:
             return f"The robot is driven by hand{'; nothing starts by itself' if fresh else ' already'}."

@@ -114,7 +114,7 @@ class _Kept:
             asked.ids, by, now, lambda event: station.bus.publish("/events", event)
         )
         events = "event" if len(fresh) == 1 else "events"
-        return f"{len(fresh)} {events} acknowledged." if fresh else "Somebody has seen to it already."
+        return f"{len(fresh)} {events} acknowledged." if fresh else "Already acknowledged."
 
     def events(self, _: Operator, asked: GetEventsRequest) -> GetEventsResponse:
         """Give the events that a client missed."""

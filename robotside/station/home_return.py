@@ -37,6 +37,6 @@ class HomeReturn:
         except Refusal:
             return False
         self._controls.hold()
-        self._hold_queue("nobody drives the robot")
+        self._hold_queue("no one drives the robot")
         self._autonomy.engine.start(task, self._now())
         return True

@@ -168,7 +168,7 @@ class Station:
 
     def end(self) -> None:
         """Brake, end the task and obey no operator any more: the robot side is about to go."""
-        said = "The robot's computer was told to end."
+        said = "The robot's computer was asked to shut down."
         self.autonomy.engine.cancel(Notice(Code.TASK_ROBOT_ENDS, said))
         self._ending = True
         self.stop.end("the robot's computer, which ends")

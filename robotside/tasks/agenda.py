@@ -113,7 +113,9 @@ class Agenda:
         count = len(self._records.queue.current.orders)
         if not self.held or not count:
             return ""
-        return f"{_counted(count)} from before {'waits' if count == 1 else 'wait'} in the queue until told to go on."
+        return (
+            f"{_counted(count)} from before {'waits' if count == 1 else 'wait'} in the queue until resumed."
+        )
 
     def release(self) -> bool:
         """Have the queue go on; False when it did not wait."""

@@ -87,7 +87,7 @@ def test_sticks_alone_start_no_rotors_and_that_is_said(hand: Make, up: Order) ->
     run.push(up, 1.0)
     assert run.height < 0.06
     assert max(run.robot.simulation.vehicle.rotors.speeds) == 0.0  # type: ignore[attr-defined]  # a quadrotor's
-    said = "Ardrone-1 stands on the ground: sticks start no rotors, the task take_off does."
+    said = "Ardrone-1 stands on the ground: The sticks cannot start the rotors. Slide to take off."
     assert run.events.count(said) == 1
     order = TaskOrder(task="take_off", height=1.0)
     assert run.ask("/task/start", StartTaskRequest(order=order)).success

@@ -75,7 +75,7 @@ def test_settings_are_one_file_for_all_or_one_each(tmp_path: Path) -> None:
     one, two = (("--config", str(file)) for file in files)
     assert [each.limits.max_speed for each in configs(read(one), 3)] == [0.1, 0.1, 0.1]
     assert [each.limits.max_speed for each in configs(read([*one, *two]), 2)] == [0.1, 0.2]
-    with pytest.raises(UserMistake, match="--config is said once, or 3 times for 3 robots, not 2 times"):
+    with pytest.raises(UserMistake, match="--config is given once, or 3 times for 3 robots, not 2 times"):
         configs(read([*one, *two]), 3)
 
 

@@ -113,9 +113,9 @@ def test_a_swimmer_holds_its_depth_and_then_surfaces_once(hand: Make) -> None:
     assert run.height == pytest.approx(depth, abs=0.05)
     run.wait(24.0, heard=False)
     assert run.height > -0.2
-    assert [event for event in run.events if event.startswith("Nobody drives")] == [
-        "Nobody drives the robot: it surfaces.",
-        "Nobody drives the robot: it has surfaced.",
+    assert [event for event in run.events if event.startswith("No one drives")] == [
+        "No one drives the robot: it surfaces.",
+        "No one drives the robot: it has surfaced.",
     ]
     assert max(vehicle(run).fins.amplitudes) < 0.01
 
@@ -129,9 +129,9 @@ def test_a_drone_hovers_where_it_was_let_go_and_then_lands(hand: Make) -> None:
     run.wait(18.0, heard=False)
     assert vehicle(run).pilot.phase == "landed"
     assert max(vehicle(run).rotors.speeds) < 1.0
-    assert [event for event in run.events if event.startswith("Nobody drives")] == [
-        "Nobody drives the robot: it lands.",
-        "Nobody drives the robot: it has landed.",
+    assert [event for event in run.events if event.startswith("No one drives")] == [
+        "No one drives the robot: it lands.",
+        "No one drives the robot: it has landed.",
     ]
 
 
@@ -158,7 +158,7 @@ def test_a_drone_on_the_ground_stays_there_and_says_nothing(hand: Make) -> None:
     run.push(tilt(), 0.5)
     run.wait(6.0, heard=False)
     assert max(vehicle(run).rotors.speeds) == 0.0
-    assert not [event for event in run.events if event.startswith("Nobody drives")]
+    assert not [event for event in run.events if event.startswith("No one drives")]
 
 
 # STOP

@@ -185,7 +185,7 @@ def will(
         "hold": lambda: _holds(order, robot),
         "follow_heading": lambda: _follows(order, robot),
         "take_off": lambda: _takes_off(order),
-        "land": lambda: "Lands on what is below it.",
+        "land": lambda: "Lands on the ground below.",
         "surface": lambda: "Swims up to the surface and stays there.",
         "go_home": lambda: "Goes home and stays there.",
     }
@@ -243,9 +243,9 @@ def _delivers(order: TaskOrder) -> str:
 def _guides(order: TaskOrder, follows: bool) -> str:
     names = [place for place in order.places if place]
     if not follows:
-        blind = "Does not wait: nothing tells it who follows."
-        return f"Leads a person to {_listed(names)} and tells what is there. {blind}"
-    return f"Leads a person to {_listed(names)}, waits when nobody follows, and tells what is there."
+        blind = "Does not wait: it has no sensor for followers."
+        return f"Leads a person to {_listed(names)} and reads out the notes. {blind}"
+    return f"Leads a person to {_listed(names)}, waits when no one follows, and reads out the notes."
 
 
 def _docks(order: TaskOrder) -> str:

@@ -108,7 +108,9 @@ class OptionList(Listing):
             option, known = OPTIONS[name], name in self.values
             toggle.active = bool(self.values.get(name))
             toggle.disabled = row.disabled = not known or self.disabled or name in self.asked
-            words = (option.on if self.values[name] else option.off) if known else "Not told by the robot."
+            words = (
+                (option.on if self.values[name] else option.off) if known else "Not reported by the robot."
+            )
             row.detail = ASKED if name in self.asked else words
             row.role = "accent" if toggle.active else "muted"
 

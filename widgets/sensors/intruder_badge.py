@@ -109,7 +109,7 @@ class IntruderBadge(Drawing):
     def counted(self) -> str:
         """The first line."""
         if self.count < 0:
-            return "Intruders: not told"
+            return "Intruders: not reported"
         if self.count == 0 and self.seen > 0 and self.state != "stale":
             return f"{self.seen} seen, not counted"
         return "No intruders" if self.count == 0 else f"{self.count} intruder{'s' * (self.count > 1)}"

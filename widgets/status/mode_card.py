@@ -88,7 +88,7 @@ class ModeCard(NoticeCard):
             return f"MANUAL pauses: {self.task}." if self.task else "MANUAL pauses it."
         if self.ready:
             return f"You drive. AUTO goes on with: {self.task}." if self.task else "You drive. AUTO goes on."
-        return "You drive. For AUTO start a task."
+        return "You are driving. Start a task to switch to AUTO."
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

@@ -285,7 +285,7 @@ class OrderForm(OrderDraft, BoxLayout):
     def _speed(self) -> list[Widget]:
         tenths = 0 if math.isnan(self.speed) else round(self.speed * 10)
         most = max(1, math.floor((self.robot.max_speed or DEFAULT_MAX_SPEED) * 10 + 1e-6)) / 10
-        speed = Stepper(value=tenths / 10, step=0.1, maximum=most, unit="m/s", zero="as usual")
+        speed = Stepper(value=tenths / 10, step=0.1, maximum=most, unit="m/s", zero="default")
         speed.bind(on_change=self._sped)
         return [self._row("Speed", speed)]
 
@@ -295,14 +295,14 @@ class OrderForm(OrderDraft, BoxLayout):
 
     def _throttle(self) -> list[Widget]:
         share = 0 if math.isnan(self.throttle) else round(self.throttle * 100)
-        throttle = Stepper(value=share, step=10, maximum=100, unit="%", zero="as usual")
+        throttle = Stepper(value=share, step=10, maximum=100, unit="%", zero="default")
         throttle.bind(on_change=lambda _, value: self.set(throttle=value / 100 if value else math.nan))
         return [self._row("Throttle", throttle)]
 
     def _height(self) -> list[Widget]:
         deep = self.robot.dives
         value = 0 if math.isnan(self.at_height) else abs(self.at_height)
-        usual = "as usual" if self.task == "take_off" else "as now"
+        usual = "default" if self.task == "take_off" else "as now"
         height = Stepper(value=value, step=0.5, maximum=MAX_HEIGHT, unit="m", zero=usual)
         sign = -1.0 if deep else 1.0
         height.bind(on_change=lambda _, value: self.set(at_height=sign * value if value else math.nan))

@@ -114,7 +114,7 @@ class PlaceForm(Control, BoxLayout):
     def _lacking(self) -> str:
         name = self.name.strip()
         if not name:
-            return "It needs a name."
+            return "Enter a name."
         if name.casefold() in {other.casefold() for other in self.taken}:
             return f"There is a {name} already; two places never have the same name."
         if self.kind == "dock" and math.isnan(self.yaw):

@@ -137,4 +137,4 @@ class KeyDrive:
         held.stale = held.up(self._is_down)
         if not held.stale and held.too_long(self._now()):
             held.stale = True
-            self._on_lost(f"{name.upper()} is held for {LONGEST:.0f} s: the robot was told to rest.")
+            self._on_lost(f"{name.upper()} is held for {LONGEST:.0f} s: the robot rests.")

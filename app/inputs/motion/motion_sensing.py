@@ -140,7 +140,7 @@ class Judge:
             "": "",
             "waiting": f"Waiting for the {name} sensor.",
             "silent": f"The {name} sensor is silent.",
-            "broken": f"The {name} sensor delivers what is no number.",
+            "broken": f"The {name} sensor delivers values that are no numbers.",
             "jumps": f"The {name} sensor jumps about as no hand can.",
             "frozen": f"The {name} sensor has stood still for a second.",
             "slow": f"The {name} sensor delivers {self.rate:.0f} Hz, and at least {least:.0f} Hz are needed.",

@@ -15,7 +15,7 @@ ECHO_TIME = 0.3
 ANSWERS = frozenset({"yes", "no", "pause"})
 """What counts while something waits for a yes; STOP always does."""
 DEAF = "The app itself was speaking."
-EARLIER = "That was said before anything was asked."
+EARLIER = "That answer came before the question."
 
 
 class CommandGate:

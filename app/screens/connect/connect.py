@@ -25,8 +25,7 @@ __all__ = ["ConnectScreen", "RobotCard", "robot_icon"]
 GENERIC_ICON = "smart_toy_fill"
 """Of a robot that names none, or one that this app cannot draw."""
 HINT = (
-    "No robot has said hello on this network yet.\n"
-    "Switch one on, enter its address, or start the built-in simulator."
+    "No robot found on this network yet.\nSwitch one on, enter its address, or start the built-in simulator."
 )
 NARROW = 420.0
 """A card narrower than this has no room for the words `driven by` [dp]."""

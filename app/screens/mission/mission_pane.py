@@ -18,7 +18,7 @@ from widgets.tasks.mission_list import mission_words
 
 __all__ = ["MissionPane"]
 
-REPLACES = "It becomes what the robot patrols, and what is on the map. That can be undone."
+REPLACES = "It replaces the robot's mission and the points on the map. You can undo that."
 
 Builder.load_string("""
 <MissionPane>:

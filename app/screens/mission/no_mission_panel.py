@@ -29,7 +29,7 @@ Builder.load_string("""
             pos_hint: {'center_y': .5}
         Text:
             id: note
-            text: 'It stores no missions and offers no tasks: drive it by hand, or look at what it tells.'
+            text: 'It stores no missions and offers no tasks: drive it by hand, or view its topics.'
             font_size: sp(15)
             pos_hint: {'center_y': .5}
     BoxLayout:

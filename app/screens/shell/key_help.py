@@ -95,7 +95,7 @@ def _switches(options: Options) -> Rows:
     following = [key.words for key in options.a[:1]] if not options.one else []
     doing, timing = [key.words for key in options.b[:1]], options.timing
     rows = [
-        (following, "Next on the glass"),
+        (following, "Next on the screen"),
         (doing, "Do it, when let go"),
         (following, f"Back, held {timing.hold_back:.1f} s"),
         (doing, f"STOP, held {timing.hold_stop:.1f} s"),

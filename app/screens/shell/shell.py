@@ -281,7 +281,7 @@ class Shell(FloatLayout):
         """Take control or ask for it, give it up, or take back that it is asked for; a robot without any says so."""
         if self.session.control == "none":
             self.say(
-                "This robot knows no control: whoever pushes a stick drives it.", "info", about="control"
+                "This robot has no control handling: any pushed stick drives it.", "info", about="control"
             )
             return
         self.session.authority.toggle()

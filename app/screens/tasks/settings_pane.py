@@ -66,7 +66,7 @@ class SettingsPane(BoxLayout):
         if not session.robot.offers("/settings/set"):
             return "This robot has no settings to switch."
         if session.control == "other" and status is not None:
-            return f"{status.driver or 'Somebody else'} has control and can switch them."
+            return f"{status.driver or 'Another person'} has control and can switch them."
         return "Kept by the robot, for everybody who uses it."
 
     def on_close(self) -> None:

@@ -47,20 +47,20 @@ class _Lead(DriveTo):
         if not self._alone():
             if self._waits:
                 self._waits = False
-                said = f"Somebody follows again; going on to {goal.spoken}."
+                said = f"The person follows again; going on to {goal.spoken}."
                 self._say("task", Notice(Code.FOLLOWER_BACK, said, place=goal.place), "ok")
             return super().update()
         if not self._waits:
             self._waits = True
             self._navigator.rest()
             at = (now.pose.x, now.pose.y)
-            said = f"Waiting on the way to {goal.spoken}: nobody follows."
+            said = f"Waiting on the way to {goal.spoken}: no one follows."
             self._say("task", Notice(Code.FOLLOWER_LOST, said, place=goal.place), "warn", at=at)
-        now.report("waiting", "Waiting: nobody follows.", place=goal.place)
+        now.report("waiting", "Waiting: no one follows.", place=goal.place)
         return Status.RUNNING
 
     def _doing(self, goal: Goal) -> str:
-        waits = ", without waiting: nothing tells whether somebody follows" if self._blind else ""
+        waits = ", without waiting: no sensor shows who follows" if self._blind else ""
         return f"Leading the way to {goal.spoken}{waits}."
 
     def _alone(self) -> bool:
@@ -68,7 +68,7 @@ class _Lead(DriveTo):
         now = self._situation
         if now.follows is None or now.now - now.follows_heard > SENSOR_TIMEOUT:
             if not self._blind:
-                said = "Nothing tells whether somebody follows; the robot goes on without waiting."
+                said = "No sensor shows who follows; the robot goes on without waiting."
                 self._say("task", Notice(Code.FOLLOWER_UNKNOWN, said), "warn")
             self._blind, self._alone_since = True, math.nan
             return False

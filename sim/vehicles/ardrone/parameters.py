@@ -53,7 +53,7 @@ class ArdroneParameters(Parameters, frozen=True, kw_only=True):
         if mass > limit:
             name, spare = self.info.name, limit - body.mass
             raise ValueError(
-                f"{name} carries {spare:.2f} kg at most; what is to be mounted weighs {mass_of(loads):.2f} kg."
+                f"{name} carries {spare:.2f} kg at most; the payload weighs {mass_of(loads):.2f} kg."
             )
         inertia = about((0.0, 0.0, 0.0), body.inertia, loads)
         return replace(self, body=replace(body, mass=mass, inertia=inertia))

@@ -136,7 +136,7 @@ def test_a_mistake_is_one_sentence_with_the_value_and_what_is_allowed() -> None:
     assert kept.word("voice", ("clear",), "clear") == "clear"
     assert kept.sentence == (
         "In the settings of talking on is true or false, not 'yes', rate is from 0.5 to 2, not 9, "
-        "voice is one of the known, not []: as usual again."
+        "voice is one of the known, not []: reset to default."
     )
 
 

@@ -54,6 +54,6 @@ def test_what_is_wrong_is_said_once_it_is_looked_at() -> None:
 def test_what_is_no_table_at_all_is_as_at_first() -> None:
     mapped = Bindings(Settings(gamepads="all"))
     assert mapped.problems == [
-        "In the settings of gamepads what is kept is no table but 'all': as usual again."
+        "In the settings of gamepads the stored value is no table but 'all': reset to default."
     ]
     assert mapped.pads_on

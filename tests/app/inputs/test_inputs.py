@@ -171,7 +171,9 @@ def test_the_stick_shows_what_the_gamepad_does_and_what_happens_to_it_is_said(ha
     hands.pass_time(0.1)
     assert hands.stick.gamepad == "none"
     assert hands.shell.said == ["Pad: its left stick drives, B is STOP.", "Pad is unplugged."]
-    assert [text for text, _ in hands.shell.offers] == ["The gamepad is silent: told to rest. Is it wired?"]
+    assert [text for text, _ in hands.shell.offers] == [
+        "The gamepad is silent: the robot rests. Is it wired?"
+    ]
 
 
 def test_a_gamepad_said_to_hang_on_a_cable_may_be_held_still_and_that_is_remembered(hands: Hands) -> None:

@@ -143,7 +143,7 @@ def test_what_came_of_a_question_is_said_where_the_question_was(make: Any) -> No
     assert voice.said == "go_home?"
     app.time += CONFIRM_FOR + 1.0
     app.intents.look(app.time)
-    assert voice.said == "Not done, nobody said yes: go_home."
+    assert voice.said == "Not done, no yes came: go_home."
     assert shake.said == "", "it asked nothing"
 
 
@@ -186,7 +186,7 @@ def test_a_command_could_come_from_what_is_on_and_well_and_has_something_to_work
 
 def test_settings_that_mean_nothing_are_said_of_each_that_reads_them(monkeypatch: pytest.MonkeyPatch) -> None:
     class Mistaken(Made):
-        mistaken = "In the settings of talking rate is from 0.5 to 2, not 9: as usual again."
+        mistaken = "In the settings of talking rate is from 0.5 to 2, not 9: reset to default."
 
     app = App({"Mistaken": Mistaken, "Made": Made}, monkeypatch)
     app.methods.open()

@@ -151,7 +151,7 @@ def test_a_question_without_an_answer_lapses(stage: Stage) -> None:
     stage.say("go_home")
     stage.wait(CONFIRM_FOR)
     assert stage.acts.names == []
-    assert stage.told[-1] == ("go_home", Verdict("lapsed", "Not done, nobody said yes: Go home."))
+    assert stage.told[-1] == ("go_home", Verdict("lapsed", "Not done, no yes came: Go home."))
     assert stage.say("yes") == "not now"
 
 
@@ -266,7 +266,7 @@ def test_stop_cannot_be_forbidden(method: str) -> None:
 )
 def test_a_table_that_means_nothing_is_as_usual_and_said(kept: object) -> None:
     table = Stage({"intents": kept}).permits
-    assert table.problem.endswith("as usual again.")
+    assert table.problem.endswith("reset to default.")
     assert table.allowed("voice", "pause")
     assert not table.allowed("shake", "start")
 

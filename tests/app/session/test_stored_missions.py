@@ -145,7 +145,7 @@ def test_what_was_saved_is_listed_anew(robot: Robot) -> None:
 
 def test_it_says_what_is_missing_before_it_can_be_saved(robot: Robot) -> None:
     assert robot.kept.lacking("Night") == ""
-    assert robot.kept.lacking("  ") == "It needs a name."
+    assert robot.kept.lacking("  ") == "Enter a name."
     robot.mission.clear()
     said = "There are no points on the map to save; set some on the mission screen."
     assert robot.kept.lacking("Night") == said

@@ -42,7 +42,7 @@ WHY = "No robot answers."
         (Known(latched=True, moves_since=99.9, refusal=CUT), Verdict("no_answer", CUT)),
         (
             Known(asked_at=90.0, latched=False, released=True),
-            Verdict("released", "Somebody has released STOP."),
+            Verdict("released", "STOP was released."),
         ),
         (Known(reached=False, why=WHY), Verdict("ready")),
         (Known(reached=False, asked_at=99.5, why=WHY), Verdict("sent")),

@@ -126,9 +126,9 @@ def test_what_waits_is_one_line_that_ends_as_it_ends(followed):
     heard = followed.hear("go_home", what="asks")
     followed.now += 2
     followed.tracks.look(followed.now + EFFECT_WITHIN * 3)
-    followed.tracks.taken(heard, Verdict("lapsed", "Not done, nobody said yes: Go home."))
+    followed.tracks.taken(heard, Verdict("lapsed", "Not done, no yes came: Go home."))
     (line,) = followed.lines
-    assert (line.verdict, line.rejected) == ("lapsed", "Not done, nobody said yes: Go home.")
+    assert (line.verdict, line.rejected) == ("lapsed", "Not done, no yes came: Go home.")
     assert line.t_sent is None
 
 

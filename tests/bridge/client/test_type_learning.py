@@ -158,10 +158,10 @@ def test_the_same_answer_gives_the_same_class_and_the_memory_is_bounded():
 
 
 WRONG = [
-    ([], "The robot tells nothing about this type."),
-    ([{}], "This tells no message type: "),
-    (5, "This tells no message type: "),
-    (object(), "This tells no message type: "),
+    ([], "The robot does not describe this type."),
+    ([{}], "This is no description of a message type: "),
+    (5, "This is no description of a message type: "),
+    (object(), "This is no description of a message type: "),
     ([told("Boat")], "'Boat' is no type; one is called as in sensor_msgs/Imu."),
     ([told(x=("int33", -1))], "'int33' is no type"),
     ([told(x=("", -1))], "boat_msgs/Boat.x is told as '' with array length -1, which is no type."),
@@ -170,7 +170,7 @@ WRONG = [
     ([told(**{"a b": ("int32", -1)})], "a field called 'a b'"),
     ([told(__init__=("int32", -1))], "a field called '__init__'"),
     ([told(x=("int32", -1)) | {"fieldtypes": []}], "1 fields, 0 types and 1 lengths"),
-    ([told(x=("int32", -1)) | {"fieldnames": "x"}], "This tells no message type: "),
+    ([told(x=("int32", -1)) | {"fieldnames": "x"}], "This is no description of a message type: "),
     ([told(x=("boat_msgs/Boat", 0))], "which holds itself"),
     ([told(**{f"x{n}": ("int32", -1) for n in range(1001)})], "has 1001 fields; at most 1000"),
     ([told(f"a/B{n}") for n in range(501)], "is made of 501 types; at most 500"),

@@ -24,7 +24,7 @@ def test_when_all_is_well_every_line_is_green() -> None:
     ("change", "name", "state", "text"),
     [
         ({"battery": 0.1}, "battery", "bad", "The battery is below 15%; charge it first."),
-        ({"battery": math.nan}, "battery", "unknown", "The battery has not told its charge yet."),
+        ({"battery": math.nan}, "battery", "unknown", "The battery has not reported its charge yet."),
         ({"silent": ["laser", "IMU"]}, "sensors", "bad", "Nothing comes from: laser, IMU."),
         ({"trouble": "The robot is gone."}, "sensors", "bad", "The robot is gone."),
         (
@@ -40,7 +40,7 @@ def test_when_all_is_well_every_line_is_green() -> None:
             "The laser does not see what the map says; place the robot on the map.",
         ),
         ({"stop_tested": False}, "stop", "unknown", "STOP was not tested since the start; press it once."),
-        ({"offset": math.nan}, "clock", "unknown", "No handheld has told its clock yet."),
+        ({"offset": math.nan}, "clock", "unknown", "No handheld has sent its clock yet."),
         (
             {"offset": 3600.0},
             "clock",

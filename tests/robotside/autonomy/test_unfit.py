@@ -229,7 +229,7 @@ def test_a_robot_that_never_says_how_it_moves_or_what_is_near_does_no_task(
     scene.run(1.0)
     scene.station.autonomy.place(ORIGIN)
     scene.set(*SQUARE)
-    said = f"It can be driven by hand only: the {sense} has not said anything yet."
+    said = f"It can be driven by hand only: the {sense} has sent no data yet."
     assert scene.refused("/task/start", StartTaskRequest()) == said
     assert scene.refused("/task/go_home") == said
     robot.silent.clear()

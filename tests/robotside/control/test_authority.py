@@ -106,9 +106,9 @@ def test_a_driver_may_hand_over_at_once(authority: Authority, anna: FakeClient, 
 
 
 def test_only_the_driver_answers_who_asks(authority: Authority, anna: FakeClient, bert: FakeClient) -> None:
-    assert authority.grant(anna) == "Nobody asks for control."
+    assert authority.grant(anna) == "No one asks for control."
     authority.acquire(anna, NOW)
-    assert authority.object(anna, NOW) == "Nobody asks for control."
+    assert authority.object(anna, NOW) == "No one asks for control."
     authority.request(bert, NOW)
     assert authority.grant(bert) == "Anna has control; only its holder can answer."
     assert authority.object(bert, NOW) == "Anna has control; only its holder can answer."

@@ -59,7 +59,7 @@ def test_an_objection_is_told_to_everyone(scene: Scene) -> None:
     anna, bert = named(scene, "anna"), named(scene, "bert")
     ask(scene, "/control/acquire", anna)
     ask(scene, "/control/request", bert)
-    assert ask(scene, "/control/object", anna) == "You keep control; Bert is told."
+    assert ask(scene, "/control/object", anna) == "You keep control; Bert is notified."
     assert scene.events("control")[-1] == "Anna objected: Bert does not get control."
     scene.run(11.0)
     assert (scene.control.driver, scene.control.requested_by) == ("Anna", "")
@@ -237,9 +237,9 @@ def test_a_boat_goes_on_holding_its_heading(tmp_path: Path) -> None:
 
 def test_a_quadrotor_hovers_lands_and_says_so(tmp_path: Path) -> None:
     scene = after_the_link(tmp_path, "quadrotor", 11.0)
-    assert "Nobody drives the robot: it lands." not in scene.events("control")
+    assert "No one drives the robot: it lands." not in scene.events("control")
     scene.run(4.0)
-    assert scene.events("control")[-1].startswith("Nobody drives the robot: it ")
+    assert scene.events("control")[-1].startswith("No one drives the robot: it ")
     assert scene.robot.at_rest
 
 
@@ -264,7 +264,7 @@ def test_wheels_that_are_told_to_return_go_home_by_themselves(tmp_path: Path) ->
     assert not scene.task.task
     scene.run(2.5)
     assert (scene.task.task, scene.control.mode) == ("go_home", "AUTO")
-    assert scene.events("control")[-1] == "Nobody drives the robot: it goes home."
+    assert scene.events("control")[-1] == "No one drives the robot: it goes home."
 
 
 def test_a_robot_that_has_come_home_by_itself_stays_there(tmp_path: Path) -> None:
@@ -275,7 +275,7 @@ def test_a_robot_that_has_come_home_by_itself_stays_there(tmp_path: Path) -> Non
     scene.drive(AHEAD)
     scene.clients.clear()
     scene.run(40.0)
-    assert scene.events("control").count("Nobody drives the robot: it goes home.") == 1
+    assert scene.events("control").count("No one drives the robot: it goes home.") == 1
     assert (scene.task.state, scene.robot.at_rest) == ("SUCCEEDED", True)
 
 

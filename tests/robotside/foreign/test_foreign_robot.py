@@ -92,7 +92,7 @@ def test_with_nobody_there_it_says_so_and_commands_go_nowhere() -> None:
 
 def test_before_anybody_answered_there_is_trouble_too() -> None:
     robot = ForeignRobot(URL, patience=0.0, connect=Line(lambda _: None))
-    assert robot.trouble == "The robot cannot be reached: nobody has answered yet at robot:9090."
+    assert robot.trouble == "The robot cannot be reached: no answer yet from robot:9090."
 
 
 def test_the_start_waits_for_the_robot_and_for_what_it_sends_once() -> None:

@@ -143,7 +143,7 @@ async def test_an_answer_that_rests_on_what_is_on_its_way_waits_for_it(slow: Slo
     second = await soon(slow.ask("/events/acknowledge", request))
     slow.write()
     assert (await first).message == "1 event acknowledged."
-    assert (await second).message == "Somebody has seen to it already."
+    assert (await second).message == "Already acknowledged."
     third = slow.ask("/events/acknowledge", request)
     assert isinstance(third, Msg), "it is on the disk"
 

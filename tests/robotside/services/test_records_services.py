@@ -134,9 +134,7 @@ def test_an_event_is_seen_to_once_by_whoever_says_so_first_and_all_are_told(scen
     assert isinstance(told, Event)
     assert (told.id, told.acknowledged_by, told.acknowledged.secs) == (number, "Anna", told.stamp.secs)
     later = msgspec.structs.replace(request, client_name="Bert")
-    assert scene.ask("/events/acknowledge", later, scene.client("bert")).message == (
-        "Somebody has seen to it already."
-    )
+    assert scene.ask("/events/acknowledge", later, scene.client("bert")).message == ("Already acknowledged.")
     assert scene.refused("/events/acknowledge", AcknowledgeEventsRequest(ids=Int32Array([99]))) == (
         "There is no event with the number 99."
     )

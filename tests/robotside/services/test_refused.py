@@ -93,7 +93,7 @@ async def test_on_a_full_disk_a_task_begins_and_its_answer_says_what_is_not_kept
     assert moves(slow)
     assert slow.station.agenda.manual.by == ""
     if how not in ("resume", "auto") or manual:
-        assert answer.message.endswith(f"A restart would not know of it. {FULL}")
+        assert answer.message.endswith(f"This could not be saved and would be lost on restart. {FULL}")
 
 
 async def test_a_start_that_waits_too_long_for_the_disk_is_not_refused_either(
@@ -103,7 +103,9 @@ async def test_a_start_that_waits_too_long_for_the_disk_is_not_refused_either(
     answer = slow.ask("/task/start", sent(StartTaskRequest))
     assert not isinstance(answer, Msg)
     said = (await answer).message  # type: ignore[attr-defined]
-    assert said.startswith("Patrol started: 3 points, loop. A restart would not know of it. The database has")
+    assert said.startswith(
+        "Patrol started: 3 points, loop. This could not be saved and would be lost on restart. The database has"
+    )
     assert moves(slow)
 
 

@@ -86,7 +86,7 @@ def test_a_tour_that_waits_for_who_follows(house: Scene) -> None:
 
     follow(True, 1.0)
     follow(False, 4.0)
-    assert (house.task.phase, house.task.reason) == ("waiting", "Waiting: nobody follows.")
+    assert (house.task.phase, house.task.reason) == ("waiting", "Waiting: no one follows.")
     assert house.robot.at_rest
     while house.task.state == "RUNNING":
         follow(True, 0.2)

@@ -183,7 +183,7 @@ def test_what_was_parked_stays_so_behind_another_task_until_told(
         scene.run(4.0)
     scene.ask("/task/cancel")
     started = scene.ask("/task/start", StartTaskRequest(order=TaskOrder(task="hold", duration=5.0))).message
-    assert started.endswith("2 tasks from before wait in the queue until told to go on."), started
+    assert started.endswith("2 tasks from before wait in the queue until resumed."), started
     scene.run(1.0)
     scene.ask("/task/pause")
     scene.ask("/task/resume")
@@ -216,7 +216,7 @@ def test_a_task_that_is_taken_up_after_a_crash_does_not_bring_the_queue_along(
     scene.run(1.0)
     again = Scene(FakeRobot(), tmp_path)
     again.run(4.0)
-    said = "Resumed. 1 task from before waits in the queue until told to go on."
+    said = "Resumed. 1 task from before waits in the queue until resumed."
     assert again.ask("/task/resume").message == said
     again.run(40.0)
     assert again.task.state == "SUCCEEDED"
@@ -342,7 +342,7 @@ def test_nothing_starts_by_itself_while_the_mode_was_set_to_manual(scene: Scene,
 def test_auto_lets_the_schedule_start_again_and_so_does_a_task_that_somebody_starts(scene: Scene) -> None:
     plan(scene, HOLD, every=60.0)
     mode(scene, "MANUAL")
-    assert mode(scene, "AUTO") == "The robot may start by itself what is scheduled and queued."
+    assert mode(scene, "AUTO") == "The robot may start scheduled and queued tasks by itself."
     scene.run(61.0)
     assert begun(scene) == ["hold"]
     mode(scene, "MANUAL")

@@ -75,7 +75,7 @@ def test_an_order_in_a_few_words(order, words):
         ),
         (
             TaskOrder(task="guide", places=["Hall", "Lab"]),
-            "Leads a person to Hall and Lab, waits when nobody follows, and tells what is there.",
+            "Leads a person to Hall and Lab, waits when no one follows, and reads out the notes.",
         ),
         (TaskOrder(task="go_to", places=["Lab"]), "Goes to Lab and stays there."),
         (TaskOrder(task="hold", duration=math.nan), "Stands still where it is until you stop it."),
@@ -137,5 +137,5 @@ def test_a_heading_counts_clockwise_from_north():
 def test_a_robot_that_cannot_tell_who_follows_does_not_promise_to_wait():
     order = TaskOrder(task="guide", places=["Lab"])
     said = will(order, follows=False)
-    assert said.startswith("Leads a person to Lab and tells what is there. Does not wait:")
-    assert "waits when nobody follows" in will(order)
+    assert said.startswith("Leads a person to Lab and reads out the notes. Does not wait:")
+    assert "waits when no one follows" in will(order)

@@ -57,7 +57,7 @@ def test_a_refusal_leaves_it_as_it_was_and_it_can_be_asked_for_again(stage, opti
 def test_what_the_robot_does_not_tell_cannot_be_switched(stage, options):
     tap(stage, options, "follow_link")
     assert options.heard == []
-    assert options._rows["follow_link"][0].detail == "Not told by the robot."
+    assert options._rows["follow_link"][0].detail == "Not reported by the robot."
 
 
 def test_who_does_not_drive_sees_them_and_switches_nothing(stage, options):

@@ -24,7 +24,7 @@ def tap(stage, button):
 def test_without_a_task_there_is_no_auto(stage, card):
     card.show(ControlStatus(mode="MANUAL"))
     tap(stage, card.auto)
-    assert (card.asked, card.said) == ([], "You drive. For AUTO start a task.")
+    assert (card.asked, card.said) == ([], "You are driving. Start a task to switch to AUTO.")
 
 
 @pytest.mark.parametrize(

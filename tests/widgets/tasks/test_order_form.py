@@ -122,7 +122,7 @@ def test_speed_and_time_are_left_to_the_robot_until_they_are_set(stage, form):
     assert math.isnan(form.order.speed)
     assert math.isnan(form.order.duration)
     speed, span = of(form, Stepper)
-    assert (speed.figures, span.figures) == ("as usual", "until stopped")
+    assert (speed.figures, span.figures) == ("default", "until stopped")
     for _ in range(12):
         speed.count(1)
     assert form.asked[-1].speed == pytest.approx(0.8)

@@ -89,5 +89,5 @@ def test_a_queue_that_is_held_does_not_say_next(stage):
     queue.show(TaskQueue(orders=[TaskOrder(task="hold", message="For Ann"), TaskOrder(task="dock")]))
     assert [row.detail for row in queue._rows] == ["Next · For Ann", ""]
     queue.show(TaskQueue(orders=queue.orders, held="the task before it was canceled"))
-    assert [row.detail for row in queue._rows] == ["Waits until told · For Ann", ""]
+    assert [row.detail for row in queue._rows] == ["Waits until resumed · For Ann", ""]
     assert details(TaskOrder(task="hold"), first=False, held=True) == ""

@@ -51,7 +51,7 @@ def test_kind_and_words_are_changed(stage, form):
 
 @pytest.mark.parametrize(
     ("name", "sentence"),
-    [("  ", "It needs a name."), ("lab", "There is a lab already"), ("Office 12", "")],
+    [("  ", "Enter a name."), ("lab", "There is a lab already"), ("Office 12", "")],
 )
 def test_what_is_lacking_is_said(form, name, sentence):
     form.set(name=name)

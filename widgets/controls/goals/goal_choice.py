@@ -146,9 +146,7 @@ class GoalChoice(Control):
     def goal(self) -> PoseStamped:
         """The goal as a message; ValueError while there is none."""
         if not self.wanted:
-            raise ValueError(
-                "There is no goal yet: the robot has not said where it is, and nobody where it is to go."
-            )
+            raise ValueError("There is no goal yet: the robot's position is unknown, and no goal is set.")
         x, y, yaw = self.wanted
         return PoseStamped(Header(frame_id="map"), Pose(Point(x, y), Quaternion.from_yaw(yaw)))
 

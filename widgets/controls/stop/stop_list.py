@@ -311,7 +311,7 @@ SOME = [
     _Sample("b", "Minnow-2", "sent"),
     _Sample("c", "Commander", "moves", "STOP is pressed, and it does not come to rest."),
     _Sample("d", "Scout", "no_answer", "Not heard for 3 min. No robot answers at 10.0.0.52:9090."),
-    _Sample("e", "Aqua", "released", "Somebody has released STOP."),
+    _Sample("e", "Aqua", "released", "STOP was released."),
     _Sample("f", "turtle1", "stopped", "No STOP of its own: zero speed is sent while the link stands.", True),
 ]
 """For the samples."""

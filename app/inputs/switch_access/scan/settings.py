@@ -109,7 +109,7 @@ class Options:
     def missing(self) -> str:
         """Which switch has no key, as one sentence; empty where none is missing."""
         if not self.b:
-            return "No key is the switch that does what is marked."
+            return "No key is assigned to the switch that presses the marked target."
         return "" if self.a or self.one else "No key is the switch for the next one."
 
     def switch_of(self, source: str, name: str, device: str) -> Literal["A", "B"] | None:

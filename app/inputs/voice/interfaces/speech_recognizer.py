@@ -36,10 +36,10 @@ class VoiceTrouble(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Grammar:
-    """What may be said."""
+    """Phrases."""
 
     phrases: Mapping[str, tuple[str, ...]]
-    """What may be said for each intent's name, in lower case."""
+    """Phrases for each intent's name, in lower case."""
     language: str = "en"
     """ISO 639-1. A recogniser that has no such language raises `VoiceTrouble` at the start."""
     urgent: frozenset[str] = frozenset({"stop"})

@@ -167,7 +167,7 @@ class SpeechPipeline:
         elif found.command not in self.heeded:
             asked = found.command in self._grammar.asked
             reason = (
-                f"Nobody asked: “{found.phrase}” counts only while a question is open."
+                f"No question is open: “{found.phrase}” counts only as an answer."
                 if asked
                 else (f"“{found.phrase}” does not count now.")
             )

@@ -1,4 +1,4 @@
-"""What may be said for each intent, and how it sounds: pronunciations in IPA, written for this app's own vocabulary.
+"""Phrases for each intent, and how it sounds: pronunciations in IPA, written for this app's own vocabulary.
 
 `COMMANDS` is what English speakers may say; `pronunciations("go home")` its sounds, one tuple for each way to say it. What
 people say who give no command is in `background.txt`: common words and neighbours of our own, against which each command must win.

@@ -1,4 +1,4 @@
-"""What may be said for each intent, by language. English sounds are in `app.inputs.voice.recognition.lexicon`; the others only a phone's own
+"""Phrases for each intent, by language. English sounds are in `app.inputs.voice.recognition.lexicon`; the others only a phone's own
 recogniser knows, which gives words."""
 
 from __future__ import annotations

@@ -144,7 +144,7 @@ class PadPane(BoxLayout):
 
     def _standing(self, state: PadState | None) -> str:
         if state is None:
-            gone = f"{self._name} is not plugged in; what is set up is kept." if self._name else ""
+            gone = f"{self._name} is not plugged in; its settings are kept." if self._name else ""
             return gone or "Plug one in, at any time. Each kind keeps its own set-up."
         pads, wired = self._inputs.gamepads, state.name in self._inputs.gamepads.wired
         age = pads.age(state.number)

@@ -66,8 +66,8 @@ class TablePane(BoxLayout):
             row.switch.active = table.allowed(self.method, intent)
             row.faded = not row.switch.active
         self.usual.disabled = table.usual(self.method)
-        self.usual.text = f"{METHOD_SIGNS[self.method][1]}: as usual again"
-        self.remark.text = table.problem or "What is forbidden is answered with a sentence and not done."
+        self.usual.text = f"{METHOD_SIGNS[self.method][1]}: reset to default"
+        self.remark.text = table.problem or "A forbidden command is refused with a sentence."
 
     def _fill(self, *_: object) -> None:
         self._column.clear_widgets()

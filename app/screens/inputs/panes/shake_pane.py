@@ -23,8 +23,8 @@ HOW = (
     "Hold the device and shake it three times to and fro. Left and right is STOP and acts while you shake; "
     "the others act when you have stopped."
 )
-ACTS = "Listening, and a shake acts here as anywhere. What is understood is said here."
-TRY = "Shake: what was understood is said here, and nothing is done but STOP."
+ACTS = "Listening. A shake acts here as anywhere; the result appears here."
+TRY = "Shake: the result appears here, and only STOP acts."
 LESSON = "Ten seconds: left and right, up and down, forward and back, as you would do it."
 FRESH = 6.0
 """For so long what was understood last is shown as new [s]."""
@@ -59,7 +59,7 @@ class ShakePane(BoxLayout):
         row, self.any_stops = switch_row(
             "front_hand",
             "Any strong shake stops",
-            "While the robot moves, along whatever line.",
+            "While the robot moves, in any direction.",
             lambda on: setattr(self.shaking, "any_stops", on),
         )
         column.add_widget(row)

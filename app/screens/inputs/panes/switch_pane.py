@@ -37,7 +37,7 @@ NUMBERS: dict[str, tuple[str, str, str, float, str]] = {
 BY_ITSELF = ("interval", "first", "loops")
 """Those of a mark that moves by itself."""
 FELT: dict[str, tuple[str, str, str]] = {
-    "tones": ("volume_up", "Each step is heard", "A short tone; another one for what is done."),
+    "tones": ("volume_up", "Each step is heard", "A short tone; another one for a press."),
     "vibrates": ("mobile_vibrate", "Each step is felt", "On a handheld that vibrates."),
     "spoken": ("text_fields", "The mark is spoken", "By the voice chosen in Voice."),
 }
@@ -91,11 +91,11 @@ class SwitchPane(BoxLayout):
         self.begin = PrimaryButton(text="Begin the test", icon="play_arrow", size_hint_y=None)
         self.begin.bind(on_release=lambda _: self._begin_or_take())
         self._put(self.begin, True)
-        self._put(group_label("What is a press"))
+        self._put(group_label("Press timing"))
         for name in NUMBERS:
             if name not in BY_ITSELF:
                 self._put(self._number(name))
-        self._put(group_label("What is noticed"))
+        self._put(group_label("Feedback"))
         for name, (icon, title, detail) in FELT.items():
             row, self.toggles[name] = switch_row(
                 icon, title, detail, lambda on, name=name: self._set(**{name: on})
@@ -271,9 +271,9 @@ class SwitchPane(BoxLayout):
     @staticmethod
     def _explained(options: Options) -> str:
         if options.one:
-            return f"The mark moves by itself; the switch does what is marked. {_held('b', options)}"
+            return f"The mark moves by itself; the switch presses the target. {_held('b', options)}"
         return (
-            "The first switch moves the mark, the second does what is marked when it is let go. "
+            "The first switch moves the mark, the second presses the target on release. "
             "The first press only wakes it."
         )
 

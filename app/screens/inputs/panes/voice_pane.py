@@ -28,7 +28,7 @@ __all__ = ["VoicePane"]
 
 PUSH = "Hold Talk at the edge of the screen, a key or a button of a gamepad while you speak; a tap listens for one command."
 FREE = "It listens all the time. Among people who talk, hold the button instead."
-TRY = "Say a command: what was understood is shown, and nothing is done but STOP."
+TRY = "Say a command: the result is shown, and only STOP acts."
 EXAMPLE = "Go home? Say yes or no."
 
 
@@ -68,7 +68,7 @@ class VoicePane(BoxLayout):
         self._fill_recognizers()
         self._fill_languages()
         self._fill_answers()
-        add(group_label("What may be said"))
+        add(group_label("Phrases"))
         for intent in PHRASES["en"]:
             known = INTENTS[intent]
             self.words[intent] = ListRow(icon=known.icon, title=known.words, whole=True)

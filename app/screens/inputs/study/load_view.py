@@ -35,7 +35,7 @@ class LoadView(Column):
         self.asks, self.reminds = switch_row(
             "notifications",
             "Remind me after each task",
-            "When a task is over, a sentence says that its workload can be filled in.",
+            "When a task is over, a sentence offers its workload form.",
             log.remind,
         )
         size = {"size_hint_y": None, "height": "220dp", "state": "live"}

@@ -117,8 +117,8 @@ class LogView(Column):
         )
         self.agrees = self._switch(
             "sensors",
-            "Keep what was measured, too",
-            "The movement of a shake, the sounds of a word. Only if whoever gives it agrees.",
+            "Keep raw measurements, too",
+            "The movement of a shake, the sound of a word. Only if the person agrees.",
             lambda on: setattr(self._log, "snippets", on),
         )
         self.export = QuietButton(text="Export a zip", icon="download")

@@ -44,7 +44,7 @@ class ZipRow(Column):
         if zips and self._where is None:
             self.remark.text = f"{many} in {zips[0].parent}."
         elif zips:
-            self.remark.text = f"{many} {INSIDE}; what is shared is copied to {self._where}."
+            self.remark.text = f"{many} {INSIDE}; shared zips are copied to {self._where}."
         if bool(zips) != bool(self.children):
             self.clear_widgets()
             for widget in (self.remark, self._buttons) if zips else ():

@@ -164,7 +164,7 @@ def test_something_that_lies_on_a_key_drives_for_so_long_and_that_is_said(desk: 
     desk.press("w")
     desk.pass_time(LONGEST + 1.0, repeats="w")
     assert desk.lean is None
-    assert desk.said == ["W is held for 30 s: the robot was told to rest."]
+    assert desk.said == ["W is held for 30 s: the robot rests."]
 
 
 def test_with_other_controls_on_the_glass_keys_must_be_let_go_first(desk: Desk) -> None:

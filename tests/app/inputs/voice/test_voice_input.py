@@ -495,4 +495,4 @@ def test_that_another_listens_is_said_and_it_listens(monkeypatch: pytest.MonkeyP
 def test_a_recogniser_that_there_is_not_is_the_best_and_said(kept: dict[str, Any]) -> None:
     desk = Desk(**kept)
     assert (desk.speaking.recognizer, desk.speaking.model) == ("", "")
-    assert "as usual again" in desk.said[0]
+    assert "reset to default" in desk.said[0]

@@ -129,7 +129,7 @@ def test_the_mode_is_a_command_whose_answer_is_said(driving: Glass, robot: FakeR
     driving.tap(chip)
     driving.until(lambda: card.parent is not None, "no choice")
     assert card.auto.disabled
-    assert card.said == "You drive. For AUTO start a task."
+    assert card.said == "You are driving. Start a task to switch to AUTO."
     paused(driving, robot, "tablet-B", "b")
     driving.until(lambda: not card.auto.disabled, "no AUTO")
     robot.refusals["/mode/set"] = "The battery is empty."

@@ -11,7 +11,7 @@ from tests.app.inputs.pushing import Settings
 def test_the_keys_that_are_switches_are_told_with_the_stop_that_they_hold() -> None:
     rows = dict(help_groups(Bindings(Settings()), [], Options()))["Switches"]
     assert rows == [
-        (["Tab"], "Next on the glass"),
+        (["Tab"], "Next on the screen"),
         (["Enter"], "Do it, when let go"),
         (["Tab"], "Back, held 0.6 s"),
         (["Enter"], "STOP, held 0.8 s"),

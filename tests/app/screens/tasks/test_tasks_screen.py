@@ -88,12 +88,12 @@ def test_what_keeps_start_grey_is_said_where_start_is(glass: Glass, robot: FakeR
     robot.publish("/task/status", status)
     said = "Not now: Go to Office 12 is paused; end it, or queue this."
     glass.until(lambda: tasks.pane.sentence.endswith(said), tasks.pane.sentence)
-    assert tasks.pane.sentence.startswith("Leads a person to Lab and tells what is there. Does not wait:")
+    assert tasks.pane.sentence.startswith("Leads a person to Lab and reads out the notes. Does not wait:")
     assert tasks.ids["start"].disabled
     assert not tasks.ids["queue"].disabled
     robot.publish("/task/status", TaskStatus(task_id=3, task="go_to", state="CANCELED"))
     robot.publish("/following", Following(present=True))
-    whole = "Leads a person to Lab, waits when nobody follows, and tells what is there."
+    whole = "Leads a person to Lab, waits when no one follows, and reads out the notes."
     glass.until(lambda: tasks.pane.sentence == whole, tasks.pane.sentence)
     assert not tasks.ids["start"].disabled
 

@@ -58,17 +58,17 @@ def test_it_waits_when_nobody_follows_and_goes_on_when_they_come() -> None:
     go(stage, tree, 20.0, follows=False)
     assert stage.phase == "waiting"
     assert stage.robot.at_rest
-    assert stage.said == ["Waiting on the way to Reception: nobody follows."]
+    assert stage.said == ["Waiting on the way to Reception: no one follows."]
     go(stage, tree, 0.5, follows=True)
     assert not stage.robot.at_rest
-    assert stage.said[1:] == ["Somebody follows again; going on to Reception."]
+    assert stage.said[1:] == ["The person follows again; going on to Reception."]
 
 
 def test_without_a_sensor_it_says_so_once_and_goes_on() -> None:
     stage = Stage()
     _, tree = lead(TOUR, "", stage.navigator, stage.situation, stage.say)
     assert go(stage, tree, 60.0, follows=None) is Status.SUCCESS
-    said = "Nothing tells whether somebody follows; the robot goes on without waiting."
+    said = "No sensor shows who follows; the robot goes on without waiting."
     assert stage.said.count(said) == 1
 
 
@@ -77,7 +77,7 @@ def test_its_sentence_says_for_the_whole_way_that_it_does_not_wait() -> None:
     _, tree = lead(TOUR, "", stage.navigator, stage.situation, stage.say)
     go(stage, tree, 0.5, follows=None)
     said = stage.situation.doing.text
-    assert said == "Leading the way to Reception, without waiting: nothing tells whether somebody follows."
+    assert said == "Leading the way to Reception, without waiting: no sensor shows who follows."
     go(stage, tree, 0.2, follows=True)
     assert stage.situation.doing.text == "Leading the way to Reception."
 

@@ -65,7 +65,7 @@ def test_what_is_not_sure_enough_is_rejected_with_what_it_was_like():
 @pytest.mark.parametrize("answer", ["yes", "no"])
 def test_yes_and_no_count_only_while_a_question_is_open(answer):
     (rejected,) = words(said(Judge(answer)))
-    assert "Nobody asked" in rejected.reason
+    assert "No question is open" in rejected.reason
     (result,) = words(said(Judge(answer), heed={"yes", "no"}))
     assert result.command == answer
 

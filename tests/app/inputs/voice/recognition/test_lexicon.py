@@ -1,4 +1,4 @@
-"""What may be said, and how it sounds."""
+"""Phrases, and how it sounds."""
 
 import pytest
 

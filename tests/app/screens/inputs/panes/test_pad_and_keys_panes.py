@@ -89,7 +89,7 @@ def test_the_picture_is_the_gamepad_as_it_is_now(desk: Desk, pad: Any) -> None:
     desk.plug()
     pad.tick()
     assert pad.picture.state == "never"
-    assert pad.standing.text == "Red is not plugged in; what is set up is kept."
+    assert pad.standing.text == "Red is not plugged in; its settings are kept."
 
 
 def test_a_pushed_gamepad_that_tells_nothing_new_is_said_to_be_silent(desk: Desk, pad: Any) -> None:

@@ -25,7 +25,7 @@ def test_as_usual_again_is_said_and_done_of_the_method_that_is_shown_alone(pane:
     table.allow("voice", "patrol", False)
     table.allow("shake", "pause", False)
     pane.choice.choose("shake")
-    assert (pane.usual.text, pane.usual.disabled) == ("Shake: as usual again", False)
+    assert (pane.usual.text, pane.usual.disabled) == ("Shake: reset to default", False)
     pane.usual.dispatch("on_release")
     assert table.allowed("shake", "pause")
     assert not table.allowed("voice", "patrol")
