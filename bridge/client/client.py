@@ -221,8 +221,8 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
             for task in work:
                 task.cancel()
             await asyncio.gather(*work, return_exceptions=True)
-            self._session.lose()
-            await self._provider.lose()
+            self._session.on_lost()
+            await self._provider.on_lost()
             await connection.close(lost=lost)
 
     def _on_robot(self) -> None:

@@ -40,12 +40,12 @@ class Goal(Generic[R]):
         self._feedback = feedback
         self._on_feedback = on_feedback
         self._cancel = cancel
-        self._over: asyncio.Future[ActionResult | None] = asyncio.get_running_loop().create_future()
+        self._outcome: asyncio.Future[ActionResult | None] = asyncio.get_running_loop().create_future()
 
     @property
     def done(self) -> bool:
         """Whether the result is known or will never be known."""
-        return self._over.done()
+        return self._outcome.done()
 
     def cancel(self) -> bool:
         """Ask for cancellation; `result` gives the outcome. False when the goal has ended or there is no connection."""
@@ -59,7 +59,7 @@ class Goal(Generic[R]):
         """
         try:
             async with asyncio.timeout(timeout):
-                found = await asyncio.shield(self._over)
+                found = await asyncio.shield(self._outcome)
         except TimeoutError as error:
             raise NoReply(f"The robot did not finish {self.action} within {timeout:g} s.") from error
         if found is None:
@@ -71,8 +71,8 @@ class Goal(Generic[R]):
             raise Refused(f"{self.action} was {word}.")
         return from_json(found.values, self._type)
 
-    def hear(self, op: ActionFeedback) -> None:
-        """The robot says how far it is; what does not fit is logged and left out."""
+    def on_feedback(self, op: ActionFeedback) -> None:
+        """Handle feedback of the robot; what does not fit is logged and skipped."""
         if self._on_feedback is None or self._feedback is None:
             return
         try:
@@ -80,14 +80,14 @@ class Goal(Generic[R]):
         except ProtocolError as error:
             log.warning("Feedback of %s is left out: %s", self.action, error)
         except Exception:
-            log.exception("Showing the feedback of %s failed", self.action)
+            log.exception("Handling the feedback of %s failed", self.action)
 
-    def end(self, op: ActionResult | None) -> None:
-        """The robot says what became of it; None when it never will."""
-        if self._over.done():
+    def on_result(self, op: ActionResult | None) -> None:
+        """Handle the result of the robot; None when it will never be known."""
+        if self._outcome.done():
             return
         self.status = 0 if op is None else goal_status(op)
-        self._over.set_result(op)
+        self._outcome.set_result(op)
 
 
 def action_of(goal: Msg) -> str:
@@ -100,8 +100,8 @@ def action_of(goal: Msg) -> str:
 
 def reason(values: Raw) -> str:
     """The reason of a refusal, which stands in the place of the values; empty when there is none."""
-    said = cast(object, msgspec.json.decode(values))
-    return said if isinstance(said, str) else ""
+    found = cast(object, msgspec.json.decode(values))
+    return found if isinstance(found, str) else ""
 
 
 def part_of(name: str, part: str) -> type[Msg]:

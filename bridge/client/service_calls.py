@@ -77,8 +77,8 @@ class ServiceCalls:
         found = TYPES.get(name) or self._learned.get(name)
         if found is None:
             asked = msgspec.json.encode({"type": ros2_name(name) if self._session.ros2 else name})
-            told = msgspec.json.decode(await self._ask("/rosapi/message_details", asked, timeout))
-            typedefs = told.get("typedefs") if isinstance(told, dict) else None
+            answer = msgspec.json.decode(await self._ask("/rosapi/message_details", asked, timeout))
+            typedefs = answer.get("typedefs") if isinstance(answer, dict) else None
             if not isinstance(typedefs, list) or not typedefs:
                 raise ProtocolError(f"The robot does not know what {name} is made of.")
             found = self._learned[name] = learn(typedefs)
@@ -109,8 +109,8 @@ class ServiceCalls:
             on_feedback,
             lambda: self._cancel(ids[0]),
         )
-        told = None if on_feedback is None else made.hear
-        op = self._session.goal(action, name, to_json(goal, self._session.ros2), told, made.end)
+        feedback_to = None if on_feedback is None else made.on_feedback
+        op = self._session.goal(action, name, to_json(goal, self._session.ros2), feedback_to, made.on_result)
         ids.append(op.id)
         if not self._send(op):
             self._session.goals.forget(op.id)

@@ -62,7 +62,7 @@ class ServiceProvider:
         """Carry out goals of `action` from now on; returns the operation to send."""
         return self._session.provide(action, type, lambda op: self._begin(op, goal, run), self._take_back)
 
-    async def lose(self) -> None:
+    async def on_lost(self) -> None:
         """Cancel all calls and goals of a connection that is lost, in 0.2 s at most."""
         tasks = {*self._calls, *self._goals.values()}
         for task in tasks:
@@ -126,13 +126,13 @@ class ServiceProvider:
             task.cancel()
 
     async def _carry_out(self, op: SendActionGoal, goal: type[Msg], run: Run) -> None:
-        def tell(feedback: Msg) -> None:
+        def on_feedback(feedback: Msg) -> None:
             if op.feedback and op.id in self._session.given:
                 values = Raw(to_json(feedback, self._session.ros2))
                 self._send(ActionFeedback(id=op.id, action=op.action, values=values))
 
         try:
-            found = await run(arguments(op.args, goal), tell)
+            found = await run(arguments(op.args, goal), on_feedback)
             outcome = _result(op, to_json(found, self._session.ros2), GoalStatus.STATUS_SUCCEEDED, ok=True)
         except asyncio.CancelledError:
             outcome = _result(op, b"{}", GoalStatus.STATUS_CANCELED, ok=True)

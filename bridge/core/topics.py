@@ -45,14 +45,12 @@ class Topic:
 
 
 SONARS = 16
-"""Of a ring that have a topic of their own."""
+"""Sonars of a ring that have a topic of their own."""
 
 TOPICS: tuple[Topic, ...] = (
-    Topic("/robot/info", pilothouse_msgs.RobotInfo, 0, "handheld", "who the robot is and what it can do"),
-    Topic(
-        "/pose", geometry_msgs.PoseWithCovarianceStamped, 20, "handheld", "where it believes to be in `map`"
-    ),
-    Topic("/odom", nav_msgs.Odometry, 20, "handheld", "pose and speed by its wheels alone, in `odom`"),
+    Topic("/robot/info", pilothouse_msgs.RobotInfo, 0, "handheld", "identity and capabilities of the robot"),
+    Topic("/pose", geometry_msgs.PoseWithCovarianceStamped, 20, "handheld", "estimated pose in `map`"),
+    Topic("/odom", nav_msgs.Odometry, 20, "handheld", "pose and speed by the wheels alone, in `odom`"),
     Topic("/imu/data", sensor_msgs.Imu, 50, "handheld", "attitude, turn rate, acceleration"),
     Topic("/fix", sensor_msgs.NavSatFix, 5, "handheld", "position by satellite"),
     Topic("/scan", sensor_msgs.LaserScan, 10, "handheld", "the laser's last sweep"),
@@ -62,18 +60,18 @@ TOPICS: tuple[Topic, ...] = (
         pilothouse_msgs.LineSensor,
         20,
         "handheld",
-        "how bright the ground is under it, cell by cell",
+        "brightness of the ground under the robot, cell by cell",
     ),
     Topic(
         "/range/front",
         sensor_msgs.Range,
         10,
         "handheld",
-        "how far the nearest thing ahead is, by its echo",
+        "distance to the nearest thing ahead, by its echo",
     ),
     Topic("/range/left", sensor_msgs.Range, 10, "handheld", "the same to the left"),
     Topic("/range/right", sensor_msgs.Range, 10, "handheld", "the same to the right"),
-    Topic("/range/rear", sensor_msgs.Range, 10, "handheld", "the same behind it"),
+    Topic("/range/rear", sensor_msgs.Range, 10, "handheld", "the same to the rear"),
     Topic("/battery_state", sensor_msgs.BatteryState, 1, "handheld", "the battery"),
     Topic(
         "/joint_states", sensor_msgs.JointState, 20, "handheld", "angles and speeds of wheels, legs or rotors"
@@ -81,7 +79,9 @@ TOPICS: tuple[Topic, ...] = (
     Topic(
         "/motors", pilothouse_msgs.MotorArray, 5, "handheld", "speeds, torques, temperatures of the motors"
     ),
-    Topic("/manoeuvre", pilothouse_msgs.Manoeuvre, 10, "handheld", "the order that it moves by"),
+    Topic(
+        "/manoeuvre", pilothouse_msgs.Manoeuvre, 10, "handheld", "the manoeuvre that the robot carries out"
+    ),
     Topic("/sonar", pilothouse_msgs.SonarRing, 10, "handheld", "distances all round by ultrasound"),
     *(
         Topic(
@@ -97,9 +97,9 @@ TOPICS: tuple[Topic, ...] = (
     Topic("/ackermann", pilothouse_msgs.AckermannState, 20, "handheld", "steering, wheels, turning radius"),
     Topic("/rudder", pilothouse_msgs.RudderState, 10, "handheld", "rudder and propeller"),
     Topic("/compass", pilothouse_msgs.Compass, 10, "handheld", "heading, roll and pitch by compass"),
-    Topic("/depth", sensor_msgs.FluidPressure, 10, "handheld", "pressure of water and air where it is"),
+    Topic("/depth", sensor_msgs.FluidPressure, 10, "handheld", "pressure of water and air at the robot"),
     Topic("/range/down", sensor_msgs.Range, 20, "handheld", "height above the ground, by ultrasound"),
-    Topic("/flight", pilothouse_msgs.FlightState, 10, "handheld", "whether it is in the air"),
+    Topic("/flight", pilothouse_msgs.FlightState, 10, "handheld", "state of flight"),
     Topic(
         "/camera/image/compressed",
         sensor_msgs.CompressedImage,
@@ -109,7 +109,7 @@ TOPICS: tuple[Topic, ...] = (
         on_demand=True,
     ),
     Topic("/arm", pilothouse_msgs.ArmState, 20, "handheld", "joints, tip and gripper of a mounted arm"),
-    Topic("/lights", pilothouse_msgs.LightState, 1, "handheld", "how bright its lights are"),
+    Topic("/lights", pilothouse_msgs.LightState, 1, "handheld", "brightness of the lights"),
     *(
         Topic(
             f"/camera/{name}/image/compressed",
@@ -133,32 +133,42 @@ TOPICS: tuple[Topic, ...] = (
         pilothouse_msgs.IntruderArray,
         0,
         "handheld",
-        "everything found that does not belong here",
+        "all intruders found, each once",
     ),
     Topic("/map", nav_msgs.OccupancyGrid, 0, "handheld", "the robot's own map"),
-    Topic("/plan", nav_msgs.Path, 0, "handheld", "the way it means to take; empty when it has none"),
+    Topic("/plan", nav_msgs.Path, 0, "handheld", "the planned path; empty when there is none"),
     Topic("/mission", pilothouse_msgs.Mission, 0, "handheld", "the mission stored on the robot"),
-    Topic("/task/status", pilothouse_msgs.TaskStatus, 0, "handheld", "what it is doing and why"),
-    Topic("/task/progress", pilothouse_msgs.TaskProgress, 2, "handheld", "how far the running task is"),
     Topic(
-        "/control/status", pilothouse_msgs.ControlStatus, 0, "handheld", "who steers and whether it may move"
+        "/task/status",
+        pilothouse_msgs.TaskStatus,
+        0,
+        "handheld",
+        "the running task, its state and the reason",
     ),
-    Topic("/task/queue", pilothouse_msgs.TaskQueue, 0, "handheld", "what it does after this"),
-    Topic("/schedule", pilothouse_msgs.Schedule, 0, "handheld", "what it starts by itself, and when"),
-    Topic("/places", pilothouse_msgs.PlaceArray, 0, "handheld", "the places that have names"),
-    Topic("/limits", pilothouse_msgs.Limits, 0, "handheld", "how fast and where it may go"),
+    Topic("/task/progress", pilothouse_msgs.TaskProgress, 2, "handheld", "progress of the running task"),
+    Topic("/control/status", pilothouse_msgs.ControlStatus, 0, "handheld", "the driver, the mode, and STOP"),
+    Topic("/task/queue", pilothouse_msgs.TaskQueue, 0, "handheld", "the tasks that wait"),
+    Topic("/schedule", pilothouse_msgs.Schedule, 0, "handheld", "scheduled tasks"),
+    Topic("/places", pilothouse_msgs.PlaceArray, 0, "handheld", "named places"),
+    Topic("/limits", pilothouse_msgs.Limits, 0, "handheld", "limits of speed and area"),
     Topic("/checklist", pilothouse_msgs.Checklist, 0, "handheld", "checks before the first move"),
-    Topic("/tag", pilothouse_msgs.TagRead, 0, "handheld", "the card at its reader"),
-    Topic("/following", pilothouse_msgs.Following, 5, "handheld", "whether the guided person follows"),
-    Topic("/events", pilothouse_msgs.Event, 0, "handheld", "what happened, each once", once=True),
-    Topic("/diagnostics", diagnostic_msgs.DiagnosticArray, 1, "handheld", "the robot's opinion of its parts"),
+    Topic("/tag", pilothouse_msgs.TagRead, 0, "handheld", "the card at the reader"),
+    Topic(
+        "/following",
+        pilothouse_msgs.Following,
+        5,
+        "handheld",
+        "whether the guided person follows",
+    ),
+    Topic("/events", pilothouse_msgs.Event, 0, "handheld", "events, each once", once=True),
+    Topic("/diagnostics", diagnostic_msgs.DiagnosticArray, 1, "handheld", "health of the robot's parts"),
     Topic("/tf", tf2_msgs.TFMessage, 20, "handheld", "map, odom and base_link"),
     Topic(
         "/sim/ground_truth",
         nav_msgs.Odometry,
         20,
         "handheld",
-        "where the simulated robot really is, in `map`",
+        "the true pose of the simulated robot, in `map`",
         on_demand=True,
     ),
     Topic("/cmd_vel", geometry_msgs.Twist, 20, "robot", "the operator's drive command; counts for 0.25 s"),
@@ -167,9 +177,9 @@ TOPICS: tuple[Topic, ...] = (
         pilothouse_msgs.Manoeuvre,
         20,
         "robot",
-        "the same where a twist does not say it: steer or tilt; counts for 0.25 s",
+        "a drive command that a twist cannot express, such as steer or tilt; counts for 0.25 s",
     ),
-    Topic("/goal_pose", geometry_msgs.PoseStamped, 0, "robot", "go there, once"),
+    Topic("/goal_pose", geometry_msgs.PoseStamped, 0, "robot", "a goal to go to, once"),
     Topic(
         "/initialpose",
         geometry_msgs.PoseWithCovarianceStamped,

@@ -93,19 +93,19 @@ class Beacon:
             await asyncio.wait({self._work})
 
     async def _repeat(self) -> None:
-        hushed = False
+        reported = False
         while True:
             try:
-                self._say(to_json(self._hello()))
-                hushed = False
+                self._send(to_json(self._hello()))
+                reported = False
             except OSError as fault:
-                # being found is a convenience: what hinders it must never end the robot side
-                if not hushed:
+                # being found is a convenience: its faults must never end the robot side
+                if not reported:
                     log.warning("cannot say hello on the network: %s", fault.strerror or fault)
-                hushed = True
+                reported = True
             await asyncio.sleep(self._period)
 
-    def _say(self, datagram: bytes) -> None:
+    def _send(self, datagram: bytes) -> None:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
             sock.setblocking(False)
             sock.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, 1)
@@ -142,7 +142,7 @@ class Listener:
         self.port = sock.getsockname()[1]
         gone = self._gone
         self._transport, _ = await loop.create_datagram_endpoint(
-            lambda: _Ear(self._on_hello, gone), sock=sock
+            lambda: _HelloReceiver(self._on_hello, gone), sock=sock
         )
 
     async def close(self) -> None:
@@ -153,7 +153,7 @@ class Listener:
             self._transport = None
 
 
-class _Ear(asyncio.DatagramProtocol):
+class _HelloReceiver(asyncio.DatagramProtocol):
     def __init__(
         self, on_hello: Callable[[Hello, tuple[str, int]], None], gone: asyncio.Future[None]
     ) -> None:

@@ -36,7 +36,7 @@ class Arrivals:
         self._lost: list[ProtocolError] = []
         self._fragments = Fragments(limit_bytes, most, lifetime, given_up=self._lost.append)
 
-    def take(self, frame: str | bytes, now: float) -> list[Arrival]:
+    def receive(self, frame: str | bytes, now: float) -> list[Arrival]:
         """The operations in a frame that came at `now` [s], in order. Fragments and pictures give their content, once
         whole."""
         if len(frame) > self._limit:

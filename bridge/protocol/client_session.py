@@ -123,7 +123,7 @@ class ClientSession:
 
         A fault stands among them as a ProtocolError. Fragments and pictures are unpacked.
         """
-        return self._arrivals.take(frame, now)
+        return self._arrivals.receive(frame, now)
 
     def subscribe(
         self, op: Subscribe, type: type[Msg], callback: Callable[[Any, float], object]
@@ -253,15 +253,15 @@ class ClientSession:
         """Remove a goal of the server; False when it was removed before."""
         return self.given.pop(id, None) is not None
 
-    def lose(self) -> None:
+    def on_lost(self) -> None:
         """End everything that belongs to the lost connection: answers, unfinished fragments, goals of the server."""
         self._arrivals = self._nothing_yet()
         given, self.given = self.given, {}
         with contextlib.ExitStack() as stack:
             for each in reversed(given.values()):
                 stack.callback(each.provided.cancel, each.op.id)
-            stack.callback(self.goals.lose)
-            stack.callback(self.calls.lose)
+            stack.callback(self.goals.fail_all)
+            stack.callback(self.calls.fail_all)
 
     def opening(self) -> Iterator[Op]:
         """All operations to send on a new connection."""

@@ -78,7 +78,7 @@ class Calls:
         """Remove a call; False when it was not waiting."""
         return self._waiting.pop(id, None) is not None
 
-    def lose(self, service: str | None = None) -> None:
+    def fail_all(self, service: str | None = None) -> None:
         """End the calls that will never be answered: of this service, or all."""
         gone = [id for id, call in self._waiting.items() if service in (None, call.service)]
         _tell_all([self._waiting.pop(id).answer for id in gone])
@@ -136,7 +136,7 @@ class Goals:
         """Remove a goal; False when it was not under way."""
         return self._waiting.pop(id, None) is not None
 
-    def lose(self, action: str | None = None) -> None:
+    def fail_all(self, action: str | None = None) -> None:
         """End the goals whose result will never be known: of this action, or all."""
         gone = [id for id, goal in self._waiting.items() if action in (None, absolute(goal.op.action))]
         _tell_all([self._waiting.pop(id).result for id in gone])

@@ -95,7 +95,7 @@ class ServerSession:
         A fault stands among them as a ProtocolError that names op and id where they can be read. Fragments and
         pictures are unpacked; `fragment_size` and the spelling of types are noted.
         """
-        return [self._noted(arrival) for arrival in self._arrivals.take(frame, now)]
+        return [self._noted(arrival) for arrival in self._arrivals.receive(frame, now)]
 
     def expire(self, now: float) -> list[ProtocolError]:
         """The errors of fragments that are given up at `now` [s] as incomplete; to be called every second or so."""
@@ -176,7 +176,7 @@ class ServerSession:
         """Remove a service; returns its absolute name. Waiting callers get None."""
         service = absolute(op.service)
         if self.services.pop(service, None) is not None:
-            self._calls.lose(service)
+            self._calls.fail_all(service)
         return service
 
     def ask(self, op: CallService, answer: Answer) -> CallService:
@@ -213,7 +213,7 @@ class ServerSession:
         """Remove an action; returns its absolute name. The senders of goals under way get None."""
         action = absolute(op.action)
         if self.actions.pop(action, None) is not None:
-            self._goals.lose(action)
+            self._goals.fail_all(action)
         return action
 
     def hand_goal(self, op: SendActionGoal, feedback: Feedback | None, result: Result) -> SendActionGoal:
@@ -268,7 +268,7 @@ class ServerSession:
         """Whether the client wants remarks of this level."""
         return self.level != "none" and LEVELS.index(level) >= LEVELS.index(self.level)
 
-    def lose(self) -> list[SendActionGoal]:
+    def on_lost(self) -> list[SendActionGoal]:
         """End everything of a client that is gone; waiting senders get None. Returns its goals under way."""
         goals = list(self.goals.values())
         for forgotten in (
@@ -281,9 +281,9 @@ class ServerSession:
             forgotten.clear()
         self._arrivals = Arrivals(self._limit, most_values=MAX_VALUES)  # with what was unfinished
         try:
-            self._calls.lose()
+            self._calls.fail_all()
         finally:
-            self._goals.lose()
+            self._goals.fail_all()
         return goals
 
     def _noted(self, arrival: Arrival) -> Arrival:

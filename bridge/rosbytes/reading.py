@@ -29,7 +29,7 @@ class _Cursor:
         self.cdr = cdr
         self.place = 0
 
-    def take(self, size: int) -> bytes:
+    def read(self, size: int) -> bytes:
         """The next `size` bytes."""
         begin, self.place = self.place, self.place + size
         if self.place > len(self.raw):
@@ -45,7 +45,7 @@ class _Cursor:
         """The next number."""
         size = struct.calcsize(f"<{code}")
         self.align(size)
-        return struct.unpack(f"<{code}", self.take(size))[0]
+        return struct.unpack(f"<{code}", self.read(size))[0]
 
     def count(self) -> int:
         """The number of elements that follow; ProtocolError for more than there are bytes."""
@@ -87,7 +87,7 @@ def _message(cls: type[Msg], cdr: bool) -> Read:
     ahead = 4 if counted(cls, cdr) else 1 if cdr and not fields else 0
 
     def read(cursor: _Cursor) -> Msg:
-        cursor.take(ahead)
+        cursor.read(ahead)
         return cls(**{name: each(cursor) for name, each in reads})
 
     return read
@@ -115,7 +115,7 @@ def _length(field: Field, cursor: _Cursor) -> int:
 
 
 def _text(cursor: _Cursor) -> str:
-    raw = cursor.take(cursor.count())
+    raw = cursor.read(cursor.count())
     return (raw[:-1] if cursor.cdr else raw).decode()
 
 
@@ -129,7 +129,7 @@ def _numbers(field: Field, code: str) -> Read:
         number = _length(field, cursor)
         if number:
             cursor.align(size)
-        raw = cursor.take(number * size)
+        raw = cursor.read(number * size)
         if kind is bytes:
             return raw
         if typed and sys.byteorder == "little":

@@ -54,13 +54,13 @@ class ActionGoals:
         self._door = door
         self._client_services = client_services
         self._cancel: dict[Id, Callable[[], object]] = {}
-        self._news: dict[Id, Stream] = {}
+        self._feedback: dict[Id, Stream] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
     def begin(self, op: SendActionGoal) -> None:
         """Begin a goal; what is wrong with it is sent as its result. ProtocolError for an id in use."""
         self._client.protocol.begin_goal(op)
-        self._news[op.id] = Stream(f"{op.action} {op.id}", Lane.TELEMETRY, Subscribed(op.action))
+        self._feedback[op.id] = Stream(f"{op.action} {op.id}", Lane.TELEMETRY, Subscribed(op.action))
         try:
             self._cancel[op.id] = self._start(op)
         except BridgeError as error:
@@ -85,8 +85,8 @@ class ActionGoals:
                 self._client,
                 name,
                 op,
-                lambda news: self._tell(told, news.values),
-                lambda end: self._over(told, end),
+                lambda feedback: self._send_feedback(told, feedback.values),
+                lambda end: self._on_result(told, end),
             )
         action = self._door.action(name)
         goal = arguments(op.args, action.goal)
@@ -103,22 +103,22 @@ class ActionGoals:
         return task.cancel
 
     async def _carry_out(self, op: SendActionGoal, action: Action, goal: Msg) -> None:
-        def tell(feedback: Msg) -> None:
+        def on_feedback(feedback: Msg) -> None:
             if op.feedback:
-                self._tell(op, Raw(to_json(feedback)))
+                self._send_feedback(op, Raw(to_json(feedback)))
 
         try:
-            result = await self._door.run(self._session, action.name, goal, tell)
+            result = await self._door.run(self._session, action.name, goal, on_feedback)
             self._end(op, _done(op, to_json(result), GoalStatus.STATUS_SUCCEEDED))
         except BridgeError as error:
             self._end(op, _failed(op, str(error)))
 
-    def _tell(self, op: SendActionGoal, values: Raw) -> None:
-        news = self._news.get(op.id)
-        if news is not None and not too_deep(bytes(values)):
-            self._queue.offer(news, _News(op, values, self._client.protocol.answer_size(op)))
+    def _send_feedback(self, op: SendActionGoal, values: Raw) -> None:
+        feedback = self._feedback.get(op.id)
+        if feedback is not None and not too_deep(bytes(values)):
+            self._queue.offer(feedback, _Feedback(op, values, self._client.protocol.answer_size(op)))
 
-    def _over(self, op: SendActionGoal, told: ActionResult | None) -> None:
+    def _on_result(self, op: SendActionGoal, told: ActionResult | None) -> None:
         """End a goal with the result of another client."""
         if told is None:
             self._end(op, _failed(op, f"The client that carries {op.action} out is gone."))
@@ -130,13 +130,13 @@ class ActionGoals:
     def _end(self, op: SendActionGoal, result: ActionResult) -> None:
         self._client.protocol.end_goal(op.id)
         self._cancel.pop(op.id, None)
-        news = self._news.pop(op.id, None)
-        if news is not None:
-            self._queue.remove(news)
+        feedback = self._feedback.pop(op.id, None)
+        if feedback is not None:
+            self._queue.remove(feedback)
             self._client.send(result, size=self._client.protocol.answer_size(op))
 
 
-class _News(OutgoingMessage):
+class _Feedback(OutgoingMessage):
     """Feedback of a goal; sent as a message of a topic, so that a newer one replaces it while it waits."""
 
     __slots__ = ("_op", "_size", "_values")

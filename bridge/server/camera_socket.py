@@ -67,7 +67,7 @@ class CameraSocket:
             if delay != 0.0:
                 await wait(self._wake, delay)
                 continue
-            picture, level = self._take(), self.quality.level
+            picture, level = self._pop(), self.quality.level
             if picture is None:
                 continue
             frame = await picture.at(level)
@@ -76,6 +76,6 @@ class CameraSocket:
             self.quality.on_sent(picture.seq, len(frame), level, self._clock())
             await self._socket.send(frame)
 
-    def _take(self) -> Picture | None:
+    def _pop(self) -> Picture | None:
         picture, self._newest = self._newest, None
         return picture

@@ -165,7 +165,7 @@ class RosbridgeSession:
         self._context.client_services.leave(self)
         self._topics.close()
         self._unhandled.clear()
-        self.protocol.lose()
+        self.protocol.on_lost()
         self._faults.close()
         try:
             await self._goals.close()

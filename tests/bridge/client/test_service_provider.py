@@ -32,4 +32,4 @@ async def test_so_many_calls_are_answered_at_a_time_and_one_more_is_refused():
     await asyncio.sleep(0)
     session.called(CallService(service="/work", id="again"))
     await sent.reach(MAX_CALLS + 1)
-    await providing.lose()
+    await providing.on_lost()

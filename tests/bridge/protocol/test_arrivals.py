@@ -30,27 +30,27 @@ def frames(op, size=10, id="f"):
 
 
 def taken(arrivals, *frames, now=0.0):
-    return [each for frame in frames for each in arrivals.take(frame, now)]
+    return [each for frame in frames for each in arrivals.receive(frame, now)]
 
 
 def only(arrivals, frame, now=0.0):
-    (found,) = arrivals.take(frame, now)
+    (found,) = arrivals.receive(frame, now)
     return found
 
 
 @pytest.mark.parametrize("frame", [dump(A), encode(A), f" \n{dump(A)}"])
 def test_text_is_text_in_either_kind_of_frame(frame):
-    assert Arrivals(LIMIT).take(frame, 0.0) == [A]
+    assert Arrivals(LIMIT).receive(frame, 0.0) == [A]
 
 
 def test_cbor_is_told_by_its_first_byte():
     frame = cbor2.dumps({"op": "publish", "topic": "/a", "msg": {"data": 1}})
-    assert Arrivals(LIMIT).take(frame, 0.0) == [BinaryPublish("/a", {"data": 1})]
+    assert Arrivals(LIMIT).receive(frame, 0.0) == [BinaryPublish("/a", {"data": 1})]
     assert isinstance(only(Arrivals(LIMIT), b"\xa1\xff"), ProtocolError)
 
 
 def test_several_operations_come_in_their_order():
-    assert Arrivals(LIMIT).take(BOTH, 0.0) == [A, B]
+    assert Arrivals(LIMIT).receive(BOTH, 0.0) == [A, B]
 
 
 def test_fragments_give_what_they_held_once_whole():
@@ -62,7 +62,7 @@ def test_fragments_give_what_they_held_once_whole():
 
 
 def test_a_picture_gives_what_it_held():
-    assert Arrivals(LIMIT).take(encode(to_png(BOTH)), 0.0) == [A, B]
+    assert Arrivals(LIMIT).receive(encode(to_png(BOTH)), 0.0) == [A, B]
 
 
 def test_a_picture_may_come_in_fragments():
@@ -70,7 +70,7 @@ def test_a_picture_may_come_in_fragments():
 
 
 def test_several_fragments_may_share_a_frame():
-    assert Arrivals(LIMIT).take(b"".join(frames(A)), 0.0) == [A]
+    assert Arrivals(LIMIT).receive(b"".join(frames(A)), 0.0) == [A]
 
 
 @pytest.mark.parametrize(
@@ -116,7 +116,7 @@ def test_a_frame_over_the_limit_is_not_looked_at():
 
 def test_the_pictures_of_one_frame_unpack_to_the_limit_together():
     bomb = dump(to_png(b'{"op":"unsubscribe","topic":"/a"}' + b"\n" * 40_000))
-    good = [each for each in Arrivals(LIMIT).take(bomb * 5, 0.0) if each == A]
+    good = [each for each in Arrivals(LIMIT).receive(bomb * 5, 0.0) if each == A]
     assert len(good) == 2
 
 
@@ -139,7 +139,7 @@ def test_cbor_that_takes_long_to_read_is_refused_before_it_is_read(msg):
 def test_who_sends_texts_without_end_is_told():
     arrivals = Arrivals(LIMIT, most=2, lifetime=10.0)
     taken(arrivals, *(frames(A, id=id)[0] for id in "ab"))
-    (error,) = arrivals.take(frames(A, id="c")[0], 1.0)
+    (error,) = arrivals.receive(frames(A, id="c")[0], 1.0)
     assert (error.op, error.id) == ("fragment", "a")
     assert [each.id for each in taken(arrivals, encode(A), now=10.5) if each != A] == ["b"]
     assert [each.id for each in arrivals.expire(11.0)] == ["c"]

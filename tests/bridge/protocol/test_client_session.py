@@ -116,7 +116,7 @@ def test_an_answer_reaches_the_call_that_it_belongs_to_once():
     answer = ServiceResponse(id=first.id, values=Raw(b"{}"), result=True)
     assert session.on_response(answer)
     assert not session.on_response(answer)
-    session.lose()
+    session.on_lost()
     assert answers == [("first", True), ("second", None)]
 
 
@@ -187,7 +187,7 @@ def test_with_the_connection_everything_unanswered_is_lost_and_goals_of_the_serv
     session.call("/stop", b"{}", lambda op: lost.append(("call", op)))
     session.goal("/fly", "", b"{}", None, lambda op: lost.append(("goal", op)))
     session.receive(split(b'{"op":"publish","topic":"/a"}', 10, "f")[0], 0.0)
-    session.lose()
+    session.on_lost()
     assert sorted(lost) == [("call", None), ("goal", None)]
     assert (cancelled, session.given) == ([GOAL.id], {})
     assert session.receive(split(b'{"op":"publish","topic":"/a"}', 10, "f")[1], 0.0) == []
@@ -217,7 +217,7 @@ def test_pictures_are_unpacked():
 def test_what_is_costly_to_read_in_cbor_is_not_taken_from_a_server_either(lost):
     session = ClientSession()
     if lost:
-        session.lose()
+        session.on_lost()
     publish = {"op": "publish", "topic": "/n", "msg": {"data": cbor2.CBORTag(4, [1, 10**30])}}
     (told,) = session.receive(cbor2.dumps(publish), 0.0)
     assert str(told) == "A binary frame may hold no CBOR tags but those of number arrays, not 4."

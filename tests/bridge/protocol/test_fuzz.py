@@ -194,7 +194,7 @@ def test_nothing_but_a_protocol_error_comes_of_damaged_frames(side, seed):
                 assert str(error).endswith(".")
     assert taken > 400
     assert errors > 400
-    session.lose()
+    session.on_lost()
 
 
 def test_what_is_remembered_stays_bounded_whatever_comes(monkeypatch):

@@ -56,7 +56,7 @@ def test_who_waits_no_longer_is_not_called():
     op = asked.ask(CallService(service="/add"), heard.append)
     assert asked.forget(op.id)
     assert not asked.forget(op.id)
-    asked.lose()
+    asked.fail_all()
     assert heard == []
 
 
@@ -64,9 +64,9 @@ def test_when_a_service_is_gone_its_callers_are_told():
     asked, heard = calls(), []
     for service in ("add", "/add", "/stop"):
         asked.ask(CallService(service=service), lambda op, service=service: heard.append((service, op)))
-    asked.lose("/add")
+    asked.fail_all("/add")
     assert heard == [("add", None), ("/add", None)]
-    asked.lose()
+    asked.fail_all()
     assert heard[2:] == [("/stop", None)]
     assert len(asked) == 0
 
@@ -90,7 +90,7 @@ def test_all_are_told_even_if_one_fails_at_it():
     asked.ask(CallService(service="/a"), failing)
     asked.ask(CallService(service="/b"), heard.append)
     with pytest.raises(ZeroDivisionError):
-        asked.lose()
+        asked.fail_all()
     assert heard == [None]
     assert len(asked) == 0
 
@@ -137,9 +137,9 @@ def test_when_an_action_is_gone_whose_goals_it_had_are_told():
         under_way.send(
             SendActionGoal(action=action), None, lambda op, action=action: ended.append((action, op))
         )
-    under_way.lose("/dock")
+    under_way.fail_all("/dock")
     assert ended == [("dock", None)]
-    under_way.lose()
+    under_way.fail_all()
     assert ended == [("dock", None), ("/fly", None)]
 
 
@@ -148,7 +148,7 @@ def test_a_goal_may_be_forgotten():
     op = under_way.send(SendActionGoal(action="/dock"), None, ended.append)
     assert under_way.forget(op.id)
     assert not under_way.forget(op.id)
-    under_way.lose()
+    under_way.fail_all()
     assert ended == []
 
 

@@ -429,11 +429,11 @@ def test_a_vanished_client_leaves_nothing_but_its_goals():
     session.hand_goal(SendActionGoal(action="/dock"), None, ended.append)
     mine = SendActionGoal(action="/fly", id=1)
     session.begin_goal(mine)
-    assert session.lose() == [mine]
+    assert session.on_lost() == [mine]
     assert (answers, ended) == ([None], [None])
     kept = (session.subscriptions, session.advertised, session.services, session.actions, session.goals)
     assert kept == ({},) * 5
-    assert session.lose() == []
+    assert session.on_lost() == []
 
 
 def test_a_client_has_a_hundred_goals_under_way_at_most_and_each_id_once():
@@ -451,5 +451,5 @@ def test_a_client_has_a_hundred_goals_under_way_at_most_and_each_id_once():
 def test_who_is_gone_leaves_no_unfinished_texts():
     session = ServerSession()
     session.receive('{"op": "fragment", "id": "f", "data": "x", "num": 0, "total": 2}', 0.0)
-    session.lose()
+    session.on_lost()
     assert session.expire(100.0) == []

@@ -149,7 +149,7 @@ class Wishes(RuleBasedStateMachine):
 
     @rule()
     def vanish(self):
-        self.session.lose()
+        self.session.on_lost()
         self.asked, self.offered, self.services = [], [], set()
 
     @invariant()
@@ -247,7 +247,7 @@ class Errands(RuleBasedStateMachine):
 
     @rule()
     def lose(self):
-        self.session.lose()
+        self.session.on_lost()
         assert all(self.told[id][-1] is None for id in self.open)
         self.open.clear()
 
