@@ -46,7 +46,7 @@ class Child:
         self.process.stdin.flush()
 
     def ask(self, value: object) -> Any:
-        """Say something and hear the answer."""
+        """Send a request and return its answer."""
         self.send(value)
         return self.receive()
 
