@@ -162,7 +162,7 @@ async def outage(kind: str, server: Child, port: int, *, freeze: bool) -> tuple[
     """How long healing took [s], and how many stale commands arrived at the server."""
     async with wire(port) as link:
         with child("bench.support.operator", kind, str(link.port)) as driver:
-            await asyncio.to_thread(driver.hear)
+            await asyncio.to_thread(driver.receive)
             await asyncio.sleep(1.5)
             await away(link, freeze=freeze)
             back = time.monotonic()

@@ -54,8 +54,8 @@ class Crowd:
             self._begin(self._read(ws))
         return {}
 
-    async def received(self, asked: Mapping[str, Any]) -> dict[str, Any]:
-        """How many messages came."""
+    async def count(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        """Number of messages so far, once it has reached `until` or none comes any more."""
         self._goal, before = asked.get("until", 0), -1
         while before < self.received < self._goal:
             before = self.received
@@ -153,7 +153,7 @@ async def run(url: str) -> None:
     crowd = Crowd(url)
     doing: dict[str, Callable[[Mapping[str, Any]], Awaitable[dict[str, Any]]]] = {
         "watch": crowd.watch,
-        "received": crowd.received,
+        "received": crowd.count,
         "relay": crowd.relay,
         "feed": crowd.feed,
         "stall": crowd.stall,
