@@ -20,6 +20,7 @@ from app.discovery.known_robots import Robots
 from app.garbage_collector import Collector
 from app.inputs.inputs import Inputs
 from app.inputs.methods import Methods
+from app.inputs.motion.motion_sensing import MotionSensing
 from app.intents.intent_executor import IntentExecutor
 from app.intents.intents import Intents
 from app.intents.method_permits import Permits
@@ -58,6 +59,8 @@ class PilothouseApp(App):
     title = "Pilothouse"
     icon = str(Path(__file__).with_name("icon.png"))
     use_kivy_settings = False
+    sensing: MotionSensing
+    """The motion sensors; made with the input methods."""
 
     def __init__(
         self,

@@ -7,9 +7,9 @@ meanings.held["talk"].append(listen)    # listen(True) while the key is held, li
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 from app.inputs.base.button_presses import Press
+from app.inputs.base.method_app import MethodApp
 from app.inputs.keys.held_key import LONGEST, HeldKey
 from app.intents.intents import INTENTS, Heard
 
@@ -46,7 +46,7 @@ class BindingActions:
 
     def __init__(
         self,
-        app: Any,
+        app: MethodApp,
         now: Callable[[], float],
         *,
         is_down: Callable[[int], bool] | None = None,

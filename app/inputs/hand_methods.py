@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Protocol
+
+from app.inputs.inputs import Inputs
 
 __all__ = ["GamepadMethod", "KeyboardMethod"]
 
@@ -15,12 +17,21 @@ STANDING = {
 }
 
 
+class HandsApp(Protocol):
+    """An app with keys and gamepads."""
+
+    @property
+    def inputs(self) -> Inputs:
+        """Keys and gamepads."""
+        ...
+
+
 class GamepadMethod:
     """All gamepads that are plugged in."""
 
     name = "gamepad"
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: HandsApp) -> None:
         """`app` is asked for its `inputs`."""
         self._inputs = app.inputs
 
@@ -68,7 +79,7 @@ class KeyboardMethod:
 
     name = "keyboard"
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: HandsApp) -> None:
         """`app` is asked for its `inputs`."""
         self._inputs = app.inputs
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from app.inputs.base.method_app import MethodApp
+
 __all__ = ["MethodProblems"]
 
 EVERY = 0.2
@@ -18,7 +20,7 @@ ABOUT = "methods"
 class MethodProblems:
     """Says each once when it begins, and takes it away when it has ended. Everything in the UI thread."""
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: MethodApp) -> None:
         """`app` is asked for its `shell`, its `connect` and its `methods`."""
         self._app = app
         self._shell: Any = None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from app.inputs.base.method_app import MethodApp
 from app.inputs.gamepad.pad_map import Profile
 from app.intents.intents import INTENTS, METHODS
 
@@ -13,7 +14,7 @@ METHODS_SET = ("shake", "voice", "tilt", "switches")
 """Methods that say themselves what they are set to, as `set_to`."""
 
 
-def set_up(app: Any) -> dict[str, Any]:
+def set_up(app: MethodApp) -> dict[str, Any]:
     """JSON-able values by the names of the settings; nothing of a method that could not be made, or is not there."""
     made = {name: app.methods.get(name) for name in METHODS_SET}
     found: dict[str, Any] = {name: method.set_to for name, method in made.items() if method is not None}

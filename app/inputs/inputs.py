@@ -9,13 +9,14 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Protocol
 
 from kivy.core.window import Keyboard, Window
 
 from app.core.command_origin import origins
 from app.device import input_devices, rotation, sdl_library
 from app.inputs.base.button_presses import Press, Presses
+from app.inputs.base.method_app import MethodApp
 from app.inputs.base.text_focus import is_typing
 from app.inputs.binding_actions import BindingActions
 from app.inputs.bindings import Bindings
@@ -42,12 +43,25 @@ KEYS = {code: name for name, code in Keyboard.keycodes.items()}
 """Names of Kivy's key codes."""
 
 
+class InputsApp(MethodApp, Protocol):
+    """The app whose window is listened to."""
+
+    @property
+    def corner(self) -> Any:
+        """STOP ALL."""
+        ...
+
+    def back(self) -> bool:
+        """As Android's Back; False where the system decides."""
+        ...
+
+
 class Inputs:
     """Listens to the window from `open` to `close`; `look` belongs to the heartbeat. Everything in the UI thread."""
 
     def __init__(
         self,
-        app: Any,
+        app: InputsApp,
         now: Callable[[], float] = time.monotonic,
         source: Sdl | KivyPads | None = None,
         devices: Callable[[], frozenset[int]] = input_devices,

@@ -15,6 +15,7 @@ from kivy.core.window import Window
 from app.core.command_origin import origins
 from app.core.optional_parts import is_included
 from app.device.motion import motion_source
+from app.inputs.base.method_app import MethodApp
 from app.inputs.input_problems import MethodProblems
 from app.inputs.motion.motion_sensing import MotionSensing
 from app.inputs.voice.process.ending import wait_for_ends
@@ -68,10 +69,17 @@ class Method(Protocol):
     # `look(now)`, where there is one, is called with each heartbeat while it is on, or says that it is `busy`
 
 
+class MethodsApp(MethodApp, Protocol):
+    """The app that owns the methods."""
+
+    sensing: MotionSensing
+    """The motion sensors, which the methods make."""
+
+
 class Methods:
     """All of them. Everything in the UI thread."""
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: MethodsApp) -> None:
         self._app = app
         self._all: dict[str, Any] = {}
         self._looks: list[Any] = []
@@ -193,7 +201,9 @@ class Methods:
     def _told(self, heard: Heard, verdict: Verdict) -> None:
         """Without a robot there is nothing that waits: only why nothing was done is said."""
         method = self._all.get(heard.method)
-        if hasattr(method, "said") and verdict.done:  # what it asked was answered, or lapsed
+        if (
+            method is not None and hasattr(method, "said") and verdict.done
+        ):  # what it asked was answered, or lapsed
             method.said = verdict.sentence
         if self._app.shell is None and verdict.what in ("not allowed", "not now"):
             self._app.connect.say(verdict.sentence, "warn")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from app.inputs.base.method_app import MethodApp
 from app.inputs.bindings import Bindings
 from app.inputs.gamepad.gamepad import Gamepads, PadEvent
 from app.inputs.gamepad.pad_map import button_words
@@ -15,7 +16,7 @@ __all__ = ["PadNews"]
 class PadNews:
     """Says it over the screen on the glass; nothing where there is none."""
 
-    def __init__(self, app: Any, gamepads: Callable[[], Gamepads]) -> None:
+    def __init__(self, app: MethodApp, gamepads: Callable[[], Gamepads]) -> None:
         """`app` is asked for its `shell` and its `settings`, `gamepads` for the sticks that drive."""
         self._app, self._gamepads = app, gamepads
         self._offered: set[str] = set()

@@ -14,6 +14,7 @@ from kivy.base import EventLoop
 from kivy.core.window import Window
 
 from app.core.command_origin import Origin, origins
+from app.inputs.base.method_app import MethodApp
 from app.inputs.gamepad.gamepad import Gamepads, KivyPads
 from app.inputs.gamepad.sdl import Sdl
 from app.inputs.keys.key_drive import KeyDrive
@@ -39,7 +40,7 @@ class StickArbiter:
 
     def __init__(
         self,
-        app: Any,
+        app: MethodApp,
         gamepads: Gamepads,
         keys: KeyDrive,
         source: Sdl | KivyPads,

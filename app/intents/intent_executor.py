@@ -7,6 +7,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
+from app.intents.executor_app import ExecutorApp
 from app.intents.intents import INTENTS
 from app.intents.open_question import OpenQuestion
 from app.intents.speed_steps import SpeedSteps
@@ -26,7 +27,7 @@ ALONE = ("stop", "theme", "help", "back", "screen.inputs", "yes", "no")
 class IntentExecutor:
     """Of one app. Everything in the UI thread."""
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: ExecutorApp) -> None:
         """`app` is asked for its `session`, `shell`, `inputs`, `corner` and `records` when something is done."""
         self._app = app
         self._tasks, self._speed, self._question = TaskIntents(app), SpeedSteps(app), OpenQuestion(app)

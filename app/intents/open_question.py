@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
+from app.intents.executor_app import ScreenApp
 from app.intents.robot_access import HELD
 
 __all__ = ["OpenQuestion"]
@@ -13,7 +13,7 @@ __all__ = ["OpenQuestion"]
 class OpenQuestion:
     """Of one app. Everything in the UI thread."""
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: ScreenApp) -> None:
         """`app` is asked for its `shell`."""
         self._app = app
 

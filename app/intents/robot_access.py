@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from app.intents.executor_app import ScreenApp
 from bridge.msgs.pilothouse_msgs import TaskStatus
 
 __all__ = ["HELD", "RobotAccess"]
@@ -14,7 +15,7 @@ HELD = "STOP is pressed; release it first."
 class RobotAccess:
     """Of one app, for as long as it has a session."""
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: ScreenApp) -> None:
         """`app` is asked for its `session` and its `shell`."""
         self._app = app
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from app.intents.executor_app import ScreenApp
+
 __all__ = ["STEP", "SpeedSteps"]
 
 STEP = 0.2
@@ -14,7 +16,7 @@ STEP = 0.2
 class SpeedSteps:
     """On the drive screen's card of the speed."""
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: ScreenApp) -> None:
         """`app` is asked for its `shell`."""
         self._app = app
 

@@ -26,6 +26,7 @@ from app.study.response_statistics import counts
 from app.study.response_timing import ResponseTracks, State
 from app.study.stop_all_track import StopAllTrack
 from app.study.study import Plan, Trials
+from app.study.study_app import StudyApp
 from app.study.study_export import SETTINGS
 from app.study.study_run import StudyRun
 from app.study.study_settings import StudySettings
@@ -44,7 +45,7 @@ class ResponseRecording:
 
     name = "log"
 
-    def __init__(self, app: Any, wall: Callable[[], float] = time.time) -> None:
+    def __init__(self, app: StudyApp, wall: Callable[[], float] = time.time) -> None:
         """`wall` is the time of day [s since 1970]."""
         self._app, self._wall, self._settings = app, wall, StudySettings(app)
         self._session: Any = None

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 from app.core.command_origin import ITSELF, Origin
@@ -75,6 +76,10 @@ class Asked:
     """When the prompt was shown [s]."""
 
 
+def _runs(task: str, _: State, now: State) -> bool:
+    return now.running == "RUNNING" and now.task == task
+
+
 _EFFECTS: dict[str, Callable[[State, State], bool]] = {
     "stop": lambda _, now: now.stopped,
     "stop_release": lambda _, now: not now.stopped,
@@ -85,10 +90,7 @@ _EFFECTS: dict[str, Callable[[State, State], bool]] = {
     "take_control": lambda _, now: now.control == "mine",
     "release": lambda _, now: now.control != "mine",
     **dict.fromkeys(("start", "patrol"), lambda _, now: now.running == "RUNNING"),
-    **{
-        name: lambda _, now, name=name: now.running == "RUNNING" and now.task == name
-        for name in ("go_home", "hold", "surface", "take_off", "land")
-    },
+    **{name: partial(_runs, name) for name in ("go_home", "hold", "surface", "take_off", "land")},
 }
 """Intent to whether the robot's state, before and now, shows that it was done."""
 

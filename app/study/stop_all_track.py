@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 from app.core.command_origin import origins
 from app.link.commands import Outcome
 from app.study.response_timing import ResponseTracks
+from app.study.study_app import StudyApp
 
 __all__ = ["StopAllTrack"]
 
@@ -33,7 +33,7 @@ class StopAllTrack:
             origin=replace(origin, said=origin.said or "STOP ALL"),
         )
 
-    def update(self, app: Any, now: float) -> None:
+    def update(self, app: StudyApp, now: float) -> None:
         """Each tick [s]; `app` is asked for its `fleet` while something is under way."""
         outcome = self._outcome
         if outcome is None:

@@ -78,7 +78,8 @@ class Plan:
 
     def _prompts(self, method: str, posture: str) -> tuple[str, ...]:
         """Rounds of every command once, each round by lot, none twice in a row where there is more than one."""
-        lot, prompts = random.Random(f"{self.row} {method} {posture}"), []
+        lot = random.Random(f"{self.row} {method} {posture}")
+        prompts: list[str] = []
         commands = self.commands.get(method, COMMANDS)
         for _ in range(self.triggers):
             round_ = lot.sample(commands, len(commands))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from app.core.checked_settings import Kept
+from app.inputs.base.method_app import SettingsApp
 from app.intents.intents import INTENTS, METHODS
 from app.study.study import Plan, plan_of
 
@@ -17,7 +18,7 @@ FLAGS = {"log": True, "snippets": False, "remind": False}
 class StudySettings:
     """Read and kept value by value."""
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: SettingsApp) -> None:
         """`app` is asked for its `settings`."""
         self._app = app
         kept = Kept(app.settings.get("study"), "the study")

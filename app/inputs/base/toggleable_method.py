@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from app.inputs.base.method_app import MethodApp
+
 __all__ = ["ToggleableMethod"]
 
 
@@ -12,7 +14,7 @@ class ToggleableMethod:
 
     name: str
     """Of the method, and of its table in the settings."""
-    _app: Any
+    _app: MethodApp
     _on: bool
 
     def _kept(self) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from typing import Any
 from app.core.checked_settings import Kept, known, shown
 from app.device import rotation, vibrate
 from app.inputs.base.toggleable_method import ToggleableMethod
+from app.inputs.motion.motion_app import MotionApp
 from app.inputs.motion.shake import (
     LEAST_RATE,
     USUAL,
@@ -57,9 +58,13 @@ class ShakeInput(ToggleableMethod):
     """The method `shake`."""
 
     name = "shake"
+    _app: MotionApp
 
     def __init__(
-        self, app: Any, now: Callable[[], float] = time.monotonic, quarters: Callable[[], int] = rotation
+        self,
+        app: MotionApp,
+        now: Callable[[], float] = time.monotonic,
+        quarters: Callable[[], int] = rotation,
     ) -> None:
         """`app` is asked for its `settings`, `sensing`, `intents` and `session`; `quarters` says how the screen is, in quarters."""
         self._app, self._now, self._turned = app, now, quarters

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from app.device.motion import SimulatedMotion, motion_source
+from app.inputs.motion.motion_app import MotionApp
 
 __all__ = ["ARROWS", "SimulatedTablet"]
 
@@ -18,7 +18,7 @@ LEAN_ANGLE = math.radians(20.0)
 class SimulatedTablet:
     """In place of the device's own sensors while it is on."""
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: MotionApp) -> None:
         """`app` is asked for its `sensing` and `now`."""
         self._app = app
         self._motion: SimulatedMotion | None = None

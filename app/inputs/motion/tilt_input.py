@@ -11,6 +11,7 @@ from app.core.notifications import tell
 from app.device import rotation
 from app.inputs.base.button_presses import Press
 from app.inputs.base.text_focus import is_typing
+from app.inputs.motion.motion_app import MotionApp
 from app.inputs.motion.simulated_tablet import ARROWS, SimulatedTablet
 from app.inputs.motion.tilt_options import TiltOptions
 from app.inputs.motion.tilt_sensor import TiltSensor
@@ -22,7 +23,7 @@ __all__ = ["TiltInput"]
 class TiltInput(TiltOptions):
     """Made once for the app, which is asked for its `settings`, `now`, `shell`, `session` and `sensing`. Everything in the UI thread."""
 
-    def __init__(self, app: Any, quarters: Callable[[], int] = rotation) -> None:
+    def __init__(self, app: MotionApp, quarters: Callable[[], int] = rotation) -> None:
         """`quarters` tells how the screen is turned."""
         super().__init__(app)
         self._quarters = quarters
@@ -228,7 +229,7 @@ class TiltInput(TiltOptions):
         tell(self._app, text, about=self.name)
 
 
-def _screen(app: Any) -> Any:
+def _screen(app: MotionApp) -> Any:
     """The screen of the robot that is shown; None without one."""
     return app.shell.screens.get(app.shell.screen) if app.shell is not None else None
 

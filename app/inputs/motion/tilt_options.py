@@ -8,6 +8,7 @@ from typing import Any
 from app.core.checked_settings import Kept, number
 from app.device.motion import Axes
 from app.inputs.base.toggleable_method import ToggleableMethod
+from app.inputs.motion.motion_app import MotionApp
 from app.inputs.motion.tilt import Tilt, TiltSettings
 
 __all__ = ["TiltOptions"]
@@ -19,8 +20,9 @@ class TiltOptions(ToggleableMethod):
     """Part of the method `tilt`."""
 
     name = "tilt"
+    _app: MotionApp
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: MotionApp) -> None:
         """`app` is asked for its `settings`."""
         self._app = app
         read = Kept(app.settings.get("tilt"), "the tilt")

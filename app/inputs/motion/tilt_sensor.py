@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
-from app.device.motion import Axes
+from app.device.motion import Axes, Kind
+from app.inputs.motion.motion_app import MotionApp
 from app.inputs.motion.tilt import Level, Tilt, turned
 
 __all__ = ["MIN_RATE", "TiltSensor"]
@@ -17,7 +17,7 @@ MIN_RATE = 10.0
 class TiltSensor:
     """Feeds a `Tilt` while it listens, and costs nothing while it does not."""
 
-    def __init__(self, app: Any, tilt: Tilt) -> None:
+    def __init__(self, app: MotionApp, tilt: Tilt) -> None:
         """`app` is asked for its `sensing`."""
         self._app, self._tilt = app, tilt
         self.turn = 0
@@ -40,7 +40,7 @@ class TiltSensor:
     @property
     def trouble(self) -> str:
         """What is wrong with the samples, as a sentence; empty while all is well, or too early to tell."""
-        kind = "gravity" if self._level is None else "acceleration"
+        kind: Kind = "gravity" if self._level is None else "acceleration"
         health = self._app.sensing.health(kind, MIN_RATE)
         return "" if health.fault in ("", "waiting", "paused") else str(health.sentence)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any
 
+from app.inputs.base.method_app import MethodApp
 from app.inputs.switch_access.scan.engine import Selection
 from app.inputs.switch_access.usage import Usage
 
@@ -19,7 +20,7 @@ SAVE_EVERY = 10
 class LearnedUsage:
     """Of one app."""
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: MethodApp) -> None:
         """`app` is asked for its `settings`, `methods` and `now`."""
         self._app = app
         self._usage = Usage(app.settings.get(KEY))

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from app.device import vibrate
+from app.inputs.base.method_app import MethodApp
 from app.inputs.switch_access.scan.settings import Options
 from app.inputs.switch_access.scan.target import Mark
 from app.inputs.switch_access.tones import Tones
@@ -18,7 +17,7 @@ VIBRATION_TIME = 0.02
 class StepFeedback:
     """Of one app, as its options say."""
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: MethodApp) -> None:
         """`app` is asked for its `talk`, which one that cannot talk has not."""
         self._app, self._tones = app, Tones()
 

@@ -24,6 +24,7 @@ from app.inputs.switch_access.scan.settings import Key, read
 from app.inputs.switch_access.scan.target import Mark
 from app.inputs.switch_access.step_feedback import StepFeedback
 from app.inputs.switch_access.typing_guard import TypingGuard, types_letters
+from app.inputs.switch_access.window.window_app import WindowApp
 from app.intents.intents import Heard
 
 __all__ = ["SwitchAccess"]
@@ -37,7 +38,7 @@ class SwitchAccess:
 
     name = "switches"
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: WindowApp) -> None:
         """`app` is asked for its `settings`, `inputs`, `intents`, `methods`, `shell`, `connect` and `now`."""
         self._app = app
         self.options, self._fault = read(app.settings.get(self.name))

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from typing import Any
 
+from app.inputs.base.method_app import MethodApp
 from app.inputs.voice.interfaces.speech_recognizer import Result
 
 __all__ = ["DEAF", "EARLIER", "CommandGate"]
@@ -21,7 +21,7 @@ EARLIER = "That answer came before the question."
 class CommandGate:
     """Of one app. STOP passes it always. Everything in the UI thread."""
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: MethodApp) -> None:
         """`app` is asked for its `intents` and its `talk`."""
         self._app = app
         self._asked_since = math.nan

@@ -16,11 +16,12 @@ import re
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, Protocol
 
 from app.core.checked_settings import Kept
 from app.core.notifications import tell
 from app.device import is_android
+from app.inputs.base.method_app import MethodApp
 from app.inputs.base.toggleable_method import ToggleableMethod
 from app.inputs.voice.interfaces.speaker import Speaker
 from app.inputs.voice.speech.tts import VOICES, choose_voice, speaker_of
@@ -72,12 +73,19 @@ def _android_or(voice: str) -> Speaker:
     return speaker_of(voice)
 
 
+class TalkingApp(MethodApp, Protocol):
+    """An app that can talk."""
+
+    talk: Talkback
+    """What talks."""
+
+
 class Talkback(ToggleableMethod):
     """`app.talk`, and an entry of `app.inputs.methods` that is no way in."""
 
     name = "talk"
 
-    def __init__(self, app: Any, make: Callable[[str], Speaker] = _android_or) -> None:
+    def __init__(self, app: TalkingApp, make: Callable[[str], Speaker] = _android_or) -> None:
         """`app` is asked for its `settings`, `intents`, `session`, `shell`, `connect` and `now`; it gets `app.talk`."""
         app.talk = self
         self._app, self._make = app, make

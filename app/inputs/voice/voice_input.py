@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
 
 from kivy.clock import Clock
 
 from app.core.notifications import tell
+from app.inputs.base.method_app import MethodApp
 from app.inputs.voice.command_gate import CommandGate
 from app.inputs.voice.interfaces.speech_recognizer import (
     Level,
@@ -42,7 +42,7 @@ class VoiceInput(VoiceOptions):
 
     name = "voice"
 
-    def __init__(self, app: Any, make: Callable[[], SpeechRecognizer] | None = None) -> None:
+    def __init__(self, app: MethodApp, make: Callable[[], SpeechRecognizer] | None = None) -> None:
         """`app` is asked for its `settings`, `intents`, `inputs`, `methods`, `talk`, `shell`, `connect` and `now`.
 
         `make` makes what understands, in place of the one that is chosen.

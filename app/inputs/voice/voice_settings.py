@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from app.core.checked_settings import Kept, known, shown
+from app.inputs.base.method_app import MethodApp
 from app.inputs.base.toggleable_method import ToggleableMethod
 from app.inputs.voice.recognition.phrases import PHRASES
 from app.inputs.voice.recognizers import BEST, RECOGNIZERS
@@ -58,7 +59,7 @@ class VoiceOptions(ToggleableMethod):
 
     name = "voice"
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: MethodApp) -> None:
         """`app` is asked for its `settings`."""
         self._app = app
         self._settings, self.mistaken = read_settings(app.settings.get(self.name))

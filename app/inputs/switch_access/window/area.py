@@ -160,7 +160,8 @@ class Area:
             self._widget.set_view(before.moved(*by))
             if self._taken is not None:
                 moved = self._widget.view.to_screen(*before.to_world(*self._place(self._taken)))
-                self._taken = tuple(self._widget.to_window(*moved))
+                place = self._widget.to_window(*moved)
+                self._taken = place[0], place[1]
 
     def _zoom(self, factor: float) -> None:
         if isinstance(self._widget, MapGestures):

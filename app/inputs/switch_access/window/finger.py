@@ -50,7 +50,7 @@ class Finger(MotionEvent):
 
 def tap(widget: Widget, place: Place | None = None) -> bool:
     """A finger down and up again in the widget's middle, or at `place` [px, as its parent has it]; False where it takes none."""
-    return drag(widget, [place or tuple(widget.center)])
+    return drag(widget, [place or _middle(widget)])
 
 
 def drag(widget: Widget, way: Sequence[Place]) -> bool:
@@ -75,7 +75,7 @@ def hold(
 
     None where the widget takes none.
     """
-    finger = Finger(place or tuple(widget.center))
+    finger = Finger(place or _middle(widget))
     if not widget.dispatch("on_touch_down", finger):
         return None
     up = Clock.create_trigger(lambda _: end(), seconds)
@@ -98,6 +98,11 @@ def hold(
 def _takes_at_the_end(widget: Widget) -> bool:
     """It asks for no more than that a finger is lifted over it."""
     return type(widget).on_touch_up is not Widget.on_touch_up
+
+
+def _middle(widget: Widget) -> Place:
+    x, y = widget.center
+    return x, y
 
 
 def _lift(widget: Widget, finger: Finger) -> None:

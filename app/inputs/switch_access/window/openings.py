@@ -16,6 +16,7 @@ from app.inputs.switch_access.window import finger
 from app.inputs.switch_access.window.area import Area
 from app.inputs.switch_access.window.finding import Box, in_window
 from app.inputs.switch_access.window.placing import beside
+from app.inputs.switch_access.window.window_app import WindowApp
 from widgets.controls.hold_progress import HOLD_DURATION
 from widgets.controls.stop.stop_button import LONG_HOLD_DURATION
 from widgets.inputs.scan_keyboard import ScanKeyboard
@@ -38,7 +39,7 @@ LEANS = {"ahead": (1.0, 0.0), "back": (-1.0, 0.0), "left": (0.0, 1.0), "right": 
 class Openings:
     """One pad at a time, over the page; `pad` is the one that is open, or None."""
 
-    def __init__(self, app: Any, words: Callable[[str], Iterable[str]]) -> None:
+    def __init__(self, app: WindowApp, words: Callable[[str], Iterable[str]]) -> None:
         """`words` are those that are likely to be typed: for a kind of field, as `url`."""
         self._app, self._words = app, words
         self.pad: ScanPad | None = None

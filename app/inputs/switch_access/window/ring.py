@@ -13,6 +13,7 @@ from kivy.graphics import Color, InstructionGroup, Line, Mesh, Rectangle, Rounde
 from kivy.metrics import dp, sp
 
 from app.inputs.switch_access.window.finding import Box
+from app.inputs.switch_access.window.window_app import WindowApp
 from widgets.core.base import text_texture
 from widgets.core.theme import theme
 
@@ -39,7 +40,7 @@ OWN_COUNTS = 30.0
 class Ring:
     """`show` draws it; without boxes it is gone."""
 
-    def __init__(self, app: Any, stops: Callable[[], list[Box]]) -> None:
+    def __init__(self, app: WindowApp, stops: Callable[[], list[Box]]) -> None:
         """`app` is asked for its `root` and its size; `stops` says where STOP is [px]."""
         self._app, self._stops = app, stops
         self._group = InstructionGroup()

@@ -18,6 +18,7 @@ from app.inputs.switch_access.window.kinds import kind_of
 from app.inputs.switch_access.window.naming import beside, intent_of, slug, words_of
 from app.inputs.switch_access.window.openings import Openings
 from app.inputs.switch_access.window.ring import Ring
+from app.inputs.switch_access.window.window_app import WindowApp
 from bridge.discovery.beacon import broadcast_addresses
 from bridge.msgs.pilothouse_msgs import PlaceArray
 from widgets.inputs.scan_pad import PadButton, ScanPad
@@ -45,7 +46,7 @@ MOST_WORDS = 200
 class WindowTargets:
     """What of `app` can be done by switches; a `Glass`. In the UI thread."""
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: WindowApp) -> None:
         """`app` is asked for its `root`, `shell`, `session`, `corner`, `robots` and `connect`."""
         self._app = app
         self.openings = Openings(app, self._likely_words)

@@ -10,6 +10,7 @@ from kivy.uix.boxlayout import BoxLayout
 from app.inputs.base.button_presses import Press
 from app.inputs.binding_actions import HOLDS, MEANINGS
 from app.inputs.keys.key_table import RISES, SLOWS, KeyTable, key_words
+from app.screens.inputs.parts.pane_app import PaneApp
 from app.screens.inputs.parts.setting_row import number_row, switch_row
 from app.screens.parts.pane_head import PaneHead
 from widgets.inputs.key_help import KeyCap
@@ -25,7 +26,7 @@ NOT_KEYS = ("stop",)
 class KeysPane(BoxLayout):
     """A pane of the inputs screen."""
 
-    def __init__(self, app: Any, **kwargs: Any) -> None:
+    def __init__(self, app: PaneApp, **kwargs: Any) -> None:
         super().__init__(orientation="vertical", spacing="8dp", **kwargs)
         self._inputs = app.inputs
         self._asked = ""

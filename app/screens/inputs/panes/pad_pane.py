@@ -13,6 +13,7 @@ from app.inputs.binding_actions import meaning_icon, meaning_words
 from app.inputs.gamepad.pad_map import AXES, BUTTONS, DEAD_ZONES, EXPOS, WAYS, Profile, button_words
 from app.inputs.gamepad.sdl import PadState
 from app.screens.inputs.parts.meaning_list import MeaningList
+from app.screens.inputs.parts.pane_app import PaneApp
 from app.screens.inputs.parts.setting_row import number_row
 from widgets import PadPicture
 from widgets.parts.kit import Column, IconButton, ListRow, QuietButton, Roll, Segmented
@@ -32,7 +33,7 @@ ANY = "Gamepad"
 class PadPane(BoxLayout):
     """A pane of the inputs screen."""
 
-    def __init__(self, app: Any, **kwargs: Any) -> None:
+    def __init__(self, app: PaneApp, **kwargs: Any) -> None:
         super().__init__(orientation="vertical", spacing="8dp", **kwargs)
         self._inputs = app.inputs
         self._name = ""

@@ -11,6 +11,7 @@ from app.inputs.motion.shake import AXES, WORDS, Axis
 from app.inputs.motion.shake_input import CHOICES, ShakeInput
 from app.intents.intents import INTENTS
 from app.screens.inputs.parts.meaning_list import MeaningList
+from app.screens.inputs.parts.pane_app import PaneApp
 from app.screens.inputs.parts.setting_row import switch_row
 from widgets.inputs.shake_lesson import ShakeLesson
 from widgets.parts.kit import Column, ListRow, PrimaryButton, QuietButton, Roll
@@ -37,7 +38,7 @@ def _words(intent: str) -> tuple[str, str]:
 class ShakePane(BoxLayout):
     """A pane of the inputs screen."""
 
-    def __init__(self, app: Any, **kwargs: Any) -> None:
+    def __init__(self, app: PaneApp, **kwargs: Any) -> None:
         super().__init__(orientation="vertical", spacing="8dp", **kwargs)
         self._app = app
         self._asked: Axis = "ud"

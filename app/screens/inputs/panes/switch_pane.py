@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from functools import partial
 from typing import Any
 
 from kivy.clock import Clock
@@ -12,6 +13,7 @@ from app.inputs.switch_access.scan.presses import Event
 from app.inputs.switch_access.scan.reaction import Reaction
 from app.inputs.switch_access.scan.settings import DEFAULTS, MOST_KEYS, RANGES, Key, Options
 from app.inputs.switch_access.switches import SwitchAccess
+from app.screens.inputs.parts.pane_app import PaneApp
 from app.screens.inputs.parts.setting_row import number_row, switch_row
 from widgets.inputs.reaction_test import ReactionTest
 from widgets.parts.kit import Column, IconButton, ListRow, PrimaryButton, QuietButton, Remark, Roll, Segmented
@@ -52,7 +54,7 @@ STOPS = "Escape and the button B of a gamepad stay STOP, and cannot be switches.
 class SwitchPane(BoxLayout):
     """A pane of the inputs screen."""
 
-    def __init__(self, app: Any, **kwargs: Any) -> None:
+    def __init__(self, app: PaneApp, **kwargs: Any) -> None:
         super().__init__(orientation="vertical", spacing="8dp", **kwargs)
         self._app = app
         self.switches: SwitchAccess = app.methods.get("switches")
@@ -97,9 +99,7 @@ class SwitchPane(BoxLayout):
                 self._put(self._number(name))
         self._put(group_label("Feedback"))
         for name, (icon, title, detail) in FELT.items():
-            row, self.toggles[name] = switch_row(
-                icon, title, detail, lambda on, name=name: self._set(**{name: on})
-            )
+            row, self.toggles[name] = switch_row(icon, title, detail, partial(self._switch, name))
             self._put(row)
         self.reset = QuietButton(text="As it was at first", icon="replay", size_hint_y=None)
         self.reset.bind(on_release=lambda _: self._put_back())
@@ -133,6 +133,9 @@ class SwitchPane(BoxLayout):
         return row
 
     # what a finger asks for
+
+    def _switch(self, name: str, on: bool) -> None:
+        self._set(**{name: on})
 
     def _set(self, **values: Any) -> None:
         self.switches.change(**values)

@@ -17,6 +17,7 @@ from app.inputs.voice.speech.tts import VOICES
 from app.inputs.voice.talkback import RATES, Talkback
 from app.inputs.voice.voice_input import VoiceInput
 from app.intents.intents import INTENTS
+from app.screens.inputs.parts.pane_app import PaneApp
 from app.screens.inputs.parts.setting_row import number_row, switch_row
 from widgets.inputs.noise_meter import NoiseMeter
 from widgets.parts.kit import Column, ListRow, PrimaryButton, QuietButton, Roll, Segmented
@@ -35,7 +36,7 @@ EXAMPLE = "Go home? Say yes or no."
 class VoicePane(BoxLayout):
     """A pane of the inputs screen."""
 
-    def __init__(self, app: Any, **kwargs: Any) -> None:
+    def __init__(self, app: PaneApp, **kwargs: Any) -> None:
         super().__init__(orientation="vertical", spacing="8dp", **kwargs)
         self._app = app
         self.speaking: VoiceInput = app.methods.get("voice")

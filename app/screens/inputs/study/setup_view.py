@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from app.screens.inputs.parts.pane_app import PaneApp
 from app.screens.inputs.parts.setting_row import number_row, switch_row
 from app.screens.inputs.study.log_view import look_of
 from app.study.study import COMMANDS, POSTURES, TRIGGERS, Plan
@@ -18,7 +19,7 @@ EACH = 7.0
 """About how long one prompt takes with the gap before it [s]."""
 
 
-def commands_of(method: str, app: Any) -> tuple[str, ...]:
+def commands_of(method: str, app: PaneApp) -> tuple[str, ...]:
     """What a method can be asked for: of a shake only what its directions mean; STOP first.
 
     STOP of keys and gamepads is only there with a robot: without one Escape is Back.
@@ -37,7 +38,7 @@ class SetupView(Column):
 
     __events__ = ("on_begin",)
 
-    def __init__(self, app: Any, **kwargs: Any) -> None:
+    def __init__(self, app: PaneApp, **kwargs: Any) -> None:
         super().__init__(spacing="8dp", **kwargs)
         self._app = app
         self.person, self.triggers = 1, TRIGGERS

@@ -9,6 +9,7 @@ from kivy.uix.boxlayout import BoxLayout
 
 from app.core.command_origin import origins
 from app.intents.intents import INTENTS, Heard
+from app.screens.inputs.parts.pane_app import PaneApp
 from app.screens.inputs.study.log_view import look_of
 from app.study.study import Trials
 from widgets.parts.kit import Column, Grid, PrimaryButton, QuietButton, Remark, SectionLabel
@@ -37,7 +38,7 @@ class TrialView(Column):
     low = BooleanProperty(False)
     """There is too little height for prompt and buttons one below the other."""
 
-    def __init__(self, app: Any, trials: Trials, **kwargs: Any) -> None:
+    def __init__(self, app: PaneApp, trials: Trials, **kwargs: Any) -> None:
         super().__init__(spacing="10dp", **kwargs)
         self._app, self._trials, self._laid = app, trials, ""
         self.card, self.remark = PromptCard(), Remark(role="text", font_size="16sp")
