@@ -85,7 +85,7 @@ class PlacePane(BoxLayout):
         self.form.show(Place())
         self.refresh()
 
-    def hear(self, outcome: Outcome) -> None:
+    def on_outcome(self, outcome: Outcome) -> None:
         """What became of a command: what was typed for a place that is refused comes back, unless another is made."""
         if outcome.name != "place" or outcome.phase == "sent" or outcome.fields["place"] != self._kept:
             return

@@ -41,7 +41,7 @@ class SettingsPane(BoxLayout):
             on_command=lambda _, name, value: session.command("setting", name=name, value=value)
         )
 
-    def hear(self, outcome: Outcome) -> None:
+    def on_outcome(self, outcome: Outcome) -> None:
         """Take in what became of a command."""
         if outcome.name == "setting" and outcome.phase != "sent":
             self.options.answered(outcome.fields["name"])

@@ -3,39 +3,27 @@ places and the missions by name, and the robot's settings."""
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import ObjectProperty, StringProperty
 from kivy.uix.floatlayout import FloatLayout
-from kivy.uix.widget import Widget
 
 from app.layout import arrange
 from app.layout.arrange import Rect
 from app.link.camera_decoder import Picture
 from app.link.channels import OUTCOME
 from app.link.feeds import Post
-from app.screens.mission.mission_pane import MissionPane
 from app.screens.parts.placing import Area, above, put  # noqa: F401 - a rule names the area
-from app.screens.tasks.current_task import NowList
-from app.screens.tasks.event_list import EventList
-from app.screens.tasks.order_pane import OrderPane
-from app.screens.tasks.place_pane import PlacePane
-from app.screens.tasks.settings_pane import SettingsPane
 from app.screens.tasks.task_actions import TaskActs
-from app.screens.tasks.task_tabs import TaskTabs
+from app.screens.tasks.task_lists import TaskLists
+from app.screens.tasks.task_panes import TaskPanes
 from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import (
-    GetHistoryResponse,
     KeptMission,
-    Mission,
     Place,
-    TaskStatus,
 )
-from widgets import MissionList, PlaceList, RunList, ScheduleList
-from widgets.parts.kit import Text
 
 __all__ = ["TasksScreen"]
 
@@ -48,7 +36,6 @@ DETAILS = {
     "missions": "mission",
 }
 """What is beside each list where there is room for both."""
-NO_TASKS = "This robot offers no tasks and knows no places."
 
 Builder.load_string("""
 <TasksScreen>:
@@ -82,17 +69,17 @@ class TasksScreen(FloatLayout):
             self.ids[name] = self.ids[name].__self__
         session = self.session
         self.dashboard = Dashboard(session.feeds)
-        self.tabs = TaskTabs()
-        self.now, self.events = NowList(session), EventList(session)
-        self.places, self.runs, self.schedule = PlaceList(), RunList(), ScheduleList()
-        self.missions = MissionList()
-        self.pane, self.place_pane = OrderPane(session), PlacePane(session)
-        self.mission_pane, self.settings_pane = MissionPane(session), SettingsPane(session)
+        self.lists = lists = TaskLists(session, self.dashboard)
+        self.tabs, self.now, self.events = lists.tabs, lists.now, lists.events
+        self.places, self.runs, self.schedule = lists.places, lists.runs, lists.schedule
+        self.missions = lists.missions
+        self.panes = panes = TaskPanes(session, self.dashboard, self.close)
+        self.pane, self.place_pane = panes.order, panes.place
+        self.mission_pane, self.settings_pane = panes.mission, panes.settings
         self.form = self.place_pane.form
         self._body, self._form, self._dp = Rect(0, 0, 1, 1), "", 1.0
         self._places: dict[str, Rect] = {}
         self._cover: Rect | None = None
-        self._lacking = Text(text=NO_TASKS, role="muted")
         self._returns = False
         self.notice = Rect(0, 0, 1, 1)
         self.acts = TaskActs(self)
@@ -100,34 +87,14 @@ class TasksScreen(FloatLayout):
         self._bind()
 
     def _bind(self) -> None:
-        bind, tasking = self.dashboard.bind, self.session.tasking
-        bind(self.now.card, "/task/status")
-        bind(self.now.card, "/task/progress", fresh=False)
-        bind(self.schedule, "/schedule", fresh=False)
-        bind(self.places, "/places")
-        bind(self.form, "/places", self.place_pane.name_places, fresh=False)
-        bind(self.missions, "/mission", self._mission_told, fresh=False)
-        bind(self.settings_pane.options, "/control/status", fresh=False)
-        for widget in (self.places, self.form, self.pane.form):
-            bind(widget, "/pose", fresh=False)
-        bind(self.pane.form, "/places", fresh=False)
-        bind(self.runs, "/task/status", self._task_changed)
         self.places.bind(on_command=lambda _, place: self.edit_place(place))
         self.missions.bind(on_command=lambda _, mission: self._look_at(mission))
         self.form.bind(on_command=lambda *_: self.acts.tick())
-        self.schedule.bind(
-            on_command=lambda _, task: tasking.keep_scheduled(task),
-            on_open=lambda _, task: self.open_scheduled(task),
-        )
-        self.runs.bind(on_command=lambda _, before: tasking.ask_history(before))
-        tasking.on_history = self._take_history
-        self.session.missions.on_change = self._missions_changed
+        self.schedule.bind(on_open=lambda _, task: self.open_scheduled(task))
         self.session.missions.on_recalled = self._recalled
         self.tabs.bind(
             tab=lambda _, tab: setattr(self, "tab", tab), on_settings=lambda _: self._turn_settings()
         )
-        for pane in (self.pane, self.place_pane, self.mission_pane, self.settings_pane):
-            pane.bind(on_close=lambda _: self.close())
         self.settings_pane.bind(on_reset=lambda _: self.app.shell.reset.ask())
         self.place_pane.bind(on_back=lambda _, place: self.edit_place(place))
         self.pane.bind(complete=lambda *_: self.acts.tick())
@@ -142,11 +109,7 @@ class TasksScreen(FloatLayout):
         put(self.ids.strip, places["strip"])
         self.clear(self._cover)
         self.notice = places["notice"]
-        self.pane.compact = form != "wide"
-        self.pane.closable = form == "tall"
-        for pane in (self.place_pane, self.mission_pane, self.settings_pane):
-            pane.head.closable = form == "tall"
-        self.pane.titled = form != "short"
+        self.panes.arrange(form)
         self.now.brief = form == "short"
         self._lay()
         return places["stop"]
@@ -161,8 +124,7 @@ class TasksScreen(FloatLayout):
         """A message came."""
         self.dashboard.deliver(channel, post.value)
         if channel == OUTCOME:
-            self.settings_pane.hear(post.value)
-            self.place_pane.hear(post.value)
+            self.panes.on_outcome(post.value)
 
     def enter(self) -> None:
         """Come onto the glass."""
@@ -171,7 +133,7 @@ class TasksScreen(FloatLayout):
         if self.events.has_new_alarms and not self.detail:
             self.tab = "events"
         self._lay()
-        self._ask()
+        self.lists.ask()
         self.tick()
 
     def leave(self) -> None:
@@ -184,27 +146,13 @@ class TasksScreen(FloatLayout):
     def rest(self) -> None:
         """Fingers let go of what they hold."""
         self.now.queue.rest()
-        self.pane.rest()
-        self.form.rest()
-        self.mission_pane.rest()
+        self.panes.rest()
 
     def tick(self) -> None:
         """Bring up to date what time changes."""
         self.dashboard.tick()
-        self.now.tick(self.mine)
-        self.pane.refresh()
-        self.pane.meet(self.session.robot.info)
-        clock = self.session.link.robot_time()
-        if math.isfinite(clock) and not abs(clock - self.schedule.now) < 5.0:
-            self.schedule.now = self.runs.now = self.missions.now = clock
-        self.tabs.waiting, self.tabs.has_settings = (
-            len(self.session.logbook.open),
-            not self.session.robot.lacks_tasks,
-        )
-        self.events.tick()
-        self.mission_pane.refresh()
-        self.settings_pane.tick(self.mine)
-        self.schedule.state = self.session.feeds.state("/schedule") if self.mine else "disabled"
+        self.lists.tick(mine=self.mine)
+        self.panes.tick(mine=self.mine)
         self.acts.tick()
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
@@ -234,25 +182,17 @@ class TasksScreen(FloatLayout):
 
     def _lay(self, *_: object) -> None:
         listed, area, shown = self.ids.listed, self.ids.detail, self._shown_detail()
-        lists: dict[str, Widget] = {
-            "now": self.now,
-            "schedule": self.schedule,
-            "history": self.runs,
-            "events": self.events,
-            "places": self.places,
-            "missions": self.missions,
-        }
         if self.session.robot.lacks_tasks:
-            lists, shown = dict.fromkeys(lists, self._lacking), ""
+            shown = ""
         tall = self._form == "tall"
         listed.clear_widgets()
         area.clear_widgets()
         if not (tall and shown):
             below = [] if tall or self.tab == "now" else [self.acts.under]
-            for widget in (self.tabs, lists[self.tab], *below):
+            for widget in (self.tabs, self.lists.of(self.tab), *below):
                 listed.add_widget(widget)
         if shown:
-            area.add_widget(self._pane(shown))
+            area.add_widget(self.panes.of(shown))
         listed.opacity, area.opacity = float(not (tall and shown)), float(bool(shown))
         self.tabs.at_settings = shown == "settings"
         self.place_pane.open = self.detail == "place"
@@ -261,28 +201,13 @@ class TasksScreen(FloatLayout):
         if self._places:
             self.acts.lay_for(self.tab, shown, form=self._form, stop=self._places["stop"])
 
-    def _pane(self, shown: str) -> Widget:
-        panes = {"place": self.place_pane, "mission": self.mission_pane, "settings": self.settings_pane}
-        if shown in panes:
-            return panes[shown]
-        if (shown == "schedule") != (self.pane.scheduled is not None):
-            self.pane.schedule() if shown == "schedule" else self.pane.now()
-        return self.pane
-
     def _tab_changed(self, *_: object) -> None:
         self.detail, self._returns = "", False
         self.tabs.tab = self.tab
         if self.tab == "missions":
             self.mission_pane.begin()
         self._lay()
-        self._ask()
-
-    def _ask(self) -> None:
-        """What the robot does not tell by itself is asked for when it is looked at."""
-        if self.tab == "history" and self.session.connected and self.session.robot.offers("/history/get"):
-            self.session.tasking.ask_history()
-        if self.tab == "missions" and self.session.connected and self.session.robot.offers("/missions/get"):
-            self.session.missions.ask()
+        self.lists.ask()
 
     def open(self, detail: str) -> None:
         """Open what is beside the lists, on a phone in their place."""
@@ -332,14 +257,6 @@ class TasksScreen(FloatLayout):
         self.mission_pane.chosen = mission
         self.open("mission")
 
-    def _missions_changed(self) -> None:
-        self.missions.missions = list(self.session.missions.kept)
-
-    def _mission_told(self, mission: Mission) -> None:
-        self.missions.current = mission.name
-        if self.tab == "missions" and self.dashboard.active:
-            self._ask()
-
     def _recalled(self, words: str, undo: Any) -> None:
         self.app.shell.notices.offer(words, "Undo", undo)
 
@@ -347,13 +264,3 @@ class TasksScreen(FloatLayout):
 
     def _turn_settings(self) -> None:
         self.open("" if self.detail == "settings" else "settings")
-
-    # history
-
-    def _take_history(self, answer: GetHistoryResponse) -> None:
-        self.runs.show(answer)
-        self.runs.more = bool(self.runs.runs) and self.runs.runs[-1].id > 1
-
-    def _task_changed(self, _: TaskStatus) -> None:
-        if self.tab == "history":
-            self._ask()
