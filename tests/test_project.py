@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from bridge.generate.modules import MARK
+from scripts import code_table
 from scripts.room_map import imported_names
 from scripts.topic_table import DOCUMENTS, with_table
 
@@ -39,6 +40,11 @@ def body_length(node: ast.FunctionDef | ast.AsyncFunctionDef) -> int:
     )
     start = first.end_lineno if spoken else node.lineno
     return node.end_lineno - start
+
+
+def test_the_code_table_is_the_one_of_the_catalogue():
+    text = code_table.DOCUMENT.read_text()
+    assert code_table.with_table(text) == text, "run python scripts/code_table.py"
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)

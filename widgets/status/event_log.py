@@ -20,7 +20,6 @@ from kivy.properties import AliasProperty, BooleanProperty, ListProperty, Numeri
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.recycleview import RecycleView
 from kivy.uix.widget import Widget
-from msgspec.structs import replace
 
 from bridge.core.codes import Code
 from bridge.msgs.diagnostic_msgs import KeyValue
@@ -201,27 +200,31 @@ def _place(event: Event) -> tuple[float, int, str]:
     return -event.stamp.seconds, -event.id, event.boot
 
 
-def _sample(stamp: int, level: str, kind: str, text: str, code: str = "", task: str = "") -> Event:
+def _sample(
+    number: int, stamp: int, level: str, kind: str, text: str, code: str = "", task: str = ""
+) -> Event:
     parameters = [KeyValue("task", task)] if task else []
-    return Event(stamp=Time(stamp), level=level, kind=kind, text=text, code=str(code), parameters=parameters)
+    return Event(
+        id=number, stamp=Time(stamp), level=level, kind=kind, text=text, code=str(code), parameters=parameters
+    )
 
 
 STORY = [
-    _sample(100, "info", "mission", "6 waypoints sent, stored on robot"),
-    _sample(138, "ok", "command", "Accepted: start patrol (18 ms)"),
-    _sample(138, "info", "task", "Patrol started · loop · 6 points", Code.TASK_STARTED),
-    _sample(179, "info", "waypoint", "Waypoint 2 reached"),
-    _sample(196, "warn", "battery", "Battery at 34 %, enough for about 51 min"),
-    _sample(199, "alarm", "intruder", "Intruder at 12.4 m, bearing 131°"),
+    _sample(1, 100, "info", "mission", "6 waypoints sent, stored on robot"),
+    _sample(2, 138, "ok", "command", "Accepted: start patrol (18 ms)"),
+    _sample(3, 138, "info", "task", "Patrol started · loop · 6 points", Code.TASK_STARTED),
+    _sample(4, 179, "info", "waypoint", "Waypoint 2 reached"),
+    _sample(5, 196, "warn", "battery", "Battery at 34 %, enough for about 51 min"),
+    _sample(6, 199, "alarm", "intruder", "Intruder at 12.4 m, bearing 131°"),
 ]
 
 ORDERS = [
-    _sample(150, "info", "task", "Patrol resumed.", Code.TASK_RESUMED),
-    _sample(152, "info", "task", "Paused by tablet-B.", Code.TASK_PAUSED),
-    _sample(154, "alarm", "stop", "STOP pressed by tablet-B.", Code.STOP_PRESSED),
-    _sample(156, "ok", "stop", "STOP released by tablet-B.", Code.STOP_RELEASED),
-    _sample(158, "info", "task", "Going home.", Code.TASK_STARTED, task="go_home"),
-    _sample(160, "info", "task", "Patrol ended: go home was asked for instead.", Code.TASK_REPLACED),
+    _sample(1, 150, "info", "task", "Patrol resumed.", Code.TASK_RESUMED),
+    _sample(2, 152, "info", "task", "Paused by tablet-B.", Code.TASK_PAUSED),
+    _sample(3, 154, "alarm", "stop", "STOP pressed by tablet-B.", Code.STOP_PRESSED),
+    _sample(4, 156, "ok", "stop", "STOP released by tablet-B.", Code.STOP_RELEASED),
+    _sample(5, 158, "info", "task", "Going home.", Code.TASK_STARTED, task="go_home"),
+    _sample(6, 160, "info", "task", "Patrol ended: go home was asked for instead.", Code.TASK_REPLACED),
 ]
 """Events of the samples, oldest first."""
 
@@ -233,8 +236,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         def build() -> Widget:
             log = EventLog(size_hint=(None, None), size=("330dp", high), **kwargs)
             if log.state != "never":
-                for number, event in enumerate(story, 1):
-                    log.show(replace(event, id=number))
+                for event in story:
+                    log.show(event)
                 log.now = 200.0
             return log
 

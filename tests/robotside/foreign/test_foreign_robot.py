@@ -10,6 +10,7 @@ import pytest
 
 from bridge.core.topics import CAMERA
 from bridge.msgs import Msg
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
 from bridge.msgs.pilothouse_msgs import Event, RobotInfo
@@ -260,7 +261,9 @@ def test_pictures_that_are_no_jpeg_are_left_out_and_that_is_said_once() -> None:
     for _ in range(3):
         robot.heard(CAMERA, CompressedImage(format="png", data=b"\x89PNG"))
     said = "The camera's pictures are png, not JPEG: they are left out."
-    assert robot.read(50.0) == [("/events", Event(level="warn", kind="robot", text=said))]
+    png = [KeyValue("format", "png")]
+    refused = Event(level="warn", kind="robot", text=said, code="camera_unreadable", parameters=png)
+    assert robot.read(50.0) == [("/events", refused)]
 
 
 def test_a_robot_in_others_hands_is_not_driven_until_they_let_go() -> None:
