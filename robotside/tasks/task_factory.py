@@ -11,7 +11,7 @@ import msgspec
 from py_trees.composites import Sequence as Chain
 
 from bridge.core.codes import Code
-from bridge.msgs.pilothouse_msgs import TASKS, Mission, Place, RobotInfo, TaskOrder, Waypoint
+from bridge.msgs.pilothouse_msgs import TASKS, Mission, RobotInfo, TaskOrder, Waypoint
 from robotside.core.notice import Notice, Problem
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
@@ -29,6 +29,7 @@ from robotside.tasks.behaviours.lead import lead
 from robotside.tasks.behaviours.patrol import at_place, patrol, patrol_course, single, way
 from robotside.tasks.behaviours.situation import Situation
 from robotside.tasks.engine import Task
+from robotside.tasks.task_places import TaskPlaces
 
 __all__ = ["TaskFactory", "tasks_of", "words_for"]
 
@@ -43,9 +44,6 @@ MAX_NAME = 64
 
 MAX_DURATION = 24 * 3600.0
 """To hold or to follow a heading, where a time is given [s]."""
-
-MAX_NAMED = 8
-"""Places that a refusal names."""
 
 MIN_HEIGHT = 0.3
 """A robot that flies is sent no lower [m]."""
@@ -100,6 +98,7 @@ class TaskFactory:
         self._heights = heights
         self._navigator, self._situation, self._info = navigator, situation, info
         self._say, self._rng, self._records, self._fault = say, rng, records, fault
+        self._places = TaskPlaces(records, fault)
         self._makers: dict[str, Callable[[TaskOrder], Task]] = {
             "patrol": self._patrol,
             "deliver": self._deliver,
@@ -132,27 +131,22 @@ class TaskFactory:
         return replace(make(order), order=order, by=by)
 
     def home(self) -> Waypoint | None:
-        """Where the robot returns to: the mission's home, else the first place that is one; None when it is not set."""
-        mission = self._records.missions.current
-        if mission.home:
-            return mission.home[0]
-        place = next((place for place in self._records.places.all() if place.kind == "home"), None)
-        return Waypoint(place.x, place.y, place.yaw) if place else None
+        """Where the robot returns to; None when it is not set."""
+        return self._places.home()
 
     def check_mission(self, mission: Mission) -> None:
-        """Look whether the robot can stand at every point of `mission`."""
-        for number, point in enumerate(mission.waypoints, 1):
-            self._check(f"Point {number}", point.x, point.y)
+        """Refuse a mission with a point at which the robot cannot stand."""
+        self._places.check_mission(mission)
 
     def _patrol(self, order: TaskOrder) -> Task:
         mission = self._records.missions.current
         if order.places:
-            places = self._places(order, 1, MAX_PLACES, "A patrol needs at least one place")
+            places = self._places.named(order, 1, MAX_PLACES, "A patrol needs at least one place")
             goals = [at_place(place) for place in places]
             dwell = mission.dwell if mission.motion == "intermittent" else 0.0
             course = Course(goals, motion=mission.motion, laps=mission.laps, dwell=dwell, rng=self._rng)
         elif mission.waypoints:
-            self.check_mission(mission)
+            self._places.check_mission(mission)
             course = patrol_course(mission, self._rng)
         else:
             raise Refusal(Notice(Code.MISSION_EMPTY, "The mission has no points; set at least one."))
@@ -167,13 +161,13 @@ class TaskFactory:
 
     def _deliver(self, order: TaskOrder) -> Task:
         rule = "A delivery needs two places, from and to, and may have a third to go on to"
-        places = self._places(order, 2, 3, rule)
+        places = self._places.named(order, 2, 3, rule)
         tag = order.recipient_tag
         course, tree = deliver(places, order.message, tag, self._navigator, self._situation, self._say)
         return Task("deliver", "Delivery", tree, course, done=lambda: f"Delivered at {places[1].name}.")
 
     def _lead(self, order: TaskOrder) -> Task:
-        places = self._places(order, 1, MAX_PLACES, "A guided tour needs at least one place")
+        places = self._places.named(order, 1, MAX_PLACES, "A guided tour needs at least one place")
         course, tree = lead(places, order.message, self._navigator, self._situation, self._say)
 
         def done() -> str:
@@ -186,7 +180,7 @@ class TaskFactory:
     def _go_to(self, order: TaskOrder) -> Task:
         if order.goals and not order.places:
             return self._to_points(order.goals)
-        place = self._places(order, 1, 1, "go_to needs one place, or points")[0]
+        place = self._places.named(order, 1, 1, "go_to needs one place, or points")[0]
         course = Course([at_place(place)])
         tree = way(course, self._navigator, self._situation)
         title = f"Way to {place.name}"
@@ -199,17 +193,17 @@ class TaskFactory:
             else [f"Goal {n} of {len(goals)}" for n in range(1, len(goals) + 1)]
         )
         for name, goal in zip(names, goals, strict=True):
-            self._check(name, goal.x, goal.y)
+            self._places.check(name, goal.x, goal.y)
         points = [Goal(name, goal.x, goal.y, goal.yaw) for name, goal in zip(names, goals, strict=True)]
         course = Course(points)
         tree = way(course, self._navigator, self._situation, self._say if len(goals) > 1 else None)
         return Task("go_to", "Way to the goal", tree, course, done=lambda: "Way to the goal done.")
 
     def _go_home(self, _: TaskOrder) -> Task:
-        home = self.home()
+        home = self._places.home()
         if home is None:
             raise Refusal(Notice(Code.HOME_UNSET, "Home is not set; set it on the map first."))
-        self._check("Home", home.x, home.y)
+        self._places.check("Home", home.x, home.y)
         course, tree = single("Home", home, self._navigator, self._situation)
         if "land" in tasks_of(self._info):
             down = Land(self._navigator, self._situation)
@@ -275,26 +269,17 @@ class TaskFactory:
             raise Refusal(Notice(code, said, height=height, lowest=lowest, highest=highest))
 
     def _dock(self, order: TaskOrder) -> Task:
-        dock = self._named_dock(order)
+        dock = self._places.dock(order)
         if math.isnan(dock.yaw):
             said = f"{dock.name} has no direction; docking needs the one to stand in there."
             raise Refusal(Notice(Code.DOCK_UNDIRECTED, said, place=dock.name))
         start = before(dock)
-        self._check(f"The place before {dock.name}", start.x, start.y)
+        self._places.check(f"The place before {dock.name}", start.x, start.y)
         course = Course([start])
         course.index = 0
         tree = Dock(dock, course, self._navigator, self._situation)
         done = f"Docked at {dock.name}: the battery takes charge."
         return Task("dock", "Docking", tree, course, done=lambda: done)
-
-    def _named_dock(self, order: TaskOrder) -> Place:
-        if order.places:
-            return self._places(order, 1, 1, "Docking needs one place", stands=False)[0]
-        dock = next((place for place in self._records.places.all() if place.kind == "dock"), None)
-        if dock is None:
-            said = "There is no place of the kind dock; make one first."
-            raise Refusal(Notice(Code.DOCK_MISSING, said))
-        return dock
 
     def _span(self, order: TaskOrder) -> Span:
         if not (math.isnan(order.duration) or 0 < order.duration <= MAX_DURATION):
@@ -302,36 +287,6 @@ class TaskFactory:
             said = f"The duration must be {allowed}, not {order.duration:g} s."
             raise Refusal(Notice(Code.DURATION_INVALID, said, duration=order.duration, max=MAX_DURATION))
         return Span(order.duration, lambda: self._situation.worked)
-
-    def _places(
-        self, order: TaskOrder, least: int, most: int, rule: str, *, stands: bool = True
-    ) -> list[Place]:
-        """The places of the order's names; `stands` when the robot is to stand right there."""
-        if not least <= len(order.places) <= most:
-            count = len(order.places)
-            raise Refusal(Notice(Code.PLACES_MISCOUNTED, f"{rule}, not {count}.", count=count))
-        places = [self._place(name) for name in order.places]
-        for place in places if stands else ():
-            self._check(place.name, place.x, place.y)
-        return places
-
-    def _place(self, name: str) -> Place:
-        place, home = self._records.places.named(name), self.home()
-        if place is not None:
-            return place
-        if name.strip().casefold() == "home" and home is not None:
-            return Place(name="Home", kind="home", x=home.x, y=home.y, yaw=home.yaw)
-        known = [place.name for place in self._records.places.all()]
-        there = ", ".join(known[:MAX_NAMED]) + (
-            f" and {len(known) - MAX_NAMED} more" if len(known) > MAX_NAMED else ""
-        )
-        which = f"there are {there}" if known else "no place has a name yet"
-        raise Refusal(Notice(Code.PLACE_UNKNOWN, f"There is no place {name!r}; {which}.", place=name))
-
-    def _check(self, name: str, x: float, y: float) -> None:
-        problem = self._fault(name, x, y)
-        if problem:
-            raise Refusal(problem)
 
 
 def _span_words(lowest: float, highest: float, more: str) -> str:

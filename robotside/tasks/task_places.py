@@ -1,0 +1,78 @@
+"""The places of a task: the named ones of an order, home and the dock, refused where the robot cannot stand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from bridge.core.codes import Code
+from bridge.msgs.pilothouse_msgs import Mission, Place, TaskOrder, Waypoint
+from robotside.core.notice import Notice, Problem
+from robotside.core.refusal import Refusal
+from robotside.records import Records
+
+__all__ = ["TaskPlaces"]
+
+MAX_NAMED = 8
+"""Places that a refusal names."""
+
+
+class TaskPlaces:
+    """Looks up places for tasks. Every method raises Refusal with one sentence for a place that cannot be used."""
+
+    def __init__(self, records: Records, fault: Callable[[str, float, float], Problem]) -> None:
+        """`fault` gives the reason why the robot cannot or may not stand at a place of that name; empty when it can."""
+        self._records, self._fault = records, fault
+
+    def home(self) -> Waypoint | None:
+        """Where the robot returns to: the mission's home, else the first place that is one; None when it is not set."""
+        mission = self._records.missions.current
+        if mission.home:
+            return mission.home[0]
+        place = next((place for place in self._records.places.all() if place.kind == "home"), None)
+        return Waypoint(place.x, place.y, place.yaw) if place else None
+
+    def check_mission(self, mission: Mission) -> None:
+        """Look whether the robot can stand at every point of `mission`."""
+        for number, point in enumerate(mission.waypoints, 1):
+            self.check(f"Point {number}", point.x, point.y)
+
+    def named(
+        self, order: TaskOrder, least: int, most: int, rule: str, *, stands: bool = True
+    ) -> list[Place]:
+        """The places of the order's names; `stands` when the robot is to stand right there."""
+        if not least <= len(order.places) <= most:
+            count = len(order.places)
+            raise Refusal(Notice(Code.PLACES_MISCOUNTED, f"{rule}, not {count}.", count=count))
+        places = [self._place(name) for name in order.places]
+        for place in places if stands else ():
+            self.check(place.name, place.x, place.y)
+        return places
+
+    def dock(self, order: TaskOrder) -> Place:
+        """The dock that an order names, else the first place that is one."""
+        if order.places:
+            return self.named(order, 1, 1, "Docking needs one place", stands=False)[0]
+        dock = next((place for place in self._records.places.all() if place.kind == "dock"), None)
+        if dock is None:
+            said = "There is no place of the kind dock; make one first."
+            raise Refusal(Notice(Code.DOCK_MISSING, said))
+        return dock
+
+    def _place(self, name: str) -> Place:
+        place, home = self._records.places.named(name), self.home()
+        if place is not None:
+            return place
+        if name.strip().casefold() == "home" and home is not None:
+            return Place(name="Home", kind="home", x=home.x, y=home.y, yaw=home.yaw)
+        known = [place.name for place in self._records.places.all()]
+        there = ", ".join(known[:MAX_NAMED]) + (
+            f" and {len(known) - MAX_NAMED} more" if len(known) > MAX_NAMED else ""
+        )
+        which = f"there are {there}" if known else "no place has a name yet"
+        raise Refusal(Notice(Code.PLACE_UNKNOWN, f"There is no place {name!r}; {which}.", place=name))
+
+    def check(self, name: str, x: float, y: float) -> None:
+        """Refuse a place [m, in `map`] called `name` where the robot cannot or may not stand."""
+        problem = self._fault(name, x, y)
+        if problem:
+            raise Refusal(problem)
