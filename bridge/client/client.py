@@ -226,7 +226,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
             await connection.close(lost=lost)
 
     def _on_robot(self) -> None:
-        clock = "" if math.isfinite(self.offset) else ", which does not tell its time"
+        clock = "" if math.isfinite(self.offset) else ", which does not report its time"
         self._set_state(Phase.CONNECTED, f"Connected to {self.place}{clock}.")
 
     def _on_ros_version(self, answer: ServiceResponse | None) -> None:
@@ -258,7 +258,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
 def _version_in(answer: ServiceResponse) -> int:
     """The generation of ROS in an answer; 1 when it does not say."""
     with contextlib.suppress(msgspec.MsgspecError):
-        told = msgspec.json.decode(answer.values)
-        version = told.get("version") if isinstance(told, dict) else None
+        found = msgspec.json.decode(answer.values)
+        version = found.get("version") if isinstance(found, dict) else None
         return version if isinstance(version, int) else 1
     return 1

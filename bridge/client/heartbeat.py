@@ -88,9 +88,9 @@ class Heartbeat:
     def _on_time(self, ping: Ping, answer: ServiceResponse | None) -> None:
         if answer is None:
             return
-        told = _time_in(answer)
-        self.statistics.on_answer(ping, self._now(), told)
-        self.liveness.on_time(not math.isnan(told))
+        time = _time_in(answer)
+        self.statistics.on_answer(ping, self._now(), time)
+        self.liveness.on_time(not math.isnan(time))
         self._notify()
 
     def _notify(self) -> None:

@@ -95,50 +95,50 @@ def learn(typedefs: Sequence[Mapping[str, Any]]) -> type[Msg]:
 @functools.lru_cache(maxsize=256)
 def _learned(answer: bytes) -> type[Msg]:
     try:
-        told = msgspec.json.decode(answer, type=list[_Typedef])
+        definitions = msgspec.json.decode(answer, type=list[_Typedef])
     except msgspec.MsgspecError as error:
         raise ProtocolError(f"This is no description of a message type: {error}.") from error
-    if not told:
+    if not definitions:
         raise ProtocolError("The robot does not describe this type.")
-    if len(told) > MAX_TYPES:
-        raise ProtocolError(f"{told[0].type} is made of {len(told)} types; at most {MAX_TYPES} are taken.")
-    known = {_named(each.type): each for each in told}
-    return _made(_named(told[0].type), known, dict(_BUILT_IN), ())
+    if len(definitions) > MAX_TYPES:
+        raise ProtocolError(f"{definitions[0].type} is made of {len(definitions)} types; at most {MAX_TYPES} are taken.")
+    known = {_named(each.type): each for each in definitions}
+    return _made(_named(definitions[0].type), known, dict(_BUILT_IN), ())
 
 
 def _made(
-    name: str, told: Mapping[str, _Typedef], made: dict[str, type[Msg]], way: tuple[str, ...]
+    name: str, definitions: Mapping[str, _Typedef], made: dict[str, type[Msg]], way: tuple[str, ...]
 ) -> type[Msg]:
     """The class of `name`; `made` are those made for this answer, `way` the types that need it."""
     if name in made:
         return made[name]
     if name in way or len(way) > MAX_DEPTH:
         raise ProtocolError(f"{way[0]} holds {name}, which holds itself or lies too deep.")
-    definition = told.get(name)
+    definition = definitions.get(name)
     if definition is None:
         if name not in TYPES:
-            raise ProtocolError(f"{(*way, name)[0]} needs {name}, of which nothing is told.")
+            raise ProtocolError(f"{(*way, name)[0]} needs {name}, which is not described.")
         return TYPES[name]
     kinds = _kinds(name, definition)
     fields = tuple(
-        (field, kind, None if kind[0] in _SCALARS else _made(kind[0], told, made, (*way, name)))
+        (field, kind, None if kind[0] in _SCALARS else _made(kind[0], definitions, made, (*way, name)))
         for field, kind in kinds.items()
     )
     made[name] = _class(name, fields, _constants(definition, kinds))
     return made[name]
 
 
-def _kinds(name: str, told: _Typedef) -> dict[str, tuple[str, int]]:
+def _kinds(name: str, definition: _Typedef) -> dict[str, tuple[str, int]]:
     """The type of one element and the array length of each field."""
-    if not len(told.fieldnames) == len(told.fieldtypes) == len(told.fieldarraylen):
+    if not len(definition.fieldnames) == len(definition.fieldtypes) == len(definition.fieldarraylen):
         raise ProtocolError(
-            f"{name} is told with {len(told.fieldnames)} fields, {len(told.fieldtypes)} types and "
-            f"{len(told.fieldarraylen)} lengths; they must be as many."
+            f"{name} is described with {len(definition.fieldnames)} fields, {len(definition.fieldtypes)} types and "
+            f"{len(definition.fieldarraylen)} lengths; they must be as many."
         )
-    if len(told.fieldnames) > MAX_FIELDS:
-        raise ProtocolError(f"{name} has {len(told.fieldnames)} fields; at most {MAX_FIELDS} are taken.")
+    if len(definition.fieldnames) > MAX_FIELDS:
+        raise ProtocolError(f"{name} has {len(definition.fieldnames)} fields; at most {MAX_FIELDS} are taken.")
     kinds: dict[str, tuple[str, int]] = {}
-    for field, kind, length in zip(told.fieldnames, told.fieldtypes, told.fieldarraylen, strict=True):
+    for field, kind, length in zip(definition.fieldnames, definition.fieldtypes, definition.fieldarraylen, strict=True):
         if not _NAME.fullmatch(field) or field in kinds:
             raise ProtocolError(
                 f"{name} has a field called {field!r:.60}, which cannot be or is there twice."
@@ -147,38 +147,38 @@ def _kinds(name: str, told: _Typedef) -> dict[str, tuple[str, int]]:
     return kinds
 
 
-def _kind(told: str, length: int, where: str) -> tuple[str, int]:
-    """The type of one element and the array length; `told` may hold the array as well, as in `sequence<double, 8>` or
+def _kind(spelling: str, length: int, where: str) -> tuple[str, int]:
+    """The type of one element and the array length; `spelling` may hold the array as well, as in `sequence<double, 8>` or
     `double[3]`."""
-    sequence = _SEQUENCE.fullmatch(told)
+    sequence = _SEQUENCE.fullmatch(spelling)
     if sequence:
-        told, length = sequence["inner"], 0
-    found = _BOUND.fullmatch(told)
+        spelling, length = sequence["inner"], 0
+    found = _BOUND.fullmatch(spelling)
     if found is None or not -1 <= length <= MAX_ELEMENTS:
-        raise ProtocolError(f"{where} is told as {told!r:.60} with array length {length}, which is no type.")
+        raise ProtocolError(f"{where} is described as {spelling!r:.60} with array length {length}, which is no type.")
     if found["length"] is not None and length < 0:
         length = int(found["length"]) if found["length"] and not found["bound"] else 0
     return _named(found["base"]), length
 
 
-def _named(told: str) -> str:
+def _named(spelling: str) -> str:
     """The ROS 1 name of a type: `std_srvs/srv/SetBool_Request` is `std_srvs/SetBoolRequest`."""
-    if told in _SCALARS or told in _BUILT_IN:
-        return told
-    if told in _OTHER_NAMES:
-        return _OTHER_NAMES[told]
-    if not _TYPE.fullmatch(told):
-        raise ProtocolError(f"{told!r:.60} is no type; one is called as in sensor_msgs/Imu.")
-    package, *_, name = told.split("/")
+    if spelling in _SCALARS or spelling in _BUILT_IN:
+        return spelling
+    if spelling in _OTHER_NAMES:
+        return _OTHER_NAMES[spelling]
+    if not _TYPE.fullmatch(spelling):
+        raise ProtocolError(f"{spelling!r:.60} is no type; one is called as in sensor_msgs/Imu.")
+    package, *_, name = spelling.split("/")
     plain = f"{package}/{_PART.sub(lambda found: found[1], name)}"
     return _OTHER_NAMES.get(plain, plain)
 
 
-def _constants(told: _Typedef, kinds: Mapping[str, Any]) -> tuple[tuple[str, Any], ...]:
+def _constants(definition: _Typedef, kinds: Mapping[str, Any]) -> tuple[tuple[str, Any], ...]:
     """The constants of a type; rosapi of ROS 2 lists defaults and Python's own attributes among them."""
     return tuple(
         (name, _value(value))
-        for name, value in zip(told.constnames, told.constvalues, strict=False)
+        for name, value in zip(definition.constnames, definition.constvalues, strict=False)
         if _CONSTANT.fullmatch(name) and name not in kinds
     )
 
@@ -209,7 +209,7 @@ def _class(
     namespace = dict(constants) | {
         "MSGTYPE": name,
         "ROSTYPES": rostypes,
-        "__doc__": f"{name}, as it was told.",
+        "__doc__": f"{name}, as the robot described it.",
     }
     parts = [_field(field, kind, length, inner) for field, (kind, length), inner in fields]
     called = name.partition("/")[2]

@@ -212,5 +212,5 @@ def shown(value: object) -> str:
         try:
             text = ascii(value)
         except ValueError:
-            text = "a number of more digits than anybody reads"
+            text = "a number with too many digits"
     return text if len(text) <= 60 else f"{text[:59]}…"

@@ -33,7 +33,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument(
         "--out", type=Path, required=True, metavar="DIR", help="where the modules are written"
     )
-    parser.add_argument("--package", metavar="NAME", help="the ROS package, where the folders do not tell it")
+    parser.add_argument("--package", metavar="NAME", help="the ROS package, where the folders do not name it")
     options = parser.parse_args(arguments)
     try:
         from bridge.generate import TextError, generate

@@ -17,7 +17,7 @@ def fields_with_widths(cls: type[Msg]) -> tuple[Field, ...]:
     """The fields of `cls`; ProtocolError when it does not have the widths of its numbers."""
     fields = fields_of(cls)
     if not hasattr(cls, "ROSTYPES") and any(field.base in CODES for field in fields):
-        raise ProtocolError(f"{cls.MSGTYPE or cls.__name__} does not tell the widths of its numbers.")
+        raise ProtocolError(f"{cls.MSGTYPE or cls.__name__} does not give the widths of its numbers.")
     return fields
 
 

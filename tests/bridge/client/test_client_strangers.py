@@ -92,7 +92,7 @@ async def test_a_websocket_that_answers_nothing_but_pings_is_in_the_end_taken_fo
                 assert made.client.state.phase is Phase.CONNECTING
                 clock.time += 1.0
             sentence = await made.sentence(Phase.CONNECTED)
-            assert sentence == f"Connected to {place}, which does not tell its time."
+            assert sentence == f"Connected to {place}, which does not report its time."
 
 
 async def test_a_rosbridge_without_rosapi_is_a_robot_whose_clock_is_not_known():

@@ -298,7 +298,7 @@ async def test_a_server_that_answers_nothing_but_pings_is_a_robot_that_does_not_
     async with foreign() as robot:
         robot.deaf = True
         async with link(f"ws://127.0.0.1:{robot.port}") as far:
-            expected = f"Connected to 127.0.0.1:{robot.port}, which does not tell its time."
+            expected = f"Connected to 127.0.0.1:{robot.port}, which does not report its time."
             assert await far.sentence(Phase.CONNECTED) == expected
 
 

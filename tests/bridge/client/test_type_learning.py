@@ -92,7 +92,7 @@ def test_a_type_that_is_told_otherwise_is_made_anew():
 def test_a_type_that_is_only_named_must_be_one_of_ours():
     assert type(learn([told(pose=("geometry_msgs/Pose", -1))])().pose) is Pose
     with pytest.raises(
-        ProtocolError, match=r"boat_msgs/Boat needs boat_msgs/Sail, of which nothing is told\."
+        ProtocolError, match=r"boat_msgs/Boat needs boat_msgs/Sail, which is not described\."
     ):
         learn([told(sail=("boat_msgs/Sail", -1))])
 
@@ -164,7 +164,7 @@ WRONG = [
     (object(), "This is no description of a message type: "),
     ([told("Boat")], "'Boat' is no type; one is called as in sensor_msgs/Imu."),
     ([told(x=("int33", -1))], "'int33' is no type"),
-    ([told(x=("", -1))], "boat_msgs/Boat.x is told as '' with array length -1, which is no type."),
+    ([told(x=("", -1))], "boat_msgs/Boat.x is described as '' with array length -1, which is no type."),
     ([told(x=("int32", -2))], "with array length -2"),
     ([told(x=("int32", 10**9))], "with array length 1000000000"),
     ([told(**{"a b": ("int32", -1)})], "a field called 'a b'"),

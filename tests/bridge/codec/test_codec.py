@@ -183,4 +183,4 @@ def test_a_list_may_come_as_a_number_array_of_another_kind():
 
 
 def test_a_number_with_more_digits_than_python_writes_can_be_shown():
-    assert shown({"a": 2**20_000}) == "a number of more digits than anybody reads"
+    assert shown({"a": 2**20_000}) == "a number with too many digits"

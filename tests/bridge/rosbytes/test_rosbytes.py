@@ -211,7 +211,7 @@ class Byte(Msg, frozen=True, gc=False):
 @pytest.mark.parametrize(
     ("msg", "sentence"),
     [
-        (Vague(), "test_msgs/Vague does not tell the widths of its numbers."),
+        (Vague(), "test_msgs/Vague does not give the widths of its numbers."),
         (Pair([1, 2]), "name is a wstring, which has no form in bytes of ROS here."),
         (Byte([1, 2, 3]), "data must hold 2, not 3."),
         (Byte([1, 300]), "test_msgs/Byte cannot be sent as bytes of ROS: "),
