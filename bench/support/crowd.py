@@ -39,7 +39,7 @@ class Crowd:
 
     def __init__(self, url: str) -> None:
         self._url = url
-        self.received = 0
+        self.message_count = 0
         self._watchers = 0
         self._goal = 0
         self._reached = asyncio.Event()
@@ -57,20 +57,20 @@ class Crowd:
     async def count(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """Number of messages so far, once it has reached `until` or none comes any more."""
         self._goal, before = asked.get("until", 0), -1
-        while before < self.received < self._goal:
-            before = self.received
+        while before < self.message_count < self._goal:
+            before = self.message_count
             self._reached.clear()
             with contextlib.suppress(TimeoutError):
                 async with asyncio.timeout(QUIET_TIME):
                     await self._reached.wait()
-        return {"received": self.received}
+        return {"received": self.message_count}
 
     async def relay(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """Publish and wait until it is there, again and again; RuntimeError when something got lost."""
         ws = await self._connected()
         text, began = await self._advertised(ws, asked["topic"], asked["like"]), time.monotonic()
         for _ in range(asked["count"] // asked["burst"]):
-            self._goal = self.received + asked["burst"] * self._watchers
+            self._goal = self.message_count + asked["burst"] * self._watchers
             self._reached.clear()
             for _ in range(asked["burst"]):
                 await ws.send(text, text=True)
@@ -136,8 +136,8 @@ class Crowd:
     async def _read(self, ws: ClientConnection) -> None:
         while True:
             await ws.recv(decode=False)
-            self.received += 1
-            if self.received == self._goal:
+            self.message_count += 1
+            if self.message_count == self._goal:
                 self._reached.set()
 
     def _begin(self, work: Coroutine[Any, Any, None]) -> None:
