@@ -101,7 +101,9 @@ def _learned(answer: bytes) -> type[Msg]:
     if not definitions:
         raise ProtocolError("The robot does not describe this type.")
     if len(definitions) > MAX_TYPES:
-        raise ProtocolError(f"{definitions[0].type} is made of {len(definitions)} types; at most {MAX_TYPES} are taken.")
+        raise ProtocolError(
+            f"{definitions[0].type} is made of {len(definitions)} types; at most {MAX_TYPES} are taken."
+        )
     known = {_named(each.type): each for each in definitions}
     return _made(_named(definitions[0].type), known, dict(_BUILT_IN), ())
 
@@ -136,9 +138,13 @@ def _kinds(name: str, definition: _Typedef) -> dict[str, tuple[str, int]]:
             f"{len(definition.fieldarraylen)} lengths; they must be as many."
         )
     if len(definition.fieldnames) > MAX_FIELDS:
-        raise ProtocolError(f"{name} has {len(definition.fieldnames)} fields; at most {MAX_FIELDS} are taken.")
+        raise ProtocolError(
+            f"{name} has {len(definition.fieldnames)} fields; at most {MAX_FIELDS} are taken."
+        )
     kinds: dict[str, tuple[str, int]] = {}
-    for field, kind, length in zip(definition.fieldnames, definition.fieldtypes, definition.fieldarraylen, strict=True):
+    for field, kind, length in zip(
+        definition.fieldnames, definition.fieldtypes, definition.fieldarraylen, strict=True
+    ):
         if not _NAME.fullmatch(field) or field in kinds:
             raise ProtocolError(
                 f"{name} has a field called {field!r:.60}, which cannot be or is there twice."
@@ -155,7 +161,9 @@ def _kind(spelling: str, length: int, where: str) -> tuple[str, int]:
         spelling, length = sequence["inner"], 0
     found = _BOUND.fullmatch(spelling)
     if found is None or not -1 <= length <= MAX_ELEMENTS:
-        raise ProtocolError(f"{where} is described as {spelling!r:.60} with array length {length}, which is no type.")
+        raise ProtocolError(
+            f"{where} is described as {spelling!r:.60} with array length {length}, which is no type."
+        )
     if found["length"] is not None and length < 0:
         length = int(found["length"]) if found["length"] and not found["bound"] else 0
     return _named(found["base"]), length

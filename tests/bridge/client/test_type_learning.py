@@ -91,9 +91,7 @@ def test_a_type_that_is_told_otherwise_is_made_anew():
 
 def test_a_type_that_is_only_named_must_be_one_of_ours():
     assert type(learn([told(pose=("geometry_msgs/Pose", -1))])().pose) is Pose
-    with pytest.raises(
-        ProtocolError, match=r"boat_msgs/Boat needs boat_msgs/Sail, which is not described\."
-    ):
+    with pytest.raises(ProtocolError, match=r"boat_msgs/Boat needs boat_msgs/Sail, which is not described\."):
         learn([told(sail=("boat_msgs/Sail", -1))])
 
 
