@@ -21,7 +21,7 @@ from sim.core.order_limits import check, cut
 from sim.payloads import PAYLOADS, laden, mount
 from sim.simulation.cameras import CAMERA_TOPIC, Cameras
 from sim.simulation.mishaps import Mishaps
-from sim.simulation.shared_run import Run
+from sim.simulation.shared_run import SharedRun
 from sim.simulation.simulation import Simulation
 from sim.vehicles.aqua import AQUA
 from sim.vehicles.ardrone import ARDRONE
@@ -81,13 +81,18 @@ class SimRobot:
     """It is always at hand."""
 
     def __init__(
-        self, simulation: Simulation | Run, *, camera: bool, number: int = 0, payloads: Sequence[str] = ()
+        self,
+        simulation: Simulation | SharedRun,
+        *,
+        camera: bool,
+        number: int = 0,
+        payloads: Sequence[str] = (),
     ) -> None:
         """A robot of `simulation`, which it owns from now on, alone or with the others of the run.
 
         `payloads` are mounted on it; ValueError with one sentence when one cannot be.
         """
-        self._run = simulation if isinstance(simulation, Run) else Run(simulation)
+        self._run = simulation if isinstance(simulation, SharedRun) else SharedRun(simulation)
         self.simulation = self._run.simulation
         """The truth, for tests and benches."""
         self._number = number
@@ -309,7 +314,7 @@ def make_several(
     models = numbered([model_of(name) for name, _ in entries])
     models = [laden(model, names) for model, names in zip(models, carried, strict=True)]
     placed = zip(models, starts(loaded, models, [start for _, start in entries]), strict=True)
-    run = Run(Simulation(loaded, *placed, seed=seed, gui=gui, noise=noise))
+    run = SharedRun(Simulation(loaded, *placed, seed=seed, gui=gui, noise=noise))
     made: list[SimRobot] = []
     try:
         for number, names in zip(range(len(models)), carried, strict=True):

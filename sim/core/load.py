@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from sim.core.shapes import Vec3
 
-__all__ = ["Heavy", "Load", "about", "loaded", "mass_of"]
+__all__ = ["Load", "MassProperties", "mass_of", "moments_about", "with_loads"]
 
 
 class Load(NamedTuple):
@@ -19,7 +19,7 @@ class Load(NamedTuple):
     """Place of its mass, in `base_link` [m]."""
 
 
-class Heavy(NamedTuple):
+class MassProperties(NamedTuple):
     """A body with what it carries."""
 
     mass: float
@@ -35,7 +35,7 @@ def mass_of(loads: Sequence[Load]) -> float:
     return sum(load.mass for load in loads)
 
 
-def loaded(mass: float, centre: Vec3, moments: Vec3, loads: Sequence[Load]) -> Heavy:
+def with_loads(mass: float, centre: Vec3, moments: Vec3, loads: Sequence[Load]) -> MassProperties:
     """A body of its own `mass` [kg], `centre` of mass [m] and `moments` of inertia about that [kg m2], carrying `loads`.
 
     By the parallel axis theorem; each load is a point.
@@ -43,10 +43,10 @@ def loaded(mass: float, centre: Vec3, moments: Vec3, loads: Sequence[Load]) -> H
     parts = [Load(mass, centre), *loads]
     total = mass_of(parts)
     x, y, z = (sum(part.mass * part.at[axis] for part in parts) / total for axis in range(3))
-    return Heavy(total, (x, y, z), about((x, y, z), moments, parts))
+    return MassProperties(total, (x, y, z), moments_about((x, y, z), moments, parts))
 
 
-def about(point: Vec3, moments: Vec3, parts: Sequence[Load]) -> Vec3:
+def moments_about(point: Vec3, moments: Vec3, parts: Sequence[Load]) -> Vec3:
     """`moments` and those of points of mass about the axes through a `point` [kg m2]."""
     ix, iy, iz = moments
     for mass, (px, py, pz) in parts:

@@ -8,7 +8,7 @@ import zlib
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Noise", "Wander"]
+__all__ = ["Noise", "GaussMarkov"]
 
 
 class Noise:
@@ -28,7 +28,7 @@ class Noise:
         return deviation * self._rng.standard_normal(count) if self._on else np.zeros(count)
 
 
-class Wander:
+class GaussMarkov:
     """An error that changes slowly and stays bounded: a first-order Gauss-Markov process."""
 
     def __init__(self, noise: Noise, deviation: float, time: float, period: float) -> None:

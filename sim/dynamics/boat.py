@@ -1,4 +1,4 @@
-"""A boat with a propeller and a rudder: their figures, their forces, and the helmsman who steers by them."""
+"""A boat with a propeller and a rudder: their figures, their forces, and the controller of speed and course."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from sim.core.parameters import Limits, Part, Positive, Table
 from sim.core.shapes import Vec3
 from sim.dynamics.control import towards, within
 
-__all__ = ["Drive", "Helmsman", "Propeller", "Rudder"]
+__all__ = ["BoatDrive", "BoatController", "Propeller", "Rudder"]
 
 
 class Propeller(Table, frozen=True, kw_only=True):
@@ -47,7 +47,7 @@ class Rudder(Table, frozen=True, kw_only=True):
     """Of the turn with the rudder hard over [m]."""
 
 
-class Drive:
+class BoatDrive:
     """Propeller and rudder, which follow their commands as fast as they can."""
 
     def __init__(self, propeller: Propeller, rudder: Rudder, length: float, density: float) -> None:
@@ -91,7 +91,7 @@ class Drive:
         return (self.thrust - abs(lift * turned), -lift * math.cos(self.angle), 0.0), -lift * self._stern
 
 
-class Helmsman:
+class BoatController:
     """Keeps a speed and a course, or a turn, by throttle and rudder."""
 
     SPEED_GAIN = 1.0
@@ -103,7 +103,7 @@ class Helmsman:
     STEERING_WAY = 0.12
     """Throttle without which the rudder has nothing to work with."""
 
-    def __init__(self, limits: Limits, drag: float, drive: Drive) -> None:
+    def __init__(self, limits: Limits, drag: float, drive: BoatDrive) -> None:
         """At ease; `drag` is the throttle that a speed of 1 m/s takes [s/m]."""
         self._drive = drive
         self._limits = limits

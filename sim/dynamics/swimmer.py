@@ -8,7 +8,7 @@ from sim.core.shapes import Vec3
 from sim.dynamics.sixdof import Inertia, SixDof
 from sim.world.weather import Weather
 
-__all__ = ["Float", "SwimmerBody", "SwimmerLimits", "inertia_of"]
+__all__ = ["BuoyantBox", "SwimmerBody", "SwimmerLimits", "inertia_of"]
 
 
 class SwimmerBody(Table, frozen=True, kw_only=True):
@@ -53,7 +53,7 @@ def inertia_of(body: SwimmerBody) -> Inertia:
     return Inertia(body.mass, (0.0, 0.0, 0.0), body.inertia, 0.0, body.added_mass, body.added_inertia)
 
 
-class Float:
+class BuoyantBox:
     """A box in the water of a world: weight, buoyancy and drag."""
 
     def __init__(self, body: SwimmerBody, weather: Weather) -> None:

@@ -35,10 +35,10 @@ from sim.payloads.simple import (
 )
 from sim.vehicles.model import Model, Vehicle
 
-__all__ = ["PAYLOADS", "Figures", "laden", "load", "mount"]
+__all__ = ["PAYLOADS", "PayloadParameters", "laden", "load", "mount"]
 
 
-class Figures(Table, frozen=True, kw_only=True):
+class PayloadParameters(Table, frozen=True, kw_only=True):
     """The whole file."""
 
     laser: LaserMount
@@ -51,16 +51,16 @@ class Figures(Table, frozen=True, kw_only=True):
     arm: ArmParameters
 
 
-PAYLOADS: tuple[str, ...] = Figures.__struct_fields__
+PAYLOADS: tuple[str, ...] = PayloadParameters.__struct_fields__
 """The payloads there are, by name."""
 
 
-def load(path: Path = Path(__file__).parent / "payloads.toml") -> Figures:
+def load(path: Path = Path(__file__).parent / "payloads.toml") -> PayloadParameters:
     """The figures in a file; ValueError names the file, the line, the key and the reason."""
-    return read(text_of(path), Figures, path.name)
+    return read(text_of(path), PayloadParameters, path.name)
 
 
-def laden(model: Model, names: Iterable[str], figures: Figures | None = None) -> Model:
+def laden(model: Model, names: Iterable[str], figures: PayloadParameters | None = None) -> Model:
     """`model` with the weight of these payloads; names that there are not are left to `mount`.
 
     ValueError with one sentence when that is more than it can carry.
@@ -73,7 +73,9 @@ def laden(model: Model, names: Iterable[str], figures: Figures | None = None) ->
     return replace(model, parameters=model.parameters.laden(loads))
 
 
-def mount(vehicle: Vehicle, names: Iterable[str], figures: Figures | None = None) -> dict[str, Mounted]:
+def mount(
+    vehicle: Vehicle, names: Iterable[str], figures: PayloadParameters | None = None
+) -> dict[str, Mounted]:
     """Put these payloads on `vehicle`, before it first measures; ValueError with one sentence when one cannot be.
 
     They weigh what its model was made `laden` with: a body in the physics does not change its mass.
@@ -94,7 +96,7 @@ def mount(vehicle: Vehicle, names: Iterable[str], figures: Figures | None = None
     return mounted
 
 
-def _make(name: str, vehicle: Vehicle, figures: Figures) -> Mounted:
+def _make(name: str, vehicle: Vehicle, figures: PayloadParameters) -> Mounted:
     match name:
         case "laser":
             return MountedLaser(vehicle, figures.laser)

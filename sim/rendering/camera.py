@@ -23,7 +23,7 @@ from sim.rendering.tiny_renderer import TinyRenderer
 from sim.rendering.view import View
 from sim.world.world import World
 
-__all__ = ["Camera", "Studio"]
+__all__ = ["Camera", "SharedRenderer"]
 
 QUALITY = 80
 """Of the JPEG."""
@@ -34,7 +34,7 @@ Picture = NDArray[np.uint8]
 """(height, width, 3) RGB, top row first; a fourth byte a pixel means nothing."""
 
 
-class Eye(Protocol):
+class ViewRenderer(Protocol):
     """Something that draws views, at once or a little later."""
 
     def show(self, view: View, stamp: float, moving: Sequence[Shape] = ()) -> list[tuple[float, Picture]]:
@@ -52,7 +52,7 @@ class Eye(Protocol):
         """Free everything."""
 
 
-class _Quick:
+class _ImmediateRenderer:
     """Draws by OpenGL, at once."""
 
     def __init__(self, renderer: Renderer) -> None:
@@ -65,10 +65,10 @@ class _Quick:
         return []
 
     def close(self) -> None:
-        pass  # it is the studio's
+        pass  # it is the shared renderer's
 
 
-class Studio:
+class SharedRenderer:
     """The renderer that the cameras of one world share, made with the first of them because it takes 100 MB."""
 
     def __init__(self, world: World) -> None:
@@ -76,14 +76,14 @@ class Studio:
         self._world = world
         self._renderer: Renderer | None = None
 
-    def eye(self) -> Eye:
+    def for_camera(self) -> ViewRenderer:
         """Draws for one camera; where OpenGL cannot draw without a window slowly and smaller, and the log says so."""
         try:
             self._renderer = self._renderer or Renderer(self._world)
         except NoRendererError as fault:
             _log.warning("%s The camera gives 320 x 240 pictures instead.", fault)
             return TinyRenderer(self._world)
-        return _Quick(self._renderer)
+        return _ImmediateRenderer(self._renderer)
 
     def close(self) -> None:
         """Free everything; closing twice does nothing."""
@@ -95,10 +95,10 @@ class Studio:
 class Camera:
     """The view from its place on the vehicle."""
 
-    def __init__(self, eye: Eye, parameters: CameraParameters, *, first: int = 0) -> None:
-        """A camera that sees by `eye`, which it closes, from the `first` step on."""
+    def __init__(self, renderer: ViewRenderer, parameters: CameraParameters, *, first: int = 0) -> None:
+        """A camera that draws with `renderer`, which it closes, from the `first` step on."""
         self._parameters = parameters
-        self._eye = eye
+        self._renderer = renderer
         self._schedule, self._first = Schedule({"camera": parameters.rate}), first
         down = (0.0, math.sin(parameters.pitch / 2), 0.0, math.cos(parameters.pitch / 2))
         self._turned = compose(from_yaw(parameters.yaw), down)
@@ -116,15 +116,15 @@ class Camera:
         eye = place(parameters.position, state.position, state.rotation)
         rotation = compose(state.rotation, self._turned)
         view = View(eye, rotation, (parameters.width, parameters.height), parameters.field_of_view)
-        return [_message(picture, taken) for taken, picture in self._eye.show(view, stamp, moving)]
+        return [_message(picture, taken) for taken, picture in self._renderer.show(view, stamp, moving)]
 
     def collect(self) -> list[CompressedImage]:
         """Pictures taken earlier that have become ready."""
-        return [_message(picture, taken) for taken, picture in self._eye.ready()]
+        return [_message(picture, taken) for taken, picture in self._renderer.ready()]
 
     def close(self) -> None:
         """Free everything; closing twice does nothing."""
-        self._eye.close()
+        self._renderer.close()
 
 
 def _message(picture: Picture, stamp: float) -> CompressedImage:

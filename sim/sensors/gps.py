@@ -7,7 +7,7 @@ import msgspec
 import bridge.core.geo
 from bridge.msgs.sensor_msgs import NavSatFix, NavSatStatus
 from bridge.msgs.std_msgs import Header, Time
-from sim.core.noise import Noise, Wander
+from sim.core.noise import GaussMarkov, Noise
 from sim.physics.backend_bullet import State
 from sim.world.tables import Datum
 
@@ -35,7 +35,7 @@ class Gps:
         self._altitude = datum.altitude
         self._origin = bridge.core.geo.Datum(datum.latitude, datum.longitude)
         self._errors = tuple(
-            Wander(noise, parameters.wander_error * worse, parameters.wander, 1 / parameters.rate)
+            GaussMarkov(noise, parameters.wander_error * worse, parameters.wander, 1 / parameters.rate)
             for worse in (1.0, 1.0, 2.0)
         )
         variance = parameters.noise**2 + parameters.wander_error**2

@@ -13,7 +13,7 @@ from sim.core.shapes import rotate
 from sim.physics.backend_bullet import Bullet, State
 from sim.world.weather import Weather
 
-__all__ = ["Height", "HeightParameters"]
+__all__ = ["HeightRanger", "HeightParameters"]
 
 
 class HeightParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -31,7 +31,7 @@ class HeightParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True, 
     """Standard deviation [m]."""
 
 
-class Height:
+class HeightRanger:
     """Four beams round the edge of its cone and one in the middle; the nearest thing counts, and water is one."""
 
     def __init__(

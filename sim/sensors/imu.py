@@ -10,7 +10,7 @@ from bridge.msgs.geometry_msgs import Quaternion, Vector3
 from bridge.msgs.sensor_msgs import Imu
 from bridge.msgs.std_msgs import Header, Time
 from sim.core.constants import GRAVITY
-from sim.core.noise import Noise, Wander
+from sim.core.noise import GaussMarkov, Noise
 from sim.core.shapes import Vec3, compose, rotate_back
 from sim.physics.backend_bullet import State
 
@@ -42,7 +42,7 @@ class InertialUnit:
         self._bias = tuple(noise.normal(parameters.gyro_bias) for _ in range(3))
         period = 1 / parameters.rate
         self._errors = tuple(
-            Wander(noise, deviation, parameters.wander, period)
+            GaussMarkov(noise, deviation, parameters.wander, period)
             for deviation in (parameters.tilt_error, parameters.tilt_error, parameters.heading_error)
         )
         self._last: tuple[Vec3, float] | None = None

@@ -17,11 +17,11 @@ from bridge.msgs.geometry_msgs import (
 )
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.std_msgs import Header, Time
-from sim.core.noise import Noise, Wander
+from sim.core.noise import GaussMarkov, Noise
 from sim.core.shapes import Quat, compose, from_yaw, rotate, rotate_back
 from sim.physics.backend_bullet import State
 
-__all__ = ["Reckoning", "ReckoningParameters"]
+__all__ = ["DeadReckoning", "ReckoningParameters"]
 
 
 class ReckoningParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -41,7 +41,7 @@ class ReckoningParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=Tru
     """Standard deviation of the height, which a gauge measures [m]."""
 
 
-class Reckoning:
+class DeadReckoning:
     """Integrates measured velocities from a given pose; height, roll and pitch are measured anew each time."""
 
     def __init__(
@@ -52,7 +52,8 @@ class Reckoning:
         self._scale = 1 + noise.normal(parameters.scale_error)
         self._drift = noise.normal(parameters.yaw_drift)
         self._errors = tuple(
-            Wander(noise, parameters.speed_error, parameters.wander, 1 / parameters.rate) for _ in range(3)
+            GaussMarkov(noise, parameters.speed_error, parameters.wander, 1 / parameters.rate)
+            for _ in range(3)
         )
         self.pose = pose
         """Believed x, y [m], yaw [rad] in `odom`; yaw is not wrapped."""

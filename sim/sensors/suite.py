@@ -20,7 +20,7 @@ from sim.core.sensor_schedule import Schedule
 from sim.core.shapes import rotate_back
 from sim.physics.backend_bullet import State
 
-__all__ = ["Measure", "Measurement", "Suite", "as_odometry"]
+__all__ = ["Measure", "Measurement", "SensorSuite", "as_odometry"]
 
 Measurement = tuple[str, Msg]
 """A topic and its message."""
@@ -28,7 +28,7 @@ Measure = Callable[[State, float], Iterable[Measurement]]
 """Messages of one sensor on a body in a state, with a stamp [s]."""
 
 
-class Suite:
+class SensorSuite:
     """Reads every sensor when it is due, in the order in which they were added."""
 
     def __init__(self) -> None:

@@ -36,7 +36,9 @@ class Cameras:
         simulation = self._simulation
         for topic, parameters in self._parameters.items():
             if topic in wanted and topic not in self._made:
-                self._made[topic] = Camera(simulation.studio.eye(), parameters, first=simulation.steps)
+                self._made[topic] = Camera(
+                    simulation.renderer.for_camera(), parameters, first=simulation.steps
+                )
         for topic, camera in self._made.items():
             if camera.is_due(simulation.steps) and topic in wanted:
                 others = simulation.looks(but=self._number)

@@ -7,13 +7,13 @@ from collections.abc import Callable
 from sim.core.constants import STEPS_PER_SECOND
 from sim.simulation.simulation import Simulation
 
-__all__ = ["Run"]
+__all__ = ["SharedRun"]
 
 _STEP_TOLERANCE = 1e-3
 """Part of a step by which `now` may fall short of it: so that the clock's rounding causes no wait."""
 
 
-class Run:
+class SharedRun:
     """Owns the simulation; it is freed when the last of its robots leaves."""
 
     def __init__(self, simulation: Simulation) -> None:

@@ -8,7 +8,7 @@ from sim.core.constants import STEPS_PER_SECOND
 from sim.core.noise import Noise
 from sim.core.shapes import Shape, yaw_of
 from sim.physics.backend_bullet import Bullet
-from sim.rendering.camera import Studio
+from sim.rendering.camera import SharedRenderer
 from sim.vehicles.model import Model, Vehicle, suits
 from sim.vehicles.scene import Scene
 from sim.world.tables import Start
@@ -47,7 +47,7 @@ class Simulation:
         self.backend.add_ground(world.bottom)
         for prop in world.props:
             self.backend.add_static(prop.solids)
-        self.studio = Studio(world)
+        self.renderer = SharedRenderer(world)
         """The renderer of the robots' cameras."""
         self.weather = Weather(world, Noise(seed, "gusts", on=noise))
         self.vehicles: list[Vehicle] = [
@@ -107,7 +107,7 @@ class Simulation:
 
     def close(self) -> None:
         """Free the physics, and what cameras draw with."""
-        self.studio.close()
+        self.renderer.close()
         self.backend.close()
 
     def _refuse_overlaps(self, placed: Sequence[tuple[Model, Start]]) -> None:

@@ -17,8 +17,8 @@ from sim.physics.motors import Motors
 from sim.sensors.battery import Battery
 from sim.sensors.bumper import BumperRing
 from sim.sensors.imu import InertialUnit
-from sim.sensors.reckoning import Reckoning, ReckoningParameters
-from sim.sensors.suite import Measure, Measurement, Suite, as_odometry
+from sim.sensors.reckoning import DeadReckoning, ReckoningParameters
+from sim.sensors.suite import Measure, Measurement, SensorSuite, as_odometry
 from sim.vehicles.parameters import Parameters
 from sim.vehicles.scene import Scene
 from sim.vehicles.start_places import places
@@ -51,7 +51,7 @@ class Chassis(Generic[P]):
         """At rest; `body` is its number in the physics."""
         self.scene, self.parameters, self.body = scene, parameters, body
         self.bumper = BumperRing()
-        self.suite = Suite()
+        self.suite = SensorSuite()
         self.cameras = list(parameters.cameras)
         self.laser_x = 0.0
         """Distance of its laser ahead of `base_link` [m]."""
@@ -171,12 +171,12 @@ class Chassis(Generic[P]):
     def add_reckoning(self, figures: ReckoningParameters) -> None:
         """Add the odometry of a vehicle without wheels."""
         start = self.scene.start
-        self.odometer = reckoning = Reckoning(
+        self.odometer = reckoning = DeadReckoning(
             figures, (start.x, start.y, start.angle), self.scene.generator("reckoning")
         )
         self.suite.add("odometry", figures.rate, self._reckon(reckoning))
 
-    def _reckon(self, reckoning: Reckoning) -> Measure:
+    def _reckon(self, reckoning: DeadReckoning) -> Measure:
         return lambda state, at: [("/odom", reckoning.measure(state, at, stands=self.stands))]
 
     def add_power(self) -> None:

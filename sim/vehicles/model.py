@@ -17,7 +17,7 @@ from sim.core.shapes import Shape
 from sim.physics.backend_bullet import State
 from sim.sensors.battery import Battery
 from sim.sensors.bumper import BumperRing
-from sim.sensors.suite import Suite
+from sim.sensors.suite import SensorSuite
 from sim.vehicles.parameters import Parameters
 from sim.vehicles.scene import Scene
 from sim.world.world import World
@@ -32,7 +32,7 @@ class Vehicle(Protocol):
     """The orders that it knows."""
     scene: Scene
     """Its surroundings."""
-    suite: Suite
+    suite: SensorSuite
     """Its sensors."""
     battery: Battery
     """Feeds it."""

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from sim.core.constants import GRAVITY
-from sim.core.load import Load, loaded
+from sim.core.load import Load, with_loads
 from sim.core.parameters import CameraParameters
 from sim.core.shapes import from_yaw
 from sim.dynamics.differential import (
@@ -57,7 +57,7 @@ class TwoWheeledParameters(Parameters, frozen=True, kw_only=True):
     def laden(self, loads: Sequence[Load]) -> Self:
         """Heavier, and higher or farther ahead in its balance."""
         body = self.body
-        mass, (x, _, z), inertia = loaded(
+        mass, (x, _, z), inertia = with_loads(
             body.mass, (body.ahead, 0.0, body.centre_of_mass), body.inertia, loads
         )
         heavier = replace(body, mass=mass, ahead=x, centre_of_mass=z, inertia=inertia)

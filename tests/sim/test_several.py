@@ -13,7 +13,7 @@ from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from sim.core.order_limits import cut
 from sim.robot import CAMERA_TOPIC, ROBOTS, SimRobot, make_several
-from sim.simulation.shared_run import Run
+from sim.simulation.shared_run import SharedRun
 from sim.simulation.simulation import Simulation
 from sim.vehicles.aqua import AQUA
 from sim.vehicles.ardrone import ARDRONE
@@ -30,7 +30,7 @@ WATER = "[water]\ndepth = 6.0\n"
 def pair(model=PATROL, other=SCOUT, world=None, at=None):
     """Two robots facing each other 3 m apart, unless told otherwise; their clocks have been started at 0."""
     place = at or Start(3.0, 0.0, 180.0)
-    run = Run(Simulation(world or room(), model, (other, place), noise=False))
+    run = SharedRun(Simulation(world or room(), model, (other, place), noise=False))
     robots = [SimRobot(run, camera=False, number=number) for number in range(2)]
     for robot in robots:
         robot.read(0.0)

@@ -9,7 +9,7 @@ from typing import Self
 
 from msgspec.structs import replace
 
-from sim.core.load import Load, about, mass_of
+from sim.core.load import Load, mass_of, moments_about
 from sim.core.parameters import CameraParameters
 from sim.dynamics.fins import FinParameters
 from sim.dynamics.swimmer import SwimmerBody, SwimmerLimits
@@ -51,7 +51,7 @@ class AquaParameters(Parameters, frozen=True, kw_only=True):
         mass = body.mass + mass_of(loads)
         lift, arm = body.mass * body.buoyancy, body.mass * body.buoyancy * body.lift_arm
         buoyancy = (lift + mass_of(loads)) / mass
-        inertia = about((0.0, 0.0, 0.0), body.inertia, loads)
+        inertia = moments_about((0.0, 0.0, 0.0), body.inertia, loads)
         heavier = replace(
             body, mass=mass, inertia=inertia, buoyancy=buoyancy, lift_arm=arm / (mass * buoyancy)
         )

@@ -13,7 +13,7 @@ from sim.core.constants import STEPS_PER_SECOND
 from sim.core.shapes import Shape, from_yaw
 from sim.dynamics.fins import LEGS, Fins
 from sim.dynamics.sixdof import SixDof
-from sim.dynamics.swimmer import Float, SwimmerBody, inertia_of
+from sim.dynamics.swimmer import BuoyantBox, SwimmerBody, inertia_of
 from sim.physics.backend_bullet import State
 from sim.physics.bodies import Floating
 from sim.physics.motors import Motors
@@ -52,7 +52,7 @@ class Aqua(Chassis[AquaParameters]):
         at = (start.x, start.y, min(start.z, afloat))
         body = scene.backend.add_floating(body_of(own), at, from_yaw(start.angle))
         super().__init__(scene, parameters, body)
-        self.float = Float(own, scene.weather)
+        self.float = BuoyantBox(own, scene.weather)
         self.dynamics = SixDof(scene.backend, body, inertia_of(own))
         self.fins = Fins(parameters.fins, scene.weather.density)
         self._pilot = Pilot(parameters, self.float.drag[0])

@@ -10,7 +10,7 @@ from typing import Self
 from msgspec.structs import replace
 
 from sim.core.constants import GRAVITY
-from sim.core.load import Load, about, mass_of
+from sim.core.load import Load, mass_of, moments_about
 from sim.core.parameters import CameraParameters
 from sim.dynamics.quadrotor import QuadrotorBody, QuadrotorLimits, RotorParameters
 from sim.sensors.height import HeightParameters
@@ -55,7 +55,7 @@ class ArdroneParameters(Parameters, frozen=True, kw_only=True):
             raise ValueError(
                 f"{name} carries {spare:.2f} kg at most; the payload weighs {mass_of(loads):.2f} kg."
             )
-        inertia = about((0.0, 0.0, 0.0), body.inertia, loads)
+        inertia = moments_about((0.0, 0.0, 0.0), body.inertia, loads)
         return replace(self, body=replace(body, mass=mass, inertia=inertia))
 
     @property

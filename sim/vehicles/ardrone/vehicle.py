@@ -16,7 +16,7 @@ from sim.dynamics.sixdof import Inertia, SixDof
 from sim.physics.backend_bullet import State
 from sim.physics.bodies import Floating
 from sim.physics.motors import Motors
-from sim.sensors.height import Height
+from sim.sensors.height import HeightRanger
 from sim.sensors.suite import Measurement
 from sim.vehicles.ardrone.looks import looks
 from sim.vehicles.ardrone.parameters import PARAMETERS, ArdroneParameters
@@ -64,7 +64,7 @@ class Ardrone(Chassis[ArdroneParameters]):
 
     def _add_sensors(self) -> None:
         parameters, scene, suite = self.parameters, self.scene, self.suite
-        self._height = Height(
+        self._height = HeightRanger(
             parameters.range, scene.backend, self.body, scene.weather, scene.generator("range")
         )
         self.add_bumper_and_imu()

@@ -9,7 +9,7 @@ from typing import Self
 
 from msgspec.structs import replace
 
-from sim.core.load import Load, loaded
+from sim.core.load import Load, with_loads
 from sim.core.parameters import CameraParameters
 from sim.dynamics.ackermann import AckermannBody, AckermannLimits, Axles
 from sim.sensors.gps import GpsParameters
@@ -49,7 +49,7 @@ class CommanderParameters(Parameters, frozen=True, kw_only=True):
 
     def laden(self, loads: Sequence[Load]) -> Self:
         """Heavier, and higher in its balance."""
-        mass, centre, inertia = loaded(self.body.mass, self.body.centre_of_mass, self.body.inertia, loads)
+        mass, centre, inertia = with_loads(self.body.mass, self.body.centre_of_mass, self.body.inertia, loads)
         return replace(self, body=replace(self.body, mass=mass, centre_of_mass=centre, inertia=inertia))
 
     @property

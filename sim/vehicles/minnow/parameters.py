@@ -9,7 +9,7 @@ from typing import Self
 
 from msgspec.structs import replace
 
-from sim.core.load import Load, loaded, mass_of
+from sim.core.load import Load, mass_of, with_loads
 from sim.core.parameters import CameraParameters
 from sim.dynamics.boat import Propeller, Rudder
 from sim.dynamics.hull import HullParameters
@@ -45,7 +45,7 @@ class MinnowParameters(Parameters, frozen=True, kw_only=True):
     def laden(self, loads: Sequence[Load]) -> Self:
         """Heavier: it lies deeper, drags more water, and heels towards what it carries."""
         hull = self.hull
-        mass, centre, inertia = loaded(hull.mass, hull.centre_of_mass, hull.inertia, loads)
+        mass, centre, inertia = with_loads(hull.mass, hull.centre_of_mass, hull.inertia, loads)
         heavier = replace(hull, mass=mass, centre_of_mass=centre, inertia=inertia, load=mass_of(loads))
         middle = tuple(sum(load.mass * load.at[axis] for load in loads) / heavier.load for axis in range(3))
         return replace(self, hull=replace(heavier, load_at=middle))

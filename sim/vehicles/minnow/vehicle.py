@@ -11,7 +11,7 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre, RudderState
 from bridge.msgs.std_msgs import Header, Time
 from sim.core.constants import STEPS_PER_SECOND
 from sim.core.shapes import Shape, from_yaw, yaw_of
-from sim.dynamics.boat import Drive, Helmsman
+from sim.dynamics.boat import BoatController, BoatDrive
 from sim.dynamics.control import filled, given
 from sim.dynamics.hull import Hull, HullParameters, inertia_of
 from sim.dynamics.sixdof import SixDof
@@ -57,9 +57,9 @@ class Minnow(Chassis[MinnowParameters]):
         self.hull = Hull(parameters.hull, weather)
         self.dynamics = SixDof(scene.backend, body, inertia_of(parameters.hull))
         own, hull = parameters.propeller, parameters.hull
-        self.works = Drive(own, parameters.rudder, hull.length, weather.density)
+        self.works = BoatDrive(own, parameters.rudder, hull.length, weather.density)
         """Propeller and rudder."""
-        self._helmsman = Helmsman(parameters.limits, hull.damping[0] / own.thrust, self.works)
+        self._controller = BoatController(parameters.limits, hull.damping[0] / own.thrust, self.works)
         self._course = start.angle
         self.motors = Motors(parameters.motor, ["propeller"])
         self._add_sensors()
@@ -83,7 +83,7 @@ class Minnow(Chassis[MinnowParameters]):
         """Take up a twist, throttle and rudder, a course, waiting on a course, or lying still."""
         present = yaw_of(self.state().rotation)
         if order.kind != self.order.kind:
-            self._helmsman.ease()
+            self._controller.ease()
             self._course = present
         if order.kind in ("course", "hover"):
             self._course = given(order.yaw, self._course)
@@ -120,7 +120,7 @@ class Minnow(Chassis[MinnowParameters]):
             self.battery.feed(power, WORK_STEPS / STEPS_PER_SECOND)
 
     def _steer(self, body: SixDof) -> None:
-        order, works, helmsman = self.order, self.works, self._helmsman
+        order, works, controller = self.order, self.works, self._controller
         speed, turning = body.through[0], body.turning[2]
         kind = order.kind
         if kind == "steer":
@@ -128,21 +128,21 @@ class Minnow(Chassis[MinnowParameters]):
             works.throttle = self._throttle(order, speed)
         elif kind == "twist":
             twist: Twist = order.twist
-            works.throttle = helmsman.throttle_for(twist.linear.x, speed)
-            if abs(twist.angular.z) > 0.02 and abs(works.throttle) < helmsman.STEERING_WAY:
-                works.throttle = helmsman.STEERING_WAY
-            helmsman.turn(twist.angular.z, turning, speed)
+            works.throttle = controller.throttle_for(twist.linear.x, speed)
+            if abs(twist.angular.z) > 0.02 and abs(works.throttle) < controller.STEERING_WAY:
+                works.throttle = controller.STEERING_WAY
+            controller.turn(twist.angular.z, turning, speed)
         elif kind in ("course", "hover"):
             works.throttle = self._throttle(order, speed) if kind == "course" else 0.0
-            helmsman.course(yaw_of(body.rotation), self._course, turning, speed)
+            controller.course(yaw_of(body.rotation), self._course, turning, speed)
         else:
             works.wanted = 0.0
-            works.throttle = helmsman.throttle_for(0.0, speed) if abs(speed) > _STILL_SPEED else 0.0
+            works.throttle = controller.throttle_for(0.0, speed) if abs(speed) > _STILL_SPEED else 0.0
 
     def _throttle(self, order: Manoeuvre, speed: float) -> float:
         if math.isnan(order.speed):
             return given(order.throttle, 0.0)
-        return self._helmsman.throttle_for(order.speed, speed)
+        return self._controller.throttle_for(order.speed, speed)
 
     def _measure_rudder(self, _: State, stamp: float) -> Iterator[Measurement]:
         works = self.works

@@ -9,7 +9,7 @@ import pytest
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from sim.core.constants import GRAVITY
-from sim.core.load import Load, loaded
+from sim.core.load import Load, with_loads
 from sim.payloads import PAYLOADS, laden, load
 from sim.robot import ROBOTS, make, make_several
 from tests.sim.rooms import alone, plain, until
@@ -29,7 +29,7 @@ def told(robot, seconds, topic):
 
 
 def test_the_parallel_axis_theorem():
-    two = loaded(2.0, (0.0, 0.0, 0.1), (0.02, 0.03, 0.04), [Load(1.0, (0.3, 0.0, 0.4))])
+    two = with_loads(2.0, (0.0, 0.0, 0.1), (0.02, 0.03, 0.04), [Load(1.0, (0.3, 0.0, 0.4))])
     assert two.mass == 3.0
     assert two.centre == pytest.approx((0.1, 0.0, 0.2))
     reduced = 2.0 * 1.0 / 3.0

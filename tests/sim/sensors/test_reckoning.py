@@ -8,7 +8,7 @@ import pytest
 
 from sim.core.noise import Noise
 from sim.physics.bodies import State
-from sim.sensors.reckoning import Reckoning, ReckoningParameters
+from sim.sensors.reckoning import DeadReckoning, ReckoningParameters
 
 OWN = ReckoningParameters(
     rate=20.0, scale_error=0.03, speed_error=0.02, wander=40.0, yaw_drift=0.0008, height_noise=0.01
@@ -19,7 +19,7 @@ OWN = ReckoningParameters(
 def test_its_error_is_as_large_as_it_says(speed: float) -> None:
     squares, said = [], 0.0
     for seed in range(40):
-        reckoning = Reckoning(OWN, (0.0, 0.0, 0.0), Noise(seed, "reckoning"))
+        reckoning = DeadReckoning(OWN, (0.0, 0.0, 0.0), Noise(seed, "reckoning"))
         for step in range(601):
             state = State(
                 (speed * step / 20, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), (speed, 0.0, 0.0), (0.0, 0.0, 0.0)

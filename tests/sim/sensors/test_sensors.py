@@ -10,7 +10,7 @@ import pytest
 from pymap3d import geodetic2enu
 
 from bridge.msgs.geometry_msgs import Twist
-from sim.core.noise import Noise, Wander
+from sim.core.noise import GaussMarkov, Noise
 from sim.sensors.laser import Laser
 from sim.vehicles.patrol import PARAMETERS
 from tests.sim.rooms import robot_in, room
@@ -185,7 +185,7 @@ def test_an_empty_battery_brings_the_robot_to_rest():
 
 
 def test_a_wandering_error_stays_within_reason_and_is_correlated():
-    wander = Wander(Noise(1, "test"), 2.0, 60.0, 0.2)
+    wander = GaussMarkov(Noise(1, "test"), 2.0, 60.0, 0.2)
     values = [wander.step() for _ in range(20000)]
     steps = [abs(b - a) for a, b in pairwise(values)]
     assert statistics.stdev(values) == pytest.approx(2.0, rel=0.4)
