@@ -8,7 +8,7 @@ import zlib
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Noise", "GaussMarkov"]
+__all__ = ["GaussMarkov", "Noise"]
 
 
 class Noise:

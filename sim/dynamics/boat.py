@@ -10,7 +10,7 @@ from sim.core.parameters import Limits, Part, Positive, Table
 from sim.core.shapes import Vec3
 from sim.dynamics.control import towards, within
 
-__all__ = ["BoatDrive", "BoatController", "Propeller", "Rudder"]
+__all__ = ["BoatController", "BoatDrive", "Propeller", "Rudder"]
 
 
 class Propeller(Table, frozen=True, kw_only=True):

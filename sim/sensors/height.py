@@ -13,7 +13,7 @@ from sim.core.shapes import rotate
 from sim.physics.backend_bullet import Bullet, State
 from sim.world.weather import Weather
 
-__all__ = ["HeightRanger", "HeightParameters"]
+__all__ = ["HeightParameters", "HeightRanger"]
 
 
 class HeightParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):

@@ -18,7 +18,7 @@ from sim.sensors.depth import DepthParameters
 from sim.sensors.reckoning import ReckoningParameters
 from sim.vehicles.parameters import Parameters, load
 
-__all__ = ["AquaParameters", "PARAMETERS"]
+__all__ = ["PARAMETERS", "AquaParameters"]
 
 
 class AquaParameters(Parameters, frozen=True, kw_only=True):

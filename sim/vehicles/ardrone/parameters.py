@@ -17,7 +17,7 @@ from sim.sensors.height import HeightParameters
 from sim.sensors.reckoning import ReckoningParameters
 from sim.vehicles.parameters import Parameters, load
 
-__all__ = ["ArdroneParameters", "PARAMETERS"]
+__all__ = ["PARAMETERS", "ArdroneParameters"]
 
 
 MAX_LOAD_FACTOR = 0.8

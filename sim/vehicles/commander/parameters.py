@@ -17,7 +17,7 @@ from sim.sensors.laser import LaserParameters
 from sim.sensors.odometry import OdometryParameters
 from sim.vehicles.parameters import Parameters, load
 
-__all__ = ["CommanderParameters", "PARAMETERS"]
+__all__ = ["PARAMETERS", "CommanderParameters"]
 
 
 class CommanderParameters(Parameters, frozen=True, kw_only=True):

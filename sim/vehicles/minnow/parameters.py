@@ -18,7 +18,7 @@ from sim.sensors.gps import GpsParameters
 from sim.sensors.reckoning import ReckoningParameters
 from sim.vehicles.parameters import Parameters, load
 
-__all__ = ["MinnowParameters", "PARAMETERS"]
+__all__ = ["PARAMETERS", "MinnowParameters"]
 
 
 class MinnowParameters(Parameters, frozen=True, kw_only=True):

@@ -3,4 +3,4 @@
 from sim.vehicles.patrol.parameters import PARAMETERS, PatrolParameters
 from sim.vehicles.patrol.vehicle import PATROL, Patrol
 
-__all__ = ["PATROL", "PARAMETERS", "Patrol", "PatrolParameters"]
+__all__ = ["PARAMETERS", "PATROL", "Patrol", "PatrolParameters"]

@@ -3,4 +3,4 @@
 from sim.vehicles.scout.parameters import PARAMETERS, ScoutParameters
 from sim.vehicles.scout.vehicle import SCOUT, Scout
 
-__all__ = ["SCOUT", "PARAMETERS", "Scout", "ScoutParameters"]
+__all__ = ["PARAMETERS", "SCOUT", "Scout", "ScoutParameters"]
