@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 from bridge.msgs.pilothouse_msgs import Check, Checklist
 from bridge.msgs.std_msgs import Time
-from robotside.autonomy.autonomy import LOW_BELOW, Autonomy
+from robotside.autonomy.autonomy import Autonomy
+from robotside.autonomy.battery_watch import LOW_CHARGE
 from robotside.autonomy.checklist import CheckInputs, checks
 from robotside.autonomy.sensor_health import SensorHealth
 from robotside.core.bus import Publish
@@ -50,7 +51,7 @@ class Readiness:
         found = checks(
             CheckInputs(
                 battery=autonomy.battery,
-                low_below=LOW_BELOW,
+                low_below=LOW_CHARGE,
                 silent=self.sensor_health.silent(now),
                 placed=where.pose is not None,
                 sure=where.sure,

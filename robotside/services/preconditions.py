@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Operator
-from robotside.autonomy.autonomy import LOW_BELOW
+from robotside.autonomy.battery_watch import LOW_CHARGE
 from robotside.control.command_gate import STOP_SENTENCE
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
@@ -68,6 +68,6 @@ class Permits:
         mind = self._station.autonomy
         if task.moves and mind.low and task.name not in TO_CHARGE:
             words = words_for(task.name)
-            said = f"The battery is at {mind.battery:.0%}; {words} needs at least {LOW_BELOW:.0%}."
+            said = f"The battery is at {mind.battery:.0%}; {words} needs at least {LOW_CHARGE:.0%}."
             code, charge = Code.BATTERY_TOO_LOW, mind.battery
-            raise Refusal(Notice(code, said, task=task.name, charge=charge, needed=LOW_BELOW))
+            raise Refusal(Notice(code, said, task=task.name, charge=charge, needed=LOW_CHARGE))

@@ -31,7 +31,7 @@ class RestDetector:
     @property
     def is_at_rest(self) -> bool:
         """The robot stands still, as measured lately."""
-        if not self._autonomy.measured(self._now(), since=self._port.changed_at) or self._port.is_news:
+        if not self._autonomy.is_measured(self._now(), since=self._port.changed_at) or self._port.is_news:
             return False
         factor = HYSTERESIS if self._was else 1.0
         where, (speed, turn) = self._autonomy.pose_estimator, self._speeds

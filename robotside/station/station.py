@@ -117,7 +117,7 @@ class Station:
         self._take_in(self.robot.read(now))
         self._port.update(now)
         self.autonomy.status_publisher.update()
-        self._guard.run(lambda: self.autonomy.check(now))
+        self._guard.run(lambda: self.autonomy.update(now))
         if not self._ending:
             self._guard.run(lambda: self.agenda.step(now))
         self.publish_control()
@@ -285,7 +285,7 @@ class Station:
                 continue
             self.bus.publish(topic, msg)
             self.readiness.sensor_health.on_message(topic, msg, self.now)
-            self._guard.run(partial(self.autonomy.take, topic, msg, self.now))
+            self._guard.run(partial(self.autonomy.on_message, topic, msg, self.now))
             if topic == "/odom":
                 self._guard.run(self.robot.again)
                 self._guard.run(self._limits.report_drift)

@@ -66,7 +66,7 @@ class Run:
 
     def tell(self, topic: str, msg: Msg) -> None:
         """As if the robot had measured it."""
-        self.station.autonomy.take(topic, msg, self.now)
+        self.station.autonomy.on_message(topic, msg, self.now)
 
     @property
     def task(self) -> TaskStatus:

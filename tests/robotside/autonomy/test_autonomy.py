@@ -89,7 +89,7 @@ def show_cone(scene: Scene) -> None:
     cone(draw, 320, 240 + focal * 0.36 / 3.0, 0.6 * focal / 3.0)
     for n in range(5):
         shot = CompressedImage(Header(Time.at(scene.now - 0.5 + 0.21 * n), "camera"), "jpeg", jpeg(image))
-        scene.station.autonomy.take("/camera/image/compressed", shot, scene.now)
+        scene.station.autonomy.on_message("/camera/image/compressed", shot, scene.now)
 
 
 def test_who_drives_by_hand_and_looks_at_the_camera_is_told_of_an_intruder(scene: Scene) -> None:
