@@ -86,11 +86,11 @@ class BridgeServer:
     ) -> None:
         """`now` is the operators' clock [s], the answer of `/rosapi/get_time`.
 
-        The robot `offers` those of its topics that `rosapi` tells of. `cameras` are the names that may be asked for; None
-        allows any; whoever has the door's pictures gives them to `publish_frame`.
-        `shrink` makes their pictures smaller for slow watchers; without it they only come less often.
-        `reduce` makes less of a message for subscribers who ask for fewer beams, smaller pictures or coarser maps; of
-        pictures and maps in a worker thread. `params` are there from the start, for `/rosapi/get_param`.
+        `offers` names those of the robot's topics that `rosapi` lists. `cameras` are the names that may be watched, None for
+        any; their frames come by `publish_frame`. `shrink` makes pictures smaller for slow watchers; without it they only
+        come less often. `reduce` makes less of a message for subscribers that ask for fewer beams, smaller pictures or
+        coarser maps; pictures and maps are reduced in a worker thread. `params` are the initial parameters of
+        `/rosapi/get_param`.
         """
         self.port = 0
         """Port that it listens on; 0 until started."""
