@@ -58,7 +58,7 @@ def test_control_is_handed_over_on_request_and_comes_back_the_same_way(
     ):
         glass.until(controls(glass, "other"), "the other one to drive")
         glass.app.session.take_control()
-        glass.until(lambda: glass.glass.labelled("Take it back"), "that we ask is shown")
+        glass.until(lambda: glass.glass.labelled("Withdraw"), "that we ask is shown")
         phone.ask("command", name="grant")
         glass.until(controls(glass, "mine"), "control")
         phone.until("control", "other")

@@ -52,7 +52,7 @@ class SpeedCap(NoticeCard):
         return (
             f"Slow link, {figure}"
             if self.rtt >= SLOW_RTT
-            else f"The robot itself measured {self.measured} a moment ago"
+            else f"The robot measured {self.measured} a moment ago"
         )
 
     why = AliasProperty(_why, bind=["rtt", "driver", "share"], cache=True)

@@ -135,7 +135,7 @@ class FieldView(RobotWidget, FloatLayout):
 
     def _notice(self) -> str:
         if self.message is None:
-            return "" if self.lines else "Nothing has come yet."
+            return "" if self.lines else "No message received yet."
         return "" if self.lines else "This message has no fields."
 
     notice = AliasProperty(_notice, bind=["message", "lines"], cache=True)

@@ -161,7 +161,7 @@ class KeyHelp(Control, BoxLayout):
         for column in columns:
             self.ids.columns.add_widget(column)
         if not self.groups:
-            self.ids.columns.add_widget(Text(text="No keys mean anything.", role="muted", font_size="15sp"))
+            self.ids.columns.add_widget(Text(text="No keys are assigned.", role="muted", font_size="15sp"))
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

@@ -134,7 +134,7 @@ class NoiseMeter(Drawing):
             return [need, f"Too loud: {over}" if over else "Too loud"], "warn"
         if self.clipped:
             return ["Overdriven: speak further away", "Overdriven"], "danger"
-        lead = "Hears a voice" if self.speaking else "Listens"
+        lead = "Voice detected" if self.speaking else "Listens"
         role = "ok" if self.speaking else "text"
         return ([f"{lead} · {over} over the noise", f"{lead} · {over}"] if over else [lead]), role
 

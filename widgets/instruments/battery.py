@@ -143,7 +143,7 @@ class _Charge(RobotWidget):
 
     def _sentence(self) -> str:
         if self.state in {"never", "stale"}:
-            return "not heard yet" if self.state == "never" else ""
+            return "no data yet" if self.state == "never" else ""
         return "charging" if self.charging else time_left_text(self.hours_left) or "battery"
 
     sentence = AliasProperty(_sentence, bind=["state", "charging", "hours_left"], cache=True)

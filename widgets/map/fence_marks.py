@@ -112,7 +112,7 @@ def legend(shapes: Shapes, fence: Fence, left: float, bottom: float, room: float
     """What the lines mean, side by side where `room` [px] is enough for that, else upwards from `bottom` [px]."""
     if fence.too_large:
         word = Word(
-            "Its fence is too large to draw.", left, bottom + dp(9), sp(13), theme.warn, anchor=(0, 0.5)
+            "The fence is too large to draw.", left, bottom + dp(9), sp(13), theme.warn, anchor=(0, 0.5)
         )
         ground(shapes, word, tint(theme.bg, 0.85))
         yield word

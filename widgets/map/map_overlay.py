@@ -225,7 +225,7 @@ class MapOverlay(MapViewport, Drawing):
             self._robot_shapes(shapes, (x, y, yaw), faded=self.state == "stale")
         else:
             x, y = self._free_middle()
-            word = Word("No position has come yet", x, y, sp(16), theme.text)
+            word = Word("No position received yet", x, y, sp(16), theme.text)
             ground(shapes, word, tint(theme.bg, 0.85))
             yield word
         if self.placed:

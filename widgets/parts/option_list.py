@@ -38,18 +38,18 @@ OPTIONS = {
     "follow_link": Option(
         "speed",
         "Speed follows the link",
-        "Slower from 200 ms round trip on, a crawl at 400 ms.",
-        "Full speed however slow the link is.",
+        "Slows down from 200 ms round trip, crawls at 400 ms.",
+        "Full speed on any link.",
     ),
     "lost_link_stops_task": Option(
         "link_off",
         "A lost link pauses the task",
-        "Its task is paused when the handheld that has control is lost.",
-        "Its task goes on when the handheld that has control is lost.",
+        "The task pauses when the handheld in control is lost.",
+        "The task continues when the handheld in control is lost.",
     ),
 }
 """Name of each setting at the robot to its words."""
-ASKED = "Asked the robot …"
+ASKED = "Sent to the robot …"
 
 Builder.load_string("""
 <OptionList>:

@@ -126,7 +126,7 @@ class IntruderBadge(Drawing):
         brief = [part for part in (away, ago.removesuffix(" ago").removesuffix(" old")) if part]
         whole = " · ".join(parts)
         if not parts:
-            return ("how far is not known", "not known")
+            return ("distance unknown", "not known")
         return tuple(text for text in (f"last: {whole}", whole, " · ".join(brief), away) if text)
 
     def draw(self) -> None:

@@ -95,7 +95,7 @@ class EventLog(RobotWidget, FloatLayout):
     """What is said above the newest of those; empty for nothing."""
 
     def _notice(self) -> str:
-        return "" if self.count else "Nothing has happened yet."
+        return "" if self.count else "No events yet."
 
     notice = AliasProperty(_notice, bind=["count"], cache=True)
 

@@ -198,7 +198,7 @@ def note(event: Event, *, asked: bool = False) -> str:
         then = event.acknowledged.seconds
         clock = f", {datetime.fromtimestamp(then, UTC).astimezone():%H:%M}" if then > 0 else ""
         return f"Seen by {event.acknowledged_by}{clock}"
-    return "Telling the robot \u2026" if asked else ""
+    return "Sending to the robot \u2026" if asked else ""
 
 
 @lru_cache(maxsize=2000)
@@ -278,7 +278,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     return {
         "event": make(icon="flag", role="plan", text="Waypoint 2 reached"),
         "event open": make(**grave, open=True, act=lambda: None),
-        "event asked": make(**grave, open=True, note="Telling the robot \u2026"),
+        "event asked": make(**grave, open=True, note="Sending to the robot \u2026"),
         "event seen": make(**grave, note="Seen by Anna, 14:05"),
         "event missed": make(**grave, open=True, missed=True, act=lambda: None),
     }

@@ -49,7 +49,7 @@ class HandoverCard(NoticeCard):
         self.keep, self.hand_over = self.add_below(
             ("Keep control", "lock", False), ("Hand over", "arrow_forward", True)
         )
-        (self.take_back,) = self.add_below(("Take it back", "close", False))
+        (self.take_back,) = self.add_below(("Withdraw", "close", False))
         self._rows = {"asked": self.keep.parent, "asking": self.take_back.parent}
         for button, name in ((self.keep, "object"), (self.hand_over, "grant"), (self.take_back, "take_back")):
             button.bind(on_release=lambda _, name=name: self.ask(name))
@@ -79,10 +79,10 @@ class HandoverCard(NoticeCard):
     def _write(self, *_: object) -> None:
         if self.part == "asking":
             self.headline = f"You asked {self.driver}{self.countdown}"
-            self.said = f"Control is yours then, unless {self.driver} keeps it."
+            self.said = f"You get control unless {self.driver} keeps it."
         else:
             self.headline = f"{self.asker} asks for control{self.countdown}"
-            self.said = "Without an answer it goes over."
+            self.said = "Without an answer, control is handed over."
         if self.sent:
             self.said = "Sent …"
         elif self.tiny and self.part == "asking":

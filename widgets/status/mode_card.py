@@ -81,13 +81,17 @@ class ModeCard(NoticeCard):
 
     def _sentence(self) -> str:
         if self.sent:
-            return f"{self.sent} is asked for …"
+            return f"Requesting {self.sent} …"
         if self.why_not:
             return self.why_not
         if self.mode == "AUTO":
             return f"MANUAL pauses: {self.task}." if self.task else "MANUAL pauses it."
         if self.ready:
-            return f"You drive. AUTO goes on with: {self.task}." if self.task else "You drive. AUTO goes on."
+            return (
+                f"You are driving. AUTO continues: {self.task}."
+                if self.task
+                else "You are driving. AUTO continues the task."
+            )
         return "You are driving. Start a task to switch to AUTO."
 
 

@@ -142,7 +142,7 @@ class QuestionCard(Outlined, Control, BoxLayout):
         """Take over what the robot asks or offers; a new question forgets what became of the last answer."""
         cut = msg.state == "INTERRUPTED"
         what = title(TaskOrder(task=msg.task, places=list(msg.places)))
-        question = f"Go on with it? {what}" if cut else msg.asks
+        question = f"Continue? {what}" if cut else msg.asks
         if question != self.question:
             self.why = ""
         self.cut, self.reason, self.question = cut, msg.reason if question else "", question

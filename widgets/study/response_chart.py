@@ -38,7 +38,7 @@ class ResponseChart(BarRows):
     """Command, icon and name of the method, median, lower and upper quartile [s], and how many; those of one command together."""
 
     def __init__(self, **kwargs: Any) -> None:
-        super().__init__(**{"title": "Response time", "nothing": "No response has been timed yet.", **kwargs})
+        super().__init__(**{"title": "Response time", "nothing": "No response times yet.", **kwargs})
         self.fbind("times", self.fit)
 
     def groups(self) -> list[Group]:

@@ -35,7 +35,7 @@ class ScoreHistory(Gauge):
     baseline = NumericProperty(math.nan)
     """To compare with; NaN for nothing."""
     baseline_words = StringProperty("")
-    nothing = StringProperty("Nothing has been filled in yet.")
+    nothing = StringProperty("No questionnaire completed yet.")
 
     def marks(self, shapes: Shapes) -> Iterator[Word]:
         """Title and newest score, lines of the scale, what it is compared with, a dot for each."""

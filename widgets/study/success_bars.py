@@ -29,7 +29,7 @@ class SuccessBars(BarRows):
     NaN for none."""
 
     def __init__(self, **kwargs: Any) -> None:
-        given = {"title": "Success", "nothing": "Nothing has been tried yet.", "compared": "in the paper"}
+        given = {"title": "Success", "nothing": "No trials yet.", "compared": "in the paper"}
         super().__init__(**{**given, **kwargs})
         self.fbind("rates", self.fit)
 

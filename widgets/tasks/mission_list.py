@@ -45,7 +45,7 @@ class MissionList(Listing):
     """Name of the one that the robot patrols; empty when that has none."""
     now = NumericProperty(math.nan)
     """The operators' clock [s]; NaN while it is not known."""
-    nothing = StringProperty("The robot keeps no missions under a name.")
+    nothing = StringProperty("The robot has no stored missions.")
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -67,7 +67,7 @@ class MissionList(Listing):
             icon="check_circle" if current else "route",
             role="ok" if current else "plan",
             title=mission.name,
-            detail=f"{'The mission now · ' if current else ''}{mission_words(mission)}",
+            detail=f"{'Current mission · ' if current else ''}{mission_words(mission)}",
             aside=when_words(stored, self.now) if stored > 0 else "",
             chosen=mission.name == self.chosen,
             whole=True,

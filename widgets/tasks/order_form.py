@@ -96,7 +96,7 @@ class OrderForm(OrderDraft, BoxLayout):
         self.list = PlaceList()
         """Where places are chosen; over the fields while `picking`."""
         self.dial = HeadingDial(pos_hint={"center_x": 0.5})
-        hints = {"message": "What to tell the person", "recipient_tag": "Tag of the addressee"}
+        hints = {"message": "Message for the person", "recipient_tag": "Tag of the recipient"}
         self._texts = {name: TextField(hint_text=hint, label=hint) for name, hint in hints.items()}
         super().__init__(**kwargs)
         for field in self._texts.values():

@@ -48,7 +48,7 @@ class OrderQueue(Control, BoxLayout):
     """The robot has not confirmed what is shown."""
     held = StringProperty("")
     """Why the next one does not start by itself, as the end of a sentence; empty when it does."""
-    nothing = StringProperty("Nothing waits. What you add starts when the task before it is done.")
+    nothing = StringProperty("No tasks are waiting. A new one starts after the one before.")
     """What to say while nothing waits."""
     gap = NumericProperty("6dp")
     """Between two rows [px]."""

@@ -48,8 +48,8 @@ Builder.load_string("""
                 spacing: dp(6)
             TextField:
                 id: note
-                hint_text: 'What to tell people who are led here'
-                label: 'What to tell people who are led here'
+                hint_text: 'Announcement for people led here'
+                label: 'Announcement for people led here'
                 on_text: root.type('note', self.text)
             BoxLayout:
                 size_hint_y: None
@@ -68,8 +68,8 @@ Builder.load_string("""
                     on_text: root.type('floor', self.text)
                 TextField:
                     id: tag
-                    hint_text: 'Tag of who belongs here'
-                    label: 'Tag of who belongs here'
+                    hint_text: 'Tag of the person here'
+                    label: 'Tag of the person here'
                     on_text: root.type('tag', self.text)
             Segmented:
                 id: way
@@ -116,9 +116,9 @@ class PlaceForm(Control, BoxLayout):
         if not name:
             return "Enter a name."
         if name.casefold() in {other.casefold() for other in self.taken}:
-            return f"There is a {name} already; two places never have the same name."
+            return f"There is a {name} already. Choose another name."
         if self.kind == "dock" and math.isnan(self.yaw):
-            return "A dock needs the direction to stand in."
+            return "Set the direction in which the robot docks."
         return ""
 
     lacking = AliasProperty(_lacking, bind=["name", "taken", "kind", "yaw"])

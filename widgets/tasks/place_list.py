@@ -101,7 +101,7 @@ class PlaceList(Control, BoxLayout):
     """What is looked for; empty shows all."""
     chosen: ListProperty[str] = ListProperty()
     """Names of the places that stand out."""
-    nothing = StringProperty("No place has a name yet: hold a finger on the map to make one.")
+    nothing = StringProperty("No places yet. Hold a finger on the map to add one.")
     """What to say while there are no places."""
 
     def __init__(self, **kwargs: Any) -> None:

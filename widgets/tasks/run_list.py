@@ -49,7 +49,7 @@ class RunList(Listing):
     """There may be older ones at the robot."""
     now = NumericProperty(math.nan)
     """The operators' clock [s]; NaN while it is not known."""
-    nothing = StringProperty("Nothing was done yet.")
+    nothing = StringProperty("No runs yet.")
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)

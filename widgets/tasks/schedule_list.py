@@ -34,7 +34,7 @@ class ScheduleList(Listing):
 
     tasks: ListProperty[ScheduledTask] = ListProperty()
     """Every `ScheduledTask`."""
-    nothing = StringProperty("Nothing starts by itself.")
+    nothing = StringProperty("No tasks are scheduled.")
     now = NumericProperty(math.nan)
     """The operators' clock [s]; NaN while it is not known."""
 

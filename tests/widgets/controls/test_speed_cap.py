@@ -34,7 +34,7 @@ def test_share_and_why_are_said(cap):
     cap.show(SLOW)
     assert (cap.open, cap.headline, cap.said) == (True, "40 % speed", "Slow link, 320 ms.")
     cap.rtt = 0.05  # the share rises slowly after the link has healed
-    assert cap.said == "The robot itself measured 341 ms a moment ago."
+    assert cap.said == "The robot measured 341 ms a moment ago."
     cap.driver = "Anna"
     assert cap.said == "Slow link of Anna."
 
@@ -74,9 +74,9 @@ def test_who_does_not_drive_cannot_switch_it(stage, cap):
 def test_a_link_that_is_fast_here_is_said_to_be_slow_as_the_robot_measures_it(cap):
     cap.show(ControlStatus(speed_cap=0.2))
     cap.rtt = 0.063
-    assert cap.said == "The robot itself measured 388 ms a moment ago."
+    assert cap.said == "The robot measured 388 ms a moment ago."
     cap.show(ControlStatus(speed_cap=0.15))
-    assert cap.said == "The robot itself measured 400 ms or more a moment ago."
+    assert cap.said == "The robot measured 400 ms or more a moment ago."
     cap.show(ControlStatus(follows_link=False))
     assert cap.said == "On a slow link as well."
 

@@ -42,7 +42,7 @@ def figures(view):
 
 
 def test_before_the_first_message_it_says_so_or_shows_dashes(stage, view):
-    assert (view.notice, shown(view)) == ("Nothing has come yet.", [])
+    assert (view.notice, shown(view)) == ("No message received yet.", [])
     view.type = type(battery())
     stage.frames(2)
     assert view.notice == ""

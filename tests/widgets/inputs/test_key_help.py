@@ -41,7 +41,7 @@ def test_with_nothing_to_tell_it_says_so(stage: Stage) -> None:
     help_ = shown(stage, 340)
     help_.groups = []
     (said,) = help_.ids.columns.children
-    assert said.text == "No keys mean anything."
+    assert said.text == "No keys are assigned."
 
 
 def test_a_long_group_goes_on_in_the_next_column_so_that_none_is_empty() -> None:

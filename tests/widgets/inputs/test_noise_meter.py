@@ -23,7 +23,7 @@ def shown(stage: Stage, width: float = 420, state: str = "live", **told: object)
     ("told", "words"),
     [
         ({}, "Listens · 28 dB over the noise"),
-        ({"speaking": True}, "Hears a voice · 28 dB over the noise"),
+        ({"speaking": True}, "Voice detected · 28 dB over the noise"),
         ({"clipped": True}, "Overdriven: speak further away"),
         ({"state": "alarm", "snr": 3.0}, "Too loud: 3 dB over the noise, 6 are needed"),
         ({"state": "disabled"}, "The microphone is closed"),

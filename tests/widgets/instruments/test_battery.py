@@ -32,7 +32,7 @@ def test_the_time_left_is_said_in_words(hours, text):
 
 def test_before_the_first_message_it_shows_a_dash():
     battery = Battery()
-    assert (battery.text, battery.role, battery.sentence) == ("—", "muted", "not heard yet")
+    assert (battery.text, battery.role, battery.sentence) == ("—", "muted", "no data yet")
 
 
 def test_it_reckons_the_time_left_from_charge_and_current():

@@ -370,11 +370,11 @@ def test_a_long_name_is_broken_between_its_parts_and_shown_whole():
 
 def test_a_filled_field_goes_on_saying_what_it_is_for(stage):
     field = stage.show(
-        TextField(hint_text="Tag of the addressee", label="Tag of the addressee"), size=(330, 54)
+        TextField(hint_text="Tag of the recipient", label="Tag of the recipient"), size=(330, 54)
     )
     assert field.drop == 0
     field.text = "04 A2"
-    field.label = "Tag of who belongs here and of nobody else"
+    field.label = "Tag of the person here and of nobody else"
     stage.frames(1)
     assert field.label_size == tuple(field.label_texture.size)
     label_low = field.top - 5 - field.label_size[1]

@@ -36,7 +36,7 @@ def test_a_finger_asks_and_the_switch_stays_until_the_robot_has_done_it(stage, o
     tap(stage, options, "follow_link")
     assert options.heard == [("follow_link", "off")]
     assert stands(options)["follow_link"]
-    assert options._rows["follow_link"][0].detail == "Asked the robot …"
+    assert options._rows["follow_link"][0].detail == "Sent to the robot …"
     tap(stage, options, "follow_link")
     assert len(options.heard) == 1
     options.show(ControlStatus(follows_link=False))

@@ -63,7 +63,7 @@ def test_it_does_not_say_none_beside_one_that_is_marked_in_the_picture(stage, ba
 def test_a_robot_that_does_not_know_where_it_is_tells_the_count_alone(stage, badge):
     badge.show(found((4.0, 0.0, 100.0)))
     stage.frames(2)
-    assert badge.texts[1:] == ["1 intruder", "how far is not known"]
+    assert badge.texts[1:] == ["1 intruder", "distance unknown"]
     assert badge.fresh
 
 

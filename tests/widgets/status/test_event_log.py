@@ -39,7 +39,7 @@ def times(log):
 
 
 def test_an_empty_log_says_so(log):
-    assert log.notice == "Nothing has happened yet."
+    assert log.notice == "No events yet."
     log.show(event(1))
     assert log.notice == ""
 
@@ -178,7 +178,7 @@ def test_the_time_of_day_is_said_where_it_is_known():
     seen = event(1, level="alarm", acknowledged_by="Anna", acknowledged=Time.at(1000.0))
     assert note(seen).startswith("Seen by Anna, ")
     assert not is_open(seen)
-    assert note(event(1), asked=True) == "Telling the robot …"
+    assert note(event(1), asked=True) == "Sending to the robot …"
 
 
 def test_one_tap_says_that_it_has_been_seen_to(stage, log):

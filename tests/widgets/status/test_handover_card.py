@@ -30,7 +30,7 @@ def test_the_driver_answers_with_a_large_button(stage, card, button, name):
     card.me, card.left = "b", 7.2
     card.show(ASKS)
     assert card.headline == "Anna asks for control · 8\u00a0s"
-    assert card.said == "Without an answer it goes over."
+    assert card.said == "Without an answer, control is handed over."
     button = getattr(card, button)
     tap(stage, button)
     assert card.asked == [name]
@@ -90,7 +90,7 @@ def test_the_driver_of_a_phone_is_told_too_that_silence_gives_control_away(stage
     card.show(ASKS)
     stage.frames(2)
     assert card.tiny
-    assert card.said == "Without an answer it goes over."
+    assert card.said == "Without an answer, control is handed over."
     card.me = "a"
     card.show(ASKS)
     assert card.said == "", "who asks has the countdown"

@@ -36,7 +36,7 @@ def test_the_other_mode_is_asked_for_once(stage, card, now, button, mode):
     for _ in range(2):
         tap(stage, getattr(card, button))
     assert card.asked == [mode]
-    assert card.said == f"{mode} is asked for …"
+    assert card.said == f"Requesting {mode} …"
     card.answer("refused")
     tap(stage, getattr(card, button))
     assert card.asked == [mode, mode]

@@ -62,7 +62,7 @@ def test_it_grows_with_what_it_shows():
 
 
 def test_nothing_timed_is_said():
-    assert "No response has been timed yet." in drawn(ResponseChart(size_hint=(None, None), width=600)).texts
+    assert "No response times yet." in drawn(ResponseChart(size_hint=(None, None), width=600)).texts
 
 
 def test_a_quick_answer_is_not_drawn_as_a_slow_one():

@@ -137,5 +137,5 @@ def test_of_many_scores_the_newest_are_shown_without_words_over_each_other():
 @pytest.mark.parametrize("baseline", [34.2, 68.0, math.nan])
 def test_without_scores_that_is_said_beside_what_they_would_be_compared_with(baseline):
     words = {one.text: one.y for one in drawn(scores=[], baseline=baseline).marks(Shapes())}
-    said, low, high = words["Nothing has been filled in yet."], words["0"], words["100"]
+    said, low, high = words["No questionnaire completed yet."], words["0"], words["100"]
     assert math.isnan(baseline) or abs(said - low - (high - low) * baseline / 100) > sp(14)

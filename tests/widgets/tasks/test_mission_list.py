@@ -38,8 +38,8 @@ def test_each_is_told_with_when_it_was_stored(missions):
 
 def test_the_one_that_the_robot_patrols_is_marked_by_words(missions):
     missions.current = "Night"
-    assert rows(missions)["Night"].detail.startswith("The mission now · ")
-    assert not rows(missions)["East wing"].detail.startswith("The mission now")
+    assert rows(missions)["Night"].detail.startswith("Current mission · ")
+    assert not rows(missions)["East wing"].detail.startswith("Current mission")
 
 
 def test_a_tap_says_which(stage, missions):
@@ -53,4 +53,4 @@ def test_a_tap_says_which(stage, missions):
 
 def test_none_are_said(stage):
     widget = stage.show(MissionList(), size=(388, 300))
-    assert widget.ids.column.children[0].text == "The robot keeps no missions under a name."
+    assert widget.ids.column.children[0].text == "The robot has no stored missions."

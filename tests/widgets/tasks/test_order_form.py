@@ -58,7 +58,7 @@ def test_each_task_is_asked_for_and_says_something(stage, form, task):
     assert form.order.task == task
     assert form.sentence.endswith(".")
     shown = {
-        "message": any(field.hint_text == "What to tell the person" for field in of(form, TextField)),
+        "message": any(field.hint_text == "Message for the person" for field in of(form, TextField)),
         "heading": bool(of(form, HeadingDial)),
     }
     for field, there in shown.items():

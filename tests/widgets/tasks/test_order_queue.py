@@ -66,7 +66,7 @@ def test_nothing_waiting_is_said(stage, queue):
     queue.show(TaskQueue())
     stage.frames(3)
     assert rows(queue) == []
-    assert any(getattr(part, "text", "").startswith("Nothing waits.") for part in queue.walk())
+    assert any(getattr(part, "text", "").startswith("No tasks are waiting.") for part in queue.walk())
 
 
 def test_what_the_robot_has_not_confirmed_is_faded(queue):

@@ -60,7 +60,7 @@ def test_what_is_lacking_is_said(form, name, sentence):
 
 def test_a_dock_needs_a_direction_which_begins_with_the_robots(stage, form):
     tap(stage, form, TaskTile, "Dock")
-    assert form.lacking == "A dock needs the direction to stand in."
+    assert form.lacking == "Set the direction in which the robot docks."
     pose = PoseWithCovariance(pose=Pose(orientation=Quaternion.from_yaw(math.pi / 2)))
     form.show(PoseWithCovarianceStamped(pose=pose))
     tap(stage, form, Segment, "Faces one way")

@@ -53,7 +53,7 @@ def test_the_switch_switches_and_the_row_opens(stage, schedule):
 def test_nothing_is_said(schedule):
     schedule.show(Schedule())
     assert any(
-        getattr(part, "text", "") == "Nothing starts by itself." for part in schedule.walk(restrict=True)
+        getattr(part, "text", "") == "No tasks are scheduled." for part in schedule.walk(restrict=True)
     )
 
 

@@ -48,7 +48,7 @@ def draw(
     ground(shapes, box, theme.bg, theme.line)
     places = [place for place in (actual, wanted, followed) if place]
     if not places:
-        yield Word("where is the robot?", left + width / 2, low + height / 2, sp(11), theme.muted)
+        yield Word("robot position unknown", left + width / 2, low + height / 2, sp(11), theme.muted)
         return
     inner = left + dp(20), low + dp(20), width - dp(40), height - dp(40)
     view = View.fitting(np.array([place[:2] for place in places]), box=inner, most=dp(70))

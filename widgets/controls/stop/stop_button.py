@@ -41,7 +41,7 @@ PHASES = {
     "ready": ("STOP", "", "pan_tool_fill"),
     "sent": ("STOP", "sent, not confirmed", "pan_tool_fill"),
     "stopped": ("STOPPED", "hold to release", "lock"),
-    "moves": ("STOP", "pressed, and it still moves", "warning"),
+    "moves": ("STOP", "pressed, still moving", "warning"),
     "no_answer": ("STOP", "no answer, sending again", "signal_disconnected"),
     "lost": ("STOP", "no link, was STOPPED", "signal_disconnected"),
 }

@@ -257,7 +257,7 @@ class StopList(Control, BoxLayout):
         held = sum(robot.foreign for robot in robots)
         open_ones = sum(robot.phase not in ("stopped", "released") for robot in robots)
         self.footnote = _footnote(open_ones, held, untried, since) or HINT
-        self.offer = "Hold to send no longer" if open_ones or held else ""
+        self.offer = "Hold to stop sending" if open_ones or held else ""
 
     def _measure(self, *_: object) -> None:
         ids, card = self.ids, self.ids.card
@@ -281,19 +281,19 @@ class StopList(Control, BoxLayout):
         return bool(super().on_touch_down(touch) or self.collide_point(*touch.pos))
 
 
-HINT = "Release each one separately: connect to it, take control, and hold STOP."
+HINT = "To release one: connect to it, take control, hold STOP."
 
 
 def _footnote(open_ones: int, held: int, untried: int, since: int) -> str:
     parts = []
     if since:
-        parts.append(f"{since} more came since: press STOP ALL again.")
+        parts.append(f"{since} more found since: press STOP ALL again.")
     if untried:
-        parts.append(f"{untried} more {'was' if untried == 1 else 'were'} too many to be tried.")
+        parts.append(f"{untried} more not tried: too many at once.")
     if open_ones:
-        parts.append("STOP goes on being sent until each one rests.")
+        parts.append("STOP is sent until every robot rests.")
     if held:
-        parts.append("A robot without a STOP of its own stays held only while zero speed is sent.")
+        parts.append("A robot without its own STOP rests only while zero speed is sent.")
     return " ".join(parts)
 
 

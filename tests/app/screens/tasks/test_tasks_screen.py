@@ -187,7 +187,7 @@ def test_a_task_that_was_cut_short_is_offered(
     question = glass.app.shell.question
     robot.publish("/task/status", TaskStatus(task="deliver", state="INTERRUPTED", places=["Lab", "Office 9"]))
     glass.until(lambda: question.parent is not None, "not offered")
-    assert question.question == "Go on with it? Deliver: Lab → Office 9"
+    assert question.question == "Continue? Deliver: Lab → Office 9"
     glass.stage.run_for(0.7)
     glass.tap(question.ids[button])
     assert robot.until(lambda: service in robot.services())
@@ -371,7 +371,7 @@ def test_two_places_never_have_the_same_name(glass: Glass, tasks: Any) -> None:
     tasks.edit_place(Place(x=1.0, y=1.0))
     tasks.form.set(name="LAB")
     glass.stage.run_for(0.2)
-    assert tasks.place_pane.sentence == "There is a LAB already; two places never have the same name."
+    assert tasks.place_pane.sentence == "There is a LAB already. Choose another name."
     assert tasks.ids["keep"].disabled
 
 

@@ -47,8 +47,8 @@ def test_rows_leave_with_their_robots(stage, result):
     [
         (SOME[:1], ""),
         (SOME[4:5], ""),
-        (SOME[3:4], "Hold to send no longer"),
-        (SOME[5:], "Hold to send no longer"),
+        (SOME[3:4], "Hold to stop sending"),
+        (SOME[5:], "Hold to stop sending"),
     ],
     ids=["stopped", "released", "no answer", "held by zero speed"],
 )
@@ -60,15 +60,15 @@ def test_what_can_be_let_go_is_what_is_still_sent(result, robots, offer):
 def test_it_says_what_goes_on_and_who_was_too_many(result):
     result.update([SOME[3], SOME[5]], 1, 4, untried=2, since=1)
     assert result.footnote == (
-        "1 more came since: press STOP ALL again."
-        " 2 more were too many to be tried. STOP goes on being sent until each one rests."
-        " A robot without a STOP of its own stays held only while zero speed is sent."
+        "1 more found since: press STOP ALL again."
+        " 2 more not tried: too many at once. STOP is sent until every robot rests."
+        " A robot without its own STOP rests only while zero speed is sent."
     )
 
 
 def test_when_nothing_is_sent_any_more_it_says_how_to_release(result):
     result.update(SOME[:1], 1, 1)
-    assert result.footnote == "Release each one separately: connect to it, take control, and hold STOP."
+    assert result.footnote == "To release one: connect to it, take control, hold STOP."
 
 
 def test_letting_go_takes_a_hold_of_a_second(stage, result):

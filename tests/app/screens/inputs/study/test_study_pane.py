@@ -132,8 +132,8 @@ def test_until_it_is_read_nothing_is_said_to_be_missing(bench):
     assert [chart.nothing for chart in charts] == ["Reading …", "Reading …"]
     bench.settle()
     assert [chart.nothing for chart in charts] == [
-        "Nothing has been tried yet.",
-        "No response has been timed yet.",
+        "No trials yet.",
+        "No response times yet.",
     ]
 
 
