@@ -2,12 +2,38 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Protocol
 
 __all__ = ["tell"]
 
 
-def tell(app: Any, sentence: str, level: str = "warn", about: str = "") -> None:
+class Frame(Protocol):
+    """The frame round the robot's screens, as far as notifications need it."""
+
+    def say(self, text: str, level: str = ..., about: str = ...) -> None:
+        """Show one sentence over the screen, in place of the last one `about` the same."""
+
+
+class Page(Protocol):
+    """The connect page, as far as notifications need it."""
+
+    def say(self, text: str, level: str = ...) -> None:
+        """Show one sentence above the cards."""
+
+
+class Host(Protocol):
+    """The app, as far as notifications need it."""
+
+    @property
+    def connect(self) -> Page:
+        """The connect page."""
+
+    @property
+    def shell(self) -> Frame | None:
+        """The frame round the robot's screens; None where there is no robot."""
+
+
+def tell(app: Host, sentence: str, level: str = "warn", about: str = "") -> None:
     """Show it; with a robot in place of what was said `about` the same before."""
     if app.shell is not None:
         app.shell.say(sentence, level, about=about)

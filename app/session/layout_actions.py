@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import Protocol
 
+from app.session.recordings import Records
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import LightState, TaskOrder, TaskStatus
 from widgets.controls.action_column import Action
@@ -49,11 +50,47 @@ class Line(Protocol):
         """Its icon; empty for the usual one."""
 
 
+class Confirmation(Protocol):
+    """A card that asks before something is done."""
+
+    def ask(self) -> object:
+        """Put it on the glass."""
+
+
+class Frame(Protocol):
+    """The frame round the robot's screens, as far as actions need it."""
+
+    @property
+    def reset(self) -> Confirmation:
+        """The card that confirms a reset."""
+
+
+class Recording(Protocol):
+    """The visit to the robot, as far as actions need it."""
+
+    def toggle_recording(self) -> None:
+        """Start recording, or finish the one that runs."""
+
+
+class Host(Protocol):
+    """The app, as far as actions need it."""
+
+    records: Records
+
+    @property
+    def visit(self) -> Recording:
+        """The visit to the robot."""
+
+    @property
+    def shell(self) -> Frame | None:
+        """The frame round the robot's screens; None before it is made."""
+
+
 class Actions:
     """The actions of one layout on one robot. Everything here happens in the UI thread."""
 
-    def __init__(self, lines: Iterable[Line], session: Session, app: Any) -> None:
-        """`app` is asked for its `records`, `toggle_recording` and, to confirm a reset, its `shell`."""
+    def __init__(self, lines: Iterable[Line], session: Session, app: Host) -> None:
+        """`lines` are the actions that the layout names."""
         self._session, self._app = session, app
         self._words = {
             line.what: (line.text or ACTIONS[line.what][0], line.icon or ACTIONS[line.what][1])
@@ -200,7 +237,9 @@ class Actions:
         return Action("reset", text, icon, session.may_ask) if session.robot.offers("/robot/reset") else None
 
     def _ask_to_reset(self) -> None:
-        self._app.shell.reset.ask()
+        shell = self._app.shell
+        if shell is not None:
+            shell.reset.ask()
 
     # what is kept
 

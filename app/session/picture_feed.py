@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Protocol
 
 from app.link.camera_decoder import Picture
 from app.session.session import Session
@@ -13,6 +13,43 @@ __all__ = ["Pictures"]
 
 PICTURE_LIVES = 1.0
 """A camera that shows nothing new for longer is stale [s]."""
+
+
+class ShownPicture(Protocol):
+    """The widget that shows a camera, as far as its age is concerned."""
+
+    @property
+    def age(self) -> float:
+        """Age of the picture [s]."""
+
+    @age.setter
+    def age(self, value: float) -> None: ...
+
+    @property
+    def state(self) -> str:
+        """`never`, `live` or `stale`."""
+
+    @state.setter
+    def state(self, value: str) -> None: ...
+
+
+class PictureScreen(Protocol):
+    """A screen, as far as pictures need it."""
+
+    @property
+    def picture(self) -> ShownPicture | None:
+        """The widget that shows the camera; None where there is none."""
+
+    def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
+        """A camera frame came; `rate` [Hz] and `latency` [s] are NaN while they are not known."""
+
+
+class PictureFrame(Protocol):
+    """The frame round the robot's screens, as far as pictures need it."""
+
+    @property
+    def shown(self) -> PictureScreen | None:
+        """The screen on the glass; None before there is one."""
 
 
 class Pictures:
@@ -26,19 +63,23 @@ class Pictures:
         self._newest = math.nan
         self._watched: str | None = None
 
-    def show(self, picture: Picture, received: float, shell: Any, session: Session | None) -> None:
+    def show(
+        self, picture: Picture, received: float, shell: PictureFrame | None, session: Session | None
+    ) -> None:
         """Put a decoded picture on the screen that is on the glass; without a `shell` there is none."""
         self._newest = received
-        if shell is None or not shell.screen:
+        screen = shell.shown if shell is not None else None
+        if screen is None:
             return
         self._recent = [at for at in self._recent if received - at < 1.0] + [received]
         rate = float(len(self._recent)) if len(self._recent) > 1 else math.nan
         latency = session.link.robot_time() - picture.stamp if session and picture.stamp else math.nan
-        shell.screens[shell.screen].show_picture(picture, rate, latency if latency > 0 else math.nan)
+        screen.show_picture(picture, rate, latency if latency > 0 else math.nan)
 
-    def judge(self, shell: Any) -> None:
+    def judge(self, shell: PictureFrame) -> None:
         """A picture is believed for a second; after that it says how old it is."""
-        video = shell.screens[shell.screen].video
+        screen = shell.shown
+        video = screen.picture if screen is not None else None
         if video is None:
             return
         age = self._now() - self._newest

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Protocol
 
 from kivy.lang import Builder
 from kivy.metrics import Metrics
@@ -270,10 +270,28 @@ class RobotCard(Card):
         """The saved address is to be forgotten."""
 
 
+class RobotList(Protocol):
+    """The list of robots, as far as its cards need it."""
+
+    def forget(self, url: str) -> None:
+        """Take a saved address off the list."""
+
+
+class Host(Protocol):
+    """The app, as far as the cards need it; the bar's buttons are bound in kv."""
+
+    @property
+    def robot_list(self) -> RobotList:
+        """Every robot that can be connected to."""
+
+    def open(self, url: str, *, watch: bool = False) -> None:
+        """Connect to a robot; with `watch` without asking for control."""
+
+
 class ConnectScreen(FloatLayout):
     """All robots that can be connected to."""
 
-    app = ObjectProperty()
+    app: ObjectProperty[Host] = ObjectProperty()
     nearby = StringProperty("Looking for robots")
     nearby_short = StringProperty("searching")
     card_width = NumericProperty("300dp")

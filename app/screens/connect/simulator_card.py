@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, Protocol
 
+from app.core.settings_store import Settings
 from app.discovery import simulator_process as simulator
 from app.discovery.simulator_options import Choice, Offered
+from app.link.feeds import Mailbox
+from app.screens.connect.connect import ConnectScreen
 from app.screens.connect.simulator_choice import SimulatorChoice
+from app.session.session import Session
 
 __all__ = ["CHANNEL", "Simulating"]
 
@@ -20,12 +24,28 @@ IDLE, STARTING, RUNNING = (
 )
 
 
+class Host(Protocol):
+    """The app, as far as its simulator needs it."""
+
+    settings: Settings
+    connect: ConnectScreen
+    mailbox: Mailbox
+    root: Any
+
+    @property
+    def session(self) -> Session | None:
+        """The session with the robot; None while none is wanted."""
+
+    def open(self, url: str) -> None:
+        """Connect to a robot."""
+
+
 class Simulating:
     """Starts the simulator and ends it with the app. `app` has what it needs: mailbox, settings, the connect screen."""
 
     def __init__(
         self,
-        app: Any,
+        app: Host,
         command: Sequence[str] | None,
         say: Callable[[str, str], None],
         now: Callable[[], float],

@@ -61,7 +61,7 @@ class DiveScreen(Driving):
         if what == ARM:
             self._arm_open = not self._arm_open
             self.hands.arm.rest()
-            self.app.shell.settle()
+            self.settle()
         else:
             self.does.act(what)
 
@@ -148,7 +148,7 @@ class DiveScreen(Driving):
             said = "open" if self._arm_open else ""
             actions.append(Offered(ARM, "Arm", "precision_manufacturing", said=said))
         elif self._arm_open:
-            self.app.shell.settle()
+            self.settle()
         if actions != self.column.actions:
             self.column.actions = actions
         switches = self.app.methods.get("switches")

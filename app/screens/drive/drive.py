@@ -208,7 +208,7 @@ class DriveScreen(Driving):
     def meet(self) -> None:
         """The robot said what it is, or what it offers: it may carry an arm."""
         if self.hands.take_up():
-            self.app.shell.settle()
+            self.settle()
 
     def tick(self) -> None:
         """Bring up to date what time changes."""

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from app.screens.shell.control_cards import ABOUT as AUTHORITY
+from app.screens.shell.screen_host import ScreenHost
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import FlightState
 
@@ -51,7 +52,7 @@ def why_not(session: Session) -> str:
 class InVain:
     """Tells of one push once, and offers what helps."""
 
-    def __init__(self, session: Session, app: Any) -> None:
+    def __init__(self, session: Session, app: ScreenHost) -> None:
         """`app` has the shell that says it."""
         self._session, self._app = session, app
         self._said = ""
@@ -80,7 +81,7 @@ class InVain:
         if self._said and (drives or (now and now != self._said)):
             for toast in self._toasts():
                 if toast.text == self._said:
-                    self._app.shell.notices.remove_widget(toast)
+                    toast.parent.remove_widget(toast)
             self._said = ""
 
     def _toasts(self) -> list[Any]:

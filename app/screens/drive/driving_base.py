@@ -8,7 +8,6 @@ from typing import Any
 from kivy.metrics import dp
 from kivy.properties import ObjectProperty
 from kivy.uix.boxlayout import BoxLayout
-from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.widget import Widget
 
 from app.layout.layout import Action, Layout
@@ -20,7 +19,9 @@ from app.screens.drive.drive_blocked import InVain
 from app.screens.drive.drive_controls import DriveControls
 from app.screens.drive.instruments import Instruments
 from app.screens.drive.small_sensors import Senses
+from app.screens.parts.robot_screen import RobotScreen
 from app.screens.shell.check_card import CheckCard
+from app.screens.shell.screen_host import ScreenHost
 from app.session.dashboard import Dashboard
 from app.session.layout_actions import Actions
 from app.session.session import Session
@@ -34,13 +35,13 @@ CHIP = 96, 24
 """Least room for how late the picture is, at its upper edge, and its height [dp]."""
 
 
-class Driving(FloatLayout):
+class Driving(RobotScreen):
     """A screen of its kind says how the picture is framed (`corner`), what lies where (`fill`, `arrange`) and what must be
     away under what is said (`uncover`); the shell calls the rest."""
 
     corner = 0
     """Rounding of the picture [dp]."""
-    app = ObjectProperty()
+    app: ObjectProperty[ScreenHost] = ObjectProperty()
     session: ObjectProperty[Session] = ObjectProperty()
 
     def __init__(self, layout: Layout, **kwargs: Any) -> None:
@@ -95,6 +96,12 @@ class Driving(FloatLayout):
     def meet(self) -> None:
         """The robot said what it is, or what it offers."""
 
+    def settle(self) -> None:
+        """Have the frame put everything into its place anew: other controls are on the glass."""
+        shell = self.app.shell
+        if shell is not None:
+            shell.settle()
+
     # what the inputs look at
 
     @property
@@ -113,6 +120,11 @@ class Driving(FloatLayout):
         return self.hands.grips
 
     # what the shell calls
+
+    @property
+    def picture(self) -> Video:
+        """The camera's picture."""
+        return self.video
 
     def clear(self, cover: Rect | None) -> None:
         """Take away what would be seen only in part behind what is said over the screen."""

@@ -7,17 +7,16 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import ObjectProperty, StringProperty
-from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.widget import Widget
 
 from app.layout import arrange
 from app.layout.arrange import Body, Rect
-from app.link.camera_decoder import Picture
 from app.link.feeds import Post
 from app.screens.inputs.method_row import MethodRow
 from app.screens.inputs.pane_table import panes
 from app.screens.parts.pane_head import PaneHead
 from app.screens.parts.placing import Area, put  # noqa: F401 - a rule names the area
+from app.screens.parts.robot_screen import RobotScreen
 from widgets.parts.kit import Column, Remark, Roll
 
 __all__ = ["InputsScreen"]
@@ -52,14 +51,12 @@ class FaultPane(Column):
         """Nothing changes."""
 
 
-class InputsScreen(FloatLayout):
+class InputsScreen(RobotScreen):
     """The same with a robot, in its frame, and without one, on a page of its own."""
 
     app = ObjectProperty()
     chosen = StringProperty("")
     """Name of the pane that is open, as in `PANES`; empty on a phone for the list."""
-    video = None
-    """There is none here."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -141,9 +138,6 @@ class InputsScreen(FloatLayout):
             row.chosen = name == self._shown()
         if self._entered is not None:
             self._entered.tick()
-
-    def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
-        """A camera frame came; there is no picture here."""
 
     def back(self) -> bool:
         """Back within the screen; False when it is at its list."""

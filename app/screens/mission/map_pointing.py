@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any
+from typing import Any, Protocol
 
 import msgspec
 from kivy.metrics import dp
 
 from app.screens.mission.selection_bar import SelectionBar
+from app.screens.shell.screen_host import ScreenHost
 from app.session.mission_editor import Draft
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Place, PlaceArray
@@ -34,10 +35,34 @@ HINTS = {
 }
 
 
+class EditedMap(Protocol):
+    """The mission screen, as far as fingers on its map need it."""
+
+    ids: Any
+
+    @property
+    def app(self) -> ScreenHost:
+        """The app behind the screen."""
+
+    @property
+    def map(self) -> MapOverlay:
+        """The map on the glass."""
+
+    @property
+    def mode(self) -> str:
+        """What a finger on the map does: one of `MODES`."""
+
+    @mode.setter
+    def mode(self, value: str) -> None: ...
+
+    def show_selection(self, shown: bool) -> None:
+        """Have the bar that says what is selected on the glass, or away."""
+
+
 class Pointing:
     """The fingers on the map of one mission screen, and the bar that says what they hold."""
 
-    def __init__(self, screen: Any, session: Session) -> None:
+    def __init__(self, screen: EditedMap, session: Session) -> None:
         """`screen` is the MissionScreen: its map, its mode, the app behind it."""
         self._screen, self._session = screen, session
         self.bar = SelectionBar()
@@ -219,5 +244,7 @@ class Pointing:
         placed = self._screen.map.placed
         if len(placed) == 3 and all(map(math.isfinite, placed)):
             self._session.place_robot(*placed)
-            self._screen.app.shell.say("Told the robot where it is.", "info")
+            shell = self._screen.app.shell
+            if shell is not None:
+                shell.say("Told the robot where it is.", "info")
             self._screen.mode = "view"

@@ -7,7 +7,6 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import ListProperty, NumericProperty, ObjectProperty, StringProperty
-from kivy.uix.floatlayout import FloatLayout
 
 from app.layout import arrange
 from app.layout.arrange import Rect
@@ -22,7 +21,9 @@ from app.screens.mission.mission_maps import Maps
 from app.screens.mission.mission_on_map import MissionOnMap
 from app.screens.mission.mission_panel import MissionPanel
 from app.screens.parts.placing import put
+from app.screens.parts.robot_screen import RobotScreen
 from app.screens.shell.check_card import CheckCard
+from app.screens.shell.screen_host import ScreenHost
 from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Place, RobotInfo
@@ -66,10 +67,10 @@ Builder.load_string("""
 """)
 
 
-class MissionScreen(FloatLayout):
+class MissionScreen(RobotScreen):
     """Supervise one robot on its map."""
 
-    app = ObjectProperty()
+    app: ObjectProperty[ScreenHost] = ObjectProperty()
     session: ObjectProperty[Session] = ObjectProperty()
     modes = ListProperty(MODES)
     mode = StringProperty("view")
@@ -213,6 +214,11 @@ class MissionScreen(FloatLayout):
     def show_selection(self, shown: bool) -> None:
         """Have the bar that says what is selected on the glass, or away; the map that is edited is not covered by more."""
         self._corner.show(selection=shown, checks=self.mode == "view")
+
+    @property
+    def picture(self) -> Video:
+        """The camera's picture."""
+        return self.video
 
     def clear(self, cover: Rect | None) -> None:
         """Take away what would be seen only in part behind what is said over the map."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Protocol
 
 from kivy.lang import Builder
 
@@ -10,7 +10,9 @@ import widgets.inputs.key_help  # noqa: F401 - its rule draws what is used here
 from app.inputs.binding_actions import MEANINGS, meaning_words
 from app.inputs.bindings import Bindings
 from app.inputs.gamepad.pad_map import AXES, WAYS, Profile, button_words
+from app.inputs.inputs import Inputs
 from app.inputs.keys.key_table import ARROWS, DRIVING, KeyTable, key_words
+from app.inputs.methods import Methods
 from app.inputs.switch_access.scan.settings import Options
 from app.screens.parts.dialogs import Question
 
@@ -58,7 +60,15 @@ class HelpCard(Question):
         self.ids.help.groups = groups
 
 
-def toggle_help(app: Any) -> None:
+class Host(Protocol):
+    """The app, as far as the help needs it."""
+
+    inputs: Inputs
+    methods: Methods
+    root: Any
+
+
+def toggle_help(app: Host) -> None:
     """Open it over the app's screen, or close it where it is open."""
     shown = [child for child in app.root.children if isinstance(child, HelpCard)]
     if shown:

@@ -13,6 +13,7 @@ from kivy.uix.widget import Widget
 
 from app.layout.arrange import Rect
 from app.screens.parts.placing import AWAY
+from app.screens.parts.robot_screen import RobotScreen
 from widgets.parts.kit import ActionToast, Banner, Toast
 
 __all__ = ["BRIEF", "LONG", "Notices"]
@@ -41,14 +42,14 @@ class Notices(BoxLayout):
         """Where it would stand if nothing else were there; without height while nothing is said [px]."""
         self.above: Rect | None = None
         """What it keeps above of, where it can [px]."""
-        self._cover: tuple[Any, Rect | None] = (None, None)
+        self._cover: tuple[RobotScreen | None, Rect | None] = (None, None)
 
     def add_widget(self, widget: Widget, *args: Any, **kwargs: Any) -> None:
         """Add it off the glass: it comes with the next layout, and until then nobody sees it as wide as it happened to be, or touches it."""
         widget.pos, widget.width = (AWAY, 0), self.width
         super().add_widget(widget, *args, **kwargs)
 
-    def place(self, screen: Any) -> None:
+    def place(self, screen: RobotScreen) -> None:
         """Stand in the room that `screen` leaves, and let it clear away what would be seen only in part."""
         room = screen.notice
         self.width = min(WIDEST * Metrics.density, room.width)
@@ -61,13 +62,14 @@ class Notices(BoxLayout):
         self.pos = (x, low)
         said = Rect(self.x, low, self.width, self.height) if self.children else None
         # what only stands over pictures takes nothing away from lists that can be read beside it
-        cover = _round(said, self.above) if screen.video is not None else said
+        cover = _round(said, self.above) if screen.picture is not None else said
         if (screen, cover) != self._cover:
             self._cover = screen, cover
             screen.clear(cover)
-        if screen.video is not None:
-            seen = Rect(*screen.video.pos, *screen.video.size)
-            screen.video.below = low if cover is not None and seen.overlaps(cover) else math.inf
+        picture = screen.picture
+        if picture is not None:
+            seen = Rect(*picture.pos, *picture.size)
+            picture.below = low if cover is not None and seen.overlaps(cover) else math.inf
 
     def say(self, text: str, level: str, about: str, stay: float) -> None:
         """One sentence for `stay` [s], in the place of the last one; `about` is what it tells of."""

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Protocol
 
 from kivy.lang import Builder
 from kivy.metrics import Metrics
 from kivy.properties import AliasProperty, BooleanProperty, ObjectProperty, OptionProperty, StringProperty
 from kivy.uix.floatlayout import FloatLayout
 
+from app.inputs.methods import Methods
+from app.intents.intents import Intents
 from app.layout import arrange
 from app.link.channels import EVENT, LINK, OFFER, OUTCOME
 from app.link.feeds import Post
 from app.screens.parts.placing import put
+from app.screens.parts.robot_screen import RobotScreen
+from app.screens.parts.themes import Themes
 from app.screens.shell import status_text as standing
 from app.screens.shell.announcements import Announcements
 from app.screens.shell.control_cards import ControlCards
@@ -48,10 +52,38 @@ Builder.load_string("""
 """)
 
 
+class Recording(Protocol):
+    """The visit to the robot, as far as the frame needs it."""
+
+    def toggle_recording(self) -> None:
+        """Start recording, or finish the one that runs."""
+
+
+class ShellHost(Protocol):
+    """The app, as far as the frame of a robot's screens needs it."""
+
+    intents: Intents
+    methods: Methods
+    themes: Themes
+
+    @property
+    def visit(self) -> Recording:
+        """The visit to the robot."""
+
+    def leave(self) -> None:
+        """Back to the connect screen."""
+
+    def show(self, screen: str) -> None:
+        """Put the screen of that name on the glass."""
+
+    def show_inputs(self) -> None:
+        """Put the inputs on the glass."""
+
+
 class Shell(FloatLayout):
     """Everything on the glass while a robot is connected."""
 
-    app = ObjectProperty()
+    app: ObjectProperty[ShellHost] = ObjectProperty()
     session: ObjectProperty[Session] = ObjectProperty()
     form = OptionProperty("wide", options=["wide", "short", "tall"])
     """Shape of the window, as in `app.layout.arrange.form`."""
@@ -61,7 +93,7 @@ class Shell(FloatLayout):
     shares_stop = BooleanProperty(False)
     """STOP ALL is in STOP's corner as well."""
 
-    def __init__(self, screens: dict[str, Any], **kwargs: Any) -> None:
+    def __init__(self, screens: dict[str, RobotScreen], **kwargs: Any) -> None:
         """`screens` are the screens by name, each with `arrange`, `enter`, `leave`, `tick` and `rest`."""
         super().__init__(**kwargs)
         self.screens = screens
@@ -155,7 +187,7 @@ class Shell(FloatLayout):
         screen.enter()
         self._show_rail()
 
-    def replace(self, name: str, screen: Any) -> None:
+    def replace(self, name: str, screen: RobotScreen) -> None:
         """Take another screen in the place of the one of that name; where that is on the glass its controls rest first."""
         old, self.screens[name] = self.screens[name], screen
         old.rest()
@@ -196,7 +228,9 @@ class Shell(FloatLayout):
             room = places["body"]
             put(screen, room)
             body = arrange.Body(room.x, room.y, room.width, room.height, self.shares_stop)
-            self.stop_place = screen.arrange(body, self.form, dp)
+            stop = screen.arrange(body, self.form, dp)
+            alone = arrange.StopPlace(stop.x, stop.y, stop.width, stop.height)
+            self.stop_place = stop if isinstance(stop, arrange.StopPlace) else alone
             put(self.stop, self.stop_place)
         self._place_notices()
 
@@ -288,8 +322,13 @@ class Shell(FloatLayout):
 
     def back(self) -> bool:
         """Back within the screen that is on the glass; False when it has nowhere to go back to."""
-        step = getattr(self.screens.get(self.screen), "back", None)
-        return bool(step is not None and step())
+        screen = self.shown
+        return screen is not None and screen.back()
+
+    @property
+    def shown(self) -> RobotScreen | None:
+        """The screen on the glass; None before there is one."""
+        return self.screens.get(self.screen)
 
     def rest(self) -> None:
         """Every control of every screen lets go."""

@@ -6,16 +6,19 @@ It lies over everything else, questions included, and lets every finger through 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Any, Protocol
 
 from kivy.clock import Clock
 from kivy.metrics import Metrics
 from kivy.uix.floatlayout import FloatLayout
 
-from app.discovery.known_robots import Entry
+from app.discovery.known_robots import Entry, Robots
 from app.layout import arrange
 from app.layout.arrange import Rect, StopPlace
+from app.screens.connect.connect import ConnectScreen
 from app.screens.parts.placing import put
+from app.screens.shell.shell import Shell
+from app.session.session import Session
 from app.stop.fleet import Fleet, known
 from widgets import StopAll, StopList
 
@@ -25,11 +28,29 @@ READABLE = 280
 """So high must be what is left of a screen above the list and what is said, else the list is folded [dp]."""
 
 
+class Host(Protocol):
+    """The app, as far as STOP ALL needs it."""
+
+    connect: ConnectScreen
+
+    @property
+    def robots(self) -> Robots:
+        """Every robot that is heard or saved."""
+
+    @property
+    def session(self) -> Session | None:
+        """The session with the robot; None while none is wanted."""
+
+    @property
+    def shell(self) -> Shell | None:
+        """The frame round the robot's screens; None where there is no robot."""
+
+
 class StopCorner:
     """The button, the list, and where they are. `tick` brings them up to date, ten times a second."""
 
-    def __init__(self, app: Any, fleet: Fleet, say: Callable[[str, str], object]) -> None:
-        """`app` is asked for its `robots`, `session`, `shell` and `connect`; `say(text, level)` says one sentence."""
+    def __init__(self, app: Host, fleet: Fleet, say: Callable[[str, str], object]) -> None:
+        """`say(text, level)` says one sentence."""
         self._app, self._fleet, self._say = app, fleet, say
         self.on_pressed: list[Callable[[], object]] = []
         """Called when STOP ALL was pressed and is on its way."""

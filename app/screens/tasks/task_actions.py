@@ -8,12 +8,13 @@ from typing import Any, Protocol
 from app.layout.arrange import Rect
 from app.screens.mission.mission_pane import MissionPane
 from app.screens.parts.act_buttons import ActButtons
+from app.screens.shell.screen_host import ScreenHost
 from app.screens.tasks.event_list import EventList
 from app.screens.tasks.order_pane import OrderPane
 from app.screens.tasks.place_pane import PlacePane
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Place, ScheduledTask
-from widgets import PlaceList
+from widgets import PlaceForm, PlaceList
 from widgets.core.task_words import title
 
 __all__ = ["TaskActs"]
@@ -24,7 +25,6 @@ PRIMARY = ("start", "save", "keep", "new", "new_scheduled", "recall", "keep_miss
 class TaskLists(Protocol):
     """The tasks screen, as far as its buttons need it."""
 
-    app: Any
     ids: Any
     session: Session
     tab: str
@@ -34,7 +34,11 @@ class TaskLists(Protocol):
     pane: OrderPane
     place_pane: PlacePane
     mission_pane: MissionPane
-    form: Any
+    form: PlaceForm
+
+    @property
+    def app(self) -> ScreenHost:
+        """The app behind the screen."""
 
     @property
     def mine(self) -> bool:

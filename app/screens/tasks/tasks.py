@@ -7,14 +7,14 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import ObjectProperty, StringProperty
-from kivy.uix.floatlayout import FloatLayout
 
 from app.layout import arrange
 from app.layout.arrange import Rect
-from app.link.camera_decoder import Picture
 from app.link.channels import OUTCOME
 from app.link.feeds import Post
 from app.screens.parts.placing import Area, above, put  # noqa: F401 - a rule names the area
+from app.screens.parts.robot_screen import RobotScreen
+from app.screens.shell.screen_host import ScreenHost
 from app.screens.tasks.task_actions import TaskActs
 from app.screens.tasks.task_lists import TaskLists
 from app.screens.tasks.task_panes import TaskPanes
@@ -50,18 +50,16 @@ Builder.load_string("""
 """)
 
 
-class TasksScreen(FloatLayout):
+class TasksScreen(RobotScreen):
     """Everything about tasks but the map."""
 
-    app = ObjectProperty()
+    app: ObjectProperty[ScreenHost] = ObjectProperty()
     session: ObjectProperty[Session] = ObjectProperty()
     tab = StringProperty("now")
     """The list that is shown: one of `DETAILS`."""
     detail = StringProperty("")
     """What is opened beside the list, or on a phone in its place: `order`, `schedule`, `place`, `mission`, `settings`
     or nothing."""
-    video = None
-    """There is none here."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -95,7 +93,7 @@ class TasksScreen(FloatLayout):
         self.tabs.bind(
             tab=lambda _, tab: setattr(self, "tab", tab), on_settings=lambda _: self._turn_settings()
         )
-        self.settings_pane.bind(on_reset=lambda _: self.app.shell.reset.ask())
+        self.settings_pane.bind(on_reset=lambda _: self._ask_reset())
         self.place_pane.bind(on_back=lambda _, place: self.edit_place(place))
         self.pane.bind(complete=lambda *_: self.acts.tick())
         self.bind(tab=self._tab_changed, detail=self._lay)
@@ -154,9 +152,6 @@ class TasksScreen(FloatLayout):
         self.lists.tick(mine=self.mine)
         self.panes.tick(mine=self.mine)
         self.acts.tick()
-
-    def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
-        """A camera frame came; there is no picture here."""
 
     def back(self) -> bool:
         """Back within the screen; False when it is at its lists."""
@@ -258,7 +253,14 @@ class TasksScreen(FloatLayout):
         self.open("mission")
 
     def _recalled(self, words: str, undo: Any) -> None:
-        self.app.shell.notices.offer(words, "Undo", undo)
+        shell = self.app.shell
+        if shell is not None:
+            shell.notices.offer(words, "Undo", undo)
+
+    def _ask_reset(self) -> None:
+        shell = self.app.shell
+        if shell is not None:
+            shell.reset.ask()
 
     # the robot's settings
 

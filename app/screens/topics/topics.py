@@ -10,7 +10,6 @@ from kivy.metrics import Metrics
 from kivy.properties import BooleanProperty, ObjectProperty, StringProperty
 from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
-from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.recycleview.views import RecycleDataViewBehavior
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
@@ -19,6 +18,8 @@ from app.layout.arrange import Rect
 from app.link.camera_decoder import Picture
 from app.link.feeds import Post
 from app.screens.parts.placing import above, put
+from app.screens.parts.robot_screen import RobotScreen
+from app.screens.shell.screen_host import ScreenHost
 from app.session.session import Session
 from app.session.topic_list import Line, Topics
 from widgets import FieldView
@@ -311,14 +312,12 @@ class TopicDetail(Card):
         """The finger wants back to the list."""
 
 
-class TopicsScreen(FloatLayout):
+class TopicsScreen(RobotScreen):
     """Look at anything that the robot tells."""
 
-    app = ObjectProperty()
+    app: ObjectProperty[ScreenHost] = ObjectProperty()
     session: ObjectProperty[Session] = ObjectProperty()
     summary = StringProperty("")
-    video = None
-    """No picture is shown here."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
