@@ -61,4 +61,4 @@ def test_lint_checks_every_package_with_the_type_checker():
     assert "\t@$(PYTHON) -m mypy\n" in recipe + "\n"
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["mypy"]
     assert settings["strict"]
-    assert {"bridge", "robotside", "sim", "widgets"} <= set(settings["packages"])
+    assert {"app", "bridge", "robotside", "sim", "widgets"} <= set(settings["packages"])
