@@ -1,7 +1,7 @@
 """Limits of the robot's configuration: drive commands are clamped to them, goals outside are refused.
 
 Pure: what the robot measures is passed in. Speeds are limited to what it may, height and depth so that it comes to rest
-before they are exceeded, and `robotside.limits.fence_guard` does the same for the fence.
+before they are exceeded, and `robotside.limits.fence_limit` does the same for the fence.
 """
 
 from __future__ import annotations
@@ -22,33 +22,19 @@ from robotside.core.pose2 import Pose2
 from robotside.core.text import place_sentence
 from robotside.kinds.registry import kind_of
 from robotside.kinds.vehicle_kind import Handling
+from robotside.limits.clamped_twist import ClampedTwist, scaled
 from robotside.limits.fence import Fence
-from robotside.limits.fence_guard import (
-    LEVEL_DISTANCE,
-    MAX_UNCERTAINTY,
-    SIGMAS,
-    FenceGuard,
-    uncertainty_margin,
-)
+from robotside.limits.fence_limit import NOT_PLACED, FenceLimit
 from robotside.mapping.occupancy_grid import Grid
 from robotside.motion.manoeuvres import VERTICAL_KINDS, Order, kept, leads_to, levelled
 from robotside.motion.measured import MeasuredState
-from robotside.motion.speed_limit import slower, within
-from robotside.motion.station_keeping import (
-    CREEP_SPEED,
-    MIN_DRIFT,
-    RETURN_BELOW,
-    RETURN_UNTIL,
-    DriftMonitor,
-    back,
-    way_back,
-)
-from robotside.motion.stopping_path import REACTION_TIME, PlanarVelocity
+from robotside.motion.speed_limit import slower
+from robotside.motion.stopping_path import REACTION_TIME
 
-__all__ = ["GOAL_ROOM", "PATH_ROOM", "ClampedTwist", "LimitKeeper", "KeptOrder", "turned_over"]
+__all__ = ["GOAL_ROOM", "NOT_PLACED", "PATH_ROOM", "ClampedTwist", "KeptOrder", "LimitKeeper", "turned_over"]
 
 GOAL_ROOM = 0.4
-"""KeptOrder between the body and the fence at a goal [m]: following a path is not exact."""
+"""Kept between the body and the fence at a goal [m]: following a path is not exact."""
 PATH_ROOM = 0.15
 """Of the map, what is nearer than this to the fence is no place to plan through [m]."""
 STEEP_SLOPE_SHARE, STEEP_SPEED_SHARE = 0.8, 0.3
@@ -57,20 +43,6 @@ OVERTURNED_COSINE = 0.2
 """Cosine of the tilt from which on a robot has turned over."""
 MIN_DIVE_PITCH = 0.1
 """From this pitch on a swimmer goes up and down as it goes ahead, and its fins cannot make up for that [rad]."""
-UNSURE_SHARE = 0.25
-"""A robot that is not sure of its place goes at this part of its speed while it has a fence."""
-NOT_PLACED = Notice(
-    Code.FENCE_UNPLACED,
-    "The robot does not know where it is, so it cannot keep to its fence; place it on the map.",
-)
-
-
-class ClampedTwist(NamedTuple):
-    """A drive command as it may be done."""
-
-    twist: Twist
-    why: Problem = ""
-    """The reason, as one sentence, when it is held back by more than half; empty otherwise."""
 
 
 class KeptOrder(NamedTuple):
@@ -101,15 +73,13 @@ class LimitKeeper:
         self._slope = math.radians(settings.max_slope_degrees or 0.0) or math.inf
         self._came: tuple[float, float] | None = None
         self._fence = Fence(settings.keep_in, settings.keep_out)
-        self._drift, self._uncertainty = DriftMonitor(), 0.0
-        self._returns, self._way, self._back = False, 0.0, False
-        self._fencing = FenceGuard(self._fence, info.radius, self._handling)
         self.info: RobotInfo = msgspec.structs.replace(
             info,
             max_speed=min(info.max_speed, settings.max_speed or math.inf),
             max_yaw_rate=min(info.max_yaw_rate, settings.max_yaw_rate or math.inf),
         )
         """The robot's information, with the speeds that it is allowed."""
+        self._fence_limit = FenceLimit(self._fence, info, self._handling, self.info.max_speed)
         self._last: tuple[Twist, MeasuredState, ClampedTwist] = (
             Twist(),
             MeasuredState(),
@@ -146,7 +116,7 @@ class LimitKeeper:
             return Notice(
                 Code.PLACE_OUTSIDE_FENCE, f"{where} is outside the robot's fence.", place=name, x=x, y=y
             )
-        need = self._radius + max(GOAL_ROOM, self._uncertainty + 2 * PATH_ROOM)
+        need = self._radius + max(GOAL_ROOM, self._fence_limit.uncertainty + 2 * PATH_ROOM)
         if room < need:
             said = f"{where} is {room:.2f} m from the robot's fence; the robot needs {need:.2f} m."
             return Notice(Code.PLACE_NEAR_FENCE, said, place=name, x=x, y=y)
@@ -180,26 +150,33 @@ class LimitKeeper:
         own, asked = self._own, order.height
         order = levelled(order, self._deepest, self._height, measured.height)
         cut = _level_cut(asked, order.height)
-        if order.kind == "tilt" and (roll := self._rolled(order.roll, measured)) != order.roll:
+        if order.kind == "tilt" and (roll := self._fence_limit.rolled(order.roll, measured)) != order.roll:
             order = msgspec.structs.replace(order, roll=roll)
         leads = leads_to(order, own, measured)
         may, why = self.clamp(leads, measured)
         why = why or cut
-        if self._back and order.kind not in VERTICAL_KINDS:
+        if self._fence_limit.returning and order.kind not in VERTICAL_KINDS:
             return KeptOrder(may, why)
         if order.kind not in own.manoeuvres or turned_over(measured, own.kind):
             return KeptOrder(may, why)
         return KeptOrder(kept(order, leads, may, own), why)
 
+    def adrift(self, measured: MeasuredState) -> Problem:
+        """The sentence about a robot that is carried over its fence; empty for none.
+
+        Call it whenever something new is measured.
+        """
+        return self._fence_limit.adrift(measured, judged=self._last[1] == measured)
+
     def _clamped(self, twist: Twist, measured: MeasuredState) -> ClampedTwist:
-        self._back = False
+        self._fence_limit.returning = False
         if turned_over(measured, self.info.kind):
             name = self.info.name or "The robot"
             said = f"{name} has turned over; put it upright first."
             return ClampedTwist(Twist(), Notice(Code.ROBOT_OVERTURNED, said, robot=name))
         fitted = self._upright(slower(twist, self.info.max_speed, self.info.max_yaw_rate), measured)
         level = self._level(fitted.twist, measured)
-        fenced = self._fenced(level.twist, measured)
+        fenced = self._fence_limit.clamp(level.twist, measured)
         return ClampedTwist(fenced.twist, fitted.why or level.why or fenced.why)
 
     def _upright(self, twist: Twist, measured: MeasuredState) -> ClampedTwist:
@@ -238,122 +215,15 @@ class LimitKeeper:
         v = twist.linear
         if tilt < self._slope:
             part = (self._slope - tilt) / (self._slope * (1 - STEEP_SLOPE_SHARE))
-            return ClampedTwist(_scaled(twist, max(STEEP_SPEED_SHARE, part), self._handling))
+            return ClampedTwist(scaled(twist, max(STEEP_SPEED_SHARE, part), self._handling))
         if self._came is None:
             self._came = _direction(measured)
         if v.x * self._came[0] + v.y * self._came[1] <= 0:
-            return ClampedTwist(_scaled(twist, STEEP_SPEED_SHARE, self._handling))
+            return ClampedTwist(scaled(twist, STEEP_SPEED_SHARE, self._handling))
         said = f"It is steeper here, {math.degrees(tilt):.0f} degrees, than the {math.degrees(self._slope):.0f} allowed"
         return ClampedTwist(
-            _scaled(twist, 0.0, self._handling), Notice(Code.DRIVE_STEEP, f"{said}; drive back.")
+            scaled(twist, 0.0, self._handling), Notice(Code.DRIVE_STEEP, f"{said}; drive back.")
         )
-
-    def adrift(self, measured: MeasuredState) -> Problem:
-        """The sentence about a robot that is carried over its fence, whether it may go back or STOP is pressed; empty for none.
-
-        Call it whenever something new is measured.
-        """
-        self._uncertainty = uncertainty_margin(measured.spread) if self._fence else 0.0
-        pose, last = measured.pose, self._last
-        if not self._fence or pose is None:
-            return ""
-        room, outward = self._fencing.room(pose), self._fencing.outward(pose, measured.moving)
-        returns = self._back and last[1] == measured
-        if returns:
-            room, outward = min(room - self._uncertainty, RETURN_BELOW), max(outward, MIN_DRIFT)
-        return self._drift.check(self._own.name, room, outward, returns=returns)
-
-    def _fenced(self, twist: Twist, measured: MeasuredState) -> ClampedTwist:
-        """Slower towards the fence, and slowly all ways where the place is not sure."""
-        v, pose = twist.linear, measured.pose
-        if not self._fence:
-            return ClampedTwist(twist)
-        if pose is None:
-            return (
-                ClampedTwist(_scaled(twist, 0.0, self._handling), NOT_PLACED)
-                if v.x or v.y
-                else ClampedTwist(twist)
-            )
-        doubt, unsure = uncertainty_margin(measured.spread), _unsure(measured)
-        if unsure:
-            most = UNSURE_SHARE * self.info.max_speed
-            far = math.hypot(v.x, v.y)
-            twist = _scaled(twist, most / far, self._handling) if far > most else twist
-        clamped = self._within(twist, measured, pose, doubt)
-        if self._drifts_out(measured.moving, pose, doubt, clamped.twist):
-            inward = self._fencing.inward(pose)
-            self._way = 0.0 if self._handling.glide else way_back(inward, self._way)
-            home = back(inward, self._way)
-            rolls, levels = self._roll_rate(0.0, measured), -within(measured.pitch, 0.5)
-            kept = Twist(Vector3(home.linear.x, 0.0, twist.linear.z), Vector3(rolls, levels, home.angular.z))
-            self._back = True
-            return ClampedTwist(kept, clamped.why)
-        return ClampedTwist(clamped.twist, clamped.why or (unsure if v.x or v.y else ""))
-
-    def _within(self, twist: Twist, measured: MeasuredState, pose: Pose2, doubt: float) -> ClampedTwist:
-        v, w = twist.linear, twist.angular
-        creeps = kind_of(self._own.kind).comes_about and w.z != 0.0 and abs(v.x) < CREEP_SPEED
-        wanted = PlanarVelocity(math.copysign(CREEP_SPEED, v.x) if creeps else v.x, v.y, w.z)
-        if not wanted.speed:
-            return ClampedTwist(twist)
-        done = self._fencing.slowed(pose, measured.moving, wanted, doubt)
-        w = Vector3(self._roll_rate(w.x, measured), w.y, w.z)
-        if done is wanted:
-            return ClampedTwist(Twist(v, w))
-        kept = Twist(Vector3(done.x, done.y, v.z), Vector3(w.x, w.y, done.turn))
-        if creeps:
-            kept = Twist(Vector3(0.0, 0.0, v.z), Vector3(w.x, w.y, 0.0))
-        elif done.speed > wanted.speed / 2:
-            return ClampedTwist(kept)
-        room = self._fencing.room(pose)
-        where = f"is {room:.1f} m away" if room > 0.05 else "is here"
-        known = f" and it knows its place to {SIGMAS * measured.spread:.1f} m only" if doubt else ""
-        said = f"The robot's fence {where}{known}: it goes no nearer."
-        return ClampedTwist(kept, Notice(Code.FENCE_NEAR, said, room=room))
-
-    def _drifts_out(self, moving: PlanarVelocity, pose: Pose2, doubt: float, kept: Twist) -> bool:
-        """It is carried over the fence, or will be, and what is left of its order does not bring it back."""
-        if not self._handling.drifts:
-            return False
-        room, out = self._fencing.room(pose) - doubt, self._fencing.outward(pose, moving)
-        most = self._fencing.unhurried(room)
-        if self._returns:
-            self._returns = room < RETURN_UNTIL or out > most
-        else:
-            self._returns = (room < RETURN_BELOW and out > MIN_DRIFT) or out > most + 2 * MIN_DRIFT
-        inward = -self._fencing.outward(pose, PlanarVelocity(kept.linear.x, kept.linear.y, 0.0))
-        if not self._returns:
-            self._way = 0.0
-        return self._returns and inward < CREEP_SPEED / 2
-
-    def _rolled(self, roll: float, measured: MeasuredState) -> float:
-        """As much of a `roll` [rad] as one that glides may have here: rolled, its fins push it aside."""
-        if not (self._handling.glide and self._fence and measured.pose):
-            return roll
-        room = self._fencing.room(measured.pose) - uncertainty_margin(measured.spread)
-        return roll * max(0.0, min(1.0, room / LEVEL_DISTANCE))
-
-    def _roll_rate(self, rate: float, measured: MeasuredState) -> float:
-        """One that is rolled farther than it may rolls back [rad/s]."""
-        over = measured.roll - self._rolled(measured.roll, measured)
-        return -within(over, 0.5) if abs(over) > 0.05 else rate
-
-
-def _scaled(twist: Twist, part: float, handling: Handling) -> Twist:
-    """`part` of the speed; one that steers stays on its arc."""
-    v, w = twist.linear, twist.angular
-    turn = part if handling.steers else 1.0
-    return Twist(Vector3(part * v.x, part * v.y, v.z), Vector3(w.x, w.y, turn * w.z))
-
-
-def _unsure(measured: MeasuredState) -> Problem:
-    """Why its place is not sure enough to promise a fence, as one sentence; empty when it is."""
-    off = SIGMAS * measured.spread
-    if measured.sure and not off > MAX_UNCERTAINTY:
-        return ""
-    how = f"to {off:.1f} m only" if off > MAX_UNCERTAINTY else "for sure"
-    said = f"The robot does not know {how} where it is, so its fence is not certain: it goes slowly; place it on the map."
-    return Notice(Code.FENCE_UNSURE, said)
 
 
 def _direction(measured: MeasuredState) -> tuple[float, float]:
