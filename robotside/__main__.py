@@ -26,9 +26,9 @@ from robotside.kinds.registry import kind_of
 from robotside.options import One, UserMistake
 from robotside.records.landmarks import take_over
 from robotside.records.opening import open_records
-from robotside.serving.fleet_server import Together
+from robotside.serving.fleet_server import FleetServer
 from robotside.serving.malloc_trim import trim
-from robotside.serving.station_server import Addresses, Serving
+from robotside.serving.station_server import Addresses, StationServer
 from robotside.station.station import Station
 from robotside.tasks.schedule import local_zone
 
@@ -87,7 +87,7 @@ class _Fleet:
         """Serve all of them until told to end, or no longer `wanted`."""
         with ExitStack() as kept:
             servings = [self._serving(number, *each, kept) for number, each in enumerate(robots)]
-            together = Together(servings, self._clock, self._wall, wanted=wanted)
+            together = FleetServer(servings, self._clock, self._wall, wanted=wanted)
             loop = asyncio.get_running_loop()
             for signal_number in (signal.SIGTERM, signal.SIGINT):
                 loop.add_signal_handler(signal_number, together.end)
@@ -105,7 +105,7 @@ class _Fleet:
         state: Path,
         ports: tuple[int, int],
         kept: ExitStack,
-    ) -> Serving:
+    ) -> StationServer:
         call_soon = asyncio.get_running_loop().call_soon_threadsafe
         records = open_records(state, config.database.url, call_soon, backups=config.database.backups)
         kept.callback(records.close)
@@ -121,10 +121,10 @@ class _Fleet:
             zone=local_zone(),
         )
         take_over(robot, records, station.events.say)
-        return Serving(station, self._clock, self._wall, Addresses(self._options.host, *ports))
+        return StationServer(station, self._clock, self._wall, Addresses(self._options.host, *ports))
 
 
-def _say_ready(serving: Serving) -> None:
+def _say_ready(serving: StationServer) -> None:
     where, name = serving.addresses, serving.station.info.name
     print(f"robotside: ready bridge={where.bridge} http={where.http} robot={name}", flush=True)
 

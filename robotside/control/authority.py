@@ -14,37 +14,37 @@ from robotside.core.notice import Notice, Problem
 from robotside.core.text import number, plain
 
 __all__ = [
-    "AGAIN",
+    "REQUEST_PAUSE",
     "NOT_ASKED",
-    "REMEMBERED",
-    "SILENT",
-    "TO_OBJECT",
+    "MAX_OBJECTIONS",
+    "TAKEOVER_SILENCE",
+    "OBJECTION_TIME",
     "Asker",
     "Authority",
     "Driver",
 ]
 
-SILENT = 1.0
+TAKEOVER_SILENCE = 1.0
 """A driver who was not heard for this long may come back over another connection [s]; until then that is somebody else."""
 
-TO_OBJECT = 10.0
+OBJECTION_TIME = 10.0
 """How long a driver has to object before control goes over to who asks for it [s]."""
 
-AGAIN = 30.0
+REQUEST_PAUSE = 30.0
 """Whom a driver objected to may ask the same driver again so long afterwards [s]."""
 
 NOT_ASKED = Notice(Code.CONTROL_NOT_ASKED, "No one asks for control.")
 
-LONGEST_NAME = 40
+MAX_NAME_LENGTH = 40
 """Characters kept of what a client calls itself."""
 
-LONGEST_ID = 64
+MAX_ID_LENGTH = 64
 """Characters kept of a client's id."""
 
-_CALLED = 256
+_MAX_NAMES = 256
 """Of as many ids it is remembered what they are called."""
 
-REMEMBERED = 64
+MAX_OBJECTIONS = 64
 """As many objections are remembered."""
 
 
@@ -96,7 +96,7 @@ class Authority:
 
         The second id of a name is called `name (2)`.
         """
-        client_id, name = plain(client_id, LONGEST_ID), plain(name, LONGEST_NAME)
+        client_id, name = plain(client_id, MAX_ID_LENGTH), plain(name, MAX_NAME_LENGTH)
         known_id, known_name = self._identity(client)
         client_id, name = client_id or known_id, name or known_name
         own = client_id != client.id  # else there is nothing to tell it by the next time
@@ -107,10 +107,10 @@ class Authority:
         asked, given = self._called.pop(client_id, ("", ""))
         if asked != name:
             taken = {one for _, one in self._called.values()}
-            numbered = (f"{name[: LONGEST_NAME - 6]} ({number})" for number in range(2, _CALLED + 3))
+            numbered = (f"{name[: MAX_NAME_LENGTH - 6]} ({number})" for number in range(2, _MAX_NAMES + 3))
             given = next(one for one in (name, *numbered) if one not in taken)
         self._called[client_id] = name, given
-        while len(self._called) > _CALLED:
+        while len(self._called) > _MAX_NAMES:
             del self._called[next(iter(self._called))]
         return given
 
@@ -141,7 +141,7 @@ class Authority:
             return ""
         if self.id(client) != held.client_id:
             return _held(held, advice)
-        if client.last_heard - held.client.last_heard > SILENT:
+        if client.last_heard - held.client.last_heard > TAKEOVER_SILENCE:
             return ""
         said = f"{held.name} has control over another connection with the same client_id; {advice}."
         return Notice(Code.CONTROL_HELD_ELSEWHERE, said, actor_id=held.client_id, name=held.name)
@@ -183,7 +183,7 @@ class Authority:
                 Code.CONTROL_OBJECTED_LATELY,
             )
             return Notice(code, said, actor_id=held.client_id, name=held.name, seconds=wait)
-        self._asker = Asker(client_id, name, client, now + TO_OBJECT)
+        self._asker = Asker(client_id, name, client, now + OBJECTION_TIME)
         return ""
 
     def grant(self, client: Operator) -> Problem:
@@ -198,8 +198,8 @@ class Authority:
         problem = self._answering(client)
         if problem or self._driver is None or self._asker is None:
             return problem
-        self._refused[self._driver.client_id, self._asker.client_id] = now + AGAIN
-        while len(self._refused) > REMEMBERED:
+        self._refused[self._driver.client_id, self._asker.client_id] = now + REQUEST_PAUSE
+        while len(self._refused) > MAX_OBJECTIONS:
             del self._refused[next(iter(self._refused))]
         self._asker = None
         return ""

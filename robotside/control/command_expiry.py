@@ -12,29 +12,29 @@ from bridge.core.robot_catalogue import Operator
 from robotside.core.notice import Notice, Problem
 from robotside.core.text import number
 
-__all__ = ["AHEAD", "HELD", "UNSTAMPED", "VALID", "Expiry"]
+__all__ = ["MAX_CLOCK_LEAD", "HOLD_TIME", "MAX_UNSTAMPED_AGE", "VALID_TIME", "CommandExpiry"]
 
-VALID = 0.3
+VALID_TIME = 0.3
 """So long after it was given nothing of a drive command is left [s]: the robot has been told to rest."""
 
-HELD = 0.25
+HOLD_TIME = 0.25
 """As long after it was given a drive command is in force, and what moves may come [s].
 
 The next look after it comes within a tick (robotside.serving), and a busy computer may take some 30 ms more to look. At
 20 Hz it bridges a way of 0.2 s: where the speed has fallen to a crawl anyway.
 """
 
-AHEAD = 1.0
+MAX_CLOCK_LEAD = 1.0
 """A command from further in the future than this comes from a wrong clock [s]."""
 
-UNSTAMPED = 0.7
+MAX_UNSTAMPED_AGE = 0.7
 """A command without a stamp counts when it is certain to be younger than this [s]."""
 
-FORGOTTEN = 0.02
+LEAD_DECAY = 0.02
 """By so much less is a clock taken to be ahead with every second of commands: its owner may set it right [s/s]."""
 
 
-class Expiry:
+class CommandExpiry:
     """Judges the commands of all connections by their age and order."""
 
     def __init__(self) -> None:
@@ -64,11 +64,11 @@ class Expiry:
             said = "its stamp is of a clock that was never compared with the robot's"
             said = f"A drive command was dropped: {said}; ask /rosapi/get_time first."
             return Notice(Code.DRIVE_CLOCK_UNKNOWN, said)
-        if stamp - now > AHEAD:
+        if stamp - now > MAX_CLOCK_LEAD:
             said = f"A drive command was dropped: its clock is {number(stamp - now)} s ahead of the robot's."
             return Notice(Code.DRIVE_CLOCK_AHEAD, said, seconds=stamp - now)
         self._leads.setdefault(client.id, _Lead()).learn(stamp, now, client.rtt)
-        allowed, age = VALID if rest else HELD, now - self.given(client, now, stamp)
+        allowed, age = VALID_TIME if rest else HOLD_TIME, now - self.given(client, now, stamp)
         if age > allowed:
             late = f"it came {number(age)} s late and has to come within {allowed} s"
             return Notice(Code.DRIVE_LATE, f"A drive command was dropped: {late}.", age=age, allowed=allowed)
@@ -98,13 +98,13 @@ class _Lead:
         self._quickest = min(self._quickest, rtt)  # which passes NaN over
         way = self._quickest / 2 if self._quickest < math.inf else 0.0
         passed = min(1.0, max(0.0, now - self._at))  # a silence proves nothing
-        self.ahead = max(stamp - (now - way), self.ahead - FORGOTTEN * passed, 0.0)
+        self.ahead = max(stamp - (now - way), self.ahead - LEAD_DECAY * passed, 0.0)
         self._at = now
 
 
 def _untold(age: float) -> Problem:
-    if age <= UNSTAMPED:
+    if age <= MAX_UNSTAMPED_AGE:
         return ""
-    may, allowed = f"it has no stamp and may be {number(age)} s old", f"{UNSTAMPED} s is allowed"
+    may, allowed = f"it has no stamp and may be {number(age)} s old", f"{MAX_UNSTAMPED_AGE} s is allowed"
     said = f"A drive command was dropped: {may}; {allowed}."
-    return Notice(Code.DRIVE_UNSTAMPED, said, age=age, allowed=UNSTAMPED)
+    return Notice(Code.DRIVE_UNSTAMPED, said, age=age, allowed=MAX_UNSTAMPED_AGE)

@@ -13,13 +13,13 @@ from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Operator
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.control.authority import Authority
-from robotside.control.command_expiry import HELD, Expiry
-from robotside.control.latency_speed_cap import UNMEASURED_SHARE, Pace
-from robotside.control.neutral_interlock import LET_GO, Sticks
+from robotside.control.command_expiry import HOLD_TIME, CommandExpiry
+from robotside.control.latency_speed_cap import UNMEASURED_SHARE, LatencySpeedCap
+from robotside.control.neutral_interlock import LET_GO_SENTENCE, NeutralInterlock
 from robotside.core.notice import Notice, Problem
 from robotside.motion.manoeuvres import Order, at_rest, finite, paced
 
-__all__ = ["SOMEBODY", "STOP_SENTENCE", "Controls", "Ruling"]
+__all__ = ["SOMEBODY", "STOP_SENTENCE", "CommandGate", "Ruling"]
 
 STOP_SENTENCE = Notice(Code.STOP_IS_PRESSED, "STOP is pressed; hold Release to drive again.")
 
@@ -41,7 +41,7 @@ class Ruling:
     """Why not, as one sentence; empty when nobody needs to know."""
 
 
-class Controls(Authority):
+class CommandGate(Authority):
     """The one place that decides whether a command may move the robot."""
 
     def __init__(
@@ -58,11 +58,11 @@ class Controls(Authority):
         super().__init__()
         self._info, self._follows = info or _FREE, follows
         self._unmeasured_share = unmeasured_share
-        self._expiry = Expiry()
-        self._sticks = Sticks()
+        self._expiry = CommandExpiry()
+        self._sticks = NeutralInterlock()
         self._until = -math.inf
         self._giver: Operator | None = None
-        self.pace = Pace()
+        self.pace = LatencySpeedCap()
         """How fast the driver's link lets it go."""
         self._stopped = False
         self.stopped_by = ""
@@ -134,7 +134,7 @@ class Controls(Authority):
             said = trouble or self._refusal(client, now, counts)
             if not said:
                 self._sticks.obey(client.id, now)
-                self._giver, self._until = client, self._expiry.given(client, now, stamp) + HELD
+                self._giver, self._until = client, self._expiry.given(client, now, stamp) + HOLD_TIME
                 self.look(now)
                 # the robot's own limits are looked at where orders reach its port
                 return Ruling(paced(order, self._info, self.pace.share))
@@ -183,7 +183,7 @@ class Controls(Authority):
         if self.stopped:
             return STOP_SENTENCE
         self._look(now)
-        return self.objection(client) or (self.acquire(client, now) if counts else LET_GO)
+        return self.objection(client) or (self.acquire(client, now) if counts else LET_GO_SENTENCE)
 
     def _fault(self, client: Operator, order: Order, now: float, stamp: float | None) -> Problem:
         if not finite(order):

@@ -15,7 +15,7 @@ from robotside.core.notice import Notice, Problem
 from robotside.core.robot import Equipped, Levelled, Manoeuvrable, Resettable, Robot, Stoppable
 from robotside.motion.manoeuvres import VERTICAL_KINDS, Order
 
-__all__ = ["Guarded", "port_info"]
+__all__ = ["GuardedRobot", "port_info"]
 
 _REST = Twist()
 
@@ -30,7 +30,7 @@ def _as_it_is(order: Order) -> Order:
     return order
 
 
-class Guarded:
+class GuardedRobot:
     """A `Robot` that brakes instead of driving while STOP is pressed; the one way by which orders reach the port."""
 
     def __init__(

@@ -7,24 +7,24 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["CRAWL", "FULL_TO", "SLOWEST_FROM", "UNMEASURED_SHARE", "Pace", "share"]
+__all__ = ["MIN_SHARE", "FULL_SPEED_RTT", "MIN_SPEED_RTT", "UNMEASURED_SHARE", "LatencySpeedCap", "share"]
 
-FULL_TO = 0.2
+FULL_SPEED_RTT = 0.2
 """Up to this round trip it goes at full speed [s]."""
 
-SLOWEST_FROM = 0.4
+MIN_SPEED_RTT = 0.4
 """From this round trip on it crawls [s]."""
 
 UNMEASURED_SHARE = 0.5
 """Share of the full speed over a link whose round trip is not known, where the robot's settings say nothing else."""
 
-CRAWL = 0.15
+MIN_SHARE = 0.15
 """Share of the full speed on the worst link."""
 
-RISE = 0.5
+SHARE_RISE = 0.5
 """The share grows by so much in a second: a link that has just come back may go again [1/s]."""
 
-STEP = 0.05
+SHARE_STEP = 0.05
 """What is shown is a multiple of this, as CRAWL is, so that it does not change with every ping."""
 
 
@@ -32,11 +32,11 @@ def share(rtt: float) -> float:
     """Share of the full speed at a round trip of `rtt` [s], CRAWL to 1; 1 while that is NaN."""
     if math.isnan(rtt):
         return 1.0
-    part = (rtt - FULL_TO) / (SLOWEST_FROM - FULL_TO)
-    return CRAWL + (1.0 - CRAWL) * (1.0 - min(1.0, max(0.0, part)))
+    part = (rtt - FULL_SPEED_RTT) / (MIN_SPEED_RTT - FULL_SPEED_RTT)
+    return MIN_SHARE + (1.0 - MIN_SHARE) * (1.0 - min(1.0, max(0.0, part)))
 
 
-class Pace:
+class LatencySpeedCap:
     """The share of the full speed that the driver's link allows: it falls at once and rises slowly."""
 
     def __init__(self) -> None:
@@ -47,7 +47,7 @@ class Pace:
     @property
     def shown(self) -> float:
         """The share as it is told, never more than it is."""
-        return 1.0 if self.share >= 1.0 else math.floor(self.share / STEP + 1e-9) * STEP
+        return 1.0 if self.share >= 1.0 else math.floor(self.share / SHARE_STEP + 1e-9) * SHARE_STEP
 
     def look(self, rtt: float, now: float) -> None:
         """The driver's round trip is `rtt` [s] now; NaN when it is not known or nobody drives."""
@@ -57,7 +57,7 @@ class Pace:
         """The share may be as much as `allowed` now, 0 to 1."""
         since = max(0.0, now - self._at)
         self._at = now
-        self.share = min(allowed, self.share + RISE * min(since, 1.0 / RISE))
+        self.share = min(allowed, self.share + SHARE_RISE * min(since, 1.0 / SHARE_RISE))
 
     def free(self) -> None:
         """It follows no link."""

@@ -15,19 +15,19 @@ from robotside.core.notice import Notice, Problem
 from robotside.motion.manoeuvres import Order
 from robotside.records.events import Say
 
-__all__ = ["EVERY", "Excesses", "excess"]
+__all__ = ["REPORT_PERIOD", "LimitViolations", "excess"]
 
-EVERY = 3.0
+REPORT_PERIOD = 3.0
 """One client's excess is told at most this often [s]."""
 
-ROUNDED = 1.01
+ROUNDING_TOLERANCE = 1.01
 """A stick at its stop may be above the limit by so much: numbers are rounded on their way."""
 
 
 def excess(order: Order, info: RobotInfo) -> Problem:
     """What of `order` is more than the robot may do, with what is allowed, as one sentence; empty when nothing is."""
     for says, asked, most, unit in _asked(order, info):
-        if abs(asked) > most * ROUNDED:
+        if abs(asked) > most * ROUNDING_TOLERANCE:
             said = f"{info.name} {says} at most {_number(most)}{unit}; {_number(abs(asked))}{unit} was asked for."
             return Notice(Code.DRIVE_EXCESSIVE, said, robot=info.name, asked=abs(asked), allowed=most)
     return ""
@@ -61,7 +61,7 @@ def _number(value: float) -> str:
     return f"{value:.3g}"
 
 
-class Excesses:
+class LimitViolations:
     """Tells everyone, of each client now and then."""
 
     def __init__(self, info: RobotInfo, say: Say, clock: Callable[[], float]) -> None:
@@ -74,7 +74,7 @@ class Excesses:
         said = excess(order, self._info)
         now = self._clock()
         if said and now >= self._next.get(client, -math.inf):
-            self._next[client] = now + EVERY
+            self._next[client] = now + REPORT_PERIOD
             self._say("command", said, "warn")
 
     def forget(self, client: str) -> None:

@@ -10,15 +10,15 @@ from dataclasses import dataclass
 from bridge.core.codes import Code
 from robotside.core.notice import Notice
 
-__all__ = ["LET_GO", "Sticks"]
+__all__ = ["LET_GO_SENTENCE", "NeutralInterlock"]
 
-PAUSE = 0.5
+NEUTRAL_PAUSE = 0.5
 """A stick by which nothing was said for this long was at rest [s]: some clients say nothing while it is."""
 
-NOTICED = 0.7
+STANDSTILL_TIME = 0.7
 """A robot that stands for longer though its stick is pushed has stopped in its driver's eyes [s]; less is a hiccup of the link."""
 
-LET_GO = Notice(
+LET_GO_SENTENCE = Notice(
     Code.DRIVE_NOT_RELEASED,
     "The robot was stopped while the stick was held: let the stick go once, then push it again.",
 )
@@ -35,7 +35,7 @@ class _Push:
     void: bool = False
 
 
-class Sticks:
+class NeutralInterlock:
     """The sticks that are pushed now, by the ids of their clients' connections."""
 
     def __init__(self) -> None:
@@ -49,10 +49,10 @@ class Sticks:
             if push is not None and given >= push.given:
                 del self._pushes[client]
             return True
-        if push is None or given - push.given >= PAUSE:
+        if push is None or given - push.given >= NEUTRAL_PAUSE:
             push = self._pushes[client] = _Push(given, given)
         push.given = max(push.given, given)
-        push.void = push.void or now - push.obeyed > NOTICED
+        push.void = push.void or now - push.obeyed > STANDSTILL_TIME
         return not push.void
 
     def obey(self, client: str, now: float) -> None:

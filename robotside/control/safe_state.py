@@ -30,15 +30,15 @@ RISING, SINKING = 0.2, 0.3
 """How fast it surfaces, and lands [m/s]."""
 SURFACE, GROUND = -0.10, 0.08
 """From this height on it has surfaced, up to this one it has landed [m]."""
-WAVES = 0.3
+SURFACE_DEPTH = 0.3
 """So much lower than the surface one that floats may be tossed, once it is there [m]."""
-LONGEST = 120.0
+MAX_ENDING_TIME = 120.0
 """Surfacing or landing ends after this at the latest, for one that does not measure its height [s]."""
-STANDS = 0.02
+MAX_REST_SPEED = 0.02
 """Slower than this it stands [m/s]."""
-SWINGS = 1.0
+STRAIGHTENING_TIME = 1.0
 """So long front wheels take at most to come straight; a truck that brakes hard stands before [s]."""
-STRAIGHT = 10.0
+MAX_BRAKING_TIME = 10.0
 """Braking straight ends after this at the latest, for one that does not measure its speed [s]."""
 
 
@@ -137,7 +137,9 @@ class SafeState:
 
     def _brake_straight(self, since: float, measured: MeasuredState) -> Act:
         """No speed and the wheels straight, so that it does not swing into what is beside it."""
-        if since >= STRAIGHT or (since >= SWINGS and measured.moving.speed < STANDS):
+        if since >= MAX_BRAKING_TIME or (
+            since >= STRAIGHTENING_TIME and measured.moving.speed < MAX_REST_SPEED
+        ):
             return _AT_REST
         return Act(Twist(), "brakes straight")
 
@@ -157,17 +159,17 @@ class SafeState:
         act = self._by(
             "surface", Act(Twist(Vector3(0.0, 0.0, RISING), self._levelling(measured)), "surfaces")
         )
-        if not (self._arrived or measured.height >= SURFACE or since >= LONGEST):
+        if not (self._arrived or measured.height >= SURFACE or since >= MAX_ENDING_TIME):
             return act
         self._arrived = True
-        sinks = measured.height < SURFACE - (WAVES if act.order else 0.0) and since < LONGEST
+        sinks = measured.height < SURFACE - (SURFACE_DEPTH if act.order else 0.0) and since < MAX_ENDING_TIME
         return replace(act, phase="has surfaced") if sinks else Act(None, "has surfaced")
 
     def _land(self, since: float, measured: MeasuredState) -> Act:
         turn = Vector3(0.0, 0.0, self._turning(measured))
         act = self._by("land", Act(Twist(Vector3(0.0, 0.0, -SINKING), turn), "lands"))
         low = act.order is None and (
-            measured.height <= GROUND or since >= LONGEST
+            measured.height <= GROUND or since >= MAX_ENDING_TIME
         )  # it does not say it itself
         self._arrived = self._arrived or measured.landed or low
         if not self._arrived:

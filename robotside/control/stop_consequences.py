@@ -9,7 +9,7 @@ from robotside.motion.measured import MeasuredState
 
 __all__ = ["still_moves"]
 
-BELOW = 0.3
+MIN_DEPTH = 0.3
 """Deeper than this what swims has a way up [m]."""
 
 
@@ -18,7 +18,7 @@ def still_moves(name: str, kind: str, measured: MeasuredState) -> Problem:
     is_a = kind_of(kind)
     if is_a.flies and not measured.landed:
         return _moves_on(name, "hovers, on its battery. Hold STOP to release it, then land.")
-    if is_a.dives and measured.height < -BELOW:
+    if is_a.dives and measured.height < -MIN_DEPTH:
         return _moves_on(name, "floats up. Hold STOP to release it, then hold its depth.")
     if is_a.comes_about:
         return _moves_on(name, "drifts with wind and current. Hold STOP to release it, then hold its place.")

@@ -7,10 +7,10 @@ from robotside.core.notice import Notice
 from robotside.records import Records
 from robotside.records.events import Say
 
-__all__ = ["Latch"]
+__all__ = ["StopLatch"]
 
 
-class Latch:
+class StopLatch:
     """Notes who pressed STOP; tried again until it is on the disk."""
 
     def __init__(self, records: Records, say: Say) -> None:

@@ -11,10 +11,10 @@ from bridge.core.link_state import CONTROL_TIMEOUT
 from bridge.core.robot_catalogue import Operator
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from robotside.control.authority import NOT_ASKED, TO_OBJECT, Asker, Driver
-from robotside.control.command_gate import Controls
-from robotside.control.guarded_robot import Guarded
-from robotside.control.limit_violations import Excesses
+from robotside.control.authority import NOT_ASKED, OBJECTION_TIME, Asker, Driver
+from robotside.control.command_gate import CommandGate
+from robotside.control.guarded_robot import GuardedRobot
+from robotside.control.limit_violations import LimitViolations
 from robotside.control.safe_state import Act, SafeState
 from robotside.core.config import ControlSettings
 from robotside.core.notice import Notice, Problem
@@ -26,7 +26,7 @@ from robotside.motion.manoeuvres import STREAMED_KINDS, Order, settled
 from robotside.motion.measured import MeasuredState
 from robotside.records.events import Say
 
-__all__ = ["FOLLOW_LINK", "LOST_LINK_STOPS_TASK", "Helm", "Options"]
+__all__ = ["FOLLOW_LINK", "LOST_LINK_STOPS_TASK", "Teleop", "Options"]
 
 FOLLOW_LINK = "follow_link"
 LOST_LINK_STOPS_TASK = "lost_link_stops_task"
@@ -75,7 +75,7 @@ class Options:
         self._keep(name, value, then)
 
 
-class Helm:
+class Teleop:
     """Hands the robot from its driver to its safe state and back; tasks drive it by themselves.
 
     `now` is always of the robot's clock [s], `stamp` of the operators'.
@@ -83,8 +83,8 @@ class Helm:
 
     def __init__(
         self,
-        controls: Controls,
-        robot: Guarded,
+        controls: CommandGate,
+        robot: GuardedRobot,
         engine: TaskRunner,
         safe: SafeState,
         options: Options,
@@ -99,7 +99,7 @@ class Helm:
         self._safe, self._options = safe, options
         self._say, self._clock = say, clock
         self._measured, self._go_home = measured, go_home
-        self._excesses = Excesses(robot.info, say, clock)
+        self._excesses = LimitViolations(robot.info, say, clock)
         self._ran = self._returned = False
         self._pushed = -math.inf
         self._done: Act | None = None
@@ -300,9 +300,11 @@ class Helm:
 
 
 def _asks(asker: Asker, held: Driver) -> Notice:
-    said = f"{asker.name} asks for control; it goes over in {TO_OBJECT:.0f} s unless {held.name} objects."
+    said = (
+        f"{asker.name} asks for control; it goes over in {OBJECTION_TIME:.0f} s unless {held.name} objects."
+    )
     who, name, driver = asker.client_id, asker.name, held.name
-    return Notice(Code.CONTROL_ASKED, said, actor_id=who, name=name, driver=driver, seconds=TO_OBJECT)
+    return Notice(Code.CONTROL_ASKED, said, actor_id=who, name=name, driver=driver, seconds=OBJECTION_TIME)
 
 
 def _nobody_drives(does: str) -> Notice:

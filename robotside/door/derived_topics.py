@@ -15,18 +15,18 @@ from bridge.msgs.pilothouse_msgs import MotorArray, SonarRing
 from bridge.msgs.sensor_msgs import Range, Temperature
 from robotside.core.bus import Bus
 
-__all__ = ["Apart"]
+__all__ = ["DerivedTopics"]
 
-RATE = 2.0
+TEMPERATURE_RATE = 2.0
 """Of a temperature [Hz]: a motor warms in minutes."""
 _EARLY = 0.01
 """A temperature may come so much before it is due [s]: motors are measured at a rate of their own."""
-MOST = 64
+MAX_MOTORS = 64
 """Motors that have a topic of their own."""
 _NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
 
 
-class Apart:
+class DerivedTopics:
     """Listens on the bus and publishes there what is wanted."""
 
     def __init__(self, bus: Bus) -> None:
@@ -41,7 +41,14 @@ class Apart:
     def topics(self) -> tuple[Topic, ...]:
         """Those that only this robot has: the temperature of each of its motors."""
         return tuple(
-            Topic(_warm(name), Temperature, RATE, "handheld", f"how warm the motor {name} is", on_demand=True)
+            Topic(
+                _warm(name),
+                Temperature,
+                TEMPERATURE_RATE,
+                "handheld",
+                f"how warm the motor {name} is",
+                on_demand=True,
+            )
             for name in self._motors
         )
 
@@ -78,7 +85,7 @@ class Apart:
 
     def _falls(self, topic: str, now: float) -> bool:
         """It is time for another one; in the mean they come at the rate whatever that of the motors is."""
-        due, period = self._due.get(topic, -math.inf), 1 / RATE
+        due, period = self._due.get(topic, -math.inf), 1 / TEMPERATURE_RATE
         if due - period <= now < due - _EARLY:
             return False
         self._due[topic] = (due if abs(now - due) < period else now) + period
@@ -97,4 +104,4 @@ def _warm(name: str) -> str:
 
 def _nameable(names: Iterable[str]) -> list[str]:
     """The names that can be part of a topic's, each once."""
-    return [name for name in dict.fromkeys(names) if _NAME.fullmatch(name)][:MOST]
+    return [name for name in dict.fromkeys(names) if _NAME.fullmatch(name)][:MAX_MOTORS]

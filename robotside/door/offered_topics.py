@@ -6,13 +6,13 @@ from bridge.core.topics import SONARS, TOPICS, camera_topics
 from bridge.msgs.pilothouse_msgs import RobotInfo, SonarRing
 from robotside.core.bus import Bus
 
-__all__ = ["FITTED", "Offered"]
+__all__ = ["EQUIPMENT_TOPICS", "OfferedTopics"]
 
 _RING = {f"/sonar/{number}": number for number in range(SONARS)}
 _PICTURES = {topic.name for topic in TOPICS if topic.name.endswith("/image/compressed")}
 _TRUTH = "/sim/ground_truth"
 
-FITTED = frozenset(
+EQUIPMENT_TOPICS = frozenset(
     {
         "/odom",
         "/imu/data",
@@ -45,7 +45,7 @@ FITTED = frozenset(
 """What only a robot tells that has something to tell it with."""
 
 
-class Offered:
+class OfferedTopics:
     """Looks at what a robot has told so far: one says everything once when it starts, and goes on to have it."""
 
     def __init__(self, info: RobotInfo, bus: Bus, *, simulated: bool) -> None:
@@ -55,7 +55,7 @@ class Offered:
 
     def __call__(self, topic: str) -> bool:
         """Whether it has a topic of this name; of others than the table's it is not for this to say."""
-        if topic in FITTED:
+        if topic in EQUIPMENT_TOPICS:
             return self._bus.last(topic) is not None
         if topic in _PICTURES:
             return topic in self._pictures

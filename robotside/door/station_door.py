@@ -9,9 +9,9 @@ from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import CommandResponse, RobotInfo
 from robotside.core.notice import coded
 from robotside.core.refusal import Refusal
-from robotside.door.derived_topics import Apart
+from robotside.door.derived_topics import DerivedTopics
 from robotside.door.door import Door
-from robotside.door.offered_topics import Offered
+from robotside.door.offered_topics import OfferedTopics
 from robotside.services.catalogue import catalogue
 from robotside.services.command_messages import listener
 from robotside.services.stop_services import press_stop
@@ -41,7 +41,7 @@ class StationDoor(Door):
     def __init__(self, station: Station) -> None:
         """Derived topics are those of the motors that the robot has told of by now."""
         self._station = station
-        self._derived = Apart(station.bus)
+        self._derived = DerivedTopics(station.bus)
         services, actions = catalogue(station)
         super().__init__(
             services=services.values(),
@@ -54,7 +54,7 @@ class StationDoor(Door):
             on_demand=self._want,
             on_gone=station.on_gone,
         )
-        self.offers = Offered(station.info, station.bus, simulated=station.robot.resettable)
+        self.offers = OfferedTopics(station.info, station.bus, simulated=station.robot.resettable)
         """Whether the robot has a topic of the table, by its name."""
 
     @property

@@ -29,10 +29,10 @@ __all__ = ["ForeignLink", "Listener"]
 
 log = logging.getLogger(__name__)
 
-ASKING = 3.0
+TOPICS_TIMEOUT = 3.0
 """How long the robot may take to tell its topics [s]."""
 
-AGAIN = 0.3
+STOP_RETRY_PERIOD = 0.3
 """How long a STOP waits for its answer before it is pressed again [s]."""
 
 _BINARY = {"/scan", "/map", CAMERA}
@@ -152,7 +152,7 @@ class ForeignLink:
 
     async def _offer(self) -> Found:
         try:
-            told = await self._client.call("/rosapi/topics", None, TopicsResponse, timeout=ASKING)
+            told = await self._client.call("/rosapi/topics", None, TopicsResponse, timeout=TOPICS_TIMEOUT)
         except BridgeError as error:
             log.info("%s does not tell its topics: %s", self._client.place, error)
             return usual()
@@ -162,7 +162,7 @@ class ForeignLink:
         if self._ordering is None or self._ordering.done():
             self._ordering = asyncio.create_task(self._order(service))
 
-    async def _order(self, service: str, patience: float = ASKING) -> bool:
+    async def _order(self, service: str, patience: float = TOPICS_TIMEOUT) -> bool:
         """Ask something of a robot side of ours, by our name; whether it may be is told on `CONTROL` as well."""
         asked = CommandRequest(client_id=self._id, client_name=self._name)
         with contextlib.suppress(BridgeError):
@@ -191,9 +191,9 @@ class ForeignLink:
     async def _stop(self) -> None:
         """Press STOP until the robot says that it is."""
         while True:
-            if await self._order("/stop", AGAIN):
+            if await self._order("/stop", STOP_RETRY_PERIOD):
                 return
-            await asyncio.sleep(AGAIN)
+            await asyncio.sleep(STOP_RETRY_PERIOD)
 
     async def _unstop(self) -> None:
         """Release STOP if it was pressed from here; what was on its way when it was released is seen later."""

@@ -26,28 +26,28 @@ from robotside.foreign.foreign_topics import Found
 
 __all__ = ["ForeignRobot", "Link"]
 
-PATIENCE = 3.0
+START_TIMEOUT = 3.0
 """How long the start waits for the robot, so that its limits and its map are known from the beginning [s]."""
 
-REPEAT = 0.1
+REPEAT_PERIOD = 0.1
 """A command is said again so often [s]: many drives stop by themselves without one, and some never do."""
 
-RESTS = 10
+REST_REPEATS = 10
 """How often rest is sent; one of them gets through."""
 
-OLDEST = 1.0
+MAX_AGE = 1.0
 """A message that claims to be older than this when it comes was stamped by another clock [s]."""
 
-JPEG = b"\xff\xd8"
+JPEG_START = b"\xff\xd8"
 """How a JPEG file begins."""
 
-SUPPOSED = RobotInfo(kind="wheels", model="ros", max_speed=0.5, max_yaw_rate=1.0, radius=0.3)
+ASSUMED_INFO = RobotInfo(kind="wheels", model="ros", max_speed=0.5, max_yaw_rate=1.0, radius=0.3)
 """What is supposed of a robot that does not tell: slow enough for most."""
 
-STILL_SILENT = 0.2
+SILENCE_TIME = 0.2
 """A silence must be seen for this long [s]: when this machine was busy, what came is only read late."""
 
-SILENT = "The robot cannot be reached: nothing has come from it for a second."
+SILENT_SENTENCE = "The robot cannot be reached: nothing has come from it for a second."
 
 
 class Link(Protocol):
@@ -87,7 +87,7 @@ class ForeignRobot:
         self,
         url: str,
         *,
-        patience: float = PATIENCE,
+        patience: float = START_TIMEOUT,
         connect: Callable[[str, Listener], Link] = ForeignLink,
     ) -> None:
         """`url` is `ws://HOST:PORT`, BadAddress when it is none; waits `patience` [s] at most for who answers there."""
@@ -114,7 +114,7 @@ class ForeignRobot:
     @property
     def trouble(self) -> str:
         """Why it cannot be driven, as one sentence: not reached, or in others' hands; empty when all is well."""
-        return self._unreached or (SILENT if self._silent else self._held)
+        return self._unreached or (SILENT_SENTENCE if self._silent else self._held)
 
     def drive(self, twist: Twist) -> None:
         """Move with `twist` until the next `drive` or `stop`; dropped while there is `trouble`."""
@@ -127,7 +127,7 @@ class ForeignRobot:
     def stop(self) -> None:
         """Send zero speed, several times."""
         with self._lock:
-            self._twist, self._rests, self._due = None, RESTS, -math.inf
+            self._twist, self._rests, self._due = None, REST_REPEATS, -math.inf
         self._link.drive(Twist())
 
     def press_stop(self) -> None:
@@ -165,7 +165,7 @@ class ForeignRobot:
     def found(self, found: Found) -> None:
         """The link: the robot is reached, stands still, and offers this."""
         with self._lock:
-            self._twist, self._rests = None, 0 if self._held else RESTS
+            self._twist, self._rests = None, 0 if self._held else REST_REPEATS
             self._found, self._unreached, self._told = found, "", True
             if tuple(found.remarks) != self._remarks:
                 self._remarks = tuple(found.remarks)
@@ -184,7 +184,7 @@ class ForeignRobot:
 
     def heard(self, topic: str, msg: Msg) -> None:
         """The link: a message came."""
-        if isinstance(msg, CompressedImage) and not msg.data.startswith(JPEG):
+        if isinstance(msg, CompressedImage) and not msg.data.startswith(JPEG_START):
             self._refuse(msg)
             return
         with self._lock:
@@ -202,9 +202,9 @@ class ForeignRobot:
     def _mind_silence(self, silent: bool, now: float) -> None:
         """What was sent into a silence may still arrive: rest is said from its beginning on, and again after its end."""
         self._silent_since = min(self._silent_since, now) if silent else math.inf
-        silent = now - self._silent_since >= STILL_SILENT
+        silent = now - self._silent_since >= SILENCE_TIME
         if silent or self._silent:
-            self._twist, self._rests = None, 0 if self._held else RESTS
+            self._twist, self._rests = None, 0 if self._held else REST_REPEATS
         self._silent = silent
 
     def _refuse(self, image: CompressedImage) -> None:
@@ -226,7 +226,7 @@ class ForeignRobot:
 
     def _introduced(self, place: str) -> RobotInfo:
         told = self._newest.get("/robot/info")
-        info = told if isinstance(told, RobotInfo) else SUPPOSED
+        info = told if isinstance(told, RobotInfo) else ASSUMED_INFO
         # one that has not come yet may have a camera
         sees = self._found is None or CAMERA in self._found.topics
         return msgspec.structs.replace(
@@ -234,17 +234,17 @@ class ForeignRobot:
             name=info.name or f"Robot at {place}",
             description=info.description or "ROS robot",
             cameras=(info.cameras[:1] or ["front"]) if sees else [],
-            max_speed=info.max_speed if info.max_speed > 0 else SUPPOSED.max_speed,
-            max_yaw_rate=info.max_yaw_rate if info.max_yaw_rate > 0 else SUPPOSED.max_yaw_rate,
-            radius=info.radius if info.radius > 0 else SUPPOSED.radius,
+            max_speed=info.max_speed if info.max_speed > 0 else ASSUMED_INFO.max_speed,
+            max_yaw_rate=info.max_yaw_rate if info.max_yaw_rate > 0 else ASSUMED_INFO.max_yaw_rate,
+            radius=info.radius if info.radius > 0 else ASSUMED_INFO.radius,
         )
 
     def _repeat(self, now: float) -> None:
         if self._due == -math.inf:
-            self._due = now + REPEAT
+            self._due = now + REPEAT_PERIOD
         if now < self._due:
             return
-        self._due = now + REPEAT
+        self._due = now + REPEAT_PERIOD
         if self._twist is not None:
             self._link.drive(self._twist)
         elif self._rests > 0:
@@ -258,7 +258,7 @@ class ForeignRobot:
         if header is None:
             return msg
         age = self._link.robot_time() - header.stamp.seconds
-        if not -REPEAT <= age <= OLDEST:  # NaN too
+        if not -REPEAT_PERIOD <= age <= MAX_AGE:  # NaN too
             age = 0.0
         stamp = max(now - max(age, 0.0), self._stamps.get(topic, -math.inf))
         self._stamps[topic] = stamp

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from bridge.core.robot_catalogue import Action, Service
-from robotside.services.command_service import Answering
+from robotside.services.command_service import CommandService
 from robotside.services.control_services import control_services
 from robotside.services.equipment_services import equipment_services
 from robotside.services.mission_services import mission_services
-from robotside.services.records_services import kept_services
+from robotside.services.records_services import records_services
 from robotside.services.stop_services import stop_services
 from robotside.services.task_actions import task_actions
 from robotside.services.task_services import task_services
@@ -20,13 +20,13 @@ __all__ = ["catalogue"]
 
 def catalogue(station: Station) -> tuple[dict[str, Service], dict[str, Action]]:
     """The services and the actions of `station` by name; what each has done once is in one ledger for all."""
-    answering = Answering(station)
+    answering = CommandService(station)
     services: list[Service] = []
     for family in (
         stop_services,
         task_services,
         mission_services,
-        kept_services,
+        records_services,
         control_services,
         equipment_services,
     ):

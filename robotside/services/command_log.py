@@ -9,25 +9,25 @@ from collections.abc import Callable
 from bridge.codec import from_json
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
-from robotside.control.command_expiry import AHEAD
+from robotside.control.command_expiry import MAX_CLOCK_LEAD
 from robotside.core.notice import Notice, Problem, coded
 from robotside.core.refusal import Refusal
 from robotside.core.text import number, plain
 from robotside.records.answers import MAX_ANSWERS
 
-__all__ = ["KEPT_FOR", "Commands"]
+__all__ = ["ANSWER_LIFETIME", "CommandLog"]
 
-KEPT_FOR = 60.0
+ANSWER_LIFETIME = 60.0
 """So long is an answer kept [s]; an id that comes later is one that was counted anew."""
 
-LONGEST_ID = 64
+MAX_ID_LENGTH = 64
 """Characters of a `command_id`; a longer one is refused, since two that are cut could look the same."""
 
-LONGEST = 300
+MAX_REASON_LENGTH = 300
 """Characters kept of a refusal's sentence."""
 
 
-class Commands:
+class CommandLog:
     """Runs commands and remembers what it answered."""
 
     def __init__(self, now: Callable[[], float]) -> None:
@@ -51,13 +51,13 @@ class Commands:
         """
         if ageless:
             return _answer(action, response)
-        if len(request.command_id) > LONGEST_ID:
+        if len(request.command_id) > MAX_ID_LENGTH:
             count = len(request.command_id)
-            said = f"A command_id has at most {LONGEST_ID} characters, not {count}."
-            return _refused(Notice(Code.COMMAND_ID_INVALID, said, length=count, max=LONGEST_ID), response)
+            said = f"A command_id has at most {MAX_ID_LENGTH} characters, not {count}."
+            return _refused(Notice(Code.COMMAND_ID_INVALID, said, length=count, max=MAX_ID_LENGTH), response)
         key, now = (sender, service, request.command_id), self._now()
         given, known = self._answers.get(key, (-math.inf, None))
-        if known is not None and abs(now - given) <= KEPT_FOR:
+        if known is not None and abs(now - given) <= ANSWER_LIFETIME:
             return from_json(known, response) if isinstance(known, str) else known
         untimely = self._untimely(request)
         answer = _refused(untimely, response) if untimely else _answer(action, response)
@@ -83,10 +83,13 @@ class Commands:
         if math.isnan(request.stamp):
             return ""
         age = self._now() - request.stamp
-        if age < -AHEAD:
-            ahead, allowed = f"{number(-age)} s ahead of the robot's", f"at most {AHEAD:.0f} s is allowed"
+        if age < -MAX_CLOCK_LEAD:
+            ahead, allowed = (
+                f"{number(-age)} s ahead of the robot's",
+                f"at most {MAX_CLOCK_LEAD:.0f} s is allowed",
+            )
             said = f"The command is not done: its clock is {ahead}; {allowed}."
-            return Notice(Code.COMMAND_AHEAD, said, seconds=-age, allowed=AHEAD)
+            return Notice(Code.COMMAND_AHEAD, said, seconds=-age, allowed=MAX_CLOCK_LEAD)
         if age <= request.valid_for:
             return ""
         valid = request.valid_for
@@ -103,4 +106,4 @@ def _answer(action: Callable[[], str | CommandResponse], response: type[CommandR
 
 
 def _refused(notice: Notice, response: type[CommandResponse]) -> CommandResponse:
-    return response(False, plain(notice, LONGEST), **coded(notice))
+    return response(False, plain(notice, MAX_REASON_LENGTH), **coded(notice))

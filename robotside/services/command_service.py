@@ -16,15 +16,15 @@ from robotside.core.notice import Notice, coded
 from robotside.core.refusal import Refusal
 from robotside.records import Job, NotRecorded
 from robotside.records.database.rows import Answered
-from robotside.services.command_log import Commands
+from robotside.services.command_log import CommandLog
 from robotside.station.station import Station
 
-__all__ = ["Action", "Answering"]
+__all__ = ["Action", "CommandService"]
 
-PATIENCE = 10.0
+DISK_TIMEOUT = 10.0
 """How long an answer waits for the disk [s]."""
 
-UNKEPT = "This could not be saved and would be lost on restart."
+UNKEPT_SENTENCE = "This could not be saved and would be lost on restart."
 """Said of what was done and is not on the disk."""
 
 Action = Callable[[Operator, Any], str | CommandResponse]
@@ -34,12 +34,12 @@ _Key = tuple[str, str, str]
 """The sender's id, the service and the `command_id` of a command."""
 
 
-class Answering:
+class CommandService:
     """The answers of one station."""
 
     def __init__(self, station: Station) -> None:
         self._station = station
-        self._commands = Commands(station.clock)
+        self._commands = CommandLog(station.clock)
         self._unwritten: dict[_Key, Job] = {}
         for answered in station.records.answers.all():
             self._commands.remember(*answered)
@@ -94,7 +94,7 @@ class Answering:
         return _Later(partial(self._when_kept, key, answer, job))
 
     async def _when_kept(self, key: _Key, answer: CommandResponse, job: Job) -> CommandResponse:
-        await job.kept(PATIENCE)
+        await job.kept(DISK_TIMEOUT)
         if job.done:
             self._unwritten.pop(key, None)
         return self._judged(key, answer, job)
@@ -107,7 +107,7 @@ class Answering:
             unwritten = coded(Notice(Code.RECORDS_UNWRITTEN, job.trouble))
             judged = type(answer)(False, job.trouble, **unwritten)
         else:
-            judged = replace(answer, message=f"{answer.message} {UNKEPT} {job.trouble}")
+            judged = replace(answer, message=f"{answer.message} {UNKEPT_SENTENCE} {job.trouble}")
         self._commands.amend(*key, judged)
         return judged
 

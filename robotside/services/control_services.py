@@ -18,8 +18,8 @@ from robotside.control.command_gate import STOP_SENTENCE
 from robotside.control.teleop import FOLLOW_LINK, LOST_LINK_STOPS_TASK
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
-from robotside.services.command_service import Answering
-from robotside.services.preconditions import Permits
+from robotside.services.command_service import CommandService
+from robotside.services.preconditions import Preconditions
 from robotside.services.task_services import TaskOrders
 from robotside.station.station import Station
 
@@ -35,15 +35,15 @@ _SAID = {
 }
 
 
-def control_services(station: Station, answering: Answering) -> Iterable[Service]:
+def control_services(station: Station, answering: CommandService) -> Iterable[Service]:
     """What the bridge offers of who steers `station`."""
-    steering, service = _Steering(station), answering.service
+    steering, service = _ControlOrders(station), answering.service
     plain: dict[str, Order] = {
         "/control/acquire": steering.acquire,
         "/control/release": steering.release,
-        "/control/request": lambda client, _: station.helm.request(client),
-        "/control/grant": lambda client, _: station.helm.grant(client, station.now),
-        "/control/object": lambda client, _: station.helm.object(client),
+        "/control/request": lambda client, _: station.teleop.request(client),
+        "/control/grant": lambda client, _: station.teleop.grant(client, station.now),
+        "/control/object": lambda client, _: station.teleop.object(client),
     }
     for name, action in plain.items():
         yield service(name, action)
@@ -51,11 +51,11 @@ def control_services(station: Station, answering: Answering) -> Iterable[Service
     yield service("/settings/set", steering.set_option, "SetOption", SetOptionRequest, SetOptionResponse)
 
 
-class _Steering:
+class _ControlOrders:
     """What each service does; a method returns the sentence of success or raises Refusal."""
 
     def __init__(self, station: Station) -> None:
-        self._station, self._tasks, self._permits = station, TaskOrders(station), Permits(station)
+        self._station, self._tasks, self._permits = station, TaskOrders(station), Preconditions(station)
 
     def acquire(self, client: Operator, _: CommandRequest) -> str:
         """Take control."""
@@ -65,7 +65,7 @@ class _Steering:
     def release(self, client: Operator, _: CommandRequest) -> str:
         """Give control back, or take back that one asks for it."""
         station = self._station
-        problem = station.helm.release(client, station.now)
+        problem = station.teleop.release(client, station.now)
         if problem:
             raise Refusal(problem)
         driver = station.controls.driver

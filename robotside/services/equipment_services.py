@@ -22,16 +22,16 @@ from robotside.core.notice import Notice
 from robotside.core.pose2 import Pose2
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
-from robotside.services.command_service import Answering
-from robotside.services.preconditions import Permits
+from robotside.services.command_service import CommandService
+from robotside.services.preconditions import Preconditions
 from robotside.station.station import Station
 
 __all__ = ["equipment_services"]
 
 
-def equipment_services(station: Station, answering: Answering) -> Iterable[Service]:
+def equipment_services(station: Station, answering: CommandService) -> Iterable[Service]:
     """What the bridge offers of what the robot of `station` has; nothing of what it has not."""
-    equipment, service = _Equipment(station), answering.service
+    equipment, service = _EquipmentOrders(station), answering.service
     mounted = station.info.payloads if station.robot.equipped else []
     if "lights" in mounted:
         yield service("/lights/set", equipment.set_lights, "SetLights", SetLightsRequest, SetLightsResponse)
@@ -41,11 +41,11 @@ def equipment_services(station: Station, answering: Answering) -> Iterable[Servi
         yield service("/robot/reset", equipment.reset)
 
 
-class _Equipment:
+class _EquipmentOrders:
     """What each service does; a method returns the sentence of success or raises Refusal."""
 
     def __init__(self, station: Station) -> None:
-        self._station, self._permits = station, Permits(station)
+        self._station, self._permits = station, Preconditions(station)
 
     def set_lights(self, client: Operator, asked: SetLightsRequest) -> str:
         """Shine as bright as that."""
@@ -73,7 +73,7 @@ class _Equipment:
         station.agenda.hold("the robot was put back")
         ended = f"{name} put the robot back to its start."
         station.autonomy.engine.cancel(Notice(Code.TASK_RESET, ended, actor_id=who, name=name))
-        station.helm.put_back()
+        station.teleop.put_back()
         pose = Pose2.from_msg(place)
         station.autonomy.pose_estimator.put(pose)
         robot, x, y = station.info.name, pose.x, pose.y

@@ -25,20 +25,20 @@ from bridge.msgs.std_msgs import Time
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
-from robotside.services.command_service import Answering
-from robotside.services.preconditions import Permits
+from robotside.services.command_service import CommandService
+from robotside.services.preconditions import Preconditions
 from robotside.station.station import Station
 
 __all__ = ["mission_services"]
 
-MOST_POINTS = 500
+MAX_POINTS = 500
 """Waypoints that one mission may have."""
 
-LONGEST_NAME = 60
+MAX_NAME_LENGTH = 60
 """Characters kept of a waypoint's name."""
 
 
-def mission_services(station: Station, answering: Answering) -> Iterable[Service]:
+def mission_services(station: Station, answering: CommandService) -> Iterable[Service]:
     """The services about the mission of `station`."""
     orders, service = _MissionOrders(station), answering.service
     yield service("/mission/set", orders.set_mission, "SetMission", SetMissionRequest)
@@ -54,7 +54,7 @@ class _MissionOrders:
     """What each service does; a method returns the sentence of success or raises Refusal or NotRecorded."""
 
     def __init__(self, station: Station) -> None:
-        self._station, self._permits = station, Permits(station)
+        self._station, self._permits = station, Preconditions(station)
 
     def set_mission(self, client: Operator, asked: SetMissionRequest) -> str:
         """Check a mission and store it."""
@@ -101,7 +101,7 @@ def _named(mission: Mission) -> Mission:
     """The same mission with each point's name cut to a readable line."""
     replace = msgspec.structs.replace
     points, home = (
-        [replace(point, name=plain(point.name, LONGEST_NAME)) for point in places]
+        [replace(point, name=plain(point.name, MAX_NAME_LENGTH)) for point in places]
         for places in (mission.waypoints, mission.home[:1])
     )
     return replace(mission, waypoints=points, home=home)
@@ -121,7 +121,7 @@ def _check_words(mission: Mission) -> None:
     if not 0 <= mission.laps <= MAX_LAPS:
         said = f"The laps must be 0 to {MAX_LAPS}, not {mission.laps}."
         raise Refusal(Notice(Code.LAPS_INVALID, said, laps=mission.laps, max=MAX_LAPS))
-    if len(mission.waypoints) > MOST_POINTS:
+    if len(mission.waypoints) > MAX_POINTS:
         count = len(mission.waypoints)
-        said = f"A mission has at most {MOST_POINTS} points, not {count}."
-        raise Refusal(Notice(Code.MISSION_TOO_LONG, said, count=count, max=MOST_POINTS))
+        said = f"A mission has at most {MAX_POINTS} points, not {count}."
+        raise Refusal(Notice(Code.MISSION_TOO_LONG, said, count=count, max=MAX_POINTS))

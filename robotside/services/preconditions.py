@@ -13,10 +13,10 @@ from robotside.station.station import Station
 from robotside.tasks.engine import TO_CHARGE, Task
 from robotside.tasks.task_factory import words_for
 
-__all__ = ["Permits"]
+__all__ = ["Preconditions"]
 
 
-class Permits:
+class Preconditions:
     """Each method raises Refusal with one sentence when it is not so."""
 
     def __init__(self, station: Station) -> None:

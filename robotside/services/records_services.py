@@ -28,20 +28,20 @@ from robotside.core.refusal import Refusal
 from robotside.core.text import plain
 from robotside.records.places import MAX_TEXTS
 from robotside.records.runs import MAX_PAGE
-from robotside.services.command_service import Answering
-from robotside.services.preconditions import Permits
+from robotside.services.command_service import CommandService
+from robotside.services.preconditions import Preconditions
 from robotside.station.station import Station
 from robotside.tasks.behaviours.dock import before
 
-__all__ = ["kept_services"]
+__all__ = ["records_services"]
 
-MOST_ACKNOWLEDGED = 1000
+MAX_ACKNOWLEDGED = 1000
 """Events that one request may name."""
 
 
-def kept_services(station: Station, answering: Answering) -> Iterable[Service]:
+def records_services(station: Station, answering: CommandService) -> Iterable[Service]:
     """What the bridge offers of what `station` keeps."""
-    kept, service = _Kept(station), answering.service
+    kept, service = _RecordsOrders(station), answering.service
     yield service("/places/set", kept.set_place, "SetPlace", SetPlaceRequest, SetPlaceResponse)
     yield service("/places/delete", kept.delete_place, "DeletePlace", DeletePlaceRequest, DeletePlaceResponse)
     yield service("/missions/get", kept.missions, "GetMissions", GetMissionsRequest, GetMissionsResponse)
@@ -58,12 +58,12 @@ def kept_services(station: Station, answering: Answering) -> Iterable[Service]:
     )
 
 
-class _Kept:
+class _RecordsOrders:
     """What each service does."""
 
     def __init__(self, station: Station) -> None:
         self._station, self._records = station, station.records
-        self._permits = Permits(station)
+        self._permits = Preconditions(station)
 
     def set_place(self, client: Operator, asked: SetPlaceRequest) -> SetPlaceResponse:
         """Keep a place, unless somebody else drives, or the robot can never stand there."""
@@ -104,8 +104,8 @@ class _Kept:
 
     def acknowledge(self, client: Operator, asked: AcknowledgeEventsRequest) -> str:
         """Note that somebody has seen to events; needs no control."""
-        if len(asked.ids) > MOST_ACKNOWLEDGED:
-            count, most = len(asked.ids), MOST_ACKNOWLEDGED
+        if len(asked.ids) > MAX_ACKNOWLEDGED:
+            count, most = len(asked.ids), MAX_ACKNOWLEDGED
             said = f"At most {most} events at once, not {count}."
             raise Refusal(Notice(Code.EVENTS_TOO_MANY, said, count=count, max=most))
         station = self._station

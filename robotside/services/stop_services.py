@@ -10,14 +10,14 @@ from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs.pilothouse_msgs import CommandRequest
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
-from robotside.services.command_service import Answering
-from robotside.services.preconditions import Permits
+from robotside.services.command_service import CommandService
+from robotside.services.preconditions import Preconditions
 from robotside.station.station import Station
 
 __all__ = ["press_stop", "stop_services"]
 
 
-def stop_services(station: Station, answering: Answering) -> Iterable[Service]:
+def stop_services(station: Station, answering: CommandService) -> Iterable[Service]:
     """The services of the STOP of `station`."""
     orders = _StopOrders(station)
     yield answering.service("/stop", orders.stop, ageless=True)
@@ -41,7 +41,7 @@ class _StopOrders:
     """What each service does; a method returns the sentence of success or raises Refusal."""
 
     def __init__(self, station: Station) -> None:
-        self._station, self._permits = station, Permits(station)
+        self._station, self._permits = station, Preconditions(station)
 
     def stop(self, client: Operator, asked: CommandRequest) -> str:
         """Latch STOP; it is not done while the robot cannot be reached, so that whoever pressed it goes on asking."""

@@ -20,16 +20,16 @@ from bridge.msgs.pilothouse_msgs import (
     TaskStatus,
 )
 from robotside.core.notice import Notice
-from robotside.services.command_service import Answering
+from robotside.services.command_service import CommandService
 from robotside.services.task_services import TaskOrders
 from robotside.station.station import Station
 
-__all__ = ["beginning", "task_actions"]
+__all__ = ["goal_service", "task_actions"]
 
 _OVER = ("SUCCEEDED", "CANCELED", "FAILED")
 
 
-def task_actions(station: Station, answering: Answering) -> Iterable[Action]:
+def task_actions(station: Station, answering: CommandService) -> Iterable[Action]:
     """The action that runs a task of `station`."""
     goals = _Goals(station, answering)
     yield Action(
@@ -37,7 +37,7 @@ def task_actions(station: Station, answering: Answering) -> Iterable[Action]:
     )
 
 
-def beginning(station: Station, answering: Answering) -> Service:
+def goal_service(station: Station, answering: CommandService) -> Service:
     """The service by which a goal begins its task: refused while another task has not ended."""
     return answering.service("/task/run", TaskOrders(station).run, request=RunTaskGoal)
 
@@ -45,9 +45,9 @@ def beginning(station: Station, answering: Answering) -> Service:
 class _Goals:
     """Follows the tasks that were begun as goals."""
 
-    def __init__(self, station: Station, answering: Answering) -> None:
+    def __init__(self, station: Station, answering: CommandService) -> None:
         self._station = station
-        self._begin = beginning(station, answering).call
+        self._begin = goal_service(station, answering).call
 
     async def run(self, client: Operator, goal: RunTaskGoal, tell: Callable[[Msg], None]) -> RunTaskResult:
         """Begin a task as `/task/start` does and wait for its end; cancelled, it ends the task.

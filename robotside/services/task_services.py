@@ -21,8 +21,8 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
-from robotside.services.command_service import Answering
-from robotside.services.preconditions import Permits
+from robotside.services.command_service import CommandService
+from robotside.services.preconditions import Preconditions
 from robotside.station.station import Station
 from robotside.tasks.engine import Task
 from robotside.tasks.task_factory import words_for
@@ -32,7 +32,7 @@ __all__ = ["TaskOrders", "task_services"]
 NONE_RUNNING = Notice(Code.TASK_NONE_RUNNING, "No task is running.")
 
 
-def task_services(station: Station, answering: Answering) -> Iterable[Service]:
+def task_services(station: Station, answering: CommandService) -> Iterable[Service]:
     """What the bridge offers about the tasks of `station`."""
     orders, service = TaskOrders(station), answering.service
     yield service("/task/start", orders.start, "StartTask", StartTaskRequest)
@@ -55,7 +55,7 @@ class TaskOrders:
     """What each service does; a method returns the sentence of success or raises Refusal or NotRecorded."""
 
     def __init__(self, station: Station) -> None:
-        self._station, self._permits = station, Permits(station)
+        self._station, self._permits = station, Preconditions(station)
         self._engine = station.autonomy.engine
 
     def start(self, client: Operator, asked: StartTaskRequest) -> str:

@@ -17,17 +17,17 @@ from typing import Any, Generic, Protocol, TypeVar
 from robotside.core.clock import RobotClock
 from robotside.station.station import Station
 
-__all__ = ["Served", "Together"]
+__all__ = ["RunningServer", "FleetServer"]
 
 log = logging.getLogger(__name__)
 
-TICK = 1 / 60
+TICK_PERIOD = 1 / 60
 """Real time between two ticks [s]."""
-LOOK = 1.0
+WANTED_PERIOD = 1.0
 """Real time between two questions whether it is still wanted [s]."""
-BRAKING = 2.0
+BRAKING_TIMEOUT = 2.0
 """How long the robots may take to come to rest at the end [s]."""
-SHORTAGE = 60.0
+SHORTAGE_PERIOD = 60.0
 """That no connection can be taken is said at most this often [s]."""
 
 _SHORT = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
@@ -35,7 +35,7 @@ _SHORT = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
 
 
 @dataclass(frozen=True, slots=True)
-class Served:
+class RunningServer:
     """What runs while a station listens."""
 
     work: tuple[Callable[[], Coroutine[Any, Any, None]], ...]
@@ -44,19 +44,19 @@ class Served:
     """Has all of it come to its end."""
 
 
-class _Serving(Protocol):
-    """As much of `robotside.serving.station_server.Serving` as is needed here."""
+class _StationServer(Protocol):
+    """As much of `robotside.serving.station_server.StationServer` as is needed here."""
 
     station: Station
 
-    def listening(self) -> AbstractAsyncContextManager[Served]:
+    def listening(self) -> AbstractAsyncContextManager[RunningServer]:
         """Hold its ports for as long as this is open."""
 
 
-S = TypeVar("S", bound=_Serving)
+S = TypeVar("S", bound=_StationServer)
 
 
-class Together(Generic[S]):
+class FleetServer(Generic[S]):
     """Serves some stations until told to end."""
 
     def __init__(
@@ -94,7 +94,7 @@ class Together(Generic[S]):
         """Have `run` come to its end: every robot brakes first."""
         for each in self._servings:
             each.station.end()
-        self._patience = self._wall() + BRAKING
+        self._patience = self._wall() + BRAKING_TIMEOUT
 
     async def _tick(self) -> None:
         """Drive the stations until told to end and all stand still and have said so."""
@@ -106,10 +106,10 @@ class Together(Generic[S]):
                     each.station.step(now)
                     await asyncio.sleep(0)
             if self._patience == math.inf and loop.time() >= look:
-                look = loop.time() + LOOK
+                look = loop.time() + WANTED_PERIOD
                 if not self._wanted():
                     self.end()
-            due = max(due + TICK, loop.time() - TICK)
+            due = max(due + TICK_PERIOD, loop.time() - TICK_PERIOD)
             await asyncio.sleep(max(0.0, due - loop.time()))
 
     def _done(self) -> bool:
@@ -129,5 +129,5 @@ class _Faults:
         if "socket" not in context or not isinstance(fault, OSError) or fault.errno not in _SHORT:
             loop.default_exception_handler(context)
         elif loop.time() >= self._next:
-            self._next = loop.time() + SHORTAGE
+            self._next = loop.time() + SHORTAGE_PERIOD
             log.error("No further connection can be taken at the moment: %s.", fault.strerror)

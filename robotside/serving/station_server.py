@@ -12,11 +12,11 @@ from robotside.door.station_door import StationDoor
 from robotside.gateways.gateway import Gateway
 from robotside.gateways.http.gateway import HttpGateway
 from robotside.gateways.rosbridge.gateway import RosbridgeGateway
-from robotside.gateways.scaling.picture_scaling import Pictures
-from robotside.serving.fleet_server import Served, Together
+from robotside.gateways.scaling.picture_scaling import PictureScaler
+from robotside.serving.fleet_server import FleetServer, RunningServer
 from robotside.station.station import Station
 
-__all__ = ["Addresses", "Serving"]
+__all__ = ["Addresses", "StationServer"]
 
 
 class Addresses:
@@ -36,8 +36,8 @@ class Addresses:
         self.port, self.http_port = (urlsplit(each).port or 0 for each in (self.bridge, self.http))
 
 
-class Serving:
-    """Serves one station until told to end: alone by `run`, or with others as part of a `Together`."""
+class StationServer:
+    """Serves one station until told to end: alone by `run`, or with others as part of a `FleetServer`."""
 
     def __init__(
         self,
@@ -54,8 +54,8 @@ class Serving:
         """The station that is served."""
         self.door = StationDoor(station)
         """The door that all its gateways stand behind."""
-        self._alone = Together([self], clock, wall, wanted=wanted)
-        self._pictures = Pictures()
+        self._alone = FleetServer([self], clock, wall, wanted=wanted)
+        self._pictures = PictureScaler()
         host = addresses.host
         self._rosbridge = RosbridgeGateway(self.door, host, addresses.port, self._pictures, clock.real)
         self.server = self._rosbridge.server
@@ -73,7 +73,7 @@ class Serving:
         self._alone.end()
 
     @asynccontextmanager
-    async def listening(self) -> AsyncIterator[Served]:
+    async def listening(self) -> AsyncIterator[RunningServer]:
         """Hold its ports for as long as this is open. BridgeError when one is taken."""
         async with AsyncExitStack() as opened:
             opened.callback(self.door.close)
@@ -87,7 +87,7 @@ class Serving:
                 endpoints.update(gateway.endpoints())
             self.addresses.note(endpoints)
             beacon = Beacon(self._hello)
-            yield Served((beacon.run,), beacon.close)
+            yield RunningServer((beacon.run,), beacon.close)
 
     def _hello(self) -> Hello:
         info, driver = self.station.info, self.station.controls.driver

@@ -10,7 +10,7 @@ from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import ControlStatus
 from bridge.msgs.std_msgs import Time
 from robotside.autonomy.readiness import Readiness
-from robotside.control.command_gate import Controls
+from robotside.control.command_gate import CommandGate
 from robotside.control.teleop import LOST_LINK_STOPS_TASK, Options
 from robotside.core.bus import Publish
 from robotside.core.notice import Notice
@@ -26,7 +26,7 @@ class ControlStatusPublisher:
 
     def __init__(
         self,
-        controls: Controls,
+        controls: CommandGate,
         engine: Engine,
         options: Options,
         rest: RestDetector,

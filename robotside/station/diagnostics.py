@@ -7,12 +7,12 @@ import math
 from bridge.msgs.diagnostic_msgs import DiagnosticArray, DiagnosticStatus
 from bridge.msgs.std_msgs import Header, Time
 from robotside.autonomy.autonomy import Autonomy
-from robotside.control.command_gate import Controls
+from robotside.control.command_gate import CommandGate
 
 __all__ = ["diagnostics"]
 
 
-def diagnostics(autonomy: Autonomy, controls: Controls, now: float) -> DiagnosticArray:
+def diagnostics(autonomy: Autonomy, controls: CommandGate, now: float) -> DiagnosticArray:
     """How the robot is at `now` [s, robot clock]."""
     where, low = autonomy.pose_estimator, autonomy.low
     status = [

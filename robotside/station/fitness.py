@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from bridge.core.codes import Code
 from robotside.autonomy.autonomy import Autonomy
-from robotside.control.command_gate import Controls
+from robotside.control.command_gate import CommandGate
 from robotside.core.notice import Notice, Problem
 from robotside.limits.limits import LimitKeeper
 
@@ -21,7 +21,7 @@ class Fitness:
     def __init__(
         self,
         autonomy: Autonomy,
-        controls: Controls,
+        controls: CommandGate,
         keeper: LimitKeeper,
         trouble: Callable[[], Problem],
         now: Callable[[], float],

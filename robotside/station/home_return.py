@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from bridge.msgs.pilothouse_msgs import TaskOrder
 from robotside.autonomy.autonomy import Autonomy
-from robotside.control.command_gate import Controls
+from robotside.control.command_gate import CommandGate
 from robotside.core.refusal import Refusal
 from robotside.station.fitness import Fitness
 
@@ -19,7 +19,7 @@ class HomeReturn:
     def __init__(
         self,
         autonomy: Autonomy,
-        controls: Controls,
+        controls: CommandGate,
         fitness: Fitness,
         hold_queue: Callable[[str], None],
         now: Callable[[], float],

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Operator
 from robotside.autonomy.autonomy import Autonomy
-from robotside.control.command_gate import Controls
+from robotside.control.command_gate import CommandGate
 from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Pose2
 from robotside.records.events import Say
@@ -22,7 +22,7 @@ class Placing:
 
     def __init__(
         self,
-        controls: Controls,
+        controls: CommandGate,
         autonomy: Autonomy,
         fitness: Fitness,
         say: Say,

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 
 from bridge.core.codes import Code
-from robotside.control.command_gate import Controls
+from robotside.control.command_gate import CommandGate
 from robotside.core.notice import Notice, Problem
 from robotside.records.events import Say
 from robotside.tasks.engine import Engine
@@ -17,7 +17,9 @@ __all__ = ["PortWatch"]
 class PortWatch:
     """Reports when the robot is lost and when it is back."""
 
-    def __init__(self, trouble: Callable[[], Problem], controls: Controls, engine: Engine, say: Say) -> None:
+    def __init__(
+        self, trouble: Callable[[], Problem], controls: CommandGate, engine: Engine, say: Say
+    ) -> None:
         """`trouble` is why the robot can be neither driven nor heard, empty when it can."""
         self._trouble, self._controls, self._engine, self._say = trouble, controls, engine, say
         self._known = False

@@ -24,10 +24,10 @@ from bridge.msgs.pilothouse_msgs import Event, IntruderArray, Manoeuvre, RobotIn
 from bridge.msgs.std_msgs import Header, Time
 from robotside.autonomy.autonomy import Autonomy
 from robotside.autonomy.readiness import Readiness
-from robotside.control.command_gate import Controls
-from robotside.control.guarded_robot import Guarded, port_info
+from robotside.control.command_gate import CommandGate
+from robotside.control.guarded_robot import GuardedRobot, port_info
 from robotside.control.safe_state import SafeState
-from robotside.control.teleop import FOLLOW_LINK, Helm, Options
+from robotside.control.teleop import FOLLOW_LINK, Options, Teleop
 from robotside.core.bus import Bus
 from robotside.core.config import DEFAULT_CONFIG, Config
 from robotside.core.notice import Notice, Problem
@@ -113,7 +113,7 @@ class Station:
     def step(self, now: float) -> None:
         """Bring everything up to `now` [s, robot clock]; call it often."""
         self.now = now
-        self._guard.run(partial(self.helm.step, now))
+        self._guard.run(partial(self.teleop.step, now))
         self._take_in(self.robot.read(now))
         self._port.update(now)
         self.autonomy.status_publisher.update()
@@ -136,7 +136,7 @@ class Station:
         if isinstance(msg, Manoeuvre) and stamp is None and msg.header.stamp.seconds > 0:
             stamp = msg.header.stamp.seconds
         if isinstance(msg, Twist | Manoeuvre):
-            self._guard.run(lambda: self._remarks.make(client.id, self.helm.drive(client, msg, stamp)))
+            self._guard.run(lambda: self._remarks.make(client.id, self.teleop.drive(client, msg, stamp)))
         elif isinstance(msg, PoseWithCovarianceStamped):
             self._placing.place(client, Pose2.from_msg(msg.pose.pose))
         self.publish_control()
@@ -144,7 +144,7 @@ class Station:
     def on_gone(self, client: Operator) -> None:
         """A client left; if it was driving, the robot stops at once."""
         self._remarks.forget(client.id)
-        self._guard.run(partial(self.helm.gone, client, self.now))
+        self._guard.run(partial(self.teleop.gone, client, self.now))
         self.publish_control()
 
     def publish_control(self) -> None:
@@ -183,12 +183,12 @@ class Station:
         """What judges commands, and the port behind it."""
         self.options = Options(config.control, self.records.setting, self.records.set_setting)
         """The settings that operators may switch."""
-        self.controls = Controls(
+        self.controls = CommandGate(
             self.info,
             follows=partial(self.options.on, FOLLOW_LINK),
             unmeasured_share=config.control.unmeasured_link_speed,
         )
-        self.robot = Guarded(robot, lambda: self.controls.stopped, self._limits.clamp, self.keeper.info)
+        self.robot = GuardedRobot(robot, lambda: self.controls.stopped, self._limits.clamp, self.keeper.info)
         """The only way to the robot's wheels."""
         self.readiness = Readiness(self.clock, self.bus.publish, robot.info.kind)
         """The checklist before the first motion."""
@@ -199,7 +199,7 @@ class Station:
         self.fitness = Fitness(self.autonomy, self.controls, self.keeper, self._trouble, now)
         """Why the robot cannot move by itself."""
         home = HomeReturn(self.autonomy, self.controls, self.fitness, self._hold_queue, now)
-        self.helm = Helm(
+        self.teleop = Teleop(
             self.controls,
             self.robot,
             engine,

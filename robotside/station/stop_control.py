@@ -9,10 +9,10 @@ from collections.abc import Callable
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.autonomy.readiness import Readiness
-from robotside.control.command_gate import Controls
-from robotside.control.guarded_robot import Guarded
+from robotside.control.command_gate import CommandGate
+from robotside.control.guarded_robot import GuardedRobot
 from robotside.control.stop_consequences import still_moves
-from robotside.control.stop_latch import Latch
+from robotside.control.stop_latch import StopLatch
 from robotside.core.notice import Notice
 from robotside.motion.measured import MeasuredState
 from robotside.records import Records
@@ -30,8 +30,8 @@ class StopControl:
     def __init__(
         self,
         info: RobotInfo,
-        controls: Controls,
-        robot: Guarded,
+        controls: CommandGate,
+        robot: GuardedRobot,
         engine: Engine,
         records: Records,
         readiness: Readiness,
@@ -45,12 +45,12 @@ class StopControl:
         self._info, self._controls, self._robot, self._engine = info, controls, robot, engine
         self._records, self._readiness = records, readiness
         self._say, self._clock, self._measured, self._is_at_rest = say, clock, measured, is_at_rest
-        self._latch = Latch(records, say)
+        self._latch = StopLatch(records, say)
         self._port_fault = ""
         self._ending = False
 
     def press(self, name: str, client_id: str = "", given: float = math.inf) -> None:
-        """Latch STOP, as `Controls.stop` does, bring the robot to rest and hold the task; it was `given` now at the latest."""
+        """Latch STOP, as `CommandGate.stop` does, bring the robot to rest and hold the task; it was `given` now at the latest."""
         fresh = not self._controls.stopped
         self._controls.stop(name, client_id, min(given, self._clock()))  # before all that may fail
         self._port_fault = ""

@@ -12,7 +12,7 @@ import msgspec
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist
-from robotside.control.command_expiry import HELD, UNSTAMPED, VALID
+from robotside.control.command_expiry import HOLD_TIME, MAX_UNSTAMPED_AGE, VALID_TIME
 from tests.fakes import FakeClient, FakeRobot
 from tests.robotside.scene import Scene
 
@@ -106,7 +106,7 @@ class Trial:
             before = len(self.robot.commands)
             scene.drive(FULL, client, given if cut.stamped else None)
             if len(self.robot.commands) > before and self.robot.moving:
-                assert moment - given <= (HELD if cut.stamped else UNSTAMPED)
+                assert moment - given <= (HOLD_TIME if cut.stamped else MAX_UNSTAMPED_AGE)
                 valid, moved = (given if cut.stamped else moment), True
         assert moved
         assert not self.robot.moving
@@ -129,7 +129,7 @@ class Trial:
                 scene.station.step(scene.now)
             if moved:  # until now at least
                 self.worst = max(self.worst, scene.clock - valid)
-                assert scene.clock - valid <= VALID, (cut, scene.clock - valid)
+                assert scene.clock - valid <= VALID_TIME, (cut, scene.clock - valid)
         return valid
 
 
@@ -144,7 +144,7 @@ def test_a_clock_that_is_ahead_and_then_silence_is_zero_as_soon(tmp_path: Path, 
         scene.run(way)
         scene.drive(FULL, stamp=given + ahead)
         assert robot.moving
-    scene.run(given + VALID - SPARE - scene.clock)
+    scene.run(given + VALID_TIME - SPARE - scene.clock)
     assert not robot.moving
 
 
@@ -153,4 +153,4 @@ def test_the_commanded_speed_is_zero_300_ms_after_the_last_valid_command(kind: s
     rng, trial = random.Random(f"cuts of {kind}"), Trial(kind, tmp_path)
     for _ in range(CUTS):
         trial.drive(Cut.some(rng), rng)
-    assert 0.2 < trial.worst <= VALID - SPARE
+    assert 0.2 < trial.worst <= VALID_TIME - SPARE

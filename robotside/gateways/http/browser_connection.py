@@ -8,25 +8,25 @@ import socket
 
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-__all__ = ["FAREWELL", "LONGEST", "MOST", "STUCK", "Visit"]
+__all__ = ["CLOSE_TIMEOUT", "MAX_CONNECTION_TIME", "MAX_CONNECTIONS", "STUCK_TIMEOUT", "BrowserConnection"]
 
-MOST = 64
+MAX_CONNECTIONS = 64
 """Connections open at a time; for one more the oldest that asks nothing is closed, else that one."""
 
-LONGEST = 30.0
+MAX_CONNECTION_TIME = 30.0
 """How long a connection may stay, whatever it asks [s]; a stream as long as it is read."""
 
-STUCK = 10.0
+STUCK_TIMEOUT = 10.0
 """A stream of which nothing was read for this long, and at most twice as long, is ended [s]."""
 
-FAREWELL = 0.5
+CLOSE_TIMEOUT = 0.5
 """How long the answers under way may still take when the site ends [s]."""
 
 _UNSENT = 49_152
 """Bytes on their way to one browser: a stream must not queue old pictures in the kernel."""
 
 
-class Visit(H11Protocol):
+class BrowserConnection(H11Protocol):
     """HTTP on one connection; uvicorn's own limits begin only after the first request."""
 
     _looking: asyncio.TimerHandle | None = None
@@ -37,8 +37,8 @@ class Visit(H11Protocol):
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Let it in if there is room or somebody asks nothing."""
         super().connection_made(transport)
-        self.until = self.loop.time() + LONGEST
-        if len(self.connections) > MOST:
+        self.until = self.loop.time() + MAX_CONNECTION_TIME
+        if len(self.connections) > MAX_CONNECTIONS:
             self._make_room()
         if not transport.is_closing():
             _keep_little(transport)
@@ -46,19 +46,21 @@ class Visit(H11Protocol):
 
     def _make_room(self) -> None:
         """Close the oldest connection that asks nothing, which slow ones and idle ones are; this one when there is none."""
-        others = [visit for visit in self.connections if visit is not self and isinstance(visit, Visit)]
+        others = [
+            visit for visit in self.connections if visit is not self and isinstance(visit, BrowserConnection)
+        ]
         idle = [visit for visit in others if not visit.asking and not visit.transport.is_closing()]
         min(idle, key=lambda visit: visit.until, default=self).transport.abort()
 
     def shutdown(self) -> None:
         """The site ends: finish what is being answered, but not a stream and not one who does not read."""
         super().shutdown()
-        self.loop.call_later(FAREWELL, self.transport.abort)
+        self.loop.call_later(CLOSE_TIMEOUT, self.transport.abort)
 
     def _look_later(self) -> None:
         left = self.until - self.loop.time()
         self._looking = self.loop.call_later(
-            STUCK if self._streaming else min(STUCK, max(0.0, left)), self._look
+            STUCK_TIMEOUT if self._streaming else min(STUCK_TIMEOUT, max(0.0, left)), self._look
         )
 
     def _look(self) -> None:

@@ -17,14 +17,23 @@ from bridge.core.robot_door import RobotDoor
 from bridge.core.topics import CAMERA
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import CompressedImage
-from robotside.gateways.scaling.picture_scaling import Pictures, Superseded
+from robotside.gateways.scaling.picture_scaling import PictureScaler, Superseded
 
-__all__ = ["MEDIA_TYPE", "MOST", "PATIENCE", "BadViewError", "FullError", "Streams", "View", "view_of"]
+__all__ = [
+    "MEDIA_TYPE",
+    "MAX_VIEWERS",
+    "PICTURE_TIMEOUT",
+    "BadViewError",
+    "FullError",
+    "CameraStreams",
+    "View",
+    "view_of",
+]
 
-MOST = 8
+MAX_VIEWERS = 8
 """Who may look at streams at a time."""
 
-PATIENCE = 10.0
+PICTURE_TIMEOUT = 10.0
 """A stream ends when no picture comes for this long [s]."""
 
 BOUNDARY = "picture"
@@ -78,10 +87,10 @@ def _number(name: str, text: str) -> float:
     return value
 
 
-class Streams:
+class CameraStreams:
     """The pictures of one robot's camera for all who look by HTTP."""
 
-    def __init__(self, door: RobotDoor, pictures: Pictures) -> None:
+    def __init__(self, door: RobotDoor, pictures: PictureScaler) -> None:
         self._door, self._pictures = door, pictures
         self.viewers: set[_Viewer] = set()
         """Who looks at a stream now."""
@@ -97,8 +106,8 @@ class Streams:
 
     def viewer(self, view: View) -> _Viewer:
         """An ASGI application that sends pictures for as long as they are taken. Raises FullError."""
-        if len(self.viewers) >= MOST:
-            raise FullError(f"{MOST} look at the camera already; close one of them.")
+        if len(self.viewers) >= MAX_VIEWERS:
+            raise FullError(f"{MAX_VIEWERS} look at the camera already; close one of them.")
         return _Viewer(self, view)
 
     @contextmanager
@@ -112,7 +121,7 @@ class Streams:
             self._door.leave(newest)
 
     async def made(self, jpeg: bytes, view: View, *, patient: bool = False) -> bytes:
-        """`jpeg` as `view` wants it; fails as `Pictures.make` does, which `patient` is for."""
+        """`jpeg` as `view` wants it; fails as `PictureScaler.make` does, which `patient` is for."""
         if view.width is None and view.quality is None:
             return jpeg
         return await self._pictures.make(jpeg, view.width, view.quality, patient=patient)
@@ -143,7 +152,7 @@ class _Newest:
 class _Viewer:
     """One response that does not end."""
 
-    def __init__(self, streams: Streams, view: View) -> None:
+    def __init__(self, streams: CameraStreams, view: View) -> None:
         self._streams, self._view = streams, view
 
     async def __call__(self, _: object, receive: Receive, send: Send) -> None:
@@ -175,7 +184,7 @@ class _Viewer:
                 await asyncio.sleep(due - clock())
                 due = max(due, clock() - period) + period
                 try:
-                    async with asyncio.timeout(PATIENCE):
+                    async with asyncio.timeout(PICTURE_TIMEOUT):
                         jpeg = await newest.next()
                 except TimeoutError:
                     return

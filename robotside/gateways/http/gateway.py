@@ -13,10 +13,10 @@ import uvicorn
 from bridge.core.errors import BridgeError
 from robotside.door.station_door import StationDoor
 from robotside.gateways.addresses import listening_socket, url
-from robotside.gateways.http.browser_connection import Visit
-from robotside.gateways.http.camera_streams import Streams
+from robotside.gateways.http.browser_connection import BrowserConnection
+from robotside.gateways.http.camera_streams import CameraStreams
 from robotside.gateways.http.web_site import site
-from robotside.gateways.scaling.picture_scaling import Pictures
+from robotside.gateways.scaling.picture_scaling import PictureScaler
 
 __all__ = ["HttpGateway"]
 
@@ -31,14 +31,14 @@ class HttpGateway:
         door: StationDoor,
         host: str,
         port: int,
-        pictures: Pictures,
+        pictures: PictureScaler,
         rosbridge_url: Callable[[], str],
     ) -> None:
         """Port 0 takes a free one. The page names `rosbridge_url` to programs."""
         self._host = host
         self.port = port
         """Where it listens; 0 until one was taken."""
-        self.site = site(door, rosbridge_url, Streams(door, pictures))
+        self.site = site(door, rosbridge_url, CameraStreams(door, pictures))
         """The ASGI application."""
         self._socket: socket.socket | None = None
         self._server: uvicorn.Server | None = None
@@ -55,7 +55,9 @@ class HttpGateway:
                 f"Cannot serve HTTP on {where}: {why}; --http-port names another port."
             ) from error
         self.port = self._socket.getsockname()[1]
-        config = uvicorn.Config(self.site, http=Visit, log_level="warning", lifespan="off", access_log=False)
+        config = uvicorn.Config(
+            self.site, http=BrowserConnection, log_level="warning", lifespan="off", access_log=False
+        )
         self._server = _WebServer(config)
         self._serving = asyncio.create_task(self._server.serve([self._socket]))
         self._serving.add_done_callback(_log_fault)

@@ -15,14 +15,21 @@ from starlette.routing import Route
 from bridge.core.errors import BridgeError
 from bridge.core.topics import CAMERA, TOPICS, camera_topics
 from bridge.msgs.pilothouse_msgs import TaskStatus
-from robotside.control.authority import LONGEST_NAME
+from robotside.control.authority import MAX_NAME_LENGTH
 from robotside.core.text import plain
 from robotside.door.station_door import StationDoor
-from robotside.gateways.http.camera_streams import MEDIA_TYPE, BadViewError, FullError, Streams, View, view_of
+from robotside.gateways.http.camera_streams import (
+    MEDIA_TYPE,
+    BadViewError,
+    CameraStreams,
+    FullError,
+    View,
+    view_of,
+)
 
 __all__ = ["site"]
 
-PICTURE_PATIENCE = 2.0
+SNAPSHOT_TIMEOUT = 2.0
 """How long to wait for a picture [s]."""
 
 _FRESH = {"Cache-Control": "no-store"}
@@ -46,7 +53,7 @@ _CAMERA = """<li>camera {name}: <code>{bridge}/camera/{name}</code>, <a href="/s
 """
 
 
-def site(door: StationDoor, bridge_url: Callable[[], str], streams: Streams) -> Starlette:
+def site(door: StationDoor, bridge_url: Callable[[], str], streams: CameraStreams) -> Starlette:
     """The web site of one robot."""
 
     async def page(_: Request) -> Response:
@@ -59,9 +66,9 @@ def site(door: StationDoor, bridge_url: Callable[[], str], streams: Streams) -> 
         view = _view(request, door)
         if request.method == "HEAD":
             return Response(headers=_FRESH, media_type="image/jpeg")
-        jpeg = await streams.picture(view, PICTURE_PATIENCE)
+        jpeg = await streams.picture(view, SNAPSHOT_TIMEOUT)
         if jpeg is None:
-            raise HTTPException(503, f"No picture came within {PICTURE_PATIENCE:g} s.")
+            raise HTTPException(503, f"No picture came within {SNAPSHOT_TIMEOUT:g} s.")
         return Response(jpeg, media_type="image/jpeg", headers=_FRESH)
 
     async def stream(request: Request) -> Any:
@@ -91,7 +98,7 @@ def site(door: StationDoor, bridge_url: Callable[[], str], streams: Streams) -> 
 
 def _stop(door: StationDoor, request: Request) -> tuple[str, int]:
     """Press STOP for whoever asks; one sentence and the status."""
-    name = plain(request.query_params.get("name", ""), LONGEST_NAME)
+    name = plain(request.query_params.get("name", ""), MAX_NAME_LENGTH)
     who = name or f"a browser at {request.client.host if request.client else 'an unknown address'}"
     answer = door.stop(who)
     return f"{answer.message}\n", 200 if answer.success else 503

@@ -12,7 +12,7 @@ from bridge.server.server import BridgeServer
 from robotside.door.station_door import StationDoor
 from robotside.gateways.addresses import url
 from robotside.gateways.scaling.message_reduction import reduce
-from robotside.gateways.scaling.picture_scaling import Pictures
+from robotside.gateways.scaling.picture_scaling import PictureScaler
 from robotside.perception.intruder_watch import jpeg_size
 
 __all__ = ["RosbridgeGateway"]
@@ -26,7 +26,7 @@ class RosbridgeGateway:
         door: StationDoor,
         host: str,
         port: int,
-        pictures: Pictures,
+        pictures: PictureScaler,
         real_time: Callable[[float], float],
     ) -> None:
         """Port 0 takes a free one. `real_time` makes of the robot's time real time [s], by which frames are stamped.

@@ -15,7 +15,7 @@ from bridge.msgs.arrays import Float32Array, Int8Array
 from bridge.msgs.nav_msgs import OccupancyGrid
 from bridge.msgs.sensor_msgs import CompressedImage, Image, LaserScan
 from bridge.protocol import Reduction
-from robotside.gateways.scaling.picture_scaling import QUALITY, smaller
+from robotside.gateways.scaling.picture_scaling import DEFAULT_QUALITY, smaller
 
 __all__ = ["reduce"]
 
@@ -82,7 +82,7 @@ def _of_the_same(intensities: Float32Array, nearest: NDArray[np.intp], count: in
 
 
 def _smaller_picture(image: CompressedImage, wanted: Reduction) -> CompressedImage:
-    quality = QUALITY if wanted.quality is None else min(95, max(1, wanted.quality))
+    quality = DEFAULT_QUALITY if wanted.quality is None else min(95, max(1, wanted.quality))
     width = None if wanted.width is None else max(1, wanted.width)
     try:
         data = smaller(image.data, width, quality)

@@ -13,21 +13,21 @@ from PIL import Image
 from bridge.core.errors import BridgeError
 from robotside.perception.intruder_watch import jpeg_size
 
-__all__ = ["LEVELS", "Pictures", "Superseded", "smaller"]
+__all__ = ["LEVELS", "PictureScaler", "Superseded", "smaller"]
 
 LEVELS = ((1.0, 45), (0.5, 50), (0.375, 35))
 """Levels 1 to 3 of a camera's own socket: part of the original's columns, JPEG quality. In bytes, about a half each."""
 
-QUALITY = 80
+DEFAULT_QUALITY = 80
 """JPEG quality where nobody asks for one."""
 
-WAITING = 4
+MAX_WAITING = 4
 """Pictures of those who watch that may wait for the worker; a further one takes the place of the oldest."""
 
-KEPT = 8
+MAX_CACHED = 8
 """Pictures kept for others who want the same."""
 
-LARGEST = 8192
+MAX_SIDE = 8192
 """Columns or rows of a picture that is still made smaller [px]; to read a larger one would take all memory."""
 
 
@@ -47,7 +47,7 @@ class _Wish:
     """Whoever wants it asks once and waits."""
 
 
-class Pictures:
+class PictureScaler:
     """Makes pictures smaller, each once; belongs to the event loop that calls it, and to who closes it."""
 
     def __init__(self) -> None:
@@ -74,14 +74,14 @@ class Pictures:
         Whoever wants the same of the same object shares it. Fails with BridgeError for what is no JPEG file, and with
         Superseded when too much newer work came before it was begun, which a `patient` asker's is never.
         """
-        key = (id(jpeg), width, QUALITY if quality is None else quality)
+        key = (id(jpeg), width, DEFAULT_QUALITY if quality is None else quality)
         wish = self._kept.get(key)
         if wish is None or wish.result.cancelled():
             result = asyncio.get_running_loop().create_future()
             wish = _Wish(jpeg, width, key[2], result, patient)
             wish.result.add_done_callback(_look)
             self._kept[key] = wish
-            while len(self._kept) > KEPT:
+            while len(self._kept) > MAX_CACHED:
                 self._kept.popitem(last=False)
             self._add(wish)
         wish.patient = wish.patient or patient
@@ -98,7 +98,7 @@ class Pictures:
 
     def _add(self, wish: _Wish) -> None:
         watched = [waiting for waiting in self._waiting if not waiting.patient]
-        if len(watched) >= WAITING and not wish.patient:
+        if len(watched) >= MAX_WAITING and not wish.patient:
             self._pass_over(watched[0])
         self._waiting.append(wish)
         if self._busy is None:
@@ -124,10 +124,10 @@ class Pictures:
 
 
 def smaller(jpeg: bytes, width: float | None, quality: int) -> bytes:
-    """`jpeg` as `Pictures.make` describes, made at once; never wider than it was."""
+    """`jpeg` as `PictureScaler.make` describes, made at once; never wider than it was."""
     columns, rows = jpeg_size(jpeg)
-    if max(columns, rows) > LARGEST:
-        raise BridgeError(f"A picture has at most {LARGEST} columns and rows, not {columns} x {rows}.")
+    if max(columns, rows) > MAX_SIDE:
+        raise BridgeError(f"A picture has at most {MAX_SIDE} columns and rows, not {columns} x {rows}.")
     try:
         with Image.open(io.BytesIO(jpeg), formats=("JPEG",)) as image:
             columns, rows = image.size

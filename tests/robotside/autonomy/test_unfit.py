@@ -20,7 +20,7 @@ from bridge.msgs.geometry_msgs import (
 )
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
 from bridge.msgs.pilothouse_msgs import CommandRequest, Event, SetMissionRequest, StartTaskRequest
-from robotside.control.neutral_interlock import LET_GO
+from robotside.control.neutral_interlock import LET_GO_SENTENCE
 from robotside.core.pose2 import ORIGIN
 from robotside.station.fitness import NO_MAP
 from tests.fakes import FakeRobot
@@ -335,7 +335,7 @@ def test_a_stick_held_through_an_outage_moves_the_robot_only_when_it_was_let_go(
         lost.run(0.05)
         lost.drive(AHEAD)
     assert not any(lost.robot.commands[before:])
-    assert lost.events("command")[-1] == LET_GO
+    assert lost.events("command")[-1] == LET_GO_SENTENCE
     lost.drive(Twist())
     lost.drive(AHEAD)
     assert lost.robot.twist == AHEAD

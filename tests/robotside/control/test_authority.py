@@ -5,7 +5,13 @@ from __future__ import annotations
 import pytest
 
 from bridge.core.link_state import CONTROL_TIMEOUT
-from robotside.control.authority import AGAIN, REMEMBERED, SILENT, TO_OBJECT, Authority
+from robotside.control.authority import (
+    MAX_OBJECTIONS,
+    OBJECTION_TIME,
+    REQUEST_PAUSE,
+    TAKEOVER_SILENCE,
+    Authority,
+)
 from tests.fakes import FakeClient
 
 NOW = 10.0
@@ -53,11 +59,11 @@ def test_control_goes_over_when_the_driver_does_not_object_for_ten_seconds(
 ) -> None:
     authority.acquire(anna, NOW)
     assert authority.request(bert, NOW) == ""
-    pass_time(authority, TO_OBJECT - 0.1, anna, bert)
+    pass_time(authority, OBJECTION_TIME - 0.1, anna, bert)
     assert driver(authority) == "Anna"
     assert authority.asker is not None
-    assert (authority.asker.name, authority.asker.due) == ("Bert", NOW + TO_OBJECT)
-    pass_time(authority, TO_OBJECT, anna, bert)
+    assert (authority.asker.name, authority.asker.due) == ("Bert", NOW + OBJECTION_TIME)
+    pass_time(authority, OBJECTION_TIME, anna, bert)
     assert (driver(authority), authority.asker) == ("Bert", None)
 
 
@@ -68,7 +74,7 @@ def test_asking_again_does_not_start_the_time_anew(
     authority.request(bert, NOW)
     later = pass_time(authority, 6.0, anna, bert)
     assert authority.request(bert, later) == ""
-    pass_time(authority, TO_OBJECT, anna, bert)
+    pass_time(authority, OBJECTION_TIME, anna, bert)
     assert driver(authority) == "Bert"
 
 
@@ -78,10 +84,10 @@ def test_a_driver_who_objects_keeps_control_and_is_not_asked_again_at_once(
     authority.acquire(anna, NOW)
     authority.request(bert, NOW)
     assert authority.object(anna, NOW + 1.0) == ""
-    pass_time(authority, TO_OBJECT + 1.0, anna, bert)
+    pass_time(authority, OBJECTION_TIME + 1.0, anna, bert)
     assert driver(authority) == "Anna"
     assert authority.request(bert, NOW + 11.0) == "Anna has objected; ask again in 20.0 s."
-    later = pass_time(authority, 1.0 + AGAIN, anna, bert)
+    later = pass_time(authority, 1.0 + REQUEST_PAUSE, anna, bert)
     assert authority.request(bert, later) == ""
     assert authority.asker is not None
 
@@ -159,7 +165,7 @@ def test_who_asks_and_is_lost_asks_no_longer(
     else:
         pass_time(authority, CONTROL_TIMEOUT + 0.1, anna)
     assert authority.asker is None
-    pass_time(authority, TO_OBJECT, anna)
+    pass_time(authority, OBJECTION_TIME, anna)
     assert driver(authority) == "Anna"
 
 
@@ -168,11 +174,11 @@ def test_who_comes_back_over_another_connection_answers_from_there(
 ) -> None:
     authority.acquire(anna, NOW)
     authority.request(bert, NOW)
-    again = FakeClient("7", NOW + SILENT + 0.1)
+    again = FakeClient("7", NOW + TAKEOVER_SILENCE + 0.1)
     authority.introduce(again, "tablet-anna", "Anna")
     assert authority.grant(again).startswith("Anna has control")
-    assert authority.acquire(again, NOW + SILENT + 0.1) == ""
-    assert authority.object(again, NOW + SILENT + 0.1) == ""
+    assert authority.acquire(again, NOW + TAKEOVER_SILENCE + 0.1) == ""
+    assert authority.object(again, NOW + TAKEOVER_SILENCE + 0.1) == ""
     assert authority.holds(again)
     assert not authority.holds(anna)
 
@@ -200,7 +206,7 @@ def test_who_introduces_itself_with_empty_words_is_called_as_before(
 
 def test_of_ever_more_objections_the_oldest_is_forgotten(authority: Authority, anna: FakeClient) -> None:
     authority.acquire(anna, NOW)
-    others = [known(authority, f"other{number}") for number in range(REMEMBERED + 1)]
+    others = [known(authority, f"other{number}") for number in range(MAX_OBJECTIONS + 1)]
     for other in others:
         assert authority.request(other, NOW) == ""
         authority.object(anna, NOW)

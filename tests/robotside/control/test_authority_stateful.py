@@ -16,10 +16,10 @@ from bridge.core.link_state import CONTROL_TIMEOUT
 from bridge.core.robot_catalogue import Operator
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import CommandRequest, RobotInfo
-from robotside.control.authority import TO_OBJECT
-from robotside.control.command_expiry import VALID
-from robotside.control.command_gate import Controls
-from robotside.control.guarded_robot import Guarded
+from robotside.control.authority import OBJECTION_TIME
+from robotside.control.command_expiry import VALID_TIME
+from robotside.control.command_gate import CommandGate
+from robotside.control.guarded_robot import GuardedRobot
 from robotside.door.station_door import StationDoor
 from robotside.records import Records
 from robotside.station.station import Station
@@ -46,9 +46,9 @@ class Operators(RuleBasedStateMachine):
         self.valid = 0.0
         """When the command in force was given [s]."""
 
-    def _open(self) -> Controls:
-        controls = Controls(RobotInfo(max_speed=0.7, max_yaw_rate=1.9))
-        self.robot = Guarded(self.body, lambda: self.controls.stopped)
+    def _open(self) -> CommandGate:
+        controls = CommandGate(RobotInfo(max_speed=0.7, max_yaw_rate=1.9))
+        self.robot = GuardedRobot(self.body, lambda: self.controls.stopped)
         return controls
 
     def _fresh(self, name: str) -> Operator:
@@ -111,7 +111,7 @@ class Operators(RuleBasedStateMachine):
         client, before, stopped = self._heard(who), self._driver(), self.controls.stopped
         if not self._obeys(client, Twist.planar(speed, 0.0), self.now - age):
             return
-        assert age <= VALID
+        assert age <= VALID_TIME
         assert not stopped
         assert before in ("", who)
         assert self.controls.holds(client)
@@ -150,7 +150,7 @@ class Operators(RuleBasedStateMachine):
         for _ in range(ticks):
             self._pass(TICK)
 
-    @rule(seconds=strategies.sampled_from([1.1, CONTROL_TIMEOUT + 0.1, TO_OBJECT + 0.1]))
+    @rule(seconds=strategies.sampled_from([1.1, CONTROL_TIMEOUT + 0.1, OBJECTION_TIME + 0.1]))
     def wait_long(self, seconds: float) -> None:
         end = self.now + seconds
         while self.now < end:
@@ -217,7 +217,7 @@ class Operators(RuleBasedStateMachine):
         assert self.controls.driving
         assert driver is not None
         assert driver.client.id == self.moved_by or driver.client_id == self.moved_by.split("-")[0]
-        assert self.now - self.valid <= VALID
+        assert self.now - self.valid <= VALID_TIME
 
     @invariant()
     def with_stop_pressed_it_rests(self) -> None:
@@ -237,7 +237,7 @@ TestOperators.settings = settings(
 class OperatorsAtTheDoor(Operators):
     """The same with a station, its door and its gateways: who connects comes by another one each time."""
 
-    def _open(self) -> Controls:
+    def _open(self) -> CommandGate:
         self.body.silent = {"/map", "/scan", "/battery_state", "/bumper"}
         self.station = Station(
             self.body, Records.in_memory(), now=self.now, clock=lambda: self.now, rng=random.Random(1)

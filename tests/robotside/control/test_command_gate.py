@@ -9,10 +9,10 @@ import pytest
 from bridge.core.link_state import CONTROL_TIMEOUT
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import RobotInfo
-from robotside.control.authority import SILENT
-from robotside.control.command_expiry import HELD, VALID
-from robotside.control.command_gate import STOP_SENTENCE, Controls, Ruling
-from robotside.control.neutral_interlock import LET_GO
+from robotside.control.authority import TAKEOVER_SILENCE
+from robotside.control.command_expiry import HOLD_TIME, VALID_TIME
+from robotside.control.command_gate import STOP_SENTENCE, CommandGate, Ruling
+from robotside.control.neutral_interlock import LET_GO_SENTENCE
 from tests.fakes import FakeClient
 
 AHEAD = Twist.planar(0.3, 0.1)
@@ -20,8 +20,8 @@ REST = Twist()
 
 
 @pytest.fixture
-def controls() -> Controls:
-    return Controls(RobotInfo(max_speed=0.7, max_yaw_rate=1.9))
+def controls() -> CommandGate:
+    return CommandGate(RobotInfo(max_speed=0.7, max_yaw_rate=1.9))
 
 
 @pytest.fixture
@@ -34,27 +34,27 @@ def bert() -> FakeClient:
     return FakeClient("bert", now=10.0)
 
 
-def test_a_drive_command_within_the_limits_passes_unchanged(controls: Controls, anna: FakeClient) -> None:
+def test_a_drive_command_within_the_limits_passes_unchanged(controls: CommandGate, anna: FakeClient) -> None:
     assert controls.drive(anna, AHEAD, 10.0).order == AHEAD
 
 
 def test_a_drive_command_expires_after_its_validity_and_only_once(
-    controls: Controls, anna: FakeClient
+    controls: CommandGate, anna: FakeClient
 ) -> None:
     controls.drive(anna, AHEAD, 10.0)
-    assert not controls.expired(10.0 + HELD - 0.01)
-    assert controls.expired(10.0 + HELD)
-    assert not controls.expired(10.0 + VALID + 1.0)
+    assert not controls.expired(10.0 + HOLD_TIME - 0.01)
+    assert controls.expired(10.0 + HOLD_TIME)
+    assert not controls.expired(10.0 + VALID_TIME + 1.0)
 
 
-def test_a_newer_drive_command_extends_the_time(controls: Controls, anna: FakeClient) -> None:
+def test_a_newer_drive_command_extends_the_time(controls: CommandGate, anna: FakeClient) -> None:
     controls.drive(anna, AHEAD, 10.0)
     controls.drive(anna, AHEAD, 10.2)
     assert not controls.expired(10.4)
     assert controls.expired(10.5)
 
 
-def test_the_first_valid_drive_command_takes_free_control(controls: Controls, anna: FakeClient) -> None:
+def test_the_first_valid_drive_command_takes_free_control(controls: CommandGate, anna: FakeClient) -> None:
     controls.introduce(anna, "tablet-1", "Anna's tablet")
     controls.drive(anna, AHEAD, 10.0)
     driver = controls.driver
@@ -63,7 +63,7 @@ def test_the_first_valid_drive_command_takes_free_control(controls: Controls, an
 
 
 def test_somebody_else_is_refused_with_the_drivers_name(
-    controls: Controls, anna: FakeClient, bert: FakeClient
+    controls: CommandGate, anna: FakeClient, bert: FakeClient
 ) -> None:
     controls.introduce(anna, "tablet-1", "Anna's tablet")
     controls.acquire(anna, 10.0)
@@ -74,15 +74,15 @@ def test_somebody_else_is_refused_with_the_drivers_name(
 
 
 def test_a_refused_command_does_not_keep_the_robot_moving(
-    controls: Controls, anna: FakeClient, bert: FakeClient
+    controls: CommandGate, anna: FakeClient, bert: FakeClient
 ) -> None:
     controls.drive(anna, AHEAD, 10.0)
     controls.drive(bert, AHEAD, 10.29)
-    assert controls.expired(10.0 + VALID)
+    assert controls.expired(10.0 + VALID_TIME)
 
 
 def test_control_lapses_when_its_driver_falls_silent(
-    controls: Controls, anna: FakeClient, bert: FakeClient
+    controls: CommandGate, anna: FakeClient, bert: FakeClient
 ) -> None:
     controls.acquire(anna, 10.0)
     assert controls.mind(10.0 + CONTROL_TIMEOUT) == ""
@@ -91,12 +91,12 @@ def test_control_lapses_when_its_driver_falls_silent(
 
 
 def test_a_client_that_was_cut_takes_its_control_back_over_a_new_socket(
-    controls: Controls, anna: FakeClient, bert: FakeClient
+    controls: CommandGate, anna: FakeClient, bert: FakeClient
 ) -> None:
     controls.introduce(anna, "tablet-1", "Anna")
     controls.acquire(anna, 10.0)
     controls.introduce(bert, "tablet-1", "Anna")
-    bert.last_heard = 10.1 + SILENT
+    bert.last_heard = 10.1 + TAKEOVER_SILENCE
     assert controls.objection(bert) == ""
     assert controls.acquire(bert, bert.last_heard) == ""
     assert not controls.gone(anna)
@@ -104,12 +104,12 @@ def test_a_client_that_was_cut_takes_its_control_back_over_a_new_socket(
 
 
 def test_two_with_the_same_id_are_two_while_both_are_heard(
-    controls: Controls, anna: FakeClient, bert: FakeClient
+    controls: CommandGate, anna: FakeClient, bert: FakeClient
 ) -> None:
     controls.introduce(anna, "tablet-1", "Anna")
     controls.acquire(anna, 10.0)
     controls.introduce(bert, "tablet-1", "Anna")
-    bert.last_heard = 10.0 + SILENT
+    bert.last_heard = 10.0 + TAKEOVER_SILENCE
     said = "Anna has control over another connection with the same client_id"
     assert controls.drive(bert, AHEAD, bert.last_heard).said.startswith(f"{said}; ask there")
     assert controls.acquire(bert, bert.last_heard).startswith(said)
@@ -119,7 +119,7 @@ def test_two_with_the_same_id_are_two_while_both_are_heard(
 
 
 def test_closing_the_socket_while_driving_stops_the_robot_and_frees_control(
-    controls: Controls, anna: FakeClient
+    controls: CommandGate, anna: FakeClient
 ) -> None:
     controls.drive(anna, AHEAD, 10.0)
     assert controls.drives(anna)
@@ -130,7 +130,7 @@ def test_closing_the_socket_while_driving_stops_the_robot_and_frees_control(
 
 
 def test_a_socket_that_closes_tells_whether_it_had_control_driving_or_not(
-    controls: Controls, anna: FakeClient
+    controls: CommandGate, anna: FakeClient
 ) -> None:
     controls.acquire(anna, 10.0)
     assert not controls.drives(anna)
@@ -138,7 +138,7 @@ def test_a_socket_that_closes_tells_whether_it_had_control_driving_or_not(
 
 
 def test_closing_a_watchers_socket_stops_nothing(
-    controls: Controls, anna: FakeClient, bert: FakeClient
+    controls: CommandGate, anna: FakeClient, bert: FakeClient
 ) -> None:
     controls.drive(anna, AHEAD, 10.0)
     assert not controls.drives(bert)
@@ -147,30 +147,32 @@ def test_closing_a_watchers_socket_stops_nothing(
     assert controls.driver is not None
 
 
-def test_a_late_command_is_dropped_and_says_how_late(controls: Controls, anna: FakeClient) -> None:
+def test_a_late_command_is_dropped_and_says_how_late(controls: CommandGate, anna: FakeClient) -> None:
     ruling = controls.drive(anna, AHEAD, 10.0, stamp=9.5)
     assert ruling.order is None
     assert "0.5 s late" in ruling.said
 
 
-def test_a_command_as_old_as_allowed_passes(controls: Controls, anna: FakeClient) -> None:
+def test_a_command_as_old_as_allowed_passes(controls: CommandGate, anna: FakeClient) -> None:
     assert controls.drive(anna, AHEAD, 10.0, stamp=9.75).order == AHEAD
 
 
 @pytest.mark.parametrize("stamp", [9.9, 9.95])
-def test_a_command_that_was_overtaken_is_dropped(controls: Controls, anna: FakeClient, stamp: float) -> None:
+def test_a_command_that_was_overtaken_is_dropped(
+    controls: CommandGate, anna: FakeClient, stamp: float
+) -> None:
     controls.drive(anna, REST, 10.0, stamp=9.95)
     assert controls.drive(anna, AHEAD, 10.0, stamp=stamp).order is None
 
 
-def test_each_client_has_its_own_order(controls: Controls, anna: FakeClient, bert: FakeClient) -> None:
+def test_each_client_has_its_own_order(controls: CommandGate, anna: FakeClient, bert: FakeClient) -> None:
     controls.drive(anna, AHEAD, 10.0, stamp=9.95)
     controls.release(anna)
     assert controls.drive(bert, AHEAD, 10.0, stamp=9.9).order == AHEAD
 
 
 def test_a_command_from_a_wrong_clock_does_not_lock_its_sender_out(
-    controls: Controls, anna: FakeClient
+    controls: CommandGate, anna: FakeClient
 ) -> None:
     assert "1e+308 s late" in controls.drive(anna, AHEAD, 10.0, stamp=-1e308).said
     assert "1e+308 s ahead" in controls.drive(anna, AHEAD, 10.0, stamp=1e308).said
@@ -180,25 +182,25 @@ def test_a_command_from_a_wrong_clock_does_not_lock_its_sender_out(
 
 @pytest.mark.parametrize("ahead", [0.1, 0.9])
 def test_a_clock_that_is_ahead_lengthens_no_command(
-    controls: Controls, anna: FakeClient, ahead: float
+    controls: CommandGate, anna: FakeClient, ahead: float
 ) -> None:
     assert controls.drive(anna, AHEAD, 10.0, stamp=10.0 + ahead).order == AHEAD
-    assert controls.expired(10.0 + HELD)
+    assert controls.expired(10.0 + HOLD_TIME)
 
 
 def test_what_was_under_way_for_longer_than_the_one_before_is_over_sooner(
-    controls: Controls, anna: FakeClient
+    controls: CommandGate, anna: FakeClient
 ) -> None:
     controls.drive(anna, AHEAD, 10.0, stamp=10.9)
     controls.drive(anna, AHEAD, 10.25, stamp=11.0)
     assert controls.driving
-    assert controls.expired(10.1 + HELD + 0.01)
+    assert controls.expired(10.1 + HOLD_TIME + 0.01)
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
 @pytest.mark.parametrize("part", range(6))
 def test_a_command_with_a_speed_that_is_no_number_is_dropped(
-    controls: Controls, anna: FakeClient, bad: float, part: int
+    controls: CommandGate, anna: FakeClient, bad: float, part: int
 ) -> None:
     numbers = [0.1] * 6
     numbers[part] = bad
@@ -208,7 +210,9 @@ def test_a_command_with_a_speed_that_is_no_number_is_dropped(
     assert controls.driver is None
 
 
-def test_speeds_are_cut_to_the_limits_with_their_direction_kept(controls: Controls, anna: FakeClient) -> None:
+def test_speeds_are_cut_to_the_limits_with_their_direction_kept(
+    controls: CommandGate, anna: FakeClient
+) -> None:
     twist = controls.drive(anna, Twist(Vector3(-3.0, 4.0), Vector3(0.0, 0.0, -9.0)), 10.0).order
     assert isinstance(twist, Twist)
     assert math.hypot(twist.linear.x, twist.linear.y) == pytest.approx(0.7)
@@ -216,7 +220,7 @@ def test_speeds_are_cut_to_the_limits_with_their_direction_kept(controls: Contro
     assert twist.angular.z == -1.9
 
 
-def test_after_stop_nothing_drives_until_it_is_released(controls: Controls, anna: FakeClient) -> None:
+def test_after_stop_nothing_drives_until_it_is_released(controls: CommandGate, anna: FakeClient) -> None:
     controls.drive(anna, AHEAD, 10.0)
     controls.stop("Bert")
     assert controls.drive(anna, AHEAD, 10.1).said == STOP_SENTENCE
@@ -227,7 +231,7 @@ def test_after_stop_nothing_drives_until_it_is_released(controls: Controls, anna
 
 
 def held(
-    controls: Controls, client: FakeClient, start: float, until: float, lag: float = 0.0
+    controls: CommandGate, client: FakeClient, start: float, until: float, lag: float = 0.0
 ) -> list[Ruling]:
     """A stick held from `start` on, twenty times a second; each command comes `lag` later [s]."""
     moments = [start + number * 0.05 for number in range(round((until - start) / 0.05))]
@@ -235,76 +239,76 @@ def held(
 
 
 def test_a_stick_held_from_rest_on_counts_from_its_first_command(
-    controls: Controls, anna: FakeClient
+    controls: CommandGate, anna: FakeClient
 ) -> None:
     assert all(ruling.order == AHEAD for ruling in held(controls, anna, 10.0, 13.0, lag=0.2))
 
 
 def test_a_stick_held_while_the_robot_was_halted_counts_again_when_it_was_at_rest(
-    controls: Controls, anna: FakeClient
+    controls: CommandGate, anna: FakeClient
 ) -> None:
     held(controls, anna, 10.0, 11.0)
     controls.halt()
     after = held(controls, anna, 11.0, 15.0)
-    assert {(ruling.order, ruling.said) for ruling in after} == {(None, LET_GO)}
+    assert {(ruling.order, ruling.said) for ruling in after} == {(None, LET_GO_SENTENCE)}
     assert not controls.driving
     controls.drive(anna, REST, 15.0, stamp=15.0)
     assert controls.drive(anna, AHEAD, 15.05, stamp=15.05).order == AHEAD
 
 
 def test_a_stick_that_says_nothing_while_it_rests_counts_after_half_a_second(
-    controls: Controls, anna: FakeClient
+    controls: CommandGate, anna: FakeClient
 ) -> None:
     controls.drive(anna, AHEAD, 10.0)
     controls.halt()
-    assert controls.drive(anna, AHEAD, 10.1).said == LET_GO
-    assert controls.drive(anna, AHEAD, 10.5).said == LET_GO
+    assert controls.drive(anna, AHEAD, 10.1).said == LET_GO_SENTENCE
+    assert controls.drive(anna, AHEAD, 10.5).said == LET_GO_SENTENCE
     assert controls.drive(anna, AHEAD, 11.0).order == AHEAD
 
 
 def test_a_stick_pushed_while_there_is_trouble_does_not_drive_off_when_it_ends(
-    controls: Controls, anna: FakeClient
+    controls: CommandGate, anna: FakeClient
 ) -> None:
     trouble = "The robot cannot be reached."
     assert controls.drive(anna, AHEAD, 10.0, trouble=trouble).said == trouble
-    assert controls.drive(anna, AHEAD, 10.05).said == LET_GO
+    assert controls.drive(anna, AHEAD, 10.05).said == LET_GO_SENTENCE
     assert controls.drive(anna, REST, 10.1, trouble=trouble) == Ruling(None)
     assert controls.drive(anna, AHEAD, 10.15).order == AHEAD
 
 
 def test_a_stick_held_through_stop_does_not_drive_off_when_stop_is_released(
-    controls: Controls, anna: FakeClient
+    controls: CommandGate, anna: FakeClient
 ) -> None:
     held(controls, anna, 10.0, 11.0)
     controls.stop("Bert")
     held(controls, anna, 11.0, 12.0)
     controls.release_stop()
-    assert {ruling.said for ruling in held(controls, anna, 12.0, 13.0)} == {LET_GO}
+    assert {ruling.said for ruling in held(controls, anna, 12.0, 13.0)} == {LET_GO_SENTENCE}
 
 
 def test_a_stick_held_while_another_has_control_does_not_drive_off_when_he_goes(
-    controls: Controls, anna: FakeClient, bert: FakeClient
+    controls: CommandGate, anna: FakeClient, bert: FakeClient
 ) -> None:
     controls.drive(anna, AHEAD, 10.0)
     held(controls, bert, 10.0, 11.0)
     controls.gone(anna)
-    assert controls.drive(bert, AHEAD, 11.0, stamp=11.0).said == LET_GO
+    assert controls.drive(bert, AHEAD, 11.0, stamp=11.0).said == LET_GO_SENTENCE
     assert controls.driver is None
 
 
 def test_a_stick_held_through_an_outage_of_its_link_does_not_drive_off_after_it(
-    controls: Controls, anna: FakeClient
+    controls: CommandGate, anna: FakeClient
 ) -> None:
     held(controls, anna, 10.0, 11.0)
     assert controls.expired(12.0)
     held(controls, anna, 11.0, 11.2, lag=2.0)
     late = [controls.drive(anna, AHEAD, 13.2, stamp=11.2 + number * 0.05) for number in range(40)]
     assert {ruling.order for ruling in late} == {None}
-    assert controls.drive(anna, AHEAD, 13.25, stamp=13.25).said == LET_GO
+    assert controls.drive(anna, AHEAD, 13.25, stamp=13.25).said == LET_GO_SENTENCE
 
 
 def test_a_hiccup_of_the_link_costs_no_more_than_the_time_it_takes(
-    controls: Controls, anna: FakeClient
+    controls: CommandGate, anna: FakeClient
 ) -> None:
     held(controls, anna, 10.0, 11.0)
     assert controls.expired(11.3)
@@ -312,27 +316,27 @@ def test_a_hiccup_of_the_link_costs_no_more_than_the_time_it_takes(
     assert controls.drive(anna, AHEAD, 11.6, stamp=11.5).order == AHEAD
 
 
-def test_a_zero_that_was_overtaken_does_not_stand_for_rest(controls: Controls, anna: FakeClient) -> None:
+def test_a_zero_that_was_overtaken_does_not_stand_for_rest(controls: CommandGate, anna: FakeClient) -> None:
     controls.drive(anna, AHEAD, 10.0, stamp=10.0)
     controls.halt()
     controls.drive(anna, REST, 10.05, stamp=9.9)
-    assert controls.drive(anna, AHEAD, 10.1, stamp=10.1).said == LET_GO
+    assert controls.drive(anna, AHEAD, 10.1, stamp=10.1).said == LET_GO_SENTENCE
 
 
-def test_who_went_leaves_no_stick_behind(controls: Controls, anna: FakeClient) -> None:
+def test_who_went_leaves_no_stick_behind(controls: CommandGate, anna: FakeClient) -> None:
     controls.drive(anna, AHEAD, 10.0)
     controls.halt()
     controls.gone(anna)
     assert controls.drive(anna, AHEAD, 10.1).order == AHEAD
 
 
-def test_a_stick_at_rest_is_not_scolded_while_stopped(controls: Controls, anna: FakeClient) -> None:
+def test_a_stick_at_rest_is_not_scolded_while_stopped(controls: CommandGate, anna: FakeClient) -> None:
     controls.stop("Bert")
     ruling = controls.drive(anna, REST, 10.0)
     assert (ruling.order, ruling.said, controls.dropped) == (None, "", 0)
 
 
-def test_the_first_who_pressed_stop_is_remembered(controls: Controls) -> None:
+def test_the_first_who_pressed_stop_is_remembered(controls: CommandGate) -> None:
     controls.stop("Bert", "b")
     controls.stop("Anna", "a")
     assert (controls.stopped_by, controls.stopped_by_id) == ("Bert", "b")
@@ -341,14 +345,14 @@ def test_the_first_who_pressed_stop_is_remembered(controls: Controls) -> None:
 
 
 def test_a_stick_at_rest_does_not_disturb_a_robot_that_drives_itself(
-    controls: Controls, anna: FakeClient
+    controls: CommandGate, anna: FakeClient
 ) -> None:
     assert controls.drive(anna, REST, 10.0, auto=True).order is None
     assert controls.driver is None
     assert controls.drive(anna, AHEAD, 10.0, auto=True).order == AHEAD
 
 
-def test_only_its_holder_releases_control(controls: Controls, anna: FakeClient, bert: FakeClient) -> None:
+def test_only_its_holder_releases_control(controls: CommandGate, anna: FakeClient, bert: FakeClient) -> None:
     controls.acquire(anna, 10.0)
     assert "has control" in controls.release(bert)
     assert controls.release(anna) == ""
@@ -356,7 +360,7 @@ def test_only_its_holder_releases_control(controls: Controls, anna: FakeClient, 
 
 
 def test_stop_is_latched_whoever_pressed_it_even_without_a_name() -> None:
-    controls = Controls(RobotInfo(max_speed=1.0, max_yaw_rate=1.0))
+    controls = CommandGate(RobotInfo(max_speed=1.0, max_yaw_rate=1.0))
     controls.stop("")
     assert controls.stopped
     assert controls.stopped_by == "somebody"
@@ -372,7 +376,7 @@ def test_an_operator_whose_link_is_not_measured_never_drives_at_full_speed(
     anna: FakeClient, follows: bool
 ) -> None:
     anna.rtt = math.nan
-    controls = Controls(RobotInfo(max_speed=0.7, max_yaw_rate=1.9), follows=lambda: follows)
+    controls = CommandGate(RobotInfo(max_speed=0.7, max_yaw_rate=1.9), follows=lambda: follows)
     assert controls.drive(anna, FULL, 10.0).order == Twist.planar(0.35, 0.0)
     assert controls.pace.shown == 0.5
     controls.look(12.0)
@@ -381,7 +385,7 @@ def test_an_operator_whose_link_is_not_measured_never_drives_at_full_speed(
 
 def test_the_cap_of_an_unmeasured_link_is_set_and_ends_with_the_first_measurement(anna: FakeClient) -> None:
     anna.rtt = math.nan
-    controls = Controls(RobotInfo(max_speed=0.7, max_yaw_rate=1.9), unmeasured_share=0.2)
+    controls = CommandGate(RobotInfo(max_speed=0.7, max_yaw_rate=1.9), unmeasured_share=0.2)
     controls.acquire(anna, 10.0)
     controls.look(10.0)
     assert controls.pace.share == 0.2

@@ -7,7 +7,7 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from robotside.control.guarded_robot import Guarded, port_info
+from robotside.control.guarded_robot import GuardedRobot, port_info
 from robotside.motion.manoeuvres import Order
 from tests.fakes import FakeRobot
 
@@ -33,7 +33,7 @@ def held(order: Order, allowed: float) -> Order:
 
 def test_a_twist_brakes_while_stop_is_pressed_and_drives_again_afterwards() -> None:
     robot, pressed = FakeRobot(), True
-    guarded = Guarded(robot, lambda: pressed)
+    guarded = GuardedRobot(robot, lambda: pressed)
     guarded.drive(AHEAD)
     assert robot.commands == [None]
     pressed = False
@@ -43,7 +43,7 @@ def test_a_twist_brakes_while_stop_is_pressed_and_drives_again_afterwards() -> N
 
 def test_a_twist_is_clamped_and_looked_at_again_wherever_the_robot_gets() -> None:
     robot, allowed = FakeRobot(), 0.3
-    guarded = Guarded(robot, lambda: False, lambda order: held(order, allowed))
+    guarded = GuardedRobot(robot, lambda: False, lambda order: held(order, allowed))
     guarded.again()
     guarded.drive(Twist.planar(0.5, 0.0))
     guarded.again()
@@ -61,7 +61,7 @@ def test_a_twist_is_clamped_and_looked_at_again_wherever_the_robot_gets() -> Non
 
 def test_after_a_stop_nothing_is_looked_at_again() -> None:
     robot = FakeRobot()
-    guarded = Guarded(robot, lambda: False, lambda twist: Twist.planar(0.1 * len(robot.commands), 0.0))
+    guarded = GuardedRobot(robot, lambda: False, lambda twist: Twist.planar(0.1 * len(robot.commands), 0.0))
     guarded.drive(AHEAD)
     guarded.stop()
     guarded.again()
@@ -70,7 +70,7 @@ def test_after_a_stop_nothing_is_looked_at_again() -> None:
 
 def test_stop_ends_what_was_wanted_even_when_a_twist_comes_while_it_is_pressed() -> None:
     robot, pressed = FakeRobot(), False
-    guarded = Guarded(robot, lambda: pressed, lambda twist: Twist.planar(0.1 * len(robot.commands), 0.0))
+    guarded = GuardedRobot(robot, lambda: pressed, lambda twist: Twist.planar(0.1 * len(robot.commands), 0.0))
     guarded.drive(AHEAD)
     pressed = True
     guarded.drive(AHEAD)
@@ -87,7 +87,7 @@ def test_a_fault_in_the_limits_brakes_the_robot() -> None:
             raise ZeroDivisionError
         return order
 
-    guarded = Guarded(robot, lambda: False, clamp)
+    guarded = GuardedRobot(robot, lambda: False, clamp)
     guarded.drive(AHEAD)
     broken = True
     with pytest.raises(ZeroDivisionError):
@@ -102,7 +102,7 @@ def test_a_fault_in_the_limits_brakes_the_robot() -> None:
 
 def test_a_manoeuvre_goes_to_who_knows_it_and_brakes_while_stop_is_pressed() -> None:
     robot, pressed = Flier(), False
-    guarded = Guarded(robot, lambda: pressed)
+    guarded = GuardedRobot(robot, lambda: pressed)
     guarded.manoeuvre(HOVER)
     guarded.again()
     assert robot.orders == [HOVER]
@@ -118,7 +118,7 @@ def test_a_manoeuvre_goes_to_who_knows_it_and_brakes_while_stop_is_pressed() -> 
 
 def test_a_manoeuvre_is_looked_at_again_wherever_the_robot_gets() -> None:
     robot, free = Flier(), True
-    guarded = Guarded(robot, lambda: False, lambda order: order if free else Twist())
+    guarded = GuardedRobot(robot, lambda: False, lambda order: order if free else Twist())
     guarded.manoeuvre(HOVER)
     free = False
     guarded.again()
@@ -127,7 +127,7 @@ def test_a_manoeuvre_is_looked_at_again_wherever_the_robot_gets() -> None:
 
 def test_one_that_knows_no_manoeuvres_gets_what_its_limits_make_of_them_and_refuses_to_land() -> None:
     robot = FakeRobot()
-    guarded = Guarded(robot, lambda: False, lambda order: AHEAD)
+    guarded = GuardedRobot(robot, lambda: False, lambda order: AHEAD)
     guarded.manoeuvre(Manoeuvre(kind="course"))
     assert robot.commands == [AHEAD]
     with pytest.raises(ValueError, match=r"^Fake-1 cannot land\.$"):
@@ -143,7 +143,7 @@ def test_a_robot_behind_a_port_that_takes_twists_only_is_not_said_to_know_more()
 
 
 def test_what_carries_nothing_and_is_real_says_so() -> None:
-    guarded = Guarded(FakeRobot(), lambda: False)
+    guarded = GuardedRobot(FakeRobot(), lambda: False)
     with pytest.raises(ValueError, match=r"^Fake-1 has no arm that takes orders\.$"):
         guarded.command("arm", AHEAD)
     with pytest.raises(ValueError, match="Fake-1 is real"):
@@ -152,7 +152,7 @@ def test_what_carries_nothing_and_is_real_says_so() -> None:
 
 def test_everything_but_driving_passes_through() -> None:
     robot = FakeRobot()
-    guarded = Guarded(robot, lambda: True)
+    guarded = GuardedRobot(robot, lambda: True)
     assert guarded.info == robot.info
     assert "/map" in [topic for topic, _ in guarded.read(0.0)]
     guarded.want("/camera/image/compressed", True)

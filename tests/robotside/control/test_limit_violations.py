@@ -9,7 +9,7 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
-from robotside.control.limit_violations import EVERY, excess
+from robotside.control.limit_violations import REPORT_PERIOD, excess
 from robotside.core.config import Config, LimitSettings
 from robotside.motion.manoeuvres import Order
 from tests.fakes import FakeRobot
@@ -74,7 +74,7 @@ def test_everyone_is_told_every_few_seconds_while_it_goes_on(scene: Scene) -> No
     assert [text.endswith(said) for text in scene.events("command")] == [True]
     scene.drive(Twist.planar(5.0, 0.0))
     assert len(scene.events("command")) == 1
-    scene.run(EVERY + 0.1)
+    scene.run(REPORT_PERIOD + 0.1)
     scene.drive(Twist.planar(5.0, 0.0))
     assert len(scene.events("command")) == 2
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist
-from robotside.control.safe_state import GROUND, LONGEST, SURFACE, Act, SafeState
+from robotside.control.safe_state import GROUND, MAX_ENDING_TIME, SURFACE, Act, SafeState
 from robotside.core.config import DEFAULT_CONFIG, SafeStateSettings
 from robotside.core.pose2 import Pose2
 from robotside.motion.measured import MeasuredState
@@ -129,7 +129,7 @@ def test_a_hexapod_levels_holds_its_depth_for_a_time_and_then_surfaces() -> None
 
 def test_a_hexapod_that_does_not_measure_its_depth_rises_for_a_bounded_time() -> None:
     body = Body("hexapod", SafeStateSettings(hold_for=1.0), height=-3.0, blind=True)
-    body.lose(LONGEST)
+    body.lose(MAX_ENDING_TIME)
     assert body.acts[-1].phase == "surfaces"
     assert body.lose(2.0).twist is None
 

@@ -12,17 +12,17 @@ from bridge.msgs.pilothouse_msgs import MotorArray, SonarRing
 from bridge.msgs.sensor_msgs import Range, Temperature
 from bridge.msgs.std_msgs import Header, Time
 from robotside.core.bus import Bus
-from robotside.door.derived_topics import MOST, Apart
+from robotside.door.derived_topics import MAX_MOTORS, DerivedTopics
 
 
 class Table:
-    """A bus with an `Apart` on it, and what that has said."""
+    """A bus with an `DerivedTopics` on it, and what that has said."""
 
     def __init__(self, *motors: str) -> None:
         self.bus = Bus()
         self.motors = motors
         self.warm(0.0)
-        self.apart = Apart(self.bus)
+        self.apart = DerivedTopics(self.bus)
         self.said: list[tuple[str, Msg]] = []
         self.bus.subscribe(None, lambda topic, msg: self.said.append((topic, msg)))
         self.said.clear()
@@ -101,7 +101,7 @@ def test_a_clock_that_was_set_back_silences_no_motor() -> None:
 def test_names_that_are_no_topics_have_none_and_their_number_is_bounded() -> None:
     assert Table("front left", "", "a/b", "ok", "ok").apart.topics[0].name == "/temperature/ok"
     assert len(Table("front left", "", "a/b", "ok", "ok").apart.topics) == 1
-    assert len(Table(*(f"m{number}" for number in range(200))).apart.topics) == MOST
+    assert len(Table(*(f"m{number}" for number in range(200))).apart.topics) == MAX_MOTORS
 
 
 def test_it_listens_no_longer_once_it_is_closed() -> None:

@@ -10,7 +10,7 @@ import pytest
 from bridge.core.topics import TOPICS
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.core.bus import Bus
-from robotside.door.offered_topics import Offered
+from robotside.door.offered_topics import OfferedTopics
 from robotside.services.catalogue import catalogue
 from robotside.station.station import Station
 from sim.robot import ROBOTS, home_of, make
@@ -60,7 +60,7 @@ def offered(state: Path, name: str, *payloads: str) -> tuple[set[str], set[str]]
     """The topics and services of a simulated robot."""
     robot = make(name, home_of([name]), payloads=payloads)
     station = Station(robot, records_at(state), now=0.0, clock=lambda: 0.0, rng=random.Random(1))
-    offers = Offered(station.info, station.bus, simulated=station.robot.resettable)
+    offers = OfferedTopics(station.info, station.bus, simulated=station.robot.resettable)
     found = {topic for topic in NAMES if offers(topic)}, set(catalogue(station)[0])
     station.close()
     return found
@@ -88,14 +88,14 @@ def test_what_is_mounted_brings_its_topics_and_its_services(tmp_path: Path) -> N
 
 def test_one_that_sees_nothing_finds_nothing_and_a_real_one_knows_no_truth(tmp_path: Path) -> None:
     station = Station(FakeRobot(), records_at(tmp_path), now=0.0, clock=lambda: 0.0, rng=random.Random(1))
-    offers = Offered(RobotInfo(), station.bus, simulated=False)
+    offers = OfferedTopics(RobotInfo(), station.bus, simulated=False)
     assert not any(map(offers, (CAMERA, "/detections", "/sim/ground_truth")))
     station.close()
 
 
 def test_what_comes_later_is_offered_from_then_on() -> None:
     bus = Bus()
-    offers = Offered(RobotInfo(), bus, simulated=False)
+    offers = OfferedTopics(RobotInfo(), bus, simulated=False)
     assert not offers("/tag")
     bus.publish("/tag", RobotInfo())
     assert offers("/tag")

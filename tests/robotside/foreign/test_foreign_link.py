@@ -32,7 +32,7 @@ from robotside.core.robot import Robot
 from robotside.foreign.foreign_link import ForeignLink
 from robotside.foreign.foreign_robot import ForeignRobot
 from robotside.foreign.foreign_topics import Found
-from robotside.serving.station_server import Addresses, Serving
+from robotside.serving.station_server import Addresses, StationServer
 from robotside.station.station import Station
 from tests.bridge.client.foreign_server import ForeignServer, foreign
 from tests.bridge.wires import wire
@@ -217,10 +217,10 @@ def test_an_address_that_can_never_work_is_said_at_once() -> None:
 
 
 @asynccontextmanager
-async def served(state: Path, robot: Robot, name: str = "") -> AsyncIterator[Serving]:
+async def served(state: Path, robot: Robot, name: str = "") -> AsyncIterator[StationServer]:
     wall = time.time
     station = Station(robot, records_at(state), now=wall(), clock=wall, rng=random.Random(1), name=name)
-    serves = Serving(station, RobotClock(wall()), wall, Addresses("127.0.0.1", 0, 0))
+    serves = StationServer(station, RobotClock(wall()), wall, Addresses("127.0.0.1", 0, 0))
     ready = asyncio.Event()
     running = asyncio.create_task(serves.run(lambda _: ready.set()))
     await ready.wait()

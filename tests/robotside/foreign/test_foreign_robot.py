@@ -17,7 +17,7 @@ from bridge.msgs.pilothouse_msgs import Event, RobotInfo
 from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header, Time
 from robotside.foreign.foreign_link import Listener
-from robotside.foreign.foreign_robot import JPEG, REPEAT, RESTS, ForeignRobot
+from robotside.foreign.foreign_robot import JPEG_START, REPEAT_PERIOD, REST_REPEATS, ForeignRobot
 from robotside.foreign.foreign_topics import Found
 
 URL = "ws://robot:9090"
@@ -65,8 +65,8 @@ def found(*topics: str, remarks: tuple[str, ...] = ()) -> Found:
 def here(*topics: str, remarks: tuple[str, ...] = ()) -> tuple[ForeignRobot, Line]:
     line = Line(lambda listener: listener.found(found(*topics, remarks=remarks)))
     robot = ForeignRobot(URL, patience=0.0, connect=line)
-    for number in range(RESTS + 2):
-        robot.read(number * REPEAT)
+    for number in range(REST_REPEATS + 2):
+        robot.read(number * REPEAT_PERIOD)
     line.sent.clear()
     return robot, line
 
@@ -149,7 +149,7 @@ def test_rest_is_said_several_times_and_then_no_more() -> None:
     robot.stop()
     for number in range(600):
         robot.read(10.0 + number / 60)
-    assert line.sent == [SPEED, *[REST] * (RESTS + 1)]
+    assert line.sent == [SPEED, *[REST] * (REST_REPEATS + 1)]
 
 
 def test_a_rest_that_did_not_leave_is_not_counted() -> None:
@@ -163,7 +163,7 @@ def test_a_rest_that_did_not_leave_is_not_counted() -> None:
     line.sent.clear()
     for number in range(600):
         robot.read(15.0 + number / 60)
-    assert line.sent == [REST] * RESTS
+    assert line.sent == [REST] * REST_REPEATS
 
 
 def test_while_the_line_is_lost_nothing_is_said() -> None:
@@ -250,7 +250,7 @@ def test_stamps_of_a_topic_never_go_back() -> None:
 def test_the_camera_is_asked_for_on_demand_and_the_end_is_passed_on() -> None:
     robot, line = here(CAMERA)
     robot.want(CAMERA, True)
-    robot.heard(CAMERA, CompressedImage(data=JPEG))
+    robot.heard(CAMERA, CompressedImage(data=JPEG_START))
     assert [topic for topic, _ in robot.read(50.0)] == [CAMERA]
     robot.close()
     assert (line.wanted, line.closed) == ([(CAMERA, True)], True)

@@ -21,7 +21,7 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from robotside.core.pose2 import ORIGIN
 from robotside.foreign.foreign_robot import ForeignRobot
-from robotside.serving.station_server import Serving
+from robotside.serving.station_server import StationServer
 from robotside.station.station import Station
 from tests.bridge.wires import Wire, wire
 from tests.fakes import FakeRobot
@@ -38,9 +38,9 @@ class Two(NamedTuple):
     """A robot, the robot side behind, the one in front of it, and a client of each."""
 
     robot: FakeRobot
-    behind: Serving
+    behind: StationServer
     port: ForeignRobot
-    front: Serving
+    front: StationServer
     fred: BridgeClient
     anna: BridgeClient
     cable: Wire
@@ -63,7 +63,7 @@ async def two(state: Path) -> AsyncIterator[Two]:
         yield Two(robot, behind, port, front, fred, anna, cable)
 
 
-def said(by: Serving) -> list[str]:
+def said(by: StationServer) -> list[str]:
     return [event.text for event in by.station.events.since(0, "")]
 
 

@@ -11,9 +11,9 @@ import pytest
 from bridge.client.connection import Connection
 from bridge.msgs.geometry_msgs import PoseWithCovariance, Twist, TwistWithCovariance
 from bridge.msgs.nav_msgs import Odometry
-from robotside.control.neutral_interlock import LET_GO
+from robotside.control.neutral_interlock import LET_GO_SENTENCE
 from robotside.foreign.foreign_link import Listener
-from robotside.foreign.foreign_robot import SILENT, ForeignRobot
+from robotside.foreign.foreign_robot import SILENT_SENTENCE, ForeignRobot
 from robotside.foreign.foreign_topics import Found
 from tests.bridge.client.foreign_server import foreign
 from tests.robotside.foreign.test_foreign_link import reached, until
@@ -119,7 +119,7 @@ def test_stop_is_not_done_before_the_robot_is_back_and_says_itself_that_it_rests
     outage.run(1.0, AHEAD)
     outage.far.silent = True
     outage.run(0.3)
-    assert outage.scene.refused("/stop") == f"STOP is pressed, but t{SILENT[1:]}"
+    assert outage.scene.refused("/stop") == f"STOP is pressed, but t{SILENT_SENTENCE[1:]}"
     outage.run(2.0)
     outage.far.lose()
     outage.run(3.0)
@@ -150,7 +150,7 @@ def test_a_held_stick_does_not_drive_the_robot_off_when_it_is_back(outage: Outag
     assert outage.far.heard[-1] == REST
     outage.run(3.0, AHEAD)
     assert (outage.far.heard[-1], outage.far.speed) == (REST, 0.0)
-    assert outage.scene.events("command")[-1] == LET_GO
+    assert outage.scene.events("command")[-1] == LET_GO_SENTENCE
     outage.scene.drive(REST)
     outage.run(0.2, AHEAD)
     assert outage.far.speed == 0.3
@@ -160,7 +160,7 @@ def test_a_silent_robot_is_told_of_soon_and_again_when_it_speaks(outage: Outage)
     outage.far.freeze()
     outage.far.silent = True
     outage.run(0.3)
-    assert outage.scene.events("robot")[-1] == SILENT
+    assert outage.scene.events("robot")[-1] == SILENT_SENTENCE
     outage.far.silent = outage.far.frozen = False
     outage.run(0.1)
     assert outage.scene.events("robot")[-1] == "The robot can be driven again; it stands still."

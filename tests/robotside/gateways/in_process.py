@@ -16,7 +16,7 @@ from bridge.server.rosbridge_session import RosbridgeSession
 from robotside.door.station_door import StationDoor
 from robotside.gateways.http.gateway import HttpGateway
 from robotside.gateways.rosbridge.gateway import RosbridgeGateway
-from robotside.gateways.scaling.picture_scaling import Pictures
+from robotside.gateways.scaling.picture_scaling import PictureScaler
 from tests.bridge.server.flow.test_send_queue import FrameWriter
 from tests.robotside.gateways.memory import MemoryGateway
 
@@ -38,7 +38,7 @@ class Gateways:
 
     def __init__(self, door: StationDoor) -> None:
         self._loop = asyncio.new_event_loop()
-        self._pictures = Pictures()
+        self._pictures = PictureScaler()
         self.rosbridge = RosbridgeGateway(door, "127.0.0.1", 0, self._pictures, lambda now: now)
         self.http = HttpGateway(door, "127.0.0.1", 0, self._pictures, lambda: "")
         self.memory = MemoryGateway(door, door.now)

@@ -27,8 +27,8 @@ from bridge.msgs.pilothouse_msgs import (
     TaskOrder,
     Waypoint,
 )
-from robotside.services.command_service import Answering
-from robotside.services.task_actions import beginning
+from robotside.services.command_service import CommandService
+from robotside.services.task_actions import goal_service
 from tests.fakes import FakeClient
 from tests.robotside.slow import FULL, Slow
 
@@ -84,7 +84,7 @@ async def test_on_a_full_disk_a_task_begins_and_its_answer_says_what_is_not_kept
         "home": lambda: slow.ask("/task/go_home", sent()),
         "resume": lambda: slow.ask("/task/resume", sent()),
         "auto": lambda: slow.ask("/mode/set", sent(SetModeRequest, mode="AUTO")),
-        "goal": lambda: beginning(slow.station, Answering(slow.station)).call(
+        "goal": lambda: goal_service(slow.station, CommandService(slow.station)).call(
             FakeClient("anna", slow.clock), sent(RunTaskGoal)
         ),  # type: ignore[arg-type]
     }
@@ -99,7 +99,7 @@ async def test_on_a_full_disk_a_task_begins_and_its_answer_says_what_is_not_kept
 async def test_a_start_that_waits_too_long_for_the_disk_is_not_refused_either(
     slow: Slow, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("robotside.services.command_service.PATIENCE", 0.0)
+    monkeypatch.setattr("robotside.services.command_service.DISK_TIMEOUT", 0.0)
     answer = slow.ask("/task/start", sent(StartTaskRequest))
     assert not isinstance(answer, Msg)
     said = (await answer).message  # type: ignore[attr-defined]
@@ -162,7 +162,7 @@ async def test_a_queue_whose_clearing_was_refused_goes_on_waiting(slow: Slow) ->
 async def test_a_queue_that_was_stored_after_its_answer_waits(
     slow: Slow, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("robotside.services.command_service.PATIENCE", 0.0)
+    monkeypatch.setattr("robotside.services.command_service.DISK_TIMEOUT", 0.0)
     answer = slow.ask("/task/queue/set", SetQueueRequest(orders=[STRAIGHT]))
     assert not isinstance(answer, Msg)
     assert not (await answer).success  # type: ignore[attr-defined]

@@ -29,8 +29,8 @@ from bridge.msgs.sensor_msgs import Range, Temperature
 from robotside.core.clock import RobotClock
 from robotside.core.robot import Robot
 from robotside.records.landmarks import take_over
-from robotside.serving.fleet_server import Together
-from robotside.serving.station_server import Addresses, Serving
+from robotside.serving.fleet_server import FleetServer
+from robotside.serving.station_server import Addresses, StationServer
 from robotside.station.station import Station
 from sim.robot import make_several
 from tests.fakes import FakeRobot
@@ -53,16 +53,16 @@ class Side:
             station = Station(robot, records, now=clock.now, clock=wall, rng=random.Random(number))
             take_over(robot, records, station.events.say)
             port = ports[number] if ports else 0
-            self.servings.append(Serving(station, clock, wall, Addresses("127.0.0.1", port, 0)))
-        self.together = Together(self.servings, clock, wall, wanted=lambda: self.wanted)
+            self.servings.append(StationServer(station, clock, wall, Addresses("127.0.0.1", port, 0)))
+        self.together = FleetServer(self.servings, clock, wall, wanted=lambda: self.wanted)
         self.wanted = True
-        self.ready: list[Serving] = []
+        self.ready: list[StationServer] = []
 
     @asynccontextmanager
     async def running(self) -> AsyncIterator[None]:
         listens = asyncio.Event()
 
-        def note(serving: Serving) -> None:
+        def note(serving: StationServer) -> None:
             self.ready.append(serving)
             if len(self.ready) == len(self.servings):
                 listens.set()
@@ -83,7 +83,7 @@ M = TypeVar("M", bound=Msg)
 class Handheld:
     """A client of one of the robots."""
 
-    def __init__(self, serving: Serving) -> None:
+    def __init__(self, serving: StationServer) -> None:
         self.client = BridgeClient(serving.addresses.bridge)
         self._running = asyncio.create_task(self.client.run())
 

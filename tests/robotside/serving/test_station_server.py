@@ -27,14 +27,14 @@ from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Control
 from bridge.msgs.sensor_msgs import CompressedImage
 from robotside.__main__ import main
 from robotside.core.clock import RobotClock
-from robotside.serving.station_server import Addresses, Serving
+from robotside.serving.station_server import Addresses, StationServer
 from robotside.station.station import Station
 from tests.fakes import FakeRobot
 from tests.robotside.scene import records_at
 
 
 @asynccontextmanager
-async def serving(state: Path, robot: FakeRobot) -> AsyncIterator[Serving]:
+async def serving(state: Path, robot: FakeRobot) -> AsyncIterator[StationServer]:
     clock = RobotClock(time.time())
     began = time.time() - time.monotonic()
 
@@ -42,7 +42,7 @@ async def serving(state: Path, robot: FakeRobot) -> AsyncIterator[Serving]:
         return began + time.monotonic()
 
     station = Station(robot, records_at(state), now=clock.now, clock=wall, rng=random.Random(1), name="Rex")
-    serves = Serving(station, clock, wall, Addresses("127.0.0.1", 0, 0))
+    serves = StationServer(station, clock, wall, Addresses("127.0.0.1", 0, 0))
     ready = asyncio.Event()
     running = asyncio.create_task(serves.run(lambda _: ready.set()))
     async with asyncio.timeout(10):
@@ -82,7 +82,7 @@ async def test_one_that_is_no_longer_wanted_ends_by_itself(tmp_path: Path) -> No
         robot, records_at(tmp_path), now=clock.now, clock=time.time, rng=random.Random(1), name="Rex"
     )
     answers = iter([True, False])
-    serves = Serving(
+    serves = StationServer(
         station, clock, time.time, Addresses("127.0.0.1", 0, 0), wanted=lambda: next(answers, False)
     )
     async with asyncio.timeout(10):
@@ -109,7 +109,7 @@ async def test_a_system_that_takes_no_more_connections_is_logged_once(
 
 
 @asynccontextmanager
-async def connected(serves: Serving) -> AsyncIterator[BridgeClient]:
+async def connected(serves: StationServer) -> AsyncIterator[BridgeClient]:
     there = asyncio.Event()
     client = BridgeClient(
         serves.addresses.bridge,
@@ -205,10 +205,10 @@ async def test_a_port_that_is_taken_is_said_and_nothing_is_left_open(tmp_path: P
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]
         station = Station(FakeRobot(), records_at(tmp_path), now=0.0, clock=lambda: 0.0, rng=random.Random(1))
-        serves = Serving(station, RobotClock(0.0), lambda: 0.0, Addresses("127.0.0.1", port, 0))
+        serves = StationServer(station, RobotClock(0.0), lambda: 0.0, Addresses("127.0.0.1", port, 0))
         with pytest.raises(BridgeError, match=f"Port {port} on 127.0.0.1 is taken"):
             await serves.run(lambda _: None)
-        web = Serving(station, RobotClock(0.0), lambda: 0.0, Addresses("127.0.0.1", 0, port))
+        web = StationServer(station, RobotClock(0.0), lambda: 0.0, Addresses("127.0.0.1", 0, port))
         with pytest.raises(BridgeError, match=f"Cannot serve HTTP on 127.0.0.1:{port}.*--http-port names"):
             await web.run(lambda _: None)
 
@@ -230,14 +230,14 @@ class Glance:
 
     stations: ClassVar[list[Station]] = []
 
-    def __init__(self, servings: Sequence[Serving], *_: object, **__: object) -> None:
+    def __init__(self, servings: Sequence[StationServer], *_: object, **__: object) -> None:
         self.servings = servings
         self.stations += [each.station for each in servings]
 
     def end(self) -> None:
         """Never called."""
 
-    async def run(self, ready: Callable[[Serving], None]) -> None:
+    async def run(self, ready: Callable[[StationServer], None]) -> None:
         for each in self.servings:
             ready(each)
 
@@ -251,7 +251,7 @@ def test_a_settings_file_says_what_the_robot_is_called_and_may_do(
     name: str,
 ) -> None:
     monkeypatch.setattr("robotside.__main__._robots", lambda *_: ([FakeRobot()], "hall"))
-    monkeypatch.setattr("robotside.__main__.Together", Glance)
+    monkeypatch.setattr("robotside.__main__.FleetServer", Glance)
     settings = tmp_path / "robot.toml"
     settings.write_text("[robot]\nname = 'Slow-1'\n[limits]\nmax_speed = 0.2\n")
     assert main(["serve", "--state", str(tmp_path), "--config", str(settings), *more]) == 0

@@ -12,8 +12,8 @@ from websockets.asyncio.client import ClientConnection, connect
 
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
-from robotside.control.command_expiry import UNSTAMPED
-from robotside.serving.station_server import Serving
+from robotside.control.command_expiry import MAX_UNSTAMPED_AGE
+from robotside.serving.station_server import StationServer
 from tests.bridge.wires import wire
 from tests.fakes import FakeRobot
 from tests.robotside.foreign.test_foreign_link import until
@@ -29,7 +29,7 @@ async def publish(socket: ClientConnection, twist: Twist, stamp: float | None = 
     await socket.send(json.dumps({"op": "publish", "topic": "/cmd_vel", "msg": msg} | when))
 
 
-def said(serves: Serving) -> list[str]:
+def said(serves: StationServer) -> list[str]:
     return [event.text for event in serves.station.events.since(0, "")]
 
 
@@ -96,7 +96,9 @@ async def test_a_program_that_stamps_nothing_and_was_quiet_drives_at_its_first_w
     async with serving(tmp_path, robot) as serves, connect(serves.addresses.bridge) as socket:
         (session,) = serves.server.sessions
         opened = session.answered
-        await until(lambda: session.answered > opened + UNSTAMPED)  # by pings alone: it has said nothing
+        await until(
+            lambda: session.answered > opened + MAX_UNSTAMPED_AGE
+        )  # by pings alone: it has said nothing
         await publish(socket, SPEED)
         await until(lambda: SPEED in robot.commands)
 
@@ -120,7 +122,7 @@ async def test_nothing_that_waited_in_a_stalled_line_moves_the_robot(tmp_path: P
         for _ in range(10):
             await publish(socket, stale, clock() if stamped else None)
         given = clock()
-        await until(lambda: clock() > given + UNSTAMPED)
+        await until(lambda: clock() > given + MAX_UNSTAMPED_AGE)
         cable.thaw()
         dropped = serves.station.controls.dropped
         await until(lambda: serves.station.controls.dropped >= dropped + 10)

@@ -26,7 +26,7 @@ async def end_of(reader: asyncio.StreamReader) -> bytes:
 async def test_a_connection_that_does_not_end_is_ended(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, said: bytes
 ) -> None:
-    monkeypatch.setattr(visit, "LONGEST", 0.2)
+    monkeypatch.setattr(visit, "MAX_CONNECTION_TIME", 0.2)
     async with serving(tmp_path, FakeRobot()) as serves:
         reader, writer = await asyncio.open_connection("127.0.0.1", serves.addresses.http_port)
         writer.write(said)
@@ -37,7 +37,7 @@ async def test_a_connection_that_does_not_end_is_ended(
 async def test_for_one_connection_too_many_the_oldest_that_asks_nothing_is_closed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(visit, "MOST", 2)
+    monkeypatch.setattr(visit, "MAX_CONNECTIONS", 2)
     async with (
         serving(tmp_path, FakeRobot()) as serves,
         httpx.AsyncClient(base_url=serves.addresses.http) as web,
@@ -56,7 +56,7 @@ async def test_for_one_connection_too_many_the_oldest_that_asks_nothing_is_close
 async def test_one_connection_too_many_is_closed_while_all_others_are_answered(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(visit, "MOST", 1)
+    monkeypatch.setattr(visit, "MAX_CONNECTIONS", 1)
     async with filming(tmp_path) as (robot, serves, web), looking(web):
         await robot.until(True)
         reader, writer = await asyncio.open_connection("127.0.0.1", serves.addresses.http_port)

@@ -16,7 +16,7 @@ from bridge.core.topics import CAMERA
 from bridge.msgs.sensor_msgs import CompressedImage
 from robotside.gateways.http import browser_connection as visit
 from robotside.gateways.http import camera_streams as streams
-from robotside.serving.station_server import Serving
+from robotside.serving.station_server import StationServer
 from tests.fakes import FakeRobot
 from tests.robotside.gateways.scaling.test_picture_scaling import PHOTO, size
 from tests.robotside.serving.test_station_server import serving
@@ -44,13 +44,13 @@ class Filming(FakeRobot):
 
 
 @asynccontextmanager
-async def filming(state: Path) -> AsyncIterator[tuple[Filming, Serving, httpx.AsyncClient]]:
+async def filming(state: Path) -> AsyncIterator[tuple[Filming, StationServer, httpx.AsyncClient]]:
     robot = Filming()
     async with serving(state, robot) as serves, httpx.AsyncClient(base_url=serves.addresses.http) as web:
         yield robot, serves, web
 
 
-def shoot(serves: Serving, jpeg: bytes) -> None:
+def shoot(serves: StationServer, jpeg: bytes) -> None:
     serves.station.bus.publish(CAMERA, CompressedImage(data=jpeg))
 
 
@@ -121,7 +121,7 @@ async def test_a_rate_leaves_out_what_came_meanwhile(tmp_path: Path) -> None:
 async def test_a_viewer_who_does_not_read_is_cut_off_and_the_camera_rests(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(visit, "STUCK", 0.2)
+    monkeypatch.setattr(visit, "STUCK_TIMEOUT", 0.2)
     async with filming(tmp_path) as (robot, serves, _):
         lazy = socket.socket()
         lazy.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
@@ -144,8 +144,8 @@ async def test_a_viewer_who_does_not_read_is_cut_off_and_the_camera_rests(
 async def test_a_stream_that_is_read_outlasts_what_other_visits_may_take(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(visit, "LONGEST", 0.05)
-    monkeypatch.setattr(visit, "STUCK", 0.05)
+    monkeypatch.setattr(visit, "MAX_CONNECTION_TIME", 0.05)
+    monkeypatch.setattr(visit, "STUCK_TIMEOUT", 0.05)
     async with filming(tmp_path) as (_, serves, web), looking(web) as reader:
         for number in range(8):
             await asyncio.sleep(0.02)
@@ -156,7 +156,7 @@ async def test_a_stream_that_is_read_outlasts_what_other_visits_may_take(
 async def test_a_camera_that_gives_nothing_ends_the_stream(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(streams, "PATIENCE", 0.05)
+    monkeypatch.setattr(streams, "PICTURE_TIMEOUT", 0.05)
     async with filming(tmp_path) as (robot, _, web):
         answer = await web.get(STREAM)
         assert answer.text == "--picture\r\n"
@@ -164,7 +164,7 @@ async def test_a_camera_that_gives_nothing_ends_the_stream(
 
 
 async def test_there_are_only_so_many_viewers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(streams, "MOST", 1)
+    monkeypatch.setattr(streams, "MAX_VIEWERS", 1)
     async with filming(tmp_path) as (robot, _, web):
         async with looking(web):
             refused = await web.get(STREAM)
@@ -221,7 +221,7 @@ async def test_a_snapshot_may_be_smaller(tmp_path: Path) -> None:
 async def test_snapshots_of_many_sizes_at_once_are_all_given(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("robotside.gateways.http.web_site.PICTURE_PATIENCE", 10.0)
+    monkeypatch.setattr("robotside.gateways.http.web_site.SNAPSHOT_TIMEOUT", 10.0)
     async with filming(tmp_path) as (robot, serves, web):
         sizes = range(100, 340, 10)
         asked = [asyncio.create_task(web.get(f"/snapshot/front.jpg?width={width}")) for width in sizes]

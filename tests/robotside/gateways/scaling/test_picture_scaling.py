@@ -14,7 +14,7 @@ from PIL import Image
 
 from bridge.core.errors import BridgeError
 from robotside.gateways.scaling import picture_scaling as pictures
-from robotside.gateways.scaling.picture_scaling import LEVELS, Pictures, Superseded, smaller
+from robotside.gateways.scaling.picture_scaling import LEVELS, PictureScaler, Superseded, smaller
 
 
 def photo(width: int = 640, height: int = 480) -> bytes:
@@ -34,13 +34,13 @@ PHOTO = photo()
 
 
 @pytest.fixture
-async def worker() -> AsyncIterator[Pictures]:
-    made = Pictures()
+async def worker() -> AsyncIterator[PictureScaler]:
+    made = PictureScaler()
     yield made
     await made.close()
 
 
-async def test_each_level_is_at_most_two_thirds_of_the_one_before(worker: Pictures) -> None:
+async def test_each_level_is_at_most_two_thirds_of_the_one_before(worker: PictureScaler) -> None:
     made = [PHOTO, *[await worker.shrink(PHOTO, level) for level in range(1, len(LEVELS) + 1)]]
     assert all(len(b) < len(a) * 2 / 3 for a, b in pairwise(made))
     assert [size(jpeg) for jpeg in made] == [(640, 480), (640, 480), (320, 240), (240, 180)]
@@ -58,7 +58,7 @@ def test_less_quality_is_fewer_bytes() -> None:
 
 
 @pytest.mark.parametrize("bad", [b"", b"no picture", PHOTO[:-5000], b"GIF89a" + bytes(100)])
-async def test_what_is_no_jpeg_is_one_sentence(worker: Pictures, bad: bytes) -> None:
+async def test_what_is_no_jpeg_is_one_sentence(worker: PictureScaler, bad: bytes) -> None:
     with pytest.raises(BridgeError, match="it is no whole JPEG file"):
         await worker.make(bad, 100)
 
@@ -72,7 +72,7 @@ def test_a_picture_that_claims_to_be_huge_is_not_read() -> None:
 
 
 async def test_whoever_wants_the_same_shares_one_picture(
-    worker: Pictures, monkeypatch: pytest.MonkeyPatch
+    worker: PictureScaler, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     calls: list[object] = []
     monkeypatch.setattr(pictures, "smaller", lambda *wish: calls.append(wish) or b"small")
@@ -82,7 +82,7 @@ async def test_whoever_wants_the_same_shares_one_picture(
 
 
 async def test_when_more_is_wanted_than_can_be_made_the_newest_are(
-    worker: Pictures, monkeypatch: pytest.MonkeyPatch
+    worker: PictureScaler, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     go = threading.Event()
     monkeypatch.setattr(pictures, "smaller", lambda jpeg, width, quality: go.wait(5) and b"%d" % width)
@@ -95,7 +95,7 @@ async def test_when_more_is_wanted_than_can_be_made_the_newest_are(
 
 
 async def test_who_asks_once_waits_however_much_is_wanted(
-    worker: Pictures, monkeypatch: pytest.MonkeyPatch
+    worker: PictureScaler, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     go = threading.Event()
     monkeypatch.setattr(pictures, "smaller", lambda jpeg, width, quality: go.wait(5) and b"%d" % width)
@@ -111,14 +111,14 @@ async def test_who_asks_once_waits_however_much_is_wanted(
     assert await asyncio.gather(*watched) == [b"9", b"9"]
 
 
-async def test_who_no_longer_waits_takes_nothing_from_the_others(worker: Pictures) -> None:
+async def test_who_no_longer_waits_takes_nothing_from_the_others(worker: PictureScaler) -> None:
     first, second = worker.make(PHOTO, 100), worker.make(PHOTO, 100)
     first.cancel()
     assert size(await second) == (100, 75)
 
 
 async def test_closing_ends_the_worker_and_what_waits() -> None:
-    worker = Pictures()
+    worker = PictureScaler()
     wanted = [worker.make(PHOTO, width) for width in (10, 20, 30)]
     await asyncio.sleep(0)
     await worker.close()
