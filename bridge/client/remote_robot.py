@@ -12,7 +12,7 @@ import contextlib
 import functools
 import threading
 from collections.abc import Callable, Coroutine
-from typing import Any, Self, TypeVar, overload
+from typing import Any, Protocol, Self, TypeVar, overload
 
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.client.client_goals import Goal, part_of
@@ -31,10 +31,14 @@ M = TypeVar("M", bound=Msg)
 T = TypeVar("T")
 
 
+class _WaitFor(Protocol):
+    def __call__(self, work: Coroutine[Any, Any, T], about: str, timeout: float | None) -> T: ...
+
+
 class RemoteGoal:
     """A goal of an action of a remote robot; may be used from any thread."""
 
-    def __init__(self, goal: Goal[Any], network: NetworkThread, wait_for: Callable[..., Any]) -> None:
+    def __init__(self, goal: Goal[Any], network: NetworkThread, wait_for: _WaitFor) -> None:
         self._goal = goal
         self._network = network
         self._wait_for = wait_for

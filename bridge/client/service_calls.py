@@ -13,7 +13,7 @@ from bridge.client.client_goals import Goal, action_of, part_of, reason
 from bridge.codec import from_json, to_json
 from bridge.core.errors import NoReply, NotConnected, ProtocolError, Refused
 from bridge.msgs import TYPES, Msg, ros1_name
-from bridge.protocol import ClientSession, Op, ServiceResponse, ros2_name
+from bridge.protocol import ClientSession, Id, Op, ServiceResponse, ros2_name
 
 __all__ = ["ServiceCalls"]
 
@@ -101,7 +101,7 @@ class ServiceCalls:
         name = action_of(goal)
         if on_feedback is not None and feedback is None:
             feedback = part_of(name, "Feedback")
-        ids: list[Any] = []
+        ids: list[Id] = []
         made = Goal(
             action,
             result or part_of(name, "Result"),
@@ -117,6 +117,6 @@ class ServiceCalls:
             raise NotConnected(f"There is no connection to {self._place}.")
         return made
 
-    def _cancel(self, id: Any) -> bool:
+    def _cancel(self, id: Id) -> bool:
         op = self._session.cancel(id)
         return op is not None and self._send(op)

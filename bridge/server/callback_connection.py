@@ -14,7 +14,7 @@ import math
 import time
 from collections import deque
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
@@ -26,6 +26,7 @@ from bridge.server.flow.send_queue import TURN_TIME, WriteBatch
 __all__ = ["MessageHandler", "CallbackConnection"]
 
 log = logging.getLogger(__name__)
+T = TypeVar("T")
 
 MAX_CONNECTIONS = 128
 """Most open connections; one more closes the oldest one that has not shaken hands, or itself."""
@@ -162,7 +163,7 @@ class CallbackConnection(ServerConnection):
         if self.protocol.state is State.CLOSED:
             self._unread.clear()  # nothing is read of a connection that is lost
         while self._unread and not self._behind and not self._closed:
-            piece = self._unread[:PIECE_BYTES]
+            piece = bytes(self._unread[:PIECE_BYTES])
             del self._unread[:PIECE_BYTES]
             self._batched(take, piece)
             if self.clock() >= self._until:
@@ -198,7 +199,7 @@ class CallbackConnection(ServerConnection):
             self._deliver(handler, self._undelivered.popleft())
         self._behind = self._behind or bool(self._undelivered)
 
-    def _batched(self, work: Callable[[Any], None], about: Any) -> None:
+    def _batched(self, work: Callable[[T], None], about: T) -> None:
         """Call `work`, and send what it causes together."""
         batch = self.batch
         if batch is None or batch.held:
