@@ -10,8 +10,14 @@ from typing import Any, Literal, Protocol, Self, TypeAlias
 
 from bridge.core.codes import Code
 from bridge.msgs.diagnostic_msgs import KeyValue
+from robotside.core.text import plain
 
-__all__ = ["Notice", "Problem", "coded"]
+__all__ = ["MAX_KEY", "MAX_PARAMETERS", "MAX_VALUE", "Notice", "Problem", "coded"]
+
+MAX_KEY, MAX_VALUE = 64, 300
+"""Characters kept of a code, an id or a key, and of a value: a client's own words may stand in them."""
+MAX_PARAMETERS = 16
+"""Parameters kept of what another program said."""
 
 
 class Notice(str):
@@ -71,8 +77,12 @@ def coded(text: str) -> dict[str, Any]:
     """The fields of a message that carry the code of a `text`; empty ones where it has none."""
     if not isinstance(text, Notice):
         return {"code": "", "actor_id": "", "parameters": []}
-    pairs = [KeyValue(key, value) for key, value in text.parameters.items()]
-    return {"code": text.code, "actor_id": text.actor_id, "parameters": pairs}
+    pairs = [(plain(key, MAX_KEY), plain(value, MAX_VALUE)) for key, value in text.parameters.items()]
+    return {
+        "code": plain(text.code, MAX_KEY),
+        "actor_id": plain(text.actor_id, MAX_KEY),
+        "parameters": [KeyValue(*pair) for pair in pairs[:MAX_PARAMETERS]],
+    }
 
 
 def _shown(value: str | float) -> str:

@@ -6,7 +6,7 @@ from bridge.codec import to_json
 from bridge.core.codes import Code
 from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.pilothouse_msgs import Event
-from robotside.core.notice import Notice, coded
+from robotside.core.notice import MAX_KEY, MAX_PARAMETERS, MAX_VALUE, Notice, coded
 from robotside.core.refusal import Refusal
 
 PRESSED = Notice(Code.STOP_PRESSED, "STOP pressed by Anna.", actor_id="a1", name="Anna")
@@ -55,3 +55,15 @@ def test_what_another_program_told_keeps_the_code_that_it_gave() -> None:
 def test_a_refusal_tells_its_notice() -> None:
     refusal = Refusal(PRESSED)
     assert (str(refusal), refusal.notice.code) == ("STOP pressed by Anna.", "stop_pressed")
+
+
+def test_what_clients_and_other_programs_send_is_cut_and_made_fit_to_be_shown() -> None:
+    unknown = Notice(Code.SETTING_UNKNOWN, "There is no such setting.", setting="a\n\u202eb" * 900_000)
+    (pair,) = coded(unknown)["parameters"]
+    assert pair.value.startswith("a b")
+    assert len(pair.value) <= MAX_VALUE
+    many = [KeyValue(f"key {number}" * 50, "1") for number in range(1000)]
+    event = Event(text="It sank.", code="x" * 900, actor_id="y" * 900, parameters=many)
+    fields = coded(Notice.of(event.text, event))
+    assert len(fields["parameters"]) <= MAX_PARAMETERS
+    assert len(fields["code"]) == len(fields["actor_id"]) == MAX_KEY
