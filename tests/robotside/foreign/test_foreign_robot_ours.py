@@ -168,7 +168,7 @@ async def test_a_task_is_paused_while_somebody_else_has_the_robot(tmp_path: Path
 def begin_by_itself(far: Station) -> None:
     """Have the robot behind begin a patrol for which nobody has control any more."""
     far.autonomy.place(ORIGIN)
-    far.keep(Mission(waypoints=[Waypoint(4.0, 0.0)]))
+    far.missions.store(Mission(waypoints=[Waypoint(4.0, 0.0)]))
     far.controls.release(far.controls.driver.client)  # type: ignore[union-attr]
     far.autonomy.engine.start(far.autonomy.task_factory.task(TaskOrder(task="patrol")), far.now)
     far.show_control()
