@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Protocol
 
 from app.core.settings_store import Settings
 from app.session.mission_editor import MissionEditor
-from app.session.robot_profile import RobotProfile
 from bridge.msgs.pilothouse_msgs import Mission
 
 __all__ = ["MissionDrafts"]
 
 
+class NamedRobot(Protocol):
+    """The robot that the missions are for."""
+
+    @property
+    def name(self) -> str:
+        """Its name, or its address while the name is not known."""
+
+
 class MissionDrafts:
     """The mission being edited for one robot, and its copy in the settings."""
 
-    def __init__(self, settings: Settings, robot: RobotProfile) -> None:
+    def __init__(self, settings: Settings, robot: NamedRobot) -> None:
         self._settings, self._robot = settings, robot
         self.editor = MissionEditor(on_change=self._save)
         self._restored = False
