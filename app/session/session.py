@@ -13,18 +13,18 @@ from app.link.channels import EVENT, KNOWN, LINK, MISSED, OFFER, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Feeds, Post
 from app.link.link import Link
+from app.missions.fence_refusals import Refusals
+from app.missions.mission_drafts import MissionDrafts
+from app.missions.mission_editor import Draft
+from app.missions.stored_missions import KeptMissions
+from app.missions.tasking import Tasking
 from app.session.camera_choice import CameraChoice
 from app.session.check_list import Checks
 from app.session.control import Authority
 from app.session.event_intake import EventIntake
-from app.session.fence_refusals import Refusals
 from app.session.initial_pose import initial_pose
 from app.session.logbook import Logbook
-from app.session.mission_drafts import MissionDrafts
-from app.session.mission_editor import Draft
 from app.session.robot_profile import RobotProfile
-from app.session.stored_missions import KeptMissions
-from app.session.tasking import Tasking
 from app.stop.robot_stop import RobotStop
 from bridge.client.client import LinkState, Phase
 from bridge.msgs.geometry_msgs import Twist

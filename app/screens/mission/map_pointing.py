@@ -9,9 +9,9 @@ from typing import Any, Protocol
 import msgspec
 from kivy.metrics import dp
 
+from app.missions.mission_editor import Draft
 from app.screens.mission.selection_bar import SelectionBar
 from app.screens.shell.screen_host import ScreenHost
-from app.session.mission_editor import Draft
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Place, PlaceArray
 from widgets.map.map_overlay import MapOverlay

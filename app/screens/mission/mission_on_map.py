@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from app.missions.fence_refusals import summary
 from app.screens.mission.map_pointing import Pointing
 from app.screens.mission.mission_maps import Maps
 from app.screens.mission.mission_panel import MissionPanel
-from app.session.fence_refusals import summary
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import RobotInfo, TaskStatus
 

@@ -9,9 +9,9 @@ from kivy.properties import ObjectProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
+from app.missions.stored_missions import LONGEST
 from app.screens.parts.pane_head import PaneHead
 from app.session.session import Session
-from app.session.stored_missions import LONGEST
 from bridge.msgs.pilothouse_msgs import KeptMission
 from widgets.parts.kit import TextField
 from widgets.tasks.mission_list import mission_words

@@ -9,7 +9,7 @@ from kivy.lang import Builder
 from kivy.properties import AliasProperty, BooleanProperty, ObjectProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
-from app.session.mission_editor import Draft
+from app.missions.mission_editor import Draft
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import RobotInfo, ScheduledTask, TaskOrder, TaskStatus
 from widgets import OrderForm, TaskChooser, WhenPicker

@@ -19,7 +19,6 @@ from app.link.camera_decoder import Picture
 from app.link.feeds import Post
 from app.screens.parts.placing import above, put
 from app.screens.parts.robot_screen import RobotScreen
-from app.screens.shell.screen_host import ScreenHost
 from app.session.session import Session
 from app.session.topic_list import Line, Topics
 from widgets import FieldView
@@ -315,7 +314,7 @@ class TopicDetail(Card):
 class TopicsScreen(RobotScreen):
     """Look at anything that the robot tells."""
 
-    app: ObjectProperty[ScreenHost] = ObjectProperty()
+    app: ObjectProperty[object] = ObjectProperty()
     session: ObjectProperty[Session] = ObjectProperty()
     summary = StringProperty("")
 

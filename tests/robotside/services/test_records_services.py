@@ -8,7 +8,8 @@ from typing import Any
 import msgspec
 import pytest
 
-from app.session import logbook, tasking
+from app.missions import tasking
+from app.session import logbook
 from bridge.msgs.arrays import Int32Array
 from bridge.msgs.pilothouse_msgs import (
     AcknowledgeEventsRequest,

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from app.session.mission_editor import Draft, MissionEditor
+from app.missions.mission_editor import Draft, MissionEditor
 from bridge.msgs.pilothouse_msgs import Mission, Waypoint
 
 STORED = Mission(waypoints=[Waypoint(5.0, 6.0)], home=[Waypoint(0.0, 0.0)], motion="random", dwell=2.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, Protocol
 
 from app.core.settings_store import Settings
-from app.session.mission_editor import MissionEditor
+from app.missions.mission_editor import MissionEditor
 from bridge.msgs.pilothouse_msgs import Mission
 
 __all__ = ["MissionDrafts"]

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from app.link.commands import Outcome
-from app.session.mission_editor import MissionEditor
-from app.session.stored_missions import LONGEST, KeptMissions
+from app.missions.mission_editor import MissionEditor
+from app.missions.stored_missions import LONGEST, KeptMissions
 from bridge.msgs.pilothouse_msgs import (
     GetMissionsResponse,
     KeptMission,

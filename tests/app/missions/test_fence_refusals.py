@@ -3,8 +3,8 @@ from __future__ import annotations
 import pytest
 
 from app.link.feeds import Feeds, Post
-from app.session.fence_refusals import Refusals, summary
-from app.session.mission_editor import Draft
+from app.missions.fence_refusals import Refusals, summary
+from app.missions.mission_editor import Draft
 from bridge.msgs.geometry_msgs import Point32, Polygon
 from bridge.msgs.pilothouse_msgs import Limits, Place, PlaceArray, RobotInfo, TaskOrder
 

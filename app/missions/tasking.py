@@ -9,7 +9,7 @@ import msgspec
 
 from app.core.command_origin import Origin, origins
 from app.link.commands import Outcome
-from app.session.queue_editor import QueueEditor
+from app.missions.queue_editor import QueueEditor
 from bridge.msgs.pilothouse_msgs import (
     GetHistoryResponse,
     Place,

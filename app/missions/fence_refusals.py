@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from app.link.feeds import Feeds
-from app.session.mission_editor import Draft
+from app.missions.mission_editor import Draft
 from bridge.msgs.pilothouse_msgs import Limits, Place, PlaceArray, RobotInfo, TaskOrder
 from widgets.map.fence import Fence
 

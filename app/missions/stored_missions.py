@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from app.link.commands import Outcome
-from app.session.mission_editor import Draft, MissionEditor
+from app.missions.mission_editor import Draft, MissionEditor
 from bridge.msgs.pilothouse_msgs import KeptMission
 
 __all__ = ["LONGEST", "KeptMissions", "Robot"]

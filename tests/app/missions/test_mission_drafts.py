@@ -6,7 +6,7 @@ from pathlib import Path
 
 from app.core.settings_store import Settings
 from app.link.feeds import Feeds, Post
-from app.session.mission_drafts import MissionDrafts
+from app.missions.mission_drafts import MissionDrafts
 from app.session.robot_profile import RobotProfile
 from bridge.msgs.pilothouse_msgs import Mission, RobotInfo
 

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from app.session.queue_editor import QueueEditor
+from app.missions.queue_editor import QueueEditor
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskQueue
 
 A, B, C = (TaskOrder(id=number, task="go_to", places=[name]) for number, name in enumerate("ABC", 1))
