@@ -105,5 +105,5 @@ def battery() -> BatteryState:
 
 
 def picture() -> CompressedImage:
-    """Bytes that nobody reads."""
+    """Bytes without a meaning."""
     return CompressedImage(Header(AT, "camera"), "jpeg", bytes(48_230))

@@ -175,7 +175,7 @@ def _is_time(value: object) -> bool:
 
 
 def _is_header(value: object) -> bool:
-    """A header, of whatever class: a learned type may bring its own."""
+    """A header of any class: a learned type may bring its own."""
     return isinstance(value, Msg) and value.MSGTYPE == "std_msgs/Header"
 
 
@@ -221,7 +221,7 @@ def size_text(count: int) -> str:
 def clock(stamp: float, now: float = math.nan) -> str:
     """A time [s] as `14:02:11.120` by this device's zone, and how long ago that is where `now` [s] is known.
 
-    A dash for 0, which is a stamp that nobody set.
+    A dash for 0, which is a stamp that was never set.
     """
     if not stamp or not math.isfinite(stamp):
         return DASH
@@ -258,7 +258,7 @@ def describe(row: Row, now: float = math.nan) -> tuple[str, str]:
 
 
 def unit(row: Row) -> str:
-    """What stands behind the value of a row, as in `m/s²`; empty where that is no number or nobody told its unit.
+    """What stands behind the value of a row, as in `m/s²`; empty where that is no number or its unit is unknown.
 
     Of an array it stands in the second line.
     """

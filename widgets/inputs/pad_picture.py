@@ -176,7 +176,7 @@ class PadPicture(Control, Drawing):
 
 
 def samples() -> dict[str, Callable[[], Widget]]:
-    """None, at rest, pushed, STOP, and one with buttons that nobody knows."""
+    """None, at rest, pushed, STOP, and one with unknown buttons."""
 
     def make(**kwargs: Any) -> Callable[[], Widget]:
         def build() -> Widget:

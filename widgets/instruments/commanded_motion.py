@@ -66,7 +66,7 @@ class CommandedMotion(Gauge):
     figures: ListProperty[Figure] = ListProperty()
     """A `Figure` for each part that the order has."""
     target = NumericProperty(math.nan)
-    """Depth or height that is held whatever the order says [m]; NaN for none."""
+    """Depth or height that is held independently of the order [m]; NaN for none."""
     under_water = BooleanProperty(False)
     """A height is told as a depth."""
 

@@ -46,7 +46,7 @@ class DepthGauge(Gauge):
     depth = NumericProperty(math.nan)
     """Below the surface [m]; NaN when not known."""
     wanted = NumericProperty(math.nan)
-    """Depth to hold [m]; NaN when nobody asked."""
+    """Depth to hold [m]; NaN for no target."""
     held = BooleanProperty(False)
     """The robot holds the depth where it is, and has not said which one that is."""
     stopped = BooleanProperty(False)

@@ -45,7 +45,7 @@ class HeadingTape(Glass, Drawing):
     heading = NumericProperty(math.nan)
     """Of the bow [deg], 0 north, clockwise; NaN when not known."""
     wanted = NumericProperty(math.nan)
-    """Where it should point [deg]; NaN when nobody asked."""
+    """Where it should point [deg]; NaN for no target."""
     span = NumericProperty(75.0)
     """How much of the horizon the strip shows [deg]."""
 

@@ -53,9 +53,9 @@ class HeightTape(Gauge):
     phase = StringProperty("")
     """`landed`, `taking_off`, `flying` or `landing`; empty before the first."""
     stopped = BooleanProperty(False)
-    """STOP is pressed: what is in the air hovers, whatever it was about."""
+    """STOP is pressed: what is in the air hovers."""
     wanted = NumericProperty(math.nan)
-    """Height to go to or to hold [m]; NaN when nobody asked."""
+    """Height to go to or to hold [m]; NaN for no target."""
     max_climb = NumericProperty(1.0)
     """Upward speed of a full bar [m/s], above 0."""
 

@@ -47,7 +47,7 @@ def quality(rtt: float, lost: int) -> str:
 
 
 class LinkQuality(RobotWidget, BoxLayout):
-    """A chip with the state of the link. Nobody publishes it: the app assigns what its client measures."""
+    """A chip with the state of the link. It has no topic: the app assigns what its client measures."""
 
     veiled = False
 

@@ -122,7 +122,7 @@ class MapViewport(MapGestures):
             self.fit()
 
     def on_places(self, *_: object) -> None:
-        """Bring them into sight while nobody has moved the map."""
+        """Bring them into sight until the operator moves the map."""
         self._fit_until_touched()
 
     def on_mode(self, *_: object) -> None:

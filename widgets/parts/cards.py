@@ -178,7 +178,7 @@ class ActionToast(Toast):
     action = StringProperty("Undo")
     action_icon = StringProperty("undo")
     kept = BooleanProperty(False)
-    """Somebody may be on the way to it who needs longer than it stays; once nobody is, it stays as long again."""
+    """An operator may need longer to reach it than it stays; afterwards it stays as long again."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**{"closable": False, **kwargs})

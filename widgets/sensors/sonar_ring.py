@@ -68,7 +68,7 @@ class SonarRingView(Gauge):
     pressed = NumericProperty(math.nan)
     """The bumper is touched: 1 or 0; NaN before it has told anything."""
     contact = NumericProperty(math.nan)
-    """Direction of the contact [rad], 0 ahead, positive left; NaN when there is none, or nobody knows where."""
+    """Direction of the contact [rad], 0 ahead, positive left; NaN when there is none or its direction is unknown."""
     reach = NumericProperty(0.0)
     """Distance at the edge of the picture [m]; 0 follows what is seen."""
     near = NumericProperty(0.8)

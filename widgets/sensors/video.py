@@ -134,7 +134,7 @@ class Video(Drawing):
     ) -> None:
         """Show a decoded picture, top row first, four bytes to a pixel, as a worker thread has made it.
 
-        `taken` is its size before it was made smaller on its way, in which boxes are told; 0 when nobody says.
+        `taken` is its size before it was made smaller on its way, to which boxes refer; 0 when unknown.
         ValueError when `rgba` is not as long as `width` and `height` say.
         """
         if len(rgba) != width * height * 4:

@@ -241,7 +241,7 @@ class CheckList(Outlined, RobotWidget, BoxLayout):
 
 
 def _state(check: Check) -> str:
-    """A state that nobody knows is no good one."""
+    """An unknown state is not good."""
     return check.state if check.state in LOOKS else "unknown"
 
 

@@ -88,9 +88,9 @@ class EventLog(RobotWidget, FloatLayout):
     acts = BooleanProperty(False)
     """A finger can say that one has been seen to."""
     asked: ListProperty[tuple[str, int]] = ListProperty()
-    """Run and number of those of which the robot is being told that they have been seen to."""
+    """Run and number of those whose acknowledgement is being sent to the robot."""
     missed: ListProperty[tuple[str, int]] = ListProperty()
-    """Run and number of those that happened while nobody listened here."""
+    """Run and number of those that happened while this handheld was not connected."""
     head = StringProperty("")
     """What is said above the newest of those; empty for nothing."""
 

@@ -144,7 +144,7 @@ Builder.load_string("""
 
 
 def is_open(event: Event) -> bool:
-    """Whether somebody has to see to it and nobody has."""
+    """Whether it needs an acknowledgement and has none."""
     return event.level in LEVELS and not event.acknowledged_by
 
 
@@ -193,7 +193,7 @@ def when_words(stamp: float, now: float, *, brief: bool = False) -> str:
 
 
 def note(event: Event, *, asked: bool = False) -> str:
-    """Who has seen to it and at what time of day; empty while nobody has. `asked` while the robot is being told."""
+    """Who acknowledged it and at what time of day; empty while no one has. `asked` while that is being sent to the robot."""
     if event.acknowledged_by:
         then = event.acknowledged.seconds
         clock = f", {datetime.fromtimestamp(then, UTC).astimezone():%H:%M}" if then > 0 else ""
@@ -235,16 +235,16 @@ class EventRow(RecycleDataViewBehavior, BoxLayout):
     """Role of the icon's colour."""
     text = StringProperty("")
     note = StringProperty("")
-    """Who has seen to it; empty for nobody."""
+    """Who acknowledged it; empty for no one."""
     stamp = NumericProperty(math.nan)
     """When it happened [s]."""
     when = StringProperty("")
     open = BooleanProperty(False)
     """Somebody has to see to it."""
     missed = BooleanProperty(False)
-    """It happened while nobody listened here."""
+    """It happened while this handheld was not connected."""
     act: ObjectProperty[Callable[[], object] | None] = ObjectProperty(None, allownone=True)
-    """Called when a finger says that it has been seen to; None where that cannot be said."""
+    """Called when a finger acknowledges it; None where that is not possible."""
 
     def refresh_view_attrs(self, rv: Any, index: int, data: dict[str, Any]) -> None:
         """Take over a row of the list."""
@@ -256,7 +256,7 @@ class EventRow(RecycleDataViewBehavior, BoxLayout):
         self.when = when_words(self.stamp, now, brief=True)
 
     def acknowledge(self) -> None:
-        """A finger says that it has been seen to."""
+        """A finger acknowledges it."""
         if self.act is not None:
             self.act()
 
@@ -269,7 +269,7 @@ class EventHead(RecycleDataViewBehavior, Text):
 
 
 def samples() -> dict[str, Callable[[], Widget]]:
-    """An event that nobody has seen to, one that somebody has, one that was missed."""
+    """An event without acknowledgement, an acknowledged one, a missed one."""
 
     def make(**kwargs: Any) -> Callable[[], Widget]:
         return lambda: EventRow(size_hint_x=None, width="340dp", height="60dp", when="12 s", **kwargs)

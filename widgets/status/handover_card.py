@@ -28,7 +28,7 @@ class HandoverCard(NoticeCard):
     me = StringProperty("")
     """The `client_id` of this handheld."""
     asker = StringProperty("")
-    """Name of who asks; empty while nobody does."""
+    """Name of the operator who asks; empty for none."""
     driver = StringProperty("")
     """Name of who is asked."""
     part = StringProperty("")

@@ -59,7 +59,7 @@ class IntentCard(NoticeCard):
     heard = StringProperty("")
     """Who understood what, and how surely."""
     seconds = NumericProperty(0.0)
-    """Until it is done, or nobody has answered [s]."""
+    """Time until it is done, or until it lapses without an answer [s]."""
     left = NumericProperty(1.0)
     """The same as a share of all the time there is, 1 to 0."""
 

@@ -75,7 +75,7 @@ class NoticeCard(Outlined, Control, Column):
     open = BooleanProperty(False)
     """There is something to deal with."""
     blocked = BooleanProperty(False)
-    """Nobody here may do anything about it now."""
+    """No action is permitted here now."""
 
     beside = NumericProperty(0.0)
     """Height of what stands beside the words [px]."""

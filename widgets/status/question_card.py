@@ -99,7 +99,7 @@ class QuestionCard(Outlined, Control, BoxLayout):
     cut = BooleanProperty(False)
     """A task was cut short and is offered."""
     blocked = BooleanProperty(False)
-    """Nobody here may answer now, as while another drives or the link is down."""
+    """An answer is not permitted here now, as while another drives or the link is down."""
     held = BooleanProperty(False)
     """STOP is pressed: nothing can be resumed."""
     why = StringProperty("")

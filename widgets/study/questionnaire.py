@@ -70,12 +70,12 @@ class AnswerSheet(Control, Column):
         return {key: int(row.value) for key, row in self.rows.items() if math.isfinite(row.value)}
 
     def pause(self) -> None:
-        """Nobody sees it until `take_up`."""
+        """It is hidden until `resume`."""
         if math.isnan(self._away):
             self._away = self._now()
 
     def resume(self) -> None:
-        """It is gone on with; nothing where it was not put away."""
+        """Continue it; nothing where it was not paused."""
         if not math.isnan(self._away):
             self._shown += self._now() - self._away
             self._away = math.nan

@@ -57,7 +57,7 @@ def natural(name: str) -> list[tuple[int, int, str]]:
 
 
 def found(places: Sequence[Place], search: str) -> list[Place]:
-    """The places whose name, kind, floor or note have every word of `search`, whatever its capitals."""
+    """The places whose name, kind, floor or note have every word of `search`, in any case."""
     words = search.casefold().split()
 
     def text(place: Place) -> str:

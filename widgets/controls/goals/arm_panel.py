@@ -88,7 +88,7 @@ class ArmPanel(ArmKeys):
     held = OptionProperty("", options=["", "tip", "turn"])
     """What a finger drags; empty without one."""
     aim: ListProperty[float] = ListProperty()
-    """Where the tip is wanted, ahead of and above the foot in the plane of the arm [m]; empty where nobody pointed."""
+    """Where the tip is wanted, ahead of and above the foot in the plane of the arm [m]; empty while no place is chosen."""
     bearing = NumericProperty(math.nan)
     """Where its foot is being turned to [rad]; NaN while no finger turns it."""
 

@@ -130,7 +130,7 @@ class TiltStick(Stick):
         self.dispatch("on_let_go")
 
     def on_let_go(self) -> None:
-        """It was put to rest, by a finger that was lifted or by whatever takes a control away from the hand."""
+        """It was released: the finger was lifted, or control was lost."""
 
     def spring(self) -> None:
         """Command level; where the tablet tilts it the circle stays where that is."""

@@ -125,7 +125,7 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
 
     phase = OptionProperty("ready", options=list(PHASES))
     """`ready`; `sent`, not confirmed; `stopped`, confirmed and latched; `moves`, latched and not at rest in time;
-    `no_answer`, sent and not confirmed in time; `lost`, stopped when the link was lost: nobody knows whether it still is."""
+    `no_answer`, sent and not confirmed in time; `lost`, stopped when the link was lost: it is unknown whether it still is."""
     local = BooleanProperty(False)
     """It is latched, or the robot has no STOP of its own: a hold releases it even while it is not confirmed."""
     ago = StringProperty("")
