@@ -171,7 +171,7 @@ def begin_by_itself(far: Station) -> None:
     far.missions.store(Mission(waypoints=[Waypoint(4.0, 0.0)]))
     far.controls.release(far.controls.driver.client)  # type: ignore[union-attr]
     far.autonomy.engine.start(far.autonomy.task_factory.task(TaskOrder(task="patrol")), far.now)
-    far.show_control()
+    far.publish_control()
 
 
 async def test_stop_in_front_ends_what_the_robot_behind_does_by_itself(tmp_path: Path) -> None:
