@@ -14,9 +14,9 @@ from pathlib import Path
 
 from robotside.core.config import DEFAULT_CONFIG, Config, load
 
-__all__ = ["MOST", "SIMULATED", "One", "UserMistake", "configs", "ports", "read", "robots", "state"]
+__all__ = ["MAX_ROBOTS", "SIMULATED", "One", "UserMistake", "configs", "ports", "read", "robots", "state"]
 
-MOST = 32
+MAX_ROBOTS = 32
 """Robots of one robot side."""
 SIMULATED = "sim:"
 
@@ -141,8 +141,8 @@ def robots(options: argparse.Namespace) -> list[One]:
     if kind != "sim" or not all(words):
         said = "simulated ones are written as sim:patrol or sim:patrol,scout, others as ros:ws://192.168.1.7:9090"
         raise UserMistake(f"There is no robot {text!r}; {said}.")
-    if len(words) > MOST:
-        raise UserMistake(f"One robot side serves at most {MOST} robots, not {len(words)}.")
+    if len(words) > MAX_ROBOTS:
+        raise UserMistake(f"One robot side serves at most {MAX_ROBOTS} robots, not {len(words)}.")
     called = _names(options.name, len(words))
     return [_one(word, name, options, len(words)) for word, name in zip(words, called, strict=True)]
 

@@ -9,7 +9,7 @@ import pytest
 
 from robotside.__main__ import main
 from robotside.core.config import BadConfig
-from robotside.options import MOST, One, UserMistake, configs, ports, read, robots, state
+from robotside.options import MAX_ROBOTS, One, UserMistake, configs, ports, read, robots, state
 from sim.world.world_files import WORLDS
 
 
@@ -105,7 +105,10 @@ def test_a_wrong_file_among_several_is_named(tmp_path: Path) -> None:
     ("words", "said"),
     [
         ("--robot sim:patrol,,scout", "There is no robot 'sim:patrol,,scout'; simulated ones are written as"),
-        (f"--robot sim:{','.join(['patrol'] * 33)}", f"One robot side serves at most {MOST} robots, not 33."),
+        (
+            f"--robot sim:{','.join(['patrol'] * 33)}",
+            f"One robot side serves at most {MAX_ROBOTS} robots, not 33.",
+        ),
         (
             "--robot sim:patrol,scout --payloads arm",
             "--payloads is for one robot; say of each of 2 what it carries",

@@ -10,6 +10,7 @@ import msgspec
 import pytest
 
 import robotside
+from app.discovery.simulator_options import Offered
 from bridge.msgs.pilothouse_msgs import (
     FlightState,
     Manoeuvre,
@@ -18,6 +19,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskOrder,
     Waypoint,
 )
+from robotside.__main__ import main
 from robotside.control.safe_state import SafeState
 from robotside.core.config import DEFAULT_CONFIG, Config, LimitSettings
 from robotside.kinds.registry import GENERIC, KINDS, described, kind_of, unknown
@@ -171,3 +173,11 @@ def test_an_unknown_kind_is_said_once_and_goes_as_if_on_wheels(tmp_path: Path) -
     assert len(events) == 1
     assert isinstance(run.station.autonomy.navigator.controller, DifferentialController)
     assert "dock" not in run.station.info.tasks
+
+
+def test_the_simulators_offer_has_the_icon_of_each_kind(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["offer", "--json"]) == 0
+    offered = Offered.read(capsys.readouterr().out)
+    assert {robot.kind: robot.icon for robot in offered.robots} == {
+        kind: record.icon for kind, record in KINDS.items()
+    }
