@@ -48,7 +48,7 @@ class CancelGoalResponse(Msg, frozen=True, gc=False):
 
 
 class GoalStatus(Msg, frozen=True, gc=False):
-    """How a goal stands."""
+    """Status of a goal."""
 
     MSGTYPE: ClassVar[str] = "action_msgs/GoalStatus"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("action_msgs/GoalInfo", "int8")
@@ -70,7 +70,7 @@ class GoalStatus(Msg, frozen=True, gc=False):
 
 
 class GoalStatusArray(Msg, frozen=True, gc=False):
-    """How the goals of an action stand."""
+    """Status of all goals of an action."""
 
     MSGTYPE: ClassVar[str] = "action_msgs/GoalStatusArray"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("action_msgs/GoalStatus[]",)

@@ -98,7 +98,7 @@ class AccelWithCovarianceStamped(Msg, frozen=True, gc=False):
 
 
 class Inertia(Msg, frozen=True, gc=False):
-    """How a body resists being moved and turned."""
+    """Mass and inertia of a body."""
 
     MSGTYPE: ClassVar[str] = "geometry_msgs/Inertia"
     ROSTYPES: ClassVar[tuple[str, ...]] = (

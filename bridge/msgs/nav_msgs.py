@@ -92,7 +92,7 @@ class GetPlanRequest(Msg, frozen=True, gc=False):
     start: PoseStamped = PoseStamped()
     goal: PoseStamped = PoseStamped()
     tolerance: float = 0.0
-    """How far from the goal it may end [m]; 0 for as near as can be."""
+    """Distance from the goal where it may end [m]; 0 for as near as possible."""
 
 
 class Path(Msg, frozen=True, gc=False):

@@ -102,7 +102,7 @@ _Boolx7: TypeAlias = Annotated[list[bool], Meta(min_length=7, max_length=7)]
 
 
 class AckermannState(Msg, frozen=True, gc=False):
-    """How a vehicle with steered front wheels drives, as its encoders tell."""
+    """Motion of a vehicle with steered front wheels, by its encoders."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/AckermannState"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -132,7 +132,7 @@ class AckermannState(Msg, frozen=True, gc=False):
     wheels: list[str] = []
     """Names of the wheels."""
     wheel_angles: Float64Array = field(default_factory=Float64Array)
-    """How far each is steered [rad], positive to the left."""
+    """Steering angle of each wheel [rad], positive to the left."""
     wheel_speeds: Float64Array = field(default_factory=Float64Array)
     """At the rim of each [m/s]."""
 
@@ -150,13 +150,13 @@ class CommandRequest(Msg, frozen=True, gc=False):
     valid_for: float = 5.0
     """Refused when older than this on arrival [s]."""
     client_id: str = ""
-    """Who asks; stays the same over reconnects."""
+    """Identity of the client; stays the same over reconnects."""
     client_name: str = ""
-    """What to call who asks, as in tablet-B."""
+    """Name of the client for people, as in tablet-B."""
 
 
 class AcknowledgeEventsRequest(CommandRequest, frozen=True, gc=False):
-    """Say that somebody has seen to events; the first who does so is remembered."""
+    """Acknowledge events; the first client to do so is remembered."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/AcknowledgeEventsRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "int32[]")
@@ -175,13 +175,13 @@ class CommandResponse(Msg, frozen=True, gc=False):
     message: str = ""
     """One sentence: what was accepted, or why not and what is allowed."""
     code: str = ""
-    """Why not, in one word of docs/bridge.md, as in stop_is_pressed; empty where it was accepted."""
+    """Code of the reason, as in docs/bridge.md, such as stop_is_pressed; empty where it was accepted."""
     actor_id: str = ""
-    """The client_id of whom the reason is about, as of who has control; empty when nobody, or it is not
-    known.
+    """The client_id that the reason is about, as the one that has control; empty without one, or when it
+    is not known.
     """
     parameters: list[KeyValue] = []
-    """What the reason names, by the keys that the code has."""
+    """Values in the reason, by the keys of the code."""
 
 
 class AcknowledgeEventsResponse(CommandResponse, frozen=True, gc=False):
@@ -282,7 +282,7 @@ class Check(Msg, frozen=True, gc=False):
 
 
 class Checklist(Msg, frozen=True, gc=False):
-    """What is looked through before the first motion; latched on /checklist, sent once per change."""
+    """Checks before the first motion; latched on /checklist, sent once per change."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Checklist"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "pilothouse_msgs/Check[]")
@@ -309,7 +309,7 @@ class Compass(Msg, frozen=True, gc=False):
 
 
 class ControlStatus(Msg, frozen=True, gc=False):
-    """Who steers and whether it may move; latched on /control/status, sent once per change."""
+    """The driver, the mode, and STOP; latched on /control/status, sent once per change."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/ControlStatus"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -340,17 +340,17 @@ class ControlStatus(Msg, frozen=True, gc=False):
     stopped: bool = False
     """STOP is latched: nothing moves until it is released."""
     stopped_by: str = ""
-    """Who pressed STOP."""
+    """Name of the client that pressed STOP."""
     stopped_by_id: str = ""
     """The client_id of who pressed it; empty when it gave none, or before the robot's last start."""
     at_rest: bool = True
     """The wheels stand still, as measured."""
     requested_by: str = ""
-    """Name of who asks the driver for control; empty when nobody does."""
+    """Name of the client that asks the driver for control; empty without one."""
     requested_by_id: str = ""
     """The client_id of who asks for it."""
     handover: Time = Time()
-    """When control goes over unless the driver objects, operators' clock; 0 when nobody asks."""
+    """When control goes over unless the driver objects, operators' clock; 0 without a request."""
     speed_cap: float = 1.0
     """Share of the full speed that the driver's link allows, 0 to 1."""
     follows_link: bool = True
@@ -396,7 +396,7 @@ class DeleteScheduleResponse(CommandResponse, frozen=True, gc=False):
 
 
 class Event(Msg, frozen=True, gc=False):
-    """Something that happened; /events, each once. /events/get tells what was missed."""
+    """An event; on /events, each once. /events/get returns those that were missed."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Event"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -429,19 +429,19 @@ class Event(Msg, frozen=True, gc=False):
     position: Point = Point(math.nan, math.nan, math.nan)
     """Where in map [m]; NaN when it has no place."""
     acknowledged_by: str = ""
-    """Who has seen to it; empty while nobody has."""
+    """Name of the operator that acknowledged it; empty until then."""
     acknowledged: Time = Time()
-    """When, operators' clock; 0 while nobody has."""
+    """When it was acknowledged, operators' clock; 0 until then."""
     code: str = ""
-    """What happened, in one word of docs/bridge.md, as in stop_pressed; empty where it has none."""
+    """The kind of event, a code of docs/bridge.md, as in stop_pressed; empty without one."""
     actor_id: str = ""
-    """The client_id of who caused it; empty when nobody did, or it is not known."""
+    """The client_id that caused it; empty without one, or when it is not known."""
     parameters: list[KeyValue] = []
-    """What the sentence names, by the keys that the code has."""
+    """Values in the sentence, by the keys of the code."""
 
 
 class FlightState(Msg, frozen=True, gc=False):
-    """Whether something that flies is in the air."""
+    """State of flight."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/FlightState"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "string", "float64", "float64")
@@ -457,7 +457,7 @@ class FlightState(Msg, frozen=True, gc=False):
 
 
 class Following(Msg, frozen=True, gc=False):
-    """Whether the person who is led comes along; /following."""
+    """The person that the robot guides; /following."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Following"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "bool", "float64")
@@ -465,7 +465,7 @@ class Following(Msg, frozen=True, gc=False):
     header: Header = Header()
     """When it was measured, robot's clock; frame base_link."""
     present: bool = False
-    """Somebody follows."""
+    """A person follows."""
     distance: float = math.nan
     """To who follows [m]; NaN when it is not known."""
 
@@ -480,7 +480,7 @@ class GetEventsRequest(Msg, frozen=True, gc=False):
     boot: str = ""
     """The boot that since belongs to; of another one all are given, for an empty one the newest 500."""
     open: Int32Array = field(default_factory=Int32Array)
-    """Earlier events that nobody has seen to, as far as is known; those that somebody has are given too."""
+    """Earlier events that the client knows as unacknowledged; those acknowledged since are returned too."""
     most: int32 = 0
     """At most so many later events in one answer, the first of them; 0 for all, or the newest 500 of
     another boot.
@@ -533,13 +533,11 @@ class Waypoint(Msg, frozen=True, gc=False):
     yaw: float = math.nan
     """Direction to stand in [rad], 0 east, anticlockwise; NaN when any will do."""
     name: str = ""
-    """What people call it; empty when it has no name."""
+    """Name; empty without one."""
 
 
 class TaskOrder(Msg, frozen=True, gc=False):
-    """What an operator wants done: a task and all that it needs. Used to start one, to queue it and to
-    schedule it.
-    """
+    """An order: a task with its parameters. Used to start one, to queue it and to schedule it."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskOrder"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -569,13 +567,13 @@ class TaskOrder(Msg, frozen=True, gc=False):
     goals: list[Waypoint] = []
     """Instead of places, for go_to: points in the map frame."""
     message: str = ""
-    """What to tell the person who picks it up or is led; empty when there is nothing to tell."""
+    """Message for the person who receives it or is guided; empty for none."""
     recipient_tag: str = ""
-    """What the robot's reader reads of the addressee's card, in place of the place's own; empty for that."""
+    """Content of the recipient's card, instead of the place's own; empty for that."""
     heading: float = math.nan
     """Where follow_heading goes [rad], 0 east, anticlockwise; NaN for where it points."""
     speed: float = math.nan
-    """How fast [m/s]; NaN for the robot's cruising speed, or what the throttle says."""
+    """Speed [m/s]; NaN for the robot's cruising speed, or the throttle's."""
     throttle: float = math.nan
     """For follow_heading in place of a speed: share of the full power, -1 to 1; NaN where the speed says
     it.
@@ -585,7 +583,7 @@ class TaskOrder(Msg, frozen=True, gc=False):
     the usual or the present one.
     """
     duration: float = math.nan
-    """How long to hold or to follow the heading [s]; NaN until stopped."""
+    """Time to hold or to follow the heading [s]; NaN until stopped."""
 
 
 class TaskRun(Msg, frozen=True, gc=False):
@@ -610,7 +608,7 @@ class TaskRun(Msg, frozen=True, gc=False):
     id: int32 = 0
     """Number of this run, as in TaskStatus."""
     order: TaskOrder = field(default_factory=TaskOrder)
-    """What was asked."""
+    """The order."""
     started: Time = Time()
     """When it began, operators' clock."""
     ended: Time = Time()
@@ -624,13 +622,13 @@ class TaskRun(Msg, frozen=True, gc=False):
     visited: int32 = 0
     """Waypoints or places reached."""
     by: str = ""
-    """Who started it; empty when the schedule or the robot did."""
+    """Name of the client that started it; empty when the schedule or the robot did."""
     code: str = ""
-    """What the reason says, in one word of docs/bridge.md; empty where it has none."""
+    """Code of the reason, as in docs/bridge.md; empty without one."""
     actor_id: str = ""
-    """The client_id of whom the reason is about; empty when nobody, or it is not known."""
+    """The client_id that the reason is about; empty without one, or when it is not known."""
     parameters: list[KeyValue] = []
-    """What the reason names, by the keys that the code has."""
+    """Values in the reason, by the keys of the code."""
 
 
 class GetHistoryResponse(CommandResponse, frozen=True, gc=False):
@@ -681,13 +679,13 @@ class Mission(Msg, frozen=True, gc=False):
     motion: str = "loop"
     """loop, random or intermittent."""
     dwell: float = 5.0
-    """How long to stand at each point in intermittent motion [s]."""
+    """Time to stay at each point in intermittent motion [s]."""
     laps: int32 = 0
     """Rounds to make; 0 goes on until stopped."""
     stop_on_intruder: bool = False
-    """Pause when an intruder is found, whatever `on_intruder` says."""
+    """Pause when an intruder is found, for any `on_intruder`."""
     name: str = ""
-    """What it is kept as; empty for a mission without a name."""
+    """Name under which it is stored; empty for a mission without one."""
     on_intruder: str = ""
     """stop, report or circle when an intruder is found; empty reports it."""
 
@@ -711,13 +709,13 @@ class GetMissionResponse(Msg, frozen=True, gc=False):
     mission: Mission = field(default_factory=Mission)
     """The stored mission."""
     code: str = ""
-    """Why not, in one word of docs/bridge.md, as in stop_is_pressed; empty where it was accepted."""
+    """Code of the reason, as in docs/bridge.md, such as stop_is_pressed; empty where it was accepted."""
     actor_id: str = ""
-    """The client_id of whom the reason is about, as of who has control; empty when nobody, or it is not
-    known.
+    """The client_id that the reason is about, as the one that has control; empty without one, or when it
+    is not known.
     """
     parameters: list[KeyValue] = []
-    """What the reason names, by the keys that the code has."""
+    """Values in the reason, by the keys of the code."""
 
 
 class GetMissionsRequest(CommandRequest, frozen=True, gc=False):
@@ -734,7 +732,7 @@ class KeptMission(Msg, frozen=True, gc=False):
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/KeptMission"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "time", "int32", "string", "int32")
     name: str = ""
-    """What it is kept as."""
+    """Name under which it is stored."""
     stamp: Time = Time()
     """When its newest revision was stored, operators' clock."""
     points: int32 = 0
@@ -742,7 +740,7 @@ class KeptMission(Msg, frozen=True, gc=False):
     motion: str = ""
     """loop, random or intermittent."""
     revisions: int32 = 0
-    """How many of its revisions are kept, 20 at most."""
+    """Number of stored revisions, 20 at most."""
 
 
 class GetMissionsResponse(CommandResponse, frozen=True, gc=False):
@@ -773,13 +771,13 @@ class Intruder(Msg, frozen=True, gc=False):
     id: int32 = 0
     """Counts from 1 for each run of the robot side."""
     class_id: str = "cone"
-    """What it is."""
+    """Its class."""
     position: Point = Point()
     """In map [m]."""
     first_seen: Time = Time()
     """When it was seen first."""
     sightings: int32 = 1
-    """How often it was seen."""
+    """Number of sightings."""
 
 
 class IntruderArray(Msg, frozen=True, gc=False):
@@ -805,7 +803,7 @@ class LightState(Msg, frozen=True, gc=False):
 
 
 class Limits(Msg, frozen=True, gc=False):
-    """What the robot's own configuration allows; latched on /limits, sent once per change."""
+    """Limits of the robot's own configuration; latched on /limits, sent once per change."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Limits"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -855,14 +853,14 @@ class LineSensor(Msg, frozen=True, gc=False):
     header: Header = Header()
     """Its frame; the cells lie along the frame's y axis."""
     values: Float32Array = field(default_factory=Float32Array)
-    """From the leftmost cell to the rightmost one, 0 dark to 1 bright; NaN for a cell that tells nothing."""
+    """From the leftmost cell to the rightmost one, 0 dark to 1 bright; NaN for a cell without a value."""
     spacing: float = math.nan
     """Between the middles of two neighbouring cells [m]; NaN when not known."""
 
 
 class Manoeuvre(Msg, frozen=True, gc=False):
-    """How a robot moves until it is told otherwise, for what a twist alone does not say. To the robot an
-    order; on /manoeuvre what it follows now.
+    """Motion that a twist alone cannot express, until the next order. To the robot a command; on
+    /manoeuvre the one that it carries out.
     Which kinds a robot knows is in its RobotInfo. What a kind does not name below is not looked at.
     """
 
@@ -978,7 +976,7 @@ class Place(Msg, frozen=True, gc=False):
     id: int32 = 0
     """Given by the robot and never used again; 0 asks for a new place."""
     name: str = ""
-    """What people call it; two places never have the same."""
+    """Name of the place; two places never have the same."""
     kind: str = "place"
     """place, office, home, dock, reception, lab or hall."""
     floor: str = "0"
@@ -990,9 +988,9 @@ class Place(Msg, frozen=True, gc=False):
     yaw: float = math.nan
     """Direction to stand in [rad], 0 east, anticlockwise; NaN when any will do."""
     tag: str = ""
-    """What the robot's reader reads of the card of who belongs here; empty when nobody has one."""
+    """Content of the card of the person who belongs here; empty without one."""
     note: str = ""
-    """What to tell people who are led here; empty when there is nothing to tell."""
+    """Message for people who are guided here; empty for none."""
 
 
 class PlaceArray(Msg, frozen=True, gc=False):
@@ -1013,7 +1011,7 @@ class RecallMissionRequest(CommandRequest, frozen=True, gc=False):
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     name: str = ""
-    """What it was stored as."""
+    """Name under which it is stored."""
 
 
 class RecallMissionResponse(CommandResponse, frozen=True, gc=False):
@@ -1024,7 +1022,7 @@ class RecallMissionResponse(CommandResponse, frozen=True, gc=False):
 
 
 class RobotInfo(Msg, frozen=True, gc=False):
-    """Who this robot is and what it can do; latched on /robot/info."""
+    """Identity and capabilities of the robot; latched on /robot/info."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/RobotInfo"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -1069,11 +1067,11 @@ class RobotInfo(Msg, frozen=True, gc=False):
         "min_radius": "m",
     }
     name: str = ""
-    """What people call it, as in Patrol-1."""
+    """Name for people, as in Patrol-1."""
     kind: str = ""
     """wheels, ackermann, boat, hexapod, quadrotor, or another one."""
     model: str = ""
-    """What the --robot option calls it, as in patrol."""
+    """Name in the --robot option, as in patrol."""
     description: str = ""
     """The kind in plain words, as in Differential drive."""
     world: str = ""
@@ -1097,7 +1095,7 @@ class RobotInfo(Msg, frozen=True, gc=False):
     payloads: list[str] = []
     """Names of the payloads that are mounted."""
     laser_x: float = 0.0
-    """How far its laser is ahead of base_link [m]."""
+    """Distance of the laser ahead of base_link [m]."""
     tasks: list[str] = []
     """Which tasks of pilothouse_msgs/TaskOrder it knows; empty for one that does not say."""
     max_climb: float = 0.0
@@ -1111,9 +1109,9 @@ class RobotInfo(Msg, frozen=True, gc=False):
     icon: str = ""
     """Of its kind, a name of Material Symbols, as in sailing; empty for a generic one."""
     moves: str = ""
-    """How it moves, as a sentence about it begins: Sails; empty for Drives."""
+    """Verb for its motion, as a sentence begins: Sails; empty for Drives."""
     holds: str = ""
-    """How it keeps its place, likewise: Hovers where it is; empty for Stands still where it is."""
+    """Words for keeping its place, likewise: Hovers where it is; empty for Stands still where it is."""
     order_fields: list[str] = []
     """Which of speed, throttle and height an order may give, height only with a max_climb; empty for speed
     and height.
@@ -1135,15 +1133,15 @@ class RudderState(Msg, frozen=True, gc=False):
     angle: float = 0.0
     """[rad], positive turns the boat to the left."""
     wanted: float = 0.0
-    """Where the rudder is told to go [rad]."""
+    """Commanded rudder angle [rad]."""
     throttle: float = 0.0
-    """Told to the propeller, a share of its full thrust, -1 to 1."""
+    """Commanded thrust of the propeller, a fraction of its full thrust, -1 to 1."""
     thrust: float = 0.0
     """Of the propeller [N], negative astern."""
 
 
 class TaskProgress(Msg, frozen=True, gc=False):
-    """How far the running task is; /task/progress at 2 Hz, only while one runs."""
+    """Progress of the running task; /task/progress at 2 Hz, only while one runs."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskProgress"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
@@ -1188,13 +1186,13 @@ class StartTaskRequest(CommandRequest, frozen=True, gc=False):
     task: str = "patrol"
     """patrol or go_home; counts only while the order's own task is empty."""
     order: TaskOrder = field(default_factory=TaskOrder)
-    """What to do; with its task empty, the field `task` says it."""
+    """The order; with its task empty, the field `task` counts."""
     instead: bool = False
     """Also while a task is under way, which ends only when this one is accepted; the queue waits then."""
 
 
 class RunTaskGoal(StartTaskRequest, frozen=True, gc=False):
-    """Run a task and be told what became of it. Taking the goal back ends the task."""
+    """Run a task until its result. Cancelling the goal ends the task."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskGoal"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -1218,7 +1216,7 @@ class RunTaskResult(Msg, frozen=True, gc=False):
     task_id: int32 = 0
     """Number of this run, as in TaskStatus."""
     state: str = ""
-    """SUCCEEDED; whatever else became of it is told as a failure with its reason."""
+    """SUCCEEDED; any other outcome is a failure with its reason."""
     message: str = ""
     """One sentence: what was done."""
     visited: int32 = 0
@@ -1244,7 +1242,7 @@ class ScheduledTask(Msg, frozen=True, gc=False):
     enabled: bool = True
     """It starts when its time comes; kept and not started otherwise."""
     order: TaskOrder = field(default_factory=TaskOrder)
-    """What to do."""
+    """The order."""
     at: str = ""
     """Time of day as HH:MM, local time of the robot; empty when `every` says it."""
     days: _Boolx7 = field(default_factory=lambda: [True, True, True, True, True, True, True])
@@ -1252,7 +1250,7 @@ class ScheduledTask(Msg, frozen=True, gc=False):
     every: float = 0.0
     """From one start to the next [s]; 0 when `at` says it."""
     next: Time = Time()
-    """When it starts next, operators' clock, told by the robot; 0 for never."""
+    """Its next start, operators' clock, set by the robot; 0 for never."""
 
 
 class Schedule(Msg, frozen=True, gc=False):
@@ -1267,7 +1265,7 @@ class Schedule(Msg, frozen=True, gc=False):
 
 
 class SetLightsRequest(CommandRequest, frozen=True, gc=False):
-    """How bright the robot's lights shall be."""
+    """Set the brightness of the robot's lights."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetLightsRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "float64")
@@ -1496,11 +1494,11 @@ class TagRead(Msg, frozen=True, gc=False):
     header: Header = Header()
     """When it was read, robot's clock."""
     tag: str = ""
-    """What was read; empty when the card is gone."""
+    """Content of the card; empty when the card is gone."""
 
 
 class TaskQueue(Msg, frozen=True, gc=False):
-    """What comes after the task that runs; latched on /task/queue, sent once per change."""
+    """Waiting orders; latched on /task/queue, sent once per change."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskQueue"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "pilothouse_msgs/TaskOrder[]", "string")
@@ -1515,7 +1513,7 @@ class TaskQueue(Msg, frozen=True, gc=False):
 
 
 class TaskStatus(Msg, frozen=True, gc=False):
-    """What the robot is doing for the operator; latched on /task/status, sent once per change."""
+    """The running task; latched on /task/status, sent once per change."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskStatus"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -1555,7 +1553,7 @@ class TaskStatus(Msg, frozen=True, gc=False):
     waypoint: int32 = 0
     """Number of the waypoint it is heading for, from 1; 0 for none."""
     waypoints: int32 = 0
-    """How many waypoints there are."""
+    """Number of waypoints."""
     lap: int32 = 0
     """From 1."""
     laps: int32 = 0
@@ -1573,8 +1571,8 @@ class TaskStatus(Msg, frozen=True, gc=False):
     places: list[str] = []
     """Names of the places of this task, in their order."""
     code: str = ""
-    """What the reason says, in one word of docs/bridge.md; empty where it has none."""
+    """Code of the reason, as in docs/bridge.md; empty without one."""
     actor_id: str = ""
-    """The client_id of whom the reason is about; empty when nobody, or it is not known."""
+    """The client_id that the reason is about; empty without one, or when it is not known."""
     parameters: list[KeyValue] = []
-    """What the reason names, by the keys that the code has."""
+    """Values in the reason, by the keys of the code."""

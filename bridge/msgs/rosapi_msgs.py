@@ -82,7 +82,7 @@ class ActionFeedbackDetailsRequest(Msg, frozen=True, gc=False):
 
 
 class TypeDef(Msg, frozen=True, gc=False):
-    """What a type is made of; one entry per field, and one per constant."""
+    """Description of a type; one entry per field, and one per constant."""
 
     MSGTYPE: ClassVar[str] = "rosapi_msgs/TypeDef"
     ROSTYPES: ClassVar[tuple[str, ...]] = (

@@ -245,7 +245,7 @@ class FluidPressure(Msg, frozen=True, gc=False):
 
 
 class Illuminance(Msg, frozen=True, gc=False):
-    """How bright it is to the eye."""
+    """Illuminance of the surroundings."""
 
     MSGTYPE: ClassVar[str] = "sensor_msgs/Illuminance"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64", "float64")
@@ -343,7 +343,7 @@ class JointState(Msg, frozen=True, gc=False):
 
 
 class Joy(Msg, frozen=True, gc=False):
-    """What the hands do with a gamepad."""
+    """State of a gamepad's axes and buttons."""
 
     MSGTYPE: ClassVar[str] = "sensor_msgs/Joy"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float32[]", "int32[]")
@@ -355,7 +355,7 @@ class Joy(Msg, frozen=True, gc=False):
 
 
 class JoyFeedback(Msg, frozen=True, gc=False):
-    """What a gamepad is to do to the hands."""
+    """Feedback of a gamepad, as its rumble."""
 
     MSGTYPE: ClassVar[str] = "sensor_msgs/JoyFeedback"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("uint8", "uint8", "float32")
@@ -517,7 +517,7 @@ class MultiEchoLaserScan(Msg, frozen=True, gc=False):
 
 
 class NavSatStatus(Msg, frozen=True, gc=False):
-    """What kind of fix it is."""
+    """Kind of a satellite fix."""
 
     MSGTYPE: ClassVar[str] = "sensor_msgs/NavSatStatus"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("int8", "uint16")
@@ -619,7 +619,7 @@ class PointField(Msg, frozen=True, gc=False):
     datatype: uint8 = 0
     """1 int8, 2 uint8, 3 int16, 4 uint16, 5 int32, 6 uint32, 7 float32, 8 float64."""
     count: uint32 = 0
-    """How many values of that name follow each other."""
+    """Number of consecutive values of that name."""
 
 
 class PointCloud2(Msg, frozen=True, gc=False):
@@ -644,7 +644,7 @@ class PointCloud2(Msg, frozen=True, gc=False):
     width: uint32 = 0
     """Points in a row."""
     fields: list[PointField] = []
-    """What each point consists of."""
+    """Fields of each point."""
     is_bigendian: bool = False
     """Order of the bytes in a wider value."""
     point_step: uint32 = 0
@@ -693,7 +693,7 @@ class Range(Msg, frozen=True, gc=False):
 
 
 class RelativeHumidity(Msg, frozen=True, gc=False):
-    """How damp the air is."""
+    """Relative humidity of the air."""
 
     MSGTYPE: ClassVar[str] = "sensor_msgs/RelativeHumidity"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64", "float64")
@@ -737,7 +737,7 @@ class Temperature(Msg, frozen=True, gc=False):
 
 
 class TimeReference(Msg, frozen=True, gc=False):
-    """What another clock shows."""
+    """Time of another clock."""
 
     MSGTYPE: ClassVar[str] = "sensor_msgs/TimeReference"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "time", "string")

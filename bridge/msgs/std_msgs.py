@@ -78,22 +78,22 @@ class MultiArrayDimension(Msg, frozen=True, gc=False):
     MSGTYPE: ClassVar[str] = "std_msgs/MultiArrayDimension"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "uint32", "uint32")
     label: str = ""
-    """What it is called, as in rows."""
+    """Name of the dimension, as in rows."""
     size: uint32 = 0
-    """How many there are along it."""
+    """Number of elements along it."""
     stride: uint32 = 0
-    """How many elements one step along the dimension before this one spans."""
+    """Number of elements that one step along the dimension before this one spans."""
 
 
 class MultiArrayLayout(Msg, frozen=True, gc=False):
-    """How a grid lies in a plain list."""
+    """Layout of a grid in a plain list."""
 
     MSGTYPE: ClassVar[str] = "std_msgs/MultiArrayLayout"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/MultiArrayDimension[]", "uint32")
     dim: list[MultiArrayDimension] = []
     """The dimensions, the outermost first."""
     data_offset: uint32 = 0
-    """How many elements to pass over at the front."""
+    """Number of elements to skip at the front."""
 
 
 class ByteMultiArray(Msg, frozen=True, gc=False):
@@ -102,7 +102,7 @@ class ByteMultiArray(Msg, frozen=True, gc=False):
     MSGTYPE: ClassVar[str] = "std_msgs/ByteMultiArray"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/MultiArrayLayout", "byte[]")
     layout: MultiArrayLayout = field(default_factory=MultiArrayLayout)
-    """How the grid lies in data."""
+    """Layout of the grid in data."""
     data: bytes = b""
 
 
@@ -147,7 +147,7 @@ class Float32MultiArray(Msg, frozen=True, gc=False):
     MSGTYPE: ClassVar[str] = "std_msgs/Float32MultiArray"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/MultiArrayLayout", "float32[]")
     layout: MultiArrayLayout = field(default_factory=MultiArrayLayout)
-    """How the grid lies in data."""
+    """Layout of the grid in data."""
     data: Float32Array = field(default_factory=Float32Array)
 
 
@@ -165,7 +165,7 @@ class Float64MultiArray(Msg, frozen=True, gc=False):
     MSGTYPE: ClassVar[str] = "std_msgs/Float64MultiArray"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/MultiArrayLayout", "float64[]")
     layout: MultiArrayLayout = field(default_factory=MultiArrayLayout)
-    """How the grid lies in data."""
+    """Layout of the grid in data."""
     data: Float64Array = field(default_factory=Float64Array)
 
 
@@ -194,7 +194,7 @@ class Int16MultiArray(Msg, frozen=True, gc=False):
     MSGTYPE: ClassVar[str] = "std_msgs/Int16MultiArray"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/MultiArrayLayout", "int16[]")
     layout: MultiArrayLayout = field(default_factory=MultiArrayLayout)
-    """How the grid lies in data."""
+    """Layout of the grid in data."""
     data: Int16Array = field(default_factory=Int16Array)
 
 
@@ -212,7 +212,7 @@ class Int32MultiArray(Msg, frozen=True, gc=False):
     MSGTYPE: ClassVar[str] = "std_msgs/Int32MultiArray"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/MultiArrayLayout", "int32[]")
     layout: MultiArrayLayout = field(default_factory=MultiArrayLayout)
-    """How the grid lies in data."""
+    """Layout of the grid in data."""
     data: Int32Array = field(default_factory=Int32Array)
 
 
@@ -230,7 +230,7 @@ class Int64MultiArray(Msg, frozen=True, gc=False):
     MSGTYPE: ClassVar[str] = "std_msgs/Int64MultiArray"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/MultiArrayLayout", "int64[]")
     layout: MultiArrayLayout = field(default_factory=MultiArrayLayout)
-    """How the grid lies in data."""
+    """Layout of the grid in data."""
     data: Int64Array = field(default_factory=Int64Array)
 
 
@@ -248,7 +248,7 @@ class Int8MultiArray(Msg, frozen=True, gc=False):
     MSGTYPE: ClassVar[str] = "std_msgs/Int8MultiArray"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/MultiArrayLayout", "int8[]")
     layout: MultiArrayLayout = field(default_factory=MultiArrayLayout)
-    """How the grid lies in data."""
+    """Layout of the grid in data."""
     data: Int8Array = field(default_factory=Int8Array)
 
 
@@ -274,7 +274,7 @@ class UInt16MultiArray(Msg, frozen=True, gc=False):
     MSGTYPE: ClassVar[str] = "std_msgs/UInt16MultiArray"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/MultiArrayLayout", "uint16[]")
     layout: MultiArrayLayout = field(default_factory=MultiArrayLayout)
-    """How the grid lies in data."""
+    """Layout of the grid in data."""
     data: UInt16Array = field(default_factory=UInt16Array)
 
 
@@ -292,7 +292,7 @@ class UInt32MultiArray(Msg, frozen=True, gc=False):
     MSGTYPE: ClassVar[str] = "std_msgs/UInt32MultiArray"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/MultiArrayLayout", "uint32[]")
     layout: MultiArrayLayout = field(default_factory=MultiArrayLayout)
-    """How the grid lies in data."""
+    """Layout of the grid in data."""
     data: UInt32Array = field(default_factory=UInt32Array)
 
 
@@ -310,7 +310,7 @@ class UInt64MultiArray(Msg, frozen=True, gc=False):
     MSGTYPE: ClassVar[str] = "std_msgs/UInt64MultiArray"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/MultiArrayLayout", "uint64[]")
     layout: MultiArrayLayout = field(default_factory=MultiArrayLayout)
-    """How the grid lies in data."""
+    """Layout of the grid in data."""
     data: UInt64Array = field(default_factory=UInt64Array)
 
 
@@ -328,5 +328,5 @@ class UInt8MultiArray(Msg, frozen=True, gc=False):
     MSGTYPE: ClassVar[str] = "std_msgs/UInt8MultiArray"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/MultiArrayLayout", "uint8[]")
     layout: MultiArrayLayout = field(default_factory=MultiArrayLayout)
-    """How the grid lies in data."""
+    """Layout of the grid in data."""
     data: bytes = b""

@@ -17,7 +17,7 @@ __all__ = [
 
 
 class EmptyRequest(Msg, frozen=True, gc=False):
-    """Something to be done that neither asks nor tells anything."""
+    """A service without request and response fields."""
 
     MSGTYPE: ClassVar[str] = "std_srvs/EmptyRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ()

@@ -52,7 +52,7 @@ class LookupTransformGoal(Msg, frozen=True, gc=False):
     source_time: Time = Time()
     """0 for the newest."""
     timeout: Duration = Duration()
-    """How long to wait for it [s]."""
+    """Time to wait for it [s]."""
     target_time: Time = Time()
     """Looked at only where advanced is true."""
     fixed_frame: str = ""
@@ -62,7 +62,7 @@ class LookupTransformGoal(Msg, frozen=True, gc=False):
 
 
 class TF2Error(Msg, frozen=True, gc=False):
-    """Why a transform could not be told."""
+    """Reason why a transform is not known."""
 
     MSGTYPE: ClassVar[str] = "tf2_msgs/TF2Error"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("uint8", "string")

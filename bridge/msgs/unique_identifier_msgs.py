@@ -14,7 +14,7 @@ _Bytesx16: TypeAlias = Annotated[bytes, Meta(min_length=16, max_length=16)]
 
 
 class UUID(Msg, frozen=True, gc=False):
-    """An identity that nobody else has (RFC 4122)."""
+    """A universally unique identifier (RFC 4122)."""
 
     MSGTYPE: ClassVar[str] = "unique_identifier_msgs/UUID"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("uint8[16]",)

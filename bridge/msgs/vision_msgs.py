@@ -95,7 +95,7 @@ class BoundingBox3DArray(Msg, frozen=True, gc=False):
 
 
 class ObjectHypothesis(Msg, frozen=True, gc=False):
-    """What it may be."""
+    """A possible class."""
 
     MSGTYPE: ClassVar[str] = "vision_msgs/ObjectHypothesis"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64")
@@ -105,7 +105,7 @@ class ObjectHypothesis(Msg, frozen=True, gc=False):
 
 
 class Classification(Msg, frozen=True, gc=False):
-    """What a whole picture or cloud may show."""
+    """Possible classes of a whole picture or cloud."""
 
     MSGTYPE: ClassVar[str] = "vision_msgs/Classification"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "vision_msgs/ObjectHypothesis[]")
@@ -114,7 +114,7 @@ class Classification(Msg, frozen=True, gc=False):
 
 
 class ObjectHypothesisWithPose(Msg, frozen=True, gc=False):
-    """What it may be and where it is in the header's frame."""
+    """A possible class with its pose in the header's frame."""
 
     MSGTYPE: ClassVar[str] = "vision_msgs/ObjectHypothesisWithPose"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("vision_msgs/ObjectHypothesis", "geometry_msgs/PoseWithCovariance")
@@ -135,7 +135,7 @@ class Detection2D(Msg, frozen=True, gc=False):
     UNITS: ClassVar[dict[str, str]] = {"bbox": "pixel"}
     header: Header = Header()
     results: list[ObjectHypothesisWithPose] = []
-    """What it may be."""
+    """Possible classes."""
     bbox: BoundingBox2D = BoundingBox2D()
     """Where in the picture [pixel]."""
     id: str = ""
@@ -164,7 +164,7 @@ class Detection3D(Msg, frozen=True, gc=False):
     UNITS: ClassVar[dict[str, str]] = {"bbox": "m"}
     header: Header = Header()
     results: list[ObjectHypothesisWithPose] = []
-    """What it may be."""
+    """Possible classes."""
     bbox: BoundingBox3D = BoundingBox3D()
     """Where in the header's frame [m]."""
     id: str = ""
@@ -190,14 +190,14 @@ class VisionClass(Msg, frozen=True, gc=False):
 
 
 class LabelInfo(Msg, frozen=True, gc=False):
-    """What the numbers mean that a recogniser writes into pixels."""
+    """Meanings of the numbers that a recogniser writes into pixels."""
 
     MSGTYPE: ClassVar[str] = "vision_msgs/LabelInfo"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "vision_msgs/VisionClass[]", "float32")
     header: Header = Header()
     class_map: list[VisionClass] = []
     threshold: float = 0.0
-    """How sure it is at least, 0 to 1."""
+    """Least confidence, 0 to 1."""
 
 
 class VisionInfo(Msg, frozen=True, gc=False):
@@ -207,7 +207,7 @@ class VisionInfo(Msg, frozen=True, gc=False):
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "string", "string", "int32")
     header: Header = Header()
     method: str = ""
-    """What the recogniser is called."""
+    """Name of the recogniser."""
     database_location: str = ""
     """Where its table lies."""
     database_version: int32 = 0
