@@ -36,7 +36,7 @@ __all__ = ["Action", "ActionColumn"]
 MAX_BUTTON_HEIGHT = 104.0
 """Higher ones say nothing more [dp]."""
 MIN_FONT_SIZE = 11.0
-"""How things stand is said behind the words where both can be as large as this [sp]."""
+"""The state stands behind the words where both can be as large as this [sp]."""
 MIN_ROW_WIDTH = 176.0
 """A narrower button has its icon above its words, which say all [dp]."""
 

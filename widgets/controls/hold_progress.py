@@ -15,7 +15,7 @@ from kivy.properties import NumericProperty
 __all__ = ["HOLD_DURATION", "Hold"]
 
 HOLD_DURATION = 1.0
-"""How long the finger must stay, unless told otherwise [s]."""
+"""How long the finger must stay by default [s]."""
 MAX_FRAME = 0.1
 """A frame counts for no more of a hold [s]: a finger that left while it was drawn is only heard of after it."""
 

@@ -32,7 +32,7 @@ CONFIRM_SHARE = 0.98
 RETURN_DURATION = 0.15
 """How long it takes to slide back [s]."""
 OUTCOME_TIMEOUT = 3.0
-"""How long an outcome is told [s]."""
+"""How long an outcome is shown [s]."""
 
 OUTCOMES = {
     "ready": ("", "muted", ""),

@@ -22,7 +22,7 @@ __all__ = ["SLOW_RTT", "SpeedCap"]
 SLOW_RTT = 0.2
 """From this round trip on the robot goes slower [s]."""
 MAX_SHOWN_CAP = 0.99
-"""A cap above this share is nothing that anybody would notice, and would be told as `100 %`."""
+"""A cap above this share is not noticeable, and would be shown as `100 %`."""
 CRAWL_RTT, CRAWL_SHARE = 0.4, 0.15
 """From this round trip on it goes no slower [s], at this share of its speed; as docs/bridge.md has it."""
 
@@ -39,7 +39,7 @@ class SpeedCap(NoticeCard):
     rtt = NumericProperty(math.nan)
     """Round trip of this handheld's link [s]; NaN while it is not known."""
     driver = StringProperty("")
-    """Name of the driver where that is somebody else: it is their link then; empty for this handheld."""
+    """Name of the driver where that is another operator: it is their link then; empty for this handheld."""
     sent = BooleanProperty(False)
     """The switch is under way."""
 

@@ -74,7 +74,7 @@ Builder.load_string("""
 
 
 def age_text(age: float) -> str:
-    """An age [s] in the words of the glass, as in `3 s old`; empty for NaN."""
+    """An age [s] in words, as in `3 s old`; empty for NaN."""
     if math.isnan(age):
         return ""
     if age < 60:
@@ -116,11 +116,11 @@ class RobotWidget(Widget):
     """State to how much the veil hides, 0 to 1; nothing in one that it does not name."""
 
     state = OptionProperty("never", options=STATES)
-    """Never heard, live, stale, alarm or disabled: each has its own look."""
+    """Never heard, live, stale, alarm or disabled: each has its own appearance."""
     age = NumericProperty(math.nan)
     """Of what is shown [s]; NaN before the first message."""
     says_age = BooleanProperty(True)
-    """Says how old it is; False where something beside it says so for both."""
+    """Shows its age; False where a widget beside it shows it for both."""
     veil_radius = NumericProperty("12dp")
     """Corners of the veil and of the alarm's outline [px]; half the width for a round widget."""
 
@@ -147,7 +147,7 @@ class RobotWidget(Widget):
         return age_text(self.age) if self.veiled and self.says_age and self.state == "stale" else ""
 
     badge = AliasProperty(_badge, bind=["state", "age", "says_age"], cache=True)
-    """How old it is, where that must be said; else empty."""
+    """Its age, where that must be shown; else empty."""
 
     def _badge_texture(self) -> Texture:
         return text_texture(self.badge, sp(12), theme.font)
@@ -214,7 +214,7 @@ class Control(RobotWidget):
             self.rest()
 
     def on_command(self, *args: Any) -> None:
-        """The finger asked for something; what `args` are is said by each control."""
+        """The finger asked for something; each control defines its `args`."""
 
     def rest(self) -> None:
         """Let go, as if the finger had: what moves is commanded to stand still."""

@@ -191,7 +191,7 @@ def shortest_turn(start: float, end: float) -> float:
 
 
 def heading_of(msg: Imu | Odometry | PoseWithCovarianceStamped) -> float:
-    """Heading [deg] of the bow that a message tells; NaN for an Imu that measures no orientation."""
+    """Heading [deg] of the bow in a message; NaN for an Imu that measures no orientation."""
     if isinstance(msg, Imu):
         known = msg.orientation_covariance[:1] != [-1]
         return heading_from_yaw(msg.orientation.yaw) if known else math.nan

@@ -19,7 +19,7 @@ STRAIGHT = math.radians(10)
 
 
 def contrast_of(values: Iterable[float]) -> float:
-    """Brightest less darkest of a line sensor's cells, 0 to 1; NaN when none of them tells anything."""
+    """Brightest less darkest of a line sensor's cells, 0 to 1; NaN when none of them has a value."""
     known = [value for value in values if math.isfinite(value)]
     return max(known) - min(known) if known else math.nan
 

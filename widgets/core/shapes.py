@@ -141,7 +141,7 @@ class Shapes:
             self._triangle(corners[[0, index, index + 1]], inner, colour)
 
     def _triangle(self, corners: Points, inner: tuple[bool, bool, bool], colour: Colour) -> None:
-        """One triangle; `inner` tells which edges (2-0, 1-2, 0-1) are no edges of the whole shape."""
+        """One triangle; `inner` names the edges (2-0, 1-2, 0-1) are no edges of the whole shape."""
         opposite = np.roll(corners, -2, axis=0) - np.roll(corners, -1, axis=0)
         area = abs(float(np.linalg.det(np.c_[corners, np.ones(3)])))
         heights = area / np.maximum(np.hypot(opposite[:, 0], opposite[:, 1]), 1e-9)

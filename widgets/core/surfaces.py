@@ -93,7 +93,7 @@ class Pressable(Outlined, ButtonBehavior):
 
 
 class Edged:
-    """A bar along an edge of the glass, with a line where the screen begins."""
+    """A bar along an edge of the window, with a line where the screen begins."""
 
     edge = OptionProperty("bottom", options=["bottom", "right", "top"])
     """Its edge with the line."""

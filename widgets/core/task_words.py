@@ -133,7 +133,7 @@ def title(order: TaskOrder) -> str:
 
 
 def lacking(order: TaskOrder, mission: Mission | None = None) -> str:
-    """What must still be said before the order can be given, as one sentence; empty when nothing."""
+    """What is missing before the order can be given, as one sentence; empty when nothing is."""
     places = order.places
     if order.task == "patrol" and not places and mission is not None and not mission.waypoints:
         return "The mission has no points: set some on the map, or choose places here."
@@ -170,7 +170,7 @@ def will(
 ) -> str:
     """What will happen when the order is given, as a sentence or two; what is lacking when it cannot be given.
 
-    `follows`: the robot can tell whether somebody follows it. `robot` has words of its own; None for the generic ones.
+    `follows`: the robot detects whether a person follows it. `robot` has words of its own; None for the generic ones.
     """
     missing, robot = lacking(order, mission), robot or RobotInfo()
     if missing:

@@ -100,7 +100,7 @@ PALETTES: dict[str, dict[str, str]] = {
     },
 }
 """Theme name to role to colour. `ink_*` is text on that role; `stop` is the ground of STOP; `knob` is the part of a
-control that moves; `shade` is what lies between the glass and what is behind an open sheet."""
+control that moves; `shade` lies between an open sheet and what is behind it."""
 
 
 def _colours(palette: str) -> dict[str, list[float]]:
@@ -110,7 +110,7 @@ def _colours(palette: str) -> dict[str, list[float]]:
 
 
 class Theme(EventDispatcher):
-    """What everything on the glass looks like. Set `name` and `gloves`; read the rest."""
+    """Appearance of everything on the screen. Set `name` and `gloves`; read the rest."""
 
     name = OptionProperty("dark", options=list(PALETTES))
     """`dark`, `sunlight` or `night`."""
@@ -154,7 +154,7 @@ class Theme(EventDispatcher):
     icons = StringProperty("Icons")
 
     roles = DictProperty(_colours("dark"))
-    """Role to colour, for a rule that is told the role by name: `theme.roles[root.role]`."""
+    """Role to colour, for a rule that has the role by name: `theme.roles[root.role]`."""
 
     glass = ColorProperty(_colours("dark")["glass"])
     """Cards that float over a picture: `surface`, not quite opaque."""

@@ -117,7 +117,7 @@ class FieldView(RobotWidget, FloatLayout):
     """Room above the tree for its age or the sign of an alarm [px], so that they hide nothing."""
 
     aged = BooleanProperty(True)
-    """Says how old it is; False where somebody beside it does."""
+    """Shows its age; False where a widget beside it does."""
 
     def _badge(self) -> str:
         return age_text(self.age) if self.aged and self.state == "stale" else ""

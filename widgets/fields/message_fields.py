@@ -60,7 +60,7 @@ EPOCH = 1e8
 CLOCK_UNCERTAINTY = 0.3
 """The robot's clock is known to about this [s]: what is less ahead of it is from now."""
 MAX_AGE = 86400.0
-"""An age is told up to this [s]; beyond it the clocks are different ones."""
+"""An age is shown up to this [s]; beyond it the clocks are different ones."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -302,7 +302,7 @@ def _one_line(text: str) -> str:
 
 
 def _whole(text: str) -> str:
-    """A text with its lines, as many as fit on the glass, and how much more there is."""
+    """A text with its lines, as many as fit on the screen, and how much more there is."""
     shown = "".join(text[:MAX_LETTERS].splitlines(keepends=True)[:MAX_LINES])
     rest = len(text) - len(shown)
     lines = shown.expandtabs(4).splitlines()

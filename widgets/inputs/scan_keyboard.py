@@ -22,7 +22,7 @@ __all__ = ["ScanKeyboard"]
 CURSOR = "|"
 """Stands behind what was typed."""
 NAMED = {" ": "Space", ".": "Dot", ":": "Colon", "-": "Hyphen", "/": "Slash", ",": "Comma", "'": "Apostrophe"}
-"""Letters that are said by a name."""
+"""Letters that have a spoken name."""
 SHOWN = {" ": "space"}
 MIN_ROOMY_KEY_HEIGHT, MIN_KEY_HEIGHT = 40.0, 26.0
 """A key is no higher where there are many, and never lower [dp]."""

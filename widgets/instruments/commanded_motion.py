@@ -68,7 +68,7 @@ class CommandedMotion(Gauge):
     target = NumericProperty(math.nan)
     """Depth or height that is held independently of the order [m]; NaN for none."""
     under_water = BooleanProperty(False)
-    """A height is told as a depth."""
+    """A height is shown as a depth."""
 
     def __init__(self, **kwargs: Any) -> None:
         self._order: Manoeuvre | None = None

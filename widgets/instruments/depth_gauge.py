@@ -32,7 +32,7 @@ GRAVITY = 9.80665
 REACHES = (2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 """Depths that the scale may end at [m]."""
 HOLDS = ("course", "hover")
-"""Kinds of manoeuvre that tell a depth to hold."""
+"""Kinds of manoeuvre with a depth to hold."""
 BELOW = 0.3
 """Deeper than this what is stopped has a way up [m]."""
 
@@ -48,7 +48,7 @@ class DepthGauge(Gauge):
     wanted = NumericProperty(math.nan)
     """Depth to hold [m]; NaN for no target."""
     held = BooleanProperty(False)
-    """The robot holds the depth where it is, and has not said which one that is."""
+    """The robot holds its present depth, and has not reported which one that is."""
     stopped = BooleanProperty(False)
     """STOP is pressed: nothing keeps it below."""
     surface_pressure = NumericProperty(101_325.0)
@@ -200,7 +200,7 @@ class DepthGauge(Gauge):
         )
 
     def _tails(self) -> tuple[str, ...]:
-        """What is said behind the depth in one line, the longest first."""
+        """Words behind the depth in one line, the longest first."""
         if self.words == DASH:
             return (" depth", "")
         if self.rises:

@@ -32,7 +32,7 @@ __all__ = ["LegPanel", "leg_of", "samples"]
 SIDES = {"left": "L", "right": "R"}
 ROWS = {"front": 1, "fore": 1, "middle": 2, "mid": 2, "rear": 3, "back": 3, "hind": 3}
 USUAL = ("L1", "L2", "L3", "R1", "R2", "R3")
-"""Legs that are drawn before any has told something."""
+"""Legs that are drawn before the first report."""
 GAP = 0.3
 """Between the figures of a leg, of the height of their type."""
 MAX_LEGS = 8
@@ -54,7 +54,7 @@ class LegPanel(Gauge):
     drawn_from: ClassVar = ("angles", "temperatures", "warm", "hot")
 
     angles = DictProperty()
-    """Of each leg that has told one, -179 to 180 [deg]; NaN for what is not measured."""
+    """Of each leg that has reported one, -179 to 180 [deg]; NaN for what is not measured."""
     temperatures = DictProperty()
     """Of each leg's motor [degC]; NaN for what is not measured."""
     warm = NumericProperty(45.0)

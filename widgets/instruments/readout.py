@@ -121,7 +121,7 @@ class Readout(RobotWidget, BoxLayout):
     font_size = NumericProperty("26sp")
     """Of the value [px]."""
     fitted = BooleanProperty(True)
-    """As wide as its words; else as wide as it is told, and the name is cut short where it must be."""
+    """As wide as its words; else the width is given, and the name is cut short where it must be."""
 
     def _text(self) -> str:
         if self.state == "never":
@@ -170,7 +170,7 @@ class Readout(RobotWidget, BoxLayout):
         return float(text_texture(spaced(heading), size or theme.size_label, theme.font).width)
 
     headed = AliasProperty(_headed, bind=["name", "state", "age", "fitted", "width"], cache=True)
-    """The name, and how old the value is where that must be said and there is room for both; and the size of its type [px]."""
+    """The name, and the age of the value where that must be shown and there is room for both; and the size of its type [px]."""
 
     def _heading(self) -> str:
         return self.headed[0]

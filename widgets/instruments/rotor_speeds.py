@@ -33,7 +33,7 @@ RPM = 60 / math.tau
 STOPPED, TURNING = 20.0, 100.0
 """A rotor slower than the first stands, when others are faster than the second [rad/s]."""
 USUAL = ("front_left", "front_right", "rear_left", "rear_right")
-"""Rotors that are drawn before any has told something."""
+"""Rotors that are drawn before the first report."""
 MAX_ROTORS = 8
 """Rotors that have room."""
 SWEEP = math.radians(270)

@@ -92,7 +92,7 @@ class MBTiles(MapSource):
         ).fetchone()
         if row is None:
             return None
-        # Kivy keeps pictures by name, so the name must tell files apart
+        # Kivy keeps pictures by name, so the name must distinguish files
         name = f"{self.path}/{zoom}/{x}/{y}"
         return CoreImage(io.BytesIO(row[0]), ext=self.image_ext, filename=name, nocache=True).texture
 

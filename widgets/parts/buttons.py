@@ -205,13 +205,13 @@ class NavButton(ButtonBehavior, BoxLayout):
     icon = StringProperty("map")
     text = StringProperty("")
     active = BooleanProperty(False)
-    """Its screen is the one on the glass."""
+    """Its screen is the visible one."""
     tint = StringProperty("")
     """Role of the icon and the words while what it stands for goes on, as a recording; empty for none."""
     framed = BooleanProperty(True)
     """Has a ground while active, as in a rail."""
     count = NumericProperty(0)
-    """Things behind it that somebody has to see to: said in a mark on its icon, from 100 on as `99+`; 0 for none."""
+    """Things behind it that need attention: counted in a mark on its icon, from 100 on as `99+`; 0 for none."""
     urgent = BooleanProperty(True)
     """One of them cannot wait: the mark has the colour of danger, else that of a warning."""
 

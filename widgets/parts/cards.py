@@ -20,7 +20,7 @@ from widgets.parts.labels import SectionLabel, Text, ValueUnit
 __all__ = ["ActionToast", "Banner", "Card", "Sheet", "Toast"]
 
 MOTION_DURATION = 0.15
-"""Time of a movement on the glass [s]."""
+"""Time of a movement on the screen [s]."""
 
 LEVELS = {
     "info": ("info", "accent"),
@@ -143,7 +143,7 @@ class Banner(Outlined, BoxLayout):
         return bool(super().on_touch_up(touch))
 
     def close(self) -> None:
-        """Leave the glass."""
+        """Leave the screen."""
         if self.parent:
             self.parent.remove_widget(self)
         self.dispatch("on_close")
@@ -163,7 +163,7 @@ class Toast(Banner):
         self._leaving = Clock.create_trigger(lambda _: self.close(), self.stay)
 
     def on_parent(self, _: object, parent: Widget | None) -> None:
-        """Start the time that it stays; stop it when somebody else took it away."""
+        """Start the time that it stays; stop it when it was taken away otherwise."""
         if parent:
             self._leaving()
         else:

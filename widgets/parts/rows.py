@@ -111,7 +111,7 @@ class ListRow(Pressable, BoxLayout):
     """At the end, as a distance or a time; empty for none."""
     chosen = BooleanProperty(False)
     faded = BooleanProperty(False)
-    """What it tells of is switched off or over."""
+    """Its subject is switched off or over."""
     whole = BooleanProperty(False)
     """Its second line is shown to the end, on as many lines as that takes."""
 
@@ -123,7 +123,7 @@ class TwoLines(Column):
     detail = StringProperty("")
     """Empty for none."""
     faded = BooleanProperty(False)
-    """What it tells of is switched off or over."""
+    """Its subject is switched off or over."""
     whole = BooleanProperty(False)
     """The second line is shown to the end, on as many lines as that takes."""
 

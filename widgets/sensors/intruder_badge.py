@@ -44,7 +44,7 @@ class IntruderBadge(Drawing):
     drawn_from: ClassVar = ("count", "seen", "away", "angle", "ago", "age", "to_right")
 
     count = NumericProperty(-1)
-    """Intruders known; -1 before the robot said so."""
+    """Intruders known; -1 before the robot reports them."""
     seen = NumericProperty(0)
     """Things that are marked in the picture now, which the robot may not count as long as it does not watch."""
     away = NumericProperty(math.nan)
@@ -82,7 +82,7 @@ class IntruderBadge(Drawing):
         return self._last.id if self._last else 0
 
     def show(self, msg: IntruderArray) -> None:
-        """Take over which intruders are known; the one that was found last is told of."""
+        """Take over which intruders are known; the one that was found last is shown."""
         self._last = max(msg.intruders, key=lambda one: one.first_seen.seconds, default=None)
         self.count = len(msg.intruders)
         self._measure()

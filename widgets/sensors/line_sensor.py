@@ -42,7 +42,7 @@ class LineSensorView(Gauge):
     drawn_from: ClassVar = ("values", "spacing")
 
     values: ListProperty[float] = ListProperty()
-    """Of the cells from left to right, 0 dark to 1 bright; NaN for one that tells nothing. Empty before the first."""
+    """Of the cells from left to right, 0 dark to 1 bright; NaN for one without a value. Empty before the first."""
     spacing = NumericProperty(math.nan)
     """Between neighbouring cells [m]; NaN when not known."""
 

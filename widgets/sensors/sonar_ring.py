@@ -66,7 +66,7 @@ class SonarRingView(Gauge):
     ring: ObjectProperty[SonarRing | None] = ObjectProperty(None, allownone=True, force_dispatch=True)
     """The newest SonarRing; None before the first."""
     pressed = NumericProperty(math.nan)
-    """The bumper is touched: 1 or 0; NaN before it has told anything."""
+    """The bumper is touched: 1 or 0; NaN before its first report."""
     contact = NumericProperty(math.nan)
     """Direction of the contact [rad], 0 ahead, positive left; NaN when there is none or its direction is unknown."""
     reach = NumericProperty(0.0)
@@ -88,7 +88,7 @@ class SonarRingView(Gauge):
 
     @property
     def nearest(self) -> int:
-        """Number of the sonar whose echo is nearest; -1 when none has told anything."""
+        """Number of the sonar whose echo is nearest; -1 before the first echo."""
         ranges = self.echoes[1]
         return -1 if np.isnan(ranges).all() else int(np.nanargmin(ranges))
 
@@ -97,7 +97,7 @@ class SonarRingView(Gauge):
         super().__init__(**{"title": "Sonars", **kwargs})
 
     def show(self, msg: SonarRing | Bumper) -> None:
-        """Take the newest ring, or what the bumper tells."""
+        """Take the newest ring, or the bumper's report."""
         if isinstance(msg, Bumper):
             self.pressed, self.contact = float(msg.pressed), msg.bearing if msg.pressed else math.nan
         elif self.ring is None or (msg.ranges, msg.bearings) != (self.ring.ranges, self.ring.bearings):
@@ -127,7 +127,7 @@ class SonarRingView(Gauge):
 
     @property
     def bump(self) -> str:
-        """What the bumper says, as in `bump 45° left`, `no contact`; empty before it has said anything."""
+        """The bumper's state, as in `bump 45° left`, `no contact`; empty before its first report."""
         if math.isnan(self.pressed):
             return ""
         return f"bump {side_text(self.contact)}".strip() if self.touched else "no contact"
@@ -145,7 +145,7 @@ class SonarRingView(Gauge):
         return {"accent": "text", "faint": "muted"}.get(role, role)
 
     def marks(self, shapes: Shapes) -> Iterator[Word]:
-        """Rings, cones, the robot, and what is said of them."""
+        """Rings, cones, the robot, and the words for them."""
         if self.low:
             yield from self._brief()
             return
@@ -229,7 +229,7 @@ class SonarRingView(Gauge):
         yield from self.header(figures, "danger" if self.touched else self.nearest_role)
 
     def _beside(self, place: _Place) -> Iterator[Word]:
-        """All that is said in a column left of the ring."""
+        """All words in a column left of the ring."""
         left, top = self.x + self.edge, self.top - self.edge
         # the figures are above the ring's broadest part, where it leaves a little more
         room = place.x - place.radius - left + place.radius * 0.08

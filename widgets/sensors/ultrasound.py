@@ -50,9 +50,9 @@ class UltrasoundView(Gauge):
     echoes = DictProperty()
     """The newest Range by frame."""
     silent: ListProperty[str] = ListProperty()
-    """Frames that have told nothing for a while in which others did."""
+    """Frames that were silent for a while in which others reported."""
     reach = NumericProperty(2.0)
-    """Distance at the end of a cone [m]; what is farther is told in figures only."""
+    """Distance at the end of a cone [m]; what is farther is shown in figures only."""
     near = NumericProperty(0.6)
     """Closer than this is a warning [m]."""
     close = NumericProperty(0.3)
@@ -65,7 +65,7 @@ class UltrasoundView(Gauge):
         return min(known, key=lambda frame: known[frame], default="")
 
     nearest = AliasProperty(_nearest, bind=["echoes", "silent"], cache=True)
-    """Frame of the ranger whose echo is nearest; empty when none has told anything."""
+    """Frame of the ranger whose echo is nearest; empty before the first echo."""
 
     def __init__(self, **kwargs: Any) -> None:
         self._stamps: dict[str, float] = {}

@@ -30,7 +30,7 @@ from widgets.sensors.video_marks import draw_box, draw_pointer
 __all__ = ["Video", "samples"]
 
 MAX_LATENCY = 0.5
-"""A picture that comes to the glass later than this is said to be late [s]."""
+"""A picture that is shown later than this is called late [s]."""
 FADED_OPACITY = 0.45
 """Opacity of a picture that is old, 0 to 1."""
 
@@ -78,13 +78,13 @@ class Video(Drawing):
     rate = NumericProperty(math.nan)
     """Frames a second [Hz]; NaN when not known."""
     latency = NumericProperty(math.nan)
-    """From the exposure to the glass [s]; NaN when not known."""
+    """From the exposure to the screen [s]; NaN when not known."""
     chip_room = NumericProperty(math.inf)
     """How wide the chip may be [px]: what is not needed to drive by is left out of a narrower one."""
     show_chip = BooleanProperty(True)
     """Say size, rate and latency in the corner."""
     corner = NumericProperty("12dp")
-    """Radius of the frame's corners [px]; 0 for a picture that fills the glass."""
+    """Radius of the frame's corners [px]; 0 for a picture that fills the screen."""
     insets: ListProperty[float] = ListProperty([0, 0, 0, 0])
     """How much is covered by what lies over the picture [px]: left, bottom, right, top; the chip keeps clear of it."""
     below = NumericProperty(math.inf)
@@ -103,7 +103,7 @@ class Video(Drawing):
         return scaled(wide, high, self.width, self.height)
 
     picture_size = AliasProperty(_picture_size, bind=["frame_size", "size", "fit"], cache=True)
-    """Size of the whole picture on the glass, also where it is cut off [px]."""
+    """Size of the whole picture on the screen, also where it is cut off [px]."""
 
     def __init__(self, **kwargs: Any) -> None:
         self._texture: Texture | None = None
@@ -156,7 +156,7 @@ class Video(Drawing):
         self.boxes = [_box(detection) for detection in msg.detections]
 
     def place_on_glass(self, x: float, y: float) -> tuple[float, float]:
-        """Where a pixel of the picture as taken, counted from its top left corner, is on the glass [px]."""
+        """Position on the screen [px] of a pixel of the picture as taken, counted from its top left corner."""
         wide, high = self.picture_size
         columns, rows = self.taken_size
         left, top = self.center_x - wide / 2, self.center_y + high / 2
@@ -231,7 +231,7 @@ class Video(Drawing):
     def _sentence(self) -> Iterator[Word]:
         if self._texture is None:
             if self.below < self.center_y + dp(34):
-                return  # half of it would stick out from under what is said
+                return  # half of it would stick out from under the words
             yield Word(
                 icon("videocam_off"),
                 self.center_x,

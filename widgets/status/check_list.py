@@ -136,7 +136,7 @@ class CheckList(Outlined, RobotWidget, BoxLayout):
     open = BooleanProperty(False)
     """Says each sentence; folded it is one line."""
     brief = BooleanProperty(False)
-    """Only what is not good is said, where there is little room."""
+    """Only what is not good is listed, where there is little room."""
     checks: ListProperty[Check] = ListProperty()
     """As they came, of `Check`; empty before the first list, and then nothing is drawn."""
     wide = NumericProperty("330dp")

@@ -31,7 +31,7 @@ from widgets.status.event_row import ago, appearance, is_open, note, row_height
 __all__ = ["EventLog", "ago", "appearance"]
 
 MAX_EVENTS = 200
-"""Events that are kept, where nothing else is said."""
+"""Events that are kept by default."""
 
 Builder.load_string("""
 <EventLog>:
@@ -72,7 +72,7 @@ class EventView(RecycleView):
 class EventLog(RobotWidget, FloatLayout):
     """A list of the newest events. An event that is shown twice, by its run and number, is one.
 
-    With `acts` each one that somebody has to see to can be pressed: dispatches `on_command(event)`.
+    With `acts` each one that needs an acknowledgement can be pressed: dispatches `on_command(event)`.
     """
 
     accepts = (Event,)
@@ -92,7 +92,7 @@ class EventLog(RobotWidget, FloatLayout):
     missed: ListProperty[tuple[str, int]] = ListProperty()
     """Run and number of those that happened while this handheld was not connected."""
     head = StringProperty("")
-    """What is said above the newest of those; empty for nothing."""
+    """Words above the newest of those; empty for none."""
 
     def _notice(self) -> str:
         return "" if self.count else "No events yet."
@@ -162,7 +162,7 @@ class EventLog(RobotWidget, FloatLayout):
         return tuple(self._events[boot, -number] for _, number, boot in self._order)
 
     def on_command(self, event: Event) -> None:
-        """A finger says that somebody has seen to it."""
+        """A finger acknowledges it."""
 
     def _row(self, event: Event, asked: set[tuple[str, int]], missed: set[tuple[str, int]]) -> dict[str, Any]:
         key, open = (event.boot, event.id), is_open(event)

@@ -78,7 +78,7 @@ LEVELS = {"warn": "warn", "alarm": "danger"}
 """Levels that bring their own role."""
 
 BUTTON = 78
-"""Width of the button of a row that somebody has to see to [dp]."""
+"""Width of the button of a row that needs an acknowledgement [dp]."""
 BESIDE = 81
 """Of a row beside its sentence, its icon and its button [dp]."""
 

@@ -83,7 +83,7 @@ class IntentCard(NoticeCard):
         self._write()
 
     def ask(self, *, words: str, who: str, heard: str, question: bool) -> None:
-        """Tell what was understood, and by the method with the icon `who`; `count` tells the time that is left."""
+        """Show what was understood, and by the method with the icon `who`; `count` shows the time that is left."""
         self.words, self.icon, self.heard, self.question = words, who, heard, question
         self.left, self.open = 1.0, True
 

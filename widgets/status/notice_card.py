@@ -84,7 +84,7 @@ class NoticeCard(Outlined, Control, Column):
         return bool(self.width < dp(TINY))
 
     tiny = AliasProperty(_tiny, bind=["width"], cache=True)
-    """There is no room for a cross, nor for more than what must be said."""
+    """There is no room for a cross, nor for more than the headline and the sentence."""
 
     def _compact(self) -> bool:
         return bool(self.width < dp(COMPACT) and self.beside)

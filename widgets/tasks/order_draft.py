@@ -47,7 +47,7 @@ class OrderDraft(Control):
     mission: ObjectProperty[Mission] = ObjectProperty(Mission())
     """Where a patrol goes when no places are named."""
     follows = BooleanProperty(True)
-    """The robot can tell whether somebody follows it."""
+    """The robot detects whether a person follows it."""
 
     def _order(self) -> TaskOrder:
         places = list(self.places)

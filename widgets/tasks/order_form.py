@@ -50,7 +50,7 @@ OPTIONAL = {"then": "Stay there", "dock": "Its own dock"}
 MAX_TEXT_LENGTH = 200
 """Characters of a message."""
 DEFAULT_MAX_SPEED = 1.0
-"""Of a robot that does not tell how fast it can go [m/s]."""
+"""Greatest speed of a robot that does not report its own [m/s]."""
 MAX_HEIGHT = 30.0
 """Height and depth that can be asked for [m]; what the robot itself allows it says."""
 
@@ -126,7 +126,7 @@ class OrderForm(OrderDraft, BoxLayout):
             super().show(msg)
 
     def begin(self, task: str, places: tuple[str, ...] = ()) -> None:
-        """Ask for what `task` needs, with nothing said but `places`."""
+        """Ask for what `task` needs, with nothing filled in but `places`."""
         self._load(TaskOrder(task=task, places=list(places)))
 
     def _load(self, order: TaskOrder) -> None:

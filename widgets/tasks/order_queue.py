@@ -167,7 +167,7 @@ def dp_below(text: Text) -> float:
 
 
 def details(order: TaskOrder, *, first: bool, held: bool = False) -> str:
-    """What else is to be said of an order, in one line; of the `first` one also when it starts."""
+    """Remarks on an order, in one line; of the `first` one also when it starts."""
     turn = ("Waits until resumed" if held else "Next") if first else ""
     return " · ".join(part for part in (turn, order.message) if part)
 

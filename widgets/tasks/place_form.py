@@ -122,7 +122,7 @@ class PlaceForm(Control, BoxLayout):
         return ""
 
     lacking = AliasProperty(_lacking, bind=["name", "taken", "kind", "yaw"])
-    """What must be said before it can be kept, as one sentence; empty when nothing."""
+    """What is missing before it can be stored, as one sentence; empty when nothing is."""
 
     def __init__(self, **kwargs: Any) -> None:
         self._tiles: dict[str, TaskTile] = {}

@@ -31,7 +31,7 @@ __all__ = ["PlaceList", "found", "grouped"]
 MAX_ROWS = 60
 """Rows shown at once; a search finds the others."""
 MIN_MOVE = 1.0
-"""Distances are told anew when the robot went farther [m]."""
+"""Distances are updated when the robot has moved farther [m]."""
 
 Builder.load_string("""
 <PlaceList>:

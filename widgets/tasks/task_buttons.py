@@ -46,7 +46,7 @@ OUTCOMES = {
 """What became of a command, to its sentence, icon and role."""
 
 OUTCOME_TIMEOUTS = {"accepted": 6.0, "refused": 15.0, "no_reply": 15.0}
-"""How long an outcome is told before the robot's own sentence comes back [s]."""
+"""How long an outcome is shown before the robot's own sentence comes back [s]."""
 
 LEADS_TO = {"start": "RUNNING", "resume": "RUNNING", "home": "RUNNING", "pause": "PAUSED", "stop": "CANCELED"}
 """State of the task that a command brings about."""
@@ -107,7 +107,7 @@ Builder.load_string("""
 
 
 class TaskButtons(Control, Column):
-    """Dispatches `on_command(name)`: `start`, `pause`, `resume`, `stop` or `home`. Says what `answer` was told."""
+    """Dispatches `on_command(name)`: `start`, `pause`, `resume`, `stop` or `home`. Shows the outcome that `answer` was given."""
 
     accepts = (TaskStatus,)
 
@@ -142,7 +142,7 @@ class TaskButtons(Control, Column):
     """From the command to its answer [s]; NaN unknown."""
 
     reason = StringProperty("")
-    """What the robot says about its task; said here until a command has an outcome to tell."""
+    """The robot's sentence about its task; shown until a command has an outcome."""
 
     def _running(self) -> bool:
         return self.task_state in {"RUNNING", "PAUSED"}

@@ -47,7 +47,7 @@ from widgets.parts.sensor_card import first_fitting, wide
 __all__ = ["ArmPanel", "samples"]
 
 OUTCOME_TIMEOUT = 3.0
-"""How long an outcome is told [s]."""
+"""How long an outcome is shown [s]."""
 EXTENT = (-0.20, 0.42, -0.12, 0.44)
 """What the picture shows: behind and ahead of, below and above the foot [m]."""
 MOVING_THRESHOLD = 0.02

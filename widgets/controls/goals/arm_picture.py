@@ -37,7 +37,7 @@ class Links(NamedTuple):
 
 
 class Side(NamedTuple):
-    """How the plane in which an arm bends lies on the glass."""
+    """Projection of the plane in which an arm bends onto the screen."""
 
     x: float
     """Of the foot [px]."""
@@ -49,11 +49,11 @@ class Side(NamedTuple):
     """Left, low, right and top edge of the picture [px]."""
 
     def at(self, place: Sequence[float]) -> tuple[float, float]:
-        """Where a place ahead of and above the foot [m] is on the glass [px]."""
+        """Position on the screen [px] of a place ahead of and above the foot [m]."""
         return self.x + float(place[0]) * self.scale, self.y + float(place[1]) * self.scale
 
     def point(self, at: Sequence[float]) -> tuple[float, float]:
-        """How far ahead of and above the foot [m] a place on the glass [px] is; one beyond the picture is at its edge."""
+        """Distance ahead of and above the foot [m] of a place on the screen [px]; one beyond the picture is at its edge."""
         left, low, right, top = self.box
         x, y = min(max(float(at[0]), left), right), min(max(float(at[1]), low), top)
         return (x - self.x) / self.scale, (y - self.y) / self.scale

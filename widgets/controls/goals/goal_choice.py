@@ -71,7 +71,7 @@ class GoalChoice(Control):
     actual: ListProperty[float] = ListProperty()
     """Where the robot is: x, y [m], yaw [rad]; empty while that is not known."""
     wanted: ListProperty[float] = ListProperty()
-    """Where it is to go: x, y [m], yaw [rad]; empty before anybody said."""
+    """Where it is to go: x, y [m], yaw [rad]; empty before the first goal."""
     followed: ListProperty[float] = ListProperty()
     """Where the robot goes while another goal is being set here: x, y [m], yaw [rad]; empty where it goes to no other."""
     outcome = OptionProperty("", options=list(OUTCOMES))
@@ -123,7 +123,7 @@ class GoalChoice(Control):
         self._take_end()
 
     def _take_end(self) -> None:
-        """Where the robot goes by somebody else's order is its goal here too, until one is set by a finger."""
+        """Where another operator sends the robot is its goal here too, until a finger sets one."""
         if self._end and (self._taken or not self.wanted) and self._status.adopt():
             self.wanted, self._taken = self._end, True
             if self.outcome not in UNDER_WAY:

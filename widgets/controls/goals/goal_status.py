@@ -30,7 +30,7 @@ class GoalStatus:
 
     @property
     def is_reported(self) -> bool:
-        """The robot tells what it does."""
+        """The robot reports its runs."""
         return self._newest is not None
 
     def on_sent(self) -> None:

@@ -55,12 +55,12 @@ class RudderThrottle(Stick, Gauge):
     most = NumericProperty(1.0)
     """Throttle at the end of the pad, a share of the full one, 0 to 1."""
     angle = NumericProperty(math.nan)
-    """Of the rudder as the boat tells it [rad], positive turns to the left; NaN when not known."""
+    """Of the rudder as the boat reports it [rad], positive turns to the left; NaN when not known."""
     throttle = NumericProperty(math.nan)
-    """Of the propeller as the boat tells it, -1 to 1; NaN when not known."""
+    """Of the propeller as the boat reports it, -1 to 1; NaN when not known."""
 
     led = BooleanProperty(False)
-    """A task steers: while no hand does, rudder and throttle of the boat are told, and said to be the task's."""
+    """A task steers: while no hand does, the boat's own rudder and throttle are shown, marked as the task's."""
 
     def _knob_radius(self) -> float:
         return min(min(self.size) * 0.15, theme.target * 0.75)
@@ -141,7 +141,7 @@ class RudderThrottle(Stick, Gauge):
 
     @property
     def _has_report(self) -> bool:
-        """What the boat does is said, and not what the hand does."""
+        """The words show what the boat does, and not what the hand does."""
         return bool(self.led) and not (self.forward or self.left)
 
     def draw(self) -> None:
@@ -218,7 +218,7 @@ class RudderThrottle(Stick, Gauge):
         yield Word(rudder, right, y, size, colour, bold=True, anchor=(1, 0.5))
 
     def _fitting(self, room: float, size: float) -> tuple[str, str, float]:
-        """What is said of throttle and rudder, and how large [px], so that both fit into `room` [px]."""
+        """Words for throttle and rudder, and their size [px], so that both fit into `room` [px]."""
         throttle, rudder = self.throttle_words, self.rudder_words
         brief = (
             throttle.replace("ahead", "").replace("astern", "back"),

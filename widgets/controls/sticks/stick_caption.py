@@ -50,7 +50,7 @@ class Captioned(Stick):
         return bool(self.caption) and self.forward >= 0
 
     captioned = AliasProperty(_captioned, bind=["caption", "forward"], cache=True)
-    """The caption is on the glass: not while the knob is pulled over it."""
+    """The caption is visible: not while the knob is pulled over it."""
 
     def _words(self) -> Texture:
         return text_texture(self.caption, sp(13), theme.font)

@@ -52,7 +52,7 @@ class TiltCircle(TiltStick, Gauge):
     missing = StringProperty("")
     """Why no tablet can tilt it, as a sentence; empty where one can. It looks disabled then, whoever else may push it."""
     in_shares = BooleanProperty(False)
-    """What it drives does not lean: the words tell shares of full command instead of degrees."""
+    """What it drives does not lean: the words show shares of full command instead of degrees."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**{"title": "Tilt", "card": False, **kwargs})

@@ -22,7 +22,7 @@ NEUTRAL_ZONE = 0.1
 class TiltStick(Stick):
     """Dispatches `on_command(manoeuvre)` of the kind `tilt` at every change. Up is nose down, which is ahead for what flies.
 
-    Where it `needs_hold` the tablet leads it, by `steer`, and the finger is the clutch; `on_let_go` tells that it was put to rest.
+    Where it `needs_hold` the tablet leads it, by `steer`, and the finger is the clutch; `on_let_go` is dispatched when it is put to rest.
     """
 
     __events__ = ("on_let_go",)
@@ -97,7 +97,7 @@ class TiltStick(Stick):
         holds = not self.needs_hold or self.clutched or self.finger is not None
         self._wanted = command
         if not holds and (self.forward or self.left):
-            return False  # somebody else commands, and what is commanded is what is shown
+            return False  # another input commands, and what is commanded is what is shown
         self._at(at[1], -at[0])
         if holds:
             self._command()

@@ -167,7 +167,7 @@ class StopRow(BoxLayout):
     icon = StringProperty("lock")
 
     def update(self, robot: Stopped) -> None:
-        """Show what is known of it."""
+        """Show what is known of the robot."""
         self.title, self.detail = robot.name, robot.sentence
         self.word, self.role, self.icon = WORDS[robot.phase]
 
