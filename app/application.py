@@ -236,8 +236,8 @@ class PilothouseApp(App):
             self.robot_list.on_info(self.session.link.url, post.value)
 
     def _beat(self) -> None:
-        self.inputs.look()
-        self.methods.look(self.now())
+        self.inputs.update()
+        self.methods.update(self.now())
         if self.session is not None:
             self.session.link.beat()
 

@@ -200,7 +200,7 @@ class User:
         end = self.now + seconds
         while self.now < end - 1e-9:
             self.now = min(end, self.now + 0.03)
-            self.engine.look(self.now)
+            self.engine.update(self.now)
 
 
 def scanned(rng: random.Random, learned: dict[str, float], errors: float = ERRORS) -> Run:

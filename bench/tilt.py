@@ -111,7 +111,7 @@ def _ours(walk: Walk) -> Commands:
             ):  # a clutch that opened is pressed anew: what opened it hides nothing
                 tilt.release()
                 tilt.press(t)
-            told.append(math.hypot(*tilt.look(t)))
+            told.append(math.hypot(*tilt.update(t)))
             due += BEAT
     return Commands(told)
 
@@ -164,7 +164,7 @@ def _tilted(tilt: Tilt, begun: float, seconds: float, axes: Axes) -> float:
     """Hold it so; the time afterwards."""
     for n in range(round(seconds * 50)):
         tilt.feed(begun + n / 50, axes)
-        tilt.look(begun + n / 50)
+        tilt.update(begun + n / 50)
     return begun + seconds
 
 
@@ -176,7 +176,7 @@ def _release() -> float:
         tilt.press(now)
         now = _tilted(tilt, now, 0.02 * n, leaned(chance.uniform(-0.7, 0.7), chance.uniform(-0.7, 0.7)))
         tilt.release()
-        worst = max(worst, math.hypot(*tilt.look(now)))
+        worst = max(worst, math.hypot(*tilt.update(now)))
     return worst
 
 
@@ -187,7 +187,7 @@ def _reach() -> float:
     for n in range(100):
         now = begun + n / 50
         tilt.feed(now, leaned(0.0, math.radians(30)))
-        if tilt.look(now)[1] >= 0.9:
+        if tilt.update(now)[1] >= 0.9:
             return now - begun
     return math.inf
 
@@ -202,7 +202,7 @@ def _costs() -> dict[str, float]:
         begun = time.perf_counter()
         tilt.feed(now, axes)
         between_ = time.perf_counter()
-        tilt.look(now)
+        tilt.update(now)
         spent["sample"].append(between_ - begun)
         spent["look"].append(time.perf_counter() - between_)
     return {name: 1e6 * sorted(those)[rounds // 2] for name, those in spent.items()}

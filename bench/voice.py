@@ -273,7 +273,7 @@ def listen(
         first = math.inf
         for part, at in chunks(samples, now):
             heard.clear()
-            hearing.hear(part, at)
+            hearing.feed(part, at)
             told += [(place, event, at) for event in heard if isinstance(event, Result | Rejected)]
             if any(isinstance(event, Result) and event.command == "stop" for event in heard):
                 first = min(first, at)

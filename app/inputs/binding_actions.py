@@ -38,7 +38,7 @@ def meaning_icon(meaning: str) -> str:
 
 
 class BindingActions:
-    """Does what a press means; `look` belongs to the heartbeat. Everything in the UI thread.
+    """Does what a press means; `update` belongs to the heartbeat. Everything in the UI thread.
 
     What is held ends with its key or button, and where that is never told as keys that drive end (`app.inputs.keys.held_key`), or with
     the gamepad that says nothing any more; then it must be let go before it holds again.
@@ -77,7 +77,7 @@ class BindingActions:
             return False
         words = f"{press.name} of {press.device}" if press.device else press.name
         method = METHOD_OF[press.source]
-        intents.take(Heard(intent, method, began=press.at, ended=self._now(), said=words))
+        intents.submit(Heard(intent, method, began=press.at, ended=self._now(), said=words))
         return True
 
     def release(self, meaning: str, press: Press) -> None:
@@ -106,7 +106,7 @@ class BindingActions:
             for held in [held for held in holding.values() if held.press.source == source]:
                 self._let_go(name, held.press)
 
-    def look(self) -> None:
+    def update(self) -> None:
         """With each heartbeat: whatever is held is looked at, whether a hand still holds it."""
         for name, holding in self._holding.items():
             for held in list(holding.values()):

@@ -31,7 +31,7 @@ class MethodProblems:
         self._text = ""
         self._next = 0.0
 
-    def look(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """With each heartbeat."""
         if now < self._next:
             return

@@ -57,7 +57,7 @@ class InputsApp(MethodApp, Protocol):
 
 
 class Inputs:
-    """Listens to the window from `open` to `close`; `look` belongs to the heartbeat. Everything in the UI thread."""
+    """Listens to the window from `open` to `close`; `update` belongs to the heartbeat. Everything in the UI thread."""
 
     def __init__(
         self,
@@ -77,7 +77,7 @@ class Inputs:
         self._news = PadNews(app, lambda: self.gamepads)
         self.gamepads = Gamepads(
             now,
-            on_news=self._news.tell,
+            on_news=self._news.notify,
             wired=self.mapped.wired,
             profile=self.mapped.profile,
         )
@@ -143,19 +143,19 @@ class Inputs:
         """The controls that drive on the screen on the glass, each with the stick of a gamepad that pushes it too."""
         return self._pushing.sticks
 
-    def look(self) -> None:
+    def update(self) -> None:
         """Whatever pushes a control is looked at, and what is pressed on the gamepads."""
         states = self._source.pads()
         self.gamepads.on = self.mapped.pads_on
         gone = {state.number for state in self.gamepads.states} - {state.number for state in states}
-        self.gamepads.hear(states)
+        self.gamepads.update(states)
         for state in states:
             self.presses.buttons(state.number, state.name, state.buttons, self._now())
         for number in gone:
             self.presses.forget("pad", number)
         self._look_for_pads()
-        self.meanings.look()
-        self._pushing.look()
+        self.meanings.update()
+        self._pushing.update()
         for problem in self._news.problems(self.mapped):
             self._say(problem)
 
@@ -222,7 +222,7 @@ class Inputs:
     def _stop_by(self, press: Press) -> None:
         """As all that is wanted, and at once: what waits to be confirmed is forgotten, and a study hears of it."""
         method = "gamepad" if press.source == "pad" else "keyboard"
-        self._app.intents.take(Heard("stop", method, began=press.at, said=press.name))
+        self._app.intents.submit(Heard("stop", method, began=press.at, said=press.name))
 
     def _keyboard(self, _: object, key: int, *__: object) -> bool:
         return bool(self._app.back()) if key == BACK else False
@@ -247,7 +247,7 @@ class Inputs:
     def _lost(self, why: str, press: Press) -> None:
         """What a key or a button held has ended; of a silent gamepad with the way out that its sticks have."""
         if press.source == "pad" and self.gamepads.silent(press.number):
-            self._news.tell(PadEvent("silent", self.gamepads.name(press.number)))
+            self._news.notify(PadEvent("silent", self.gamepads.name(press.number)))
         else:
             self._say(why)
 

@@ -66,7 +66,7 @@ class Method(Protocol):
     def close(self) -> None:
         """End whatever it owns."""
 
-    # `look(now)`, where there is one, is called with each heartbeat while it is on, or says that it is `busy`
+    # `update(now)`, where there is one, is called with each heartbeat while it is on, or says that it is `busy`
 
 
 class MethodsApp(MethodApp, Protocol):
@@ -82,7 +82,7 @@ class Methods:
     def __init__(self, app: MethodsApp) -> None:
         self._app = app
         self._all: dict[str, Any] = {}
-        self._looks: list[Any] = []
+        self._updates: list[Any] = []
         self._paused = False
         self.faults: dict[str, str] = {}
         """Name of each that could not be made to one sentence why; everything else goes on without it."""
@@ -112,8 +112,8 @@ class Methods:
         self._all[name] = method = getattr(import_module(module), made)(self._app)
         if method.on:
             method.start()
-        if hasattr(method, "look"):
-            self._looks.append(method)
+        if hasattr(method, "update"):
+            self._updates.append(method)
 
     def _leave_out(self, name: str, problem: Exception) -> None:
         method = self._all.pop(name, None)
@@ -132,7 +132,7 @@ class Methods:
         origins.forget()
         self.sensing.close()
         self._all.clear()
-        self._looks.clear()
+        self._updates.clear()
 
     def pause(self) -> None:
         """The glass is taken away: nothing listens."""
@@ -151,18 +151,18 @@ class Methods:
             if method.on:
                 method.start()
 
-    def look(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """With each heartbeat of the user interface, every 30 ms; `now` is our clock [s]."""
         origins.look(now)
-        self._app.intents.look(now)
+        self._app.intents.update(now)
         if self._app.shell is not None:
-            self._app.shell.wishes.look(now)
-        self.sensing.look(now)
-        for method in self._looks:
+            self._app.shell.wishes.update(now)
+        self.sensing.update(now)
+        for method in self._updates:
             if method.on or getattr(method, "busy", False):
-                method.look(now)
+                method.update(now)
         if not self._paused:
-            self._problems.look(now)
+            self._problems.update(now)
 
     def get(self, name: str) -> Any:
         """The method of that name; None where there is none."""

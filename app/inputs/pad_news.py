@@ -22,7 +22,7 @@ class PadNews:
         self._offered: set[str] = set()
         """Gamepads whose silence was told before."""
 
-    def tell(self, news: PadEvent) -> None:
+    def notify(self, news: PadEvent) -> None:
         """Say one piece of news."""
         shell = self._app.shell
         if shell is None:

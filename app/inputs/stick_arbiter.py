@@ -36,7 +36,7 @@ class _Pusher(Protocol):
 
 
 class StickArbiter:
-    """`look` belongs to the heartbeat. Everything in the UI thread."""
+    """`update` belongs to the heartbeat. Everything in the UI thread."""
 
     def __init__(
         self,
@@ -78,7 +78,7 @@ class StickArbiter:
         shell = self._app.shell
         return getattr(shell.screens.get(shell.screen), "grips", []) if shell is not None else []
 
-    def look(self) -> None:
+    def update(self) -> None:
         """Whatever pushes a control is looked at: is it still there, may it still?"""
         sticks, grips = self.sticks, self.grips
         self._hidden &= {*grips, *(stick for stick, _ in sticks)}

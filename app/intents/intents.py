@@ -1,6 +1,6 @@
 """The one way in: whatever understands a hand, a voice or a switch says what it `Heard`, and here is decided what comes of it.
 
-verdict = app.intents.take(Heard("go_home", "voice", confidence=0.8, began=12.1, ended=12.8, said="go home"))
+verdict = app.intents.submit(Heard("go_home", "voice", confidence=0.8, began=12.1, ended=12.8, said="go home"))
 if verdict.sentence: talk.say(verdict.sentence)
 
     Heard ─ allowed? ─ can it be done now? ─ risk ┬ at once ──────────────────── acts
@@ -9,7 +9,7 @@ if verdict.sentence: talk.say(verdict.sentence)
 
 Fingers on the glass do not come this way: they press buttons, which do the same through the same session. Switches press
 those buttons as well, because what they choose stands on the glass in words and is done there and then: they come by the
-second entry, `choose`, which asks the study and the operator's permits as `take` does (`barred`, for both) and tells the
+second entry, `choose`, which asks the study and the operator's permits as `submit` does (`barred`, for both) and tells the
 same listeners; whether it can be done now the button knows, and nothing waits. Everything in the UI thread.
 """
 
@@ -209,7 +209,7 @@ class Intents:
         """It could be done now, whoever asks for it."""
         return not self._acts.why_not(intent)
 
-    def take(self, heard: Heard) -> Verdict:
+    def submit(self, heard: Heard) -> Verdict:
         """Take what was understood; KeyError for an intent that there is not."""
         intent, now = INTENTS[heard.intent], self._now()
         verdict = self.barred(heard) or self._refusal(heard)
@@ -247,9 +247,9 @@ class Intents:
 
     def answer(self, yes: bool, method: str = "button") -> Verdict:
         """Yes or no to what waits, or to what the robot asks: a yes does it, a no cancels it."""
-        return self.take(Heard("yes" if yes else "no", method, began=self._now(), ended=self._now()))
+        return self.submit(Heard("yes" if yes else "no", method, began=self._now(), ended=self._now()))
 
-    def look(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """With each frame: what has waited long enough acts, or lapses where nobody said yes."""
         pending, looked, self._looked = self.pending, self._looked, now
         if pending is not None and not pending.question:

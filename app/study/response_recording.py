@@ -143,7 +143,7 @@ class ResponseRecording:
         self.stop()
         self.archive.log.close()
 
-    def look(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """With each heartbeat."""
         if self._app.session is not self._session:
             self._follow(self._app.session)
@@ -155,7 +155,7 @@ class ResponseRecording:
             self._save_listening()
         self._drives.update(None if self._session is None else self._session.link, now)
         self._stops.update(self._app, now)
-        self.tracks.look(now)
+        self.tracks.update(now)
         self._study.update(now)
 
     def _stop_all(self) -> None:
@@ -215,7 +215,7 @@ class ResponseRecording:
         )
 
     def _taken(self, heard: Heard, verdict: Verdict) -> None:
-        self.tracks.taken(heard, verdict)
+        self.tracks.on_command(heard, verdict)
         if verdict.what in ("practised", "acted", "waits", "asks", "not now"):
             self._study.on_command(heard.intent, heard.method)
 

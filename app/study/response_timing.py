@@ -137,7 +137,7 @@ class ResponseTracks:
 
     # what comes in
 
-    def taken(self, heard: Heard, verdict: Verdict) -> Response:
+    def on_command(self, heard: Heard, verdict: Verdict) -> Response:
         """Something was understood, and that came of it; told again when what waited has ended."""
         key = _key(heard.method, heard.intent, heard.began)
         track = self._tracks.get(key)
@@ -252,7 +252,7 @@ class ResponseTracks:
         response.seconds = round(seconds, 3)
         self._put(response)
 
-    def look(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """Put those of which nothing more will come."""
         for key, track in list(self._tracks.items()):
             over = UNDO_WITHIN if track.effect else EFFECT_WITHIN

@@ -2,8 +2,8 @@
 
 trials = Trials(Plan(user="7", row=7, methods=("button", "voice", "shake")), now=time.monotonic)
 trials.begin()
-trials.look(now)                # shows the next prompt, and notes one that nobody answered
-trials.heard("pause", "voice")  # the answer
+trials.update(now)                # shows the next prompt, and notes one that nobody answered
+trials.on_command("pause", "voice")  # the answer
 
 Within subjects: everybody uses every method, in an order of a balanced Latin square, and triggers every command as often. No
 Kivy in here; a pause, the end of the app and a crash lose nothing but the prompt that was shown.
@@ -159,7 +159,7 @@ class Trials:
         if self.running:
             self.stage, self.prompt = "paused", None
 
-    def look(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """Show the next prompt when its time has come, and give up one that nobody answers."""
         if self.stage == "gap" and now >= self._next:
             self._ask(now)
@@ -169,7 +169,7 @@ class Trials:
             self.on_missed(missed)
             self._advance()
 
-    def heard(self, intent: str, method: str) -> Prompt | None:
+    def on_command(self, intent: str, method: str) -> Prompt | None:
         """The block's method understood that: the prompt it answers; None where nobody was asked, or by that method not."""
         prompt = self.prompt
         if prompt is None or method != prompt.method:

@@ -48,7 +48,7 @@ class StudyRun:
     def update(self, now: float) -> None:
         """Each tick [s]."""
         if self.trials is not None:
-            self.trials.look(now)
+            self.trials.update(now)
 
     def pause(self) -> None:
         """Wait until prompts are wanted again."""
@@ -58,7 +58,7 @@ class StudyRun:
     def on_command(self, intent: str, method: str) -> None:
         """A command was given: it may answer the prompt."""
         if self.trials is not None:
-            self.trials.heard(intent, method)
+            self.trials.on_command(intent, method)
 
     def practise(self, heard: Heard, *, can_stop: bool) -> str:
         """While prompts are shown nothing is done but STOP, where something `can_stop`: the sentence that says so; else empty."""

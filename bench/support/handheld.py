@@ -380,7 +380,7 @@ def trust_blindly() -> None:
     from app.inputs.inputs import Inputs
     from app.link import drive_slot
 
-    def look(self: Any) -> None:
+    def update(self: Any) -> None:
         for stick, _ in self.sticks:
             for state in self._source.pads():
                 stick.lean(state.forward, state.left)
@@ -389,7 +389,7 @@ def trust_blindly() -> None:
     def rest(self: Any, *_: object) -> None:
         """Kivy finds it by its name."""
 
-    Inputs.look, Inputs.rest = look, rest  # type: ignore[method-assign]
+    Inputs.update, Inputs.rest = update, rest  # type: ignore[method-assign]
     drive_slot.HEARTBEAT = drive_slot.REARM = math.inf
 
 

@@ -10,7 +10,7 @@ def test_a_finger_and_a_voice_leave_a_line_each_with_what_the_robot_answered(dri
     app = driving.app
     driving.tap(app.shell.stop)
     driving.until(lambda: app.session.robot_stop.latched, "the robot was not stopped")
-    app.intents.take(Heard("lights", "voice", 0.9, app.now() - 0.5, app.now() - 0.1, said="lights"))
+    app.intents.submit(Heard("lights", "voice", 0.9, app.now() - 0.5, app.now() - 0.1, said="lights"))
     driving.stage.frames(5)
     log = app.methods.get("log")
     log.tracks.close()

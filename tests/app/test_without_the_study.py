@@ -77,7 +77,7 @@ def test_the_app_works_without_it_and_offers_no_log(
         screen.open(name)
         glass.stage.frames(3)
         assert screen.pane(name).parent is not None, name
-    app.intents.take(Heard("screen.drive", "keyboard", began=app.now(), said="d"))
+    app.intents.submit(Heard("screen.drive", "keyboard", began=app.now(), said="d"))
     glass.until(lambda: app.shell.screen == "drive", "the command was not carried out")
-    app.intents.take(Heard("stop", "keyboard", began=app.now()))
+    app.intents.submit(Heard("stop", "keyboard", began=app.now()))
     glass.until(lambda: any(name == "/stop" for name, _ in robot.asked), "STOP was not sent")

@@ -59,26 +59,26 @@ def test_a_patrol_is_planned_started_paused_stopped_and_released_by_two_keys(
         for letter in NAME:
             keys.choose(letter)
         keys.choose("Done")
-        keys.look()
+        keys.update()
         keys.choose("Save")
         glass.until(lambda: app.session.missions.kept, "the mission at the robot")
         assert [kept.name for kept in app.session.missions.kept] == [NAME]
         keys.choose("Mission", within="Screens")
 
-        keys.look()
+        keys.update()
         keys.find(lambda target: target.intent == "start", "start")
         glass.until(lambda: app.session.running, "a patrol")
-        keys.look()
+        keys.update()
         keys.choose("Pause")
         glass.until(lambda: app.session.control_status.mode == "PAUSED", "a pause")
-        keys.look()
+        keys.update()
         keys.find(lambda target: target.intent == "resume", "resume")
         glass.until(lambda: app.session.control_status.mode == "AUTO", "that it goes on")
 
         keys.both()
         glass.until(lambda: app.shell.stop.phase == "stopped", "STOPPED on the button")
         keys.choose("Release STOP")
-        keys.look()
+        keys.update()
         keys.choose("Release STOP")  # asked once more, since no finger stays on it
         glass.until(lambda: not app.session.robot_stop.latched, "STOP to be released")
         keys.choose("Back", within="Top bar")

@@ -56,7 +56,7 @@ class TwoSwitches:
         self.glass.until(lambda: self.switches.engine.scan.depth != depth, "the mark to go up a level")
         Window.dispatch("on_key_up", A, 0)
 
-    def look(self) -> None:
+    def update(self) -> None:
         """Look what became of it: a button that has just changed its meaning takes no press for half a second."""
         self.glass.run(0.8)
 

@@ -91,7 +91,7 @@ class Gamepads:
         """What it says to hold is held by nobody who is known to be there: it measures nothing new, and hangs on no cable."""
         return self.age(number) > SILENT and self.name(number) not in self.wired
 
-    def hear(self, states: Iterable[PadState]) -> None:
+    def update(self, states: Iterable[PadState]) -> None:
         """Take in what is plugged in now and what it measures; news are told from here."""
         there = {state.number: state for state in states}
         for number in self._known.keys() - there.keys():

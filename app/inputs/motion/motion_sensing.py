@@ -74,7 +74,7 @@ class Judge:
         self._same_since = math.nan
         self._seen: dict[Fault, float] = {}
 
-    def take(self, t: float, axes: Axes, now: float, came: float) -> bool:
+    def add(self, t: float, axes: Axes, now: float, came: float) -> bool:
         """Whether that sample, measured at `t`, which came at `came` [s], may be handed on."""
         if not all(math.isfinite(value) for value in (t, *axes)):
             self._seen["broken"] = now
@@ -154,7 +154,7 @@ class _Kind:
 
 
 class MotionSensing:
-    """Owns the source. Everything but the source's own call happens in the UI thread; `look` belongs to the heartbeat."""
+    """Owns the source. Everything but the source's own call happens in the UI thread; `update` belongs to the heartbeat."""
 
     def __init__(self, source: MotionSource, now: Callable[[], float] = time.monotonic) -> None:
         self._source, self._now = source, now
@@ -207,14 +207,14 @@ class MotionSensing:
 
         return forget
 
-    def look(self, now: float | None = None) -> None:
+    def update(self, now: float | None = None) -> None:
         """Hand on what came since the last look."""
         now = self._now() if now is None else now
         self._looked = now
         for _ in range(len(self._queue)):
             kind, t, axes, came = self._queue.popleft()
             one = self._kinds[kind]
-            if kind in self._running and one.judge.take(t, axes, now, came):
+            if kind in self._running and one.judge.add(t, axes, now, came):
                 for feed in tuple(one.feeds):
                     feed(t, axes)
 

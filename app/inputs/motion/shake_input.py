@@ -172,7 +172,7 @@ class ShakeInput(ToggleableMethod):
         """For good."""
         self.stop()
 
-    def look(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """With each heartbeat: whether the screen was turned, so that left and right are those of the glass."""
         self._quarters = self._turned() % 4
 
@@ -260,7 +260,7 @@ class ShakeInput(ToggleableMethod):
             self.said = "Understood; while it is tried out nothing is done."
             return
         ended = shake.told if shake.ended else math.nan
-        verdict = self._app.intents.take(
+        verdict = self._app.intents.submit(
             Heard(
                 intent,
                 self.name,

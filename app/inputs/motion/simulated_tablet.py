@@ -53,7 +53,7 @@ class SimulatedTablet:
         """Each tick [s]: report how it is held, at once."""
         if self._motion is not None:
             self._motion.tell()
-            self._app.sensing.look(now)
+            self._app.sensing.update(now)
 
     def _lean_by_keys(self) -> None:
         right, ahead = (sum(ARROWS[key][axis] for key in self._keys) for axis in (0, 1))

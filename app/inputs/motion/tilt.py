@@ -3,7 +3,7 @@
 tilt = Tilt(TiltSettings())
 tilt.feed(t, gravity)              # as it comes, in axes of the screen
 tilt.press(now)                    # the thumb comes down; tilt.release() when it goes
-right, ahead = tilt.look(now)      # shares of full command, with each heartbeat
+right, ahead = tilt.update(now)      # shares of full command, with each heartbeat
 
 Nothing here knows of screens or clocks. The 1 € filter is Casiez, Roussel and Vogel's (CHI 2012).
 """
@@ -232,7 +232,7 @@ class Tilt:
             self._close()
 
     def release(self) -> None:
-        """It is let go: what `look` tells is zero from now on."""
+        """It is let go: what `update` tells is zero from now on."""
         self._pressed = False
         self._open()
         self.why = ""
@@ -242,7 +242,7 @@ class Tilt:
         if self._pressed and not self.why:
             self._open(why)
 
-    def look(self, now: float) -> Pair:
+    def update(self, now: float) -> Pair:
         """What it commands at `now`, to the right and ahead, shares of full command, together at most 1."""
         if self._pressed and not self.why and now - self._heard > SILENT and self._closed:
             self._open("The sensor is silent: the tablet does not steer.")

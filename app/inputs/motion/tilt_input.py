@@ -83,7 +83,7 @@ class TiltInput(TiltOptions):
         self.stop()
         self.simulate(on=False)
 
-    def look(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """With each heartbeat: lead the circle that is on the glass, if there is one."""
         self._offer(on=self.others and bool(self._app.sensing.possible))
         self._lead(self._found())
@@ -210,7 +210,7 @@ class TiltInput(TiltOptions):
             circle.bind(on_let_go=self._let_go)
 
     def _steer(self, circle: TiltCircle, now: float) -> None:
-        command = self.tilt.look(now)
+        command = self.tilt.update(now)
         if self.tilt.why and self.tilt.why != self._said:
             self._say(self.tilt.why)
         self._said = self.tilt.why

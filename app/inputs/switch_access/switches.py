@@ -124,14 +124,14 @@ class SwitchAccess:
             self._glass.close()
         self._engine = self._glass = None
 
-    def look(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """With each heartbeat."""
         engine = self._engine
         if engine is None:
             return
         self._lift(now)
         awake = engine.awake
-        engine.look(now)
+        engine.update(now)
         if awake and not engine.awake and is_typing():
             engine.wake(now)  # a field with the focus waits for an answer: there the mark goes round on
 
@@ -243,7 +243,7 @@ class SwitchAccess:
         """STOP by switches; what they have begun goes on no longer."""
         if self._glass is not None:
             self._glass.openings.halt()
-        verdict = self._app.intents.take(Heard("stop", self.name, began=began, said="held"))
+        verdict = self._app.intents.submit(Heard("stop", self.name, began=began, said="held"))
         if verdict.what != "acted":
             self._say(verdict.sentence)
 

@@ -169,7 +169,7 @@ class Talkback(ToggleableMethod):
         """For good."""
         self.stop()
 
-    def look(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """With each heartbeat."""
         if self._running:
             if self._app.session is not self._session:

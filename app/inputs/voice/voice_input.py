@@ -213,7 +213,7 @@ class VoiceInput(VoiceOptions):
 
     # what time changes
 
-    def look(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """With each heartbeat."""
         self._drain()
         self._gate.update(now)
@@ -265,7 +265,7 @@ class VoiceInput(VoiceOptions):
         if self.trying and not (stop and self._app.intents.possible("stop")):
             self.said = TRIED
             return
-        self.said = self._app.intents.take(_heard(result, self.level.noise)).sentence
+        self.said = self._app.intents.submit(_heard(result, self.level.noise)).sentence
         if not self._button.is_held:
             self._button.end_tap()
             self._fit()

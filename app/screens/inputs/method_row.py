@@ -20,7 +20,7 @@ class MethodRow(ListRow):
         self.switch.bind(on_change=lambda _, on: self.dispatch("on_turn", on))
         self.whole = True
 
-    def look(self, method: Any, fault: str = "") -> None:
+    def show_method(self, method: Any, fault: str = "") -> None:
         """Say how `method` stands, None for what is none; or why it cannot be used, as one sentence."""
         if (method is not None) != (self.switch.parent is self):
             (self.add_widget if method is not None else self.remove_widget)(self.switch)

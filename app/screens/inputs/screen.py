@@ -134,7 +134,7 @@ class InputsScreen(RobotScreen):
     def tick(self) -> None:
         """Bring up to date how each stands."""
         for name, row in self.rows.items():
-            row.look(self.app.methods.get(name), self._fault(name))
+            row.show_method(self.app.methods.get(name), self._fault(name))
             row.chosen = name == self._shown()
         if self._entered is not None:
             self._entered.tick()

@@ -51,7 +51,7 @@ class IntentPrompts:
         if self._told in self._intents.on_taken:
             self._intents.on_taken.remove(self._told)
 
-    def look(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """Bring up to date what waits, and for how long; with each heartbeat, `now` is our clock [s]."""
         pending = self._intents.pending
         if pending is not self._shown:

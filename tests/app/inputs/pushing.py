@@ -189,7 +189,7 @@ class Hands:
                 self.stage.frames(1, STEP)
                 if self.stage.time.now - self._beaten >= 0.03:
                     self._beaten = self.stage.time.now
-                    self.inputs.look()
+                    self.inputs.update()
                     self.slot.beat()
             if (twist := self.slot.due()) is not None:
                 self.sent.append((self.stage.time.now, twist))

@@ -23,7 +23,7 @@ class Intents:
         self.heard: list[Heard] = []
         self.asking = False
 
-    def take(self, heard: Heard) -> None:
+    def submit(self, heard: Heard) -> None:
         self.heard.append(heard)
 
 
@@ -81,7 +81,7 @@ class Desk:
             self.time += 0.03
             if repeats:
                 self.meanings.repeated(repeats)
-            self.meanings.look()
+            self.meanings.update()
 
     @property
     def wanted(self) -> list[str]:

@@ -50,7 +50,7 @@ class Desk:
     def wait(self, seconds: float = 0.5) -> None:
         for _ in range(round(seconds / 0.03)):
             self.time += 0.03
-            self.problems.look(self.time)
+            self.problems.update(self.time)
 
     def ails(self, name: str, problem: str) -> None:
         self.all[name].problem = problem

@@ -116,13 +116,13 @@ def test_one_that_cannot_be_made_or_begun_is_said_and_the_others_go_on(make: Any
         "Log cannot be used: no plan can be read from 3. Shake cannot be used: no such device."
     ]
     assert set(app.methods.faults) == {"log", "shake"}
-    app.methods.look(100.0)
+    app.methods.update(100.0)
     app.methods.turn("log", on=True)
 
 
 def test_while_the_glass_is_away_nothing_listens_and_no_question_waits(make: Any) -> None:
     app = make(voice=Made)
-    assert app.intents.take(Heard("patrol", "voice")).what == "asks"
+    assert app.intents.submit(Heard("patrol", "voice")).what == "asks"
     app.methods.pause()
     assert app.methods.get("voice").life == ["start", "stop"]
     assert app.intents.pending is None
@@ -139,10 +139,10 @@ class Speaks(Made):
 def test_what_came_of_a_question_is_said_where_the_question_was(make: Any) -> None:
     app = make(voice=Speaks, shake=Speaks)
     voice, shake = app.methods.get("voice"), app.methods.get("shake")
-    voice.said = app.intents.take(Heard("go_home", "voice")).sentence
+    voice.said = app.intents.submit(Heard("go_home", "voice")).sentence
     assert voice.said == "go_home?"
     app.time += CONFIRM_FOR + 1.0
-    app.intents.look(app.time)
+    app.intents.update(app.time)
     assert voice.said == "Not done, no yes came: go_home."
     assert shake.said == "", "it asked nothing"
 
@@ -158,9 +158,9 @@ def test_what_was_touched_is_forgotten_by_the_heartbeat(make: Any) -> None:
     app = make(voice=Made)
     origins.touched(99.0)
     origins.lifted(99.1)
-    app.methods.look(99.5)
+    app.methods.update(99.5)
     assert origins.current().method == "button"
-    app.methods.look(105.0)
+    app.methods.update(105.0)
     assert origins.current() is NOBODY
 
 
@@ -170,7 +170,7 @@ class Deaf(Made):
 
 def test_what_is_on_and_does_not_work_is_said_with_the_next_heartbeat(make: Any) -> None:
     app = make(voice=Deaf)
-    app.methods.look(100.0)
+    app.methods.update(100.0)
     assert app.said == ["Voice: There is no microphone."]
 
 

@@ -53,7 +53,7 @@ class Stage:
         self.intents.on_taken.append(lambda heard, verdict: self.told.append((heard.intent, verdict)))
 
     def say(self, intent: str, method: str = "voice", **kwargs: Any) -> str:
-        return self.intents.take(Heard(intent, method, **kwargs)).what
+        return self.intents.submit(Heard(intent, method, **kwargs)).what
 
     def wait(self, seconds: float) -> None:
         end = self.time + seconds
@@ -62,7 +62,7 @@ class Stage:
 
     def frame(self, seconds: float) -> None:
         self.time += seconds
-        self.intents.look(self.time)
+        self.intents.update(self.time)
 
 
 class Kept:
@@ -205,7 +205,7 @@ def test_leaving_the_robot_forgets_what_waits(stage: Stage) -> None:
 def test_what_is_impossible_now_is_said_and_leaves_what_waits_alone(stage: Stage) -> None:
     stage.say("go_home")
     stage.acts.reasons["lights"] = "This robot has no lights to switch."
-    assert stage.intents.take(Heard("lights", "voice")) == Verdict(
+    assert stage.intents.submit(Heard("lights", "voice")) == Verdict(
         "not now", "This robot has no lights to switch."
     )
     assert stage.intents.pending is not None
@@ -231,7 +231,7 @@ def test_what_waits_here_is_answered_before_what_the_robot_asks(stage: Stage) ->
 
 
 def test_a_shake_may_not_start_anything_until_it_is_allowed(stage: Stage) -> None:
-    verdict = stage.intents.take(Heard("start", "shake"))
+    verdict = stage.intents.submit(Heard("start", "shake"))
     assert verdict == Verdict(
         "not allowed", "Shake may not do that: Start the task. It can be allowed in Inputs."
     )

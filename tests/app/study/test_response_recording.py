@@ -89,14 +89,14 @@ class Running:
         self.settings.close()
 
     def hear(self, intent, method="voice"):
-        return self.app.intents.take(
+        return self.app.intents.submit(
             Heard(intent, method, 0.9, self.time - 0.4, self.time - 0.1, said=intent)
         )
 
     def wait(self, seconds) -> None:
         for _ in range(round(seconds / 0.5)):
             self.time += 0.5
-            self.log.look(self.time)
+            self.log.update(self.time)
 
     def next(self):
         while self.log.trials.prompt is None:
@@ -144,7 +144,7 @@ def test_how_long_a_method_listened_is_put_down_now_and_then(running):
 
 def test_while_the_app_sleeps_nobody_listens(running):
     running.time += 3600
-    running.log.look(running.time)
+    running.log.update(running.time)
     assert running.kept("armed") == []
 
 

@@ -31,7 +31,7 @@ class Followed:
 
     def hear(self, intent="pause", method="voice", what="acted", sentence="", began=49.2, **more):
         heard = Heard(intent, method, began=began, ended=began + 0.5, **more)
-        self.tracks.taken(heard, Verdict(what, sentence))
+        self.tracks.on_command(heard, Verdict(what, sentence))
         return heard
 
     def answer(self, name="pause", *, origin=None, phases=("sent", "accepted"), reason="", id="c", **fields):
@@ -125,8 +125,8 @@ def test_what_the_app_does_by_itself_and_what_only_reads_is_no_response(followed
 def test_what_waits_is_one_line_that_ends_as_it_ends(followed):
     heard = followed.hear("go_home", what="asks")
     followed.now += 2
-    followed.tracks.look(followed.now + EFFECT_WITHIN * 3)
-    followed.tracks.taken(heard, Verdict("lapsed", "Not done, no yes came: Go home."))
+    followed.tracks.update(followed.now + EFFECT_WITHIN * 3)
+    followed.tracks.on_command(heard, Verdict("lapsed", "Not done, no yes came: Go home."))
     (line,) = followed.lines
     assert (line.verdict, line.rejected) == ("lapsed", "Not done, no yes came: Go home.")
     assert line.t_sent is None
@@ -134,7 +134,7 @@ def test_what_waits_is_one_line_that_ends_as_it_ends(followed):
 
 def test_what_is_cancelled_at_the_bar_was_taken_back(followed):
     heard = followed.hear("resume", what="waits")
-    followed.tracks.taken(heard, Verdict("cancelled", "Cancelled: Resume."))
+    followed.tracks.on_command(heard, Verdict("cancelled", "Cancelled: Resume."))
     (line,) = followed.lines
     assert line.undo
     assert line.verdict == "cancelled"
@@ -181,15 +181,15 @@ def test_the_opposite_command_later_is_a_command_of_its_own(followed):
 def test_a_line_is_put_when_nothing_more_can_come_of_it(followed):
     followed.hear()
     followed.answer()
-    followed.tracks.look(followed.now + EFFECT_WITHIN - 1)
+    followed.tracks.update(followed.now + EFFECT_WITHIN - 1)
     assert followed.lines == []
-    followed.tracks.look(followed.now + EFFECT_WITHIN)
+    followed.tracks.update(followed.now + EFFECT_WITHIN)
     assert len(followed.lines) == 1
 
 
 def test_what_is_done_on_the_handheld_has_its_effect_at_once(followed):
     followed.hear("slower")
-    followed.tracks.look(followed.now + UNDO_WITHIN + 0.1)
+    followed.tracks.update(followed.now + UNDO_WITHIN + 0.1)
     (line,) = followed.lines
     assert line.t_effect == line.t_decided
 

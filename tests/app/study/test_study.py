@@ -71,7 +71,7 @@ class Led:
 
     def wait(self, seconds: float) -> None:
         self.now += seconds
-        self.trials.look(self.now)
+        self.trials.update(self.now)
 
     def next(self):
         self.wait(3.5)
@@ -82,7 +82,7 @@ class Led:
         self.trials.begin()
         while self.trials.running:
             prompt = self.next()
-            self.trials.heard(prompt.intent, prompt.method)
+            self.trials.on_command(prompt.intent, prompt.method)
 
 
 def test_nothing_is_asked_before_somebody_begins():
@@ -103,7 +103,7 @@ def test_an_answer_is_matched_with_its_prompt_and_the_next_one_follows():
     led = Led()
     led.trials.begin()
     prompt = led.next()
-    assert led.trials.heard("stop", prompt.method) == prompt
+    assert led.trials.on_command("stop", prompt.method) == prompt
     assert (led.trials.stage, led.trials.trial) == ("gap", 1)
     assert led.next().id != prompt.id
 
@@ -111,10 +111,10 @@ def test_an_answer_is_matched_with_its_prompt_and_the_next_one_follows():
 def test_what_comes_between_prompts_or_by_another_method_answers_nothing():
     led = Led()
     led.trials.begin()
-    assert led.trials.heard("stop", "voice") is None
+    assert led.trials.on_command("stop", "voice") is None
     prompt = led.next()
     other = "shake" if prompt.method == "voice" else "voice"
-    assert led.trials.heard(prompt.intent, other) is None
+    assert led.trials.on_command(prompt.intent, other) is None
     assert led.trials.prompt == prompt
 
 
@@ -137,7 +137,7 @@ def test_a_pause_asks_again_for_what_was_shown_and_notes_nothing():
     led.trials.pause()
     led.wait(3600)
     assert (led.trials.stage, led.missed) == ("paused", [])
-    assert led.trials.heard(prompt.intent, prompt.method) is None
+    assert led.trials.on_command(prompt.intent, prompt.method) is None
     led.trials.begin()
     again = led.next()
     assert again.intent == prompt.intent
@@ -162,7 +162,7 @@ def test_what_was_saved_goes_on_where_it_was():
     led.trials.begin()
     for _ in range(2):
         prompt = led.next()
-        led.trials.heard(prompt.intent, prompt.method)
+        led.trials.on_command(prompt.intent, prompt.method)
     found = plan_of(saved(led.trials), ("voice", "shake"), COMMANDS)
     assert found is not None
     plan, block, trial = found

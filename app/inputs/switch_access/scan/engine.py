@@ -1,7 +1,7 @@
 """From the switches' contacts to what is done on the glass: the contacts, the tree and the mark, put together.
 
 engine = Engine(glass, Planner(used), desk)
-engine.press("B", ("key", 0, 13), now); engine.release(…); engine.look(now)
+engine.press("B", ("key", 0, 13), now); engine.release(…); engine.update(now)
 """
 
 from __future__ import annotations
@@ -117,15 +117,15 @@ class Engine:
         self.contacts.up("A", source, now)
         self.contacts.up("B", source, now)
 
-    def look(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """With each heartbeat."""
         self._now = now
-        self.contacts.look(now)
+        self.contacts.update(now)
         if not self.awake:
             return
         if now - self._seen >= LOOKS:
             self._refresh()
-        if self.scan.look(now, wait=self.contacts.is_closed("B")):
+        if self.scan.update(now, wait=self.contacts.is_closed("B")):
             self._step("step" if self.awake else "none")
 
     def wake(self, now: float) -> None:

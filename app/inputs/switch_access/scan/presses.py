@@ -1,7 +1,7 @@
 """From contacts that bounce, repeat, overlap and stick to clean presses of switch A and switch B; STOP before all of them.
 
 contacts = Contacts(Timing(), hear)
-contacts.down("B", ("key", 0, 13), now)     # … up(…), and look(now) with each heartbeat
+contacts.down("B", ("key", 0, 13), now)     # … up(…), and update(now) with each heartbeat
 
 Any number of keys and buttons may be one switch: it is down while one of them is. A key that the system repeats while it is held
 comes down only once.
@@ -97,7 +97,7 @@ class _Contact:
 
 
 class Contacts:
-    """Both switches. `look` must be called with each heartbeat; times only grow."""
+    """Both switches. `update` must be called with each heartbeat; times only grow."""
 
     def __init__(self, timing: Timing, hear: Callable[[Event], object]) -> None:
         """`hear` is told each event, in order."""
@@ -165,7 +165,7 @@ class Contacts:
         if self._held_over:
             self._repeats_until = now + REPEATS
 
-    def look(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """What only time tells: accepted, held, let go, stuck."""
         self._frames = self._frames[1], now
         self._judge(now)

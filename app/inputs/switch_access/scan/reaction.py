@@ -1,7 +1,7 @@
 """How fast somebody presses, and how long the mark should stay for that hand.
 
 test = Reaction(random.Random())
-test.start(now); test.look(now); test.press(now)      # until test.phase is "done"
+test.start(now); test.update(now); test.press(now)      # until test.phase is "done"
 test.interval
 """
 
@@ -74,7 +74,7 @@ class Reaction:
         """End it without a result."""
         self.phase, self._due, self.times = "idle", math.inf, []
 
-    def look(self, now: float) -> bool:
+    def update(self, now: float) -> bool:
         """Bring the sign, or take it away; True where something changed."""
         if now < self._due:
             return False

@@ -192,7 +192,7 @@ class Scan:
             return mark.targets[0]
         return None
 
-    def look(self, now: float, *, wait: bool = False) -> bool:
+    def update(self, now: float, *, wait: bool = False) -> bool:
         """Step by itself where it is time to, one step however late; True if it did. With `wait` the time begins anew."""
         if not self._here.awake or not self._pace.by_itself:
             return False

@@ -80,7 +80,7 @@ class Openings:
             self._lift()
             self._lift = None
 
-    def look(self) -> None:
+    def update(self) -> None:
         """What the pad belongs to is gone, or may not be used any more: so is the pad."""
         if self.pad is None:
             return

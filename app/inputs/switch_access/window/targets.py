@@ -69,7 +69,7 @@ class WindowTargets:
     @property
     def place(self) -> str:
         """The screen or the dialog on top, as `drive` or `dialog.address`."""
-        self.openings.look()
+        self.openings.update()
         if self.openings.pad is not None:
             return f"pad.{self.openings.kind}"
         dialog = self._dialog()
@@ -80,7 +80,7 @@ class WindowTargets:
 
     def targets(self) -> Sequence[Target]:
         """All that can be done now, rows from the top, from the left, never STOP."""
-        self.openings.look()
+        self.openings.update()
         found = find(self._roots(), self._app.corner.layer)
         dialog = self._dialog()
         made = [self._target(one) for one in found]

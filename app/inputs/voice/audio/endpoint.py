@@ -77,7 +77,7 @@ class Endpointer:
             return None
         return Segment(np.concatenate(self._kept), self._began, self._last)
 
-    def hear(self, samples: NDArray[np.float32], at: float) -> list[Segment]:
+    def feed(self, samples: NDArray[np.float32], at: float) -> list[Segment]:
         """The next samples, -1 to 1, of which the last one was heard at `at` [s]; gives the words that are over."""
         heard = np.concatenate((self._rest, samples)) if len(self._rest) else samples
         whole = len(heard) // HOP * HOP

@@ -54,7 +54,7 @@ class NoiseMeter:
         self.outdated = False
         """That was found before the ears were closed last, and what is heard now does not say so."""
 
-    def hear(self, samples: NDArray[np.float32], at: float, *, speaking: bool = False) -> None:
+    def feed(self, samples: NDArray[np.float32], at: float, *, speaking: bool = False) -> None:
         """The next samples, -1 to 1, the last one heard at `at` [s]; `speaking` when somebody is thought to talk."""
         heard = np.concatenate((self._rest, samples)) if len(self._rest) else samples
         whole = len(heard) // FRAME * FRAME

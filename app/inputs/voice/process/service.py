@@ -159,7 +159,7 @@ class Service:
             heard = self._ears.read(READS)
             if heard is not None:
                 self._silent(heard[0])
-                hearing.hear(*heard)
+                hearing.feed(*heard)
         except VoiceTrouble as trouble:
             sentence, self._until = str(trouble), 0.0
         if self._now() >= self._until:

@@ -54,7 +54,7 @@ class Acoustics(Protocol):
     tokens: Sequence[str]
     """Its signs, the last two of which mean a new word and nothing new."""
 
-    def hear(self, samples: NDArray[np.float32]) -> Array:
+    def log_probs(self, samples: NDArray[np.float32]) -> Array:
         """Log probability of each sign in each frame: frames x signs. Samples at 16 kHz, -1 to 1."""
         ...
 

@@ -47,12 +47,12 @@ class Phonemes:
 
     def judge(self, samples: NDArray[np.float32], heeded: Collection[str]) -> Found | None:
         """By the whole utterance; where that is close to call, by further looks at it (`app.inputs.voice.recognition.rechecks`)."""
-        views = [self._model.hear(samples)]
+        views = [self._model.log_probs(samples)]
         found = self._scorer.judge(views, heeded)
         if found is None or not UNSURE[0] < found.confidence < UNSURE[1] or self._urgent(found):
             return found
         for other in looks(samples):
-            views.append(self._model.hear(other))
+            views.append(self._model.log_probs(other))
             alone = self._scorer.judge(views[-1:], heeded)
             if self._urgent(alone):
                 return alone
@@ -64,7 +64,7 @@ class Phonemes:
 
     def spot(self, segment: Segment, now: float) -> Spotted | None:
         """By its last second, at the moments when a word may have ended."""
-        return self._spotter.look(segment, now)
+        return self._spotter.search(segment, now)
 
 
 class SpeechPipeline:
@@ -90,10 +90,10 @@ class SpeechPipeline:
         """Count only these from now on; None for all that need no question."""
         self._heeded = None if commands is None else frozenset(commands)
 
-    def hear(self, samples: NDArray[np.float32], at: float) -> None:
+    def feed(self, samples: NDArray[np.float32], at: float) -> None:
         """The next samples at 16 kHz, -1 to 1, of which the last was heard at `at` [s]."""
-        over = self._points.hear(samples, at)
-        self._meter.hear(samples, at, speaking=self._points.speaking)
+        over = self._points.feed(samples, at)
+        self._meter.feed(samples, at, speaking=self._points.speaking)
         self._show(at)
         for segment in over:
             self._understand(segment)

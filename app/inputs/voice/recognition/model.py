@@ -54,7 +54,7 @@ class HamaModel:
         one_core()
         self._hear = chosen(_ours, _engine, len(self.tokens))
 
-    def hear(self, samples: Floats) -> NDArray[np.float64]:
+    def log_probs(self, samples: Floats) -> NDArray[np.float64]:
         """Log probability of each sign in each frame of 20 ms."""
         wave = np.clip(samples, -1.0, 1.0).astype(np.float32)
         if len(wave) < SHORTEST:

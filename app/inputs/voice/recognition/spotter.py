@@ -71,7 +71,7 @@ class Spotter:
         self._begun = math.nan
         self._done: set[float] = set()
 
-    def look(self, segment: Segment, now: float) -> Spotted | None:
+    def search(self, segment: Segment, now: float) -> Spotted | None:
         """The words so far, heard until `now` [s]; what was spotted in them."""
         if self._sequences is None or not self._due(segment, now):
             return None
@@ -83,7 +83,7 @@ class Spotter:
         """The same in any samples, the last of which was heard at `now`."""
         if self._sequences is None or len(samples) < EARLIEST * RATE:
             return None
-        frames = frames_of(self._model.hear(samples), self._model.tokens)
+        frames = frames_of(self._model.log_probs(samples), self._model.tokens)
         fits, when = self._sequences.anywhere(frames)
         ours, rivals = fits[: len(self._ways)], fits[len(self._ways) :]
         lengths = np.array([len(sounds) for _, _, sounds in self._ways])

@@ -192,7 +192,7 @@ class SwitchPane(BoxLayout):
 
     def _watch(self) -> None:
         test = self.test
-        test.look(self._app.now())
+        test.update(self._app.now())
         self.picture.phase, self.picture.count = test.phase, test.done
         if test.phase == "done":
             self.picture.result = (

@@ -130,7 +130,7 @@ class TrialView(Column):
         """As if a button of the app did that: the study takes it as an answer."""
         origin, now = origins.current(), self._app.now()
         ended = origin.ended if origin.ended >= origin.began else now
-        self._app.intents.take(Heard(name, origin.method or "button", 1.0, origin.began, ended))
+        self._app.intents.submit(Heard(name, origin.method or "button", 1.0, origin.began, ended))
         self.tick()
 
     def _go(self) -> None:

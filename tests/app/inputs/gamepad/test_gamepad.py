@@ -42,7 +42,7 @@ class Desk:
                     number: replace(state, raw=(round(state.forward * 99), int(self.time * 1000)))
                     for number, state in self.there.items()
                 }
-            self.pads.hear(self.there.values())
+            self.pads.update(self.there.values())
             self.leans.append((self.time, left_of(self.pads.lean())))
 
     @property
@@ -201,13 +201,13 @@ def test_where_sdl_cannot_be_asked_kivys_events_tell_of_the_stick_and_silence_en
     desk, told = Desk(), KivyPads()
     desk.there.clear()
     told.axis(3, 1, 0)
-    desk.pads.hear(told.pads())
+    desk.pads.update(told.pads())
     desk.pads.lean()
     told.axis(3, 1, -32768)
-    desk.pads.hear(told.pads())
+    desk.pads.update(told.pads())
     assert left_of(desk.pads.lean()) == (1.0, 0.0)
     desk.time += SILENT + BEAT
-    desk.pads.hear(told.pads())
+    desk.pads.update(told.pads())
     assert desk.pads.lean() is None
 
 

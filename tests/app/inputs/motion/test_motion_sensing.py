@@ -31,7 +31,7 @@ class Phone:
             still = (0.0, 0.0, GRAVITY + 0.01 * math.sin(self.count))
             for kind in ("acceleration", "gravity"):
                 self.source.put(kind, self.now, axes or still)
-            self.sensing.look()
+            self.sensing.update()
 
     def fault(self, kind: Kind = "acceleration", least: float = 25.0) -> str:
         return self.sensing.health(kind, least).fault
@@ -58,7 +58,7 @@ def test_samples_are_handed_on_in_their_order_by_a_look(phone: Phone) -> None:
     phone.listen()
     phone.source.put("acceleration", 0.0, (1.0, 2.0, 9.0))
     assert phone.got == []
-    phone.sensing.look()
+    phone.sensing.update()
     assert phone.got == [(0.0, (1.0, 2.0, 9.0))]
 
 
@@ -66,7 +66,7 @@ def test_without_a_look_no_more_wait_than_the_queue_holds(phone: Phone) -> None:
     phone.listen()
     for n in range(1000):
         phone.source.put("acceleration", n * 1e-4, (0.0, 0.0, n * 0.001))
-    phone.sensing.look(0.1)
+    phone.sensing.update(0.1)
     assert len(phone.got) == QUEUE
     assert phone.got[-1][1][2] == pytest.approx(0.999), "the newest are kept"
 
@@ -119,7 +119,7 @@ def test_a_glass_that_is_slow_to_look_makes_no_sensor_silent(phone: Phone) -> No
         phone.now += 0.02
         phone.source.put("acceleration", phone.now, (0.0, 0.1 * n, GRAVITY))
         assert phone.fault() == ""
-    phone.sensing.look()
+    phone.sensing.update()
     assert phone.fault() == ""
     phone.now += 0.31
     assert phone.fault() == "silent"
@@ -137,7 +137,7 @@ def test_what_came_before_a_slow_look_and_nothing_since_is_silence(phone: Phone)
     phone.now += 0.02
     phone.source.put("acceleration", phone.now, (0.0, 0.0, GRAVITY))
     phone.now += 0.4
-    phone.sensing.look()
+    phone.sensing.update()
     assert phone.fault() == "silent"
 
 
@@ -146,7 +146,7 @@ def test_a_sensor_whose_samples_are_all_of_no_use_is_silent(phone: Phone) -> Non
     for _ in range(20):
         phone.now += 0.02
         phone.source.put("acceleration", phone.now - 60.0, (0.0, 0.0, GRAVITY))
-        phone.sensing.look()
+        phone.sensing.update()
     assert phone.fault() == "silent"
 
 
@@ -216,7 +216,7 @@ def test_what_is_old_or_out_of_order_is_no_news(phone: Phone) -> None:
     count, phone.now = len(phone.got), 3.0
     for t in (1.5, 0.9, math.nan):
         phone.source.put("acceleration", t, (0.0, 0.0, 9.8))
-    phone.sensing.look()
+    phone.sensing.update()
     assert len(phone.got) == count
 
 
@@ -253,7 +253,7 @@ class Refusing(SimulatedMotion):
 def test_a_system_that_refuses_is_quoted_and_nothing_breaks(phone: Phone) -> None:
     phone.sensing.use(Refusing())
     phone.listen()
-    phone.sensing.look()
+    phone.sensing.update()
     assert phone.sensing.running == frozenset()
     assert phone.sensing.health("acceleration").sentence == "The system keeps its sensors."
 
@@ -294,7 +294,7 @@ def test_a_stamp_from_the_future_makes_nothing_that_follows_old(phone: Phone) ->
     phone.listen()
     phone.run(1.0)
     phone.source.put("acceleration", phone.now + 3600.0, (0.0, 0.0, GRAVITY))
-    phone.sensing.look()
+    phone.sensing.update()
     count = len(phone.got)
     phone.run(1.0)
     assert len(phone.got) == count + 50

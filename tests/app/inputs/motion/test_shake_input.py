@@ -38,7 +38,7 @@ class Hand:
                 get=lambda name, default=None: self.kept.get(name, default), set=self.kept.__setitem__
             ),
             sensing=self.sensing,
-            intents=SimpleNamespace(take=self._take, possible=lambda _: self.stoppable),
+            intents=SimpleNamespace(submit=self._take, possible=lambda _: self.stoppable),
             session=SimpleNamespace(
                 feeds=SimpleNamespace(latest=lambda _: SimpleNamespace(at_rest=self.rests))
             ),
@@ -53,7 +53,7 @@ class Hand:
         for axes in take.samples.tolist():
             self.t += 1 / take.rate
             self.source.put("acceleration", self.t, tuple(axes))
-            self.sensing.look(self.t)
+            self.sensing.update(self.t)
 
     def shakes(self, axis: str, person: int = 0) -> None:
         self.does(motion.trials([motion.made(axis, person, 0)], 1)[0].take)
@@ -121,7 +121,7 @@ def test_it_begins_once_however_often_it_is_started(hand: Hand) -> None:
 def test_left_and_right_are_those_of_the_screen(hand: Hand) -> None:
     """A tablet on its side: what is its own y lies along the screen's x."""
     hand.quarters = 1
-    hand.shaking.look(hand.t)
+    hand.shaking.update(hand.t)
     trial = motion.trials([motion.made("lr", 0, 0)], 1)[0].take
     x, y, z = trial.samples.T
     hand.does(Recording("", "", trial.rate, np.stack([y, -x, z], axis=1)))
@@ -255,7 +255,7 @@ def test_samples_that_come_twenty_at_once_and_twice_are_understood(hand: Hand) -
         for _ in range(2):
             hand.source.put("acceleration", hand.t, tuple(axes))
         if index % 20 == 19:
-            hand.sensing.look(hand.t)
+            hand.sensing.update(hand.t)
     assert hand.intents == ["stop"]
 
 

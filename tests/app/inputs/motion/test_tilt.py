@@ -33,7 +33,7 @@ class Hand:
             self.now += 0.02
             self.tilt.feed(self.now, self.axes)
             self.tilt.feel(self.now, self.axes)
-            self.said = self.tilt.look(self.now)
+            self.said = self.tilt.update(self.now)
         return self.said
 
     def pressed(self, axes: Axes = FLAT) -> Hand:
@@ -135,7 +135,7 @@ def test_released_it_is_zero_at_the_next_look() -> None:
     hand = Hand().pressed()
     assert hand.hold(1.0, lean(0, 30))[1] == pytest.approx(1.0)
     hand.tilt.release()
-    assert hand.tilt.look(hand.now) == (0.0, 0.0)
+    assert hand.tilt.update(hand.now) == (0.0, 0.0)
 
 
 def test_a_command_grows_slowly_and_goes_fast() -> None:
@@ -156,8 +156,8 @@ def test_pressed_before_a_sample_came_it_closes_when_they_do() -> None:
 def test_silence_opens_it_and_only_a_new_press_closes_it() -> None:
     hand = Hand().pressed()
     hand.hold(1.0, lean(0, 30))
-    assert hand.tilt.look(hand.now + 0.29)[1] > 0.9
-    assert hand.tilt.look(hand.now + 0.31) == (0.0, 0.0)
+    assert hand.tilt.update(hand.now + 0.29)[1] > 0.9
+    assert hand.tilt.update(hand.now + 0.31) == (0.0, 0.0)
     assert "silent" in hand.tilt.why
     hand.now += 0.31
     assert hand.hold(1.0, lean(0, 40)) == (0.0, 0.0)
@@ -195,7 +195,7 @@ def test_a_fall_opens_it_and_steps_do_not() -> None:
         hand.now += 0.02
         hand.tilt.feel(hand.now, (0.1, 0.0, 0.2))
         hand.tilt.feed(hand.now, hand.axes)
-    assert hand.tilt.look(hand.now) == (0.0, 0.0)
+    assert hand.tilt.update(hand.now) == (0.0, 0.0)
     assert "falls" in hand.tilt.why
 
 
@@ -225,7 +225,7 @@ def test_a_walkers_steps_on_the_accelerometer_alone_command_next_to_nothing() ->
         step = math.sin(n * 0.02 * 2 * math.pi * 1.85)
         a = (2 * step + random.gauss(0, 1), 1.5 * step + random.gauss(0, 1), 9.8 + 3 * step)
         hand.tilt.feed(hand.now, level(hand.now, a))
-        told.append(math.hypot(*hand.tilt.look(hand.now)))
+        told.append(math.hypot(*hand.tilt.update(hand.now)))
     assert sum(told) / len(told) < 0.02
     assert sum(one > 0 for one in told) < 0.05 * len(told)
 

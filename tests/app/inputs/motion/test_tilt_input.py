@@ -68,8 +68,8 @@ class Handheld:
         for _ in range(round(seconds / 0.03)):
             self.time += 0.03
             self.source.tell()
-            self.sensing.look()
-            self.tilting.look(self.time)
+            self.sensing.update()
+            self.tilting.update(self.time)
 
     def key(self, name: str) -> Press:
         return Press("key", 0, name, self.time)
@@ -201,8 +201,8 @@ def test_a_frozen_sensor_opens_it(handheld: Handheld) -> None:
     for _ in range(60):
         handheld.time += 0.03
         handheld.source.put("gravity", handheld.time, leaned(0.0, math.radians(30)))
-        handheld.sensing.look()
-        handheld.tilting.look(handheld.time)
+        handheld.sensing.update()
+        handheld.tilting.update(handheld.time)
     assert handheld.last == (0.0, 0.0)
     assert "stood still" in handheld.said[0]
 

@@ -56,7 +56,7 @@ def react(test: Reaction, after: float, now: float) -> float:
     """Wait for the sign, press so long after it, and wait until that is told."""
     while test.phase != "go":
         now += 0.01
-        test.look(now)
+        test.update(now)
     now += after
     test.press(now)
     return now
@@ -83,7 +83,7 @@ def test_who_presses_before_the_sign_or_never_does_it_once_more() -> None:
     assert test.done == 1
     while test.phase != "missed":
         now += 0.1
-        test.look(now)
+        test.update(now)
     assert test.done == 1
 
 

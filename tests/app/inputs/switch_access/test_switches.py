@@ -98,7 +98,7 @@ class Hand:
     def wait(self, seconds: float) -> None:
         for _ in range(round(seconds / 0.03)):
             self.now += 0.03
-            self.switches.look(self.now)
+            self.switches.update(self.now)
 
 
 @pytest.fixture

@@ -30,7 +30,7 @@ class Written:
     def __init__(self, ipa: str, sure: float = 0.9) -> None:
         self.table, self.asked = opinion(ipa, sure=sure), 0
 
-    def hear(self, samples: np.ndarray) -> np.ndarray:
+    def log_probs(self, samples: np.ndarray) -> np.ndarray:
         self.asked += 1
         return self.table
 

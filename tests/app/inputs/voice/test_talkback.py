@@ -72,7 +72,7 @@ class Desk:
 
     def wait(self, seconds: float) -> None:
         self.t += seconds
-        self.talking.look(self.t)
+        self.talking.update(self.t)
 
     def taken(self, heard: Heard, what: Any, sentence: str = "It is so.") -> None:
         for listener in self.app.intents.on_taken:

@@ -113,13 +113,13 @@ class Desk:
 
     def wait(self, seconds: float) -> None:
         self.t += seconds
-        self.speaking.look(self.t)
+        self.speaking.update(self.t)
 
     def says(self, command: str, **more: Any) -> None:
         self.recogniser.hear(
             Result(command, command, 0.9, **{"began": self.t - 0.5, "ended": self.t, **more})
         )
-        self.speaking.look(self.t)
+        self.speaking.update(self.t)
 
 
 @pytest.fixture

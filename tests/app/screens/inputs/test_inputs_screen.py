@@ -74,7 +74,7 @@ def test_what_was_understood_asks_over_the_screen_and_a_finger_says_yes(
     app = glass.app
     app.open(robot.url)
     glass.until(lambda: app.shell is not None and app.session.control == "mine", "no control")
-    assert app.intents.take(Heard("go_home", "voice", confidence=0.8, said="go home")).what == "asks"
+    assert app.intents.submit(Heard("go_home", "voice", confidence=0.8, said="go home")).what == "asks"
     card = app.shell.wishes.card
     glass.until(lambda: card.parent is not None, "nothing asks")
     assert "Voice, “go home”: 80 % sure." in card.said
@@ -92,11 +92,11 @@ def test_what_waits_is_cancelled_by_a_finger_and_a_refusal_is_said(glass: Glass,
     app = glass.app
     app.open(robot.url)
     glass.until(lambda: app.shell is not None and app.session.control == "mine", "no control")
-    app.intents.take(Heard("start", "shake"))
+    app.intents.submit(Heard("start", "shake"))
     glass.until(lambda: any("Shake may not" in text for text in glass.banners()), "it is not said")
     app.shell.toggle_control()
     glass.until(lambda: app.session.control == "free", "control is not given up")
-    app.intents.take(Heard("take_control", "voice"))
+    app.intents.submit(Heard("take_control", "voice"))
     card = app.shell.wishes.card
     glass.until(lambda: card.parent is not None, "nothing waits")
     cancel = next(button for button in card.walk(restrict=True) if getattr(button, "text", "") == "Cancel")

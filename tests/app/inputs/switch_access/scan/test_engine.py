@@ -66,7 +66,7 @@ class Bench:
     def wait(self, seconds: float) -> None:
         for _ in range(math.ceil(seconds / TICK)):
             self.now += TICK
-            self.engine.look(self.now)
+            self.engine.update(self.now)
 
     def down(self, switch: Literal["A", "B"]) -> None:
         self.engine.press(switch, switch, self.now)

@@ -25,7 +25,7 @@ class Box:
     def wait(self, seconds: float) -> None:
         for _ in range(round(seconds / 0.01)):
             self.now += 0.01
-            self.contacts.look(self.now)
+            self.contacts.update(self.now)
 
     def down(self, switch: str, source: object = "key") -> None:
         self.contacts.down("A" if switch == "A" else "B", source, self.now)
@@ -189,7 +189,7 @@ def test_and_is_told_after_it_though_one_frame_was_drawn_meanwhile() -> None:
     box.down("A")
     box.up("A")
     box.now += 0.2
-    box.contacts.look(box.now)
+    box.contacts.update(box.now)
     assert box.told[2:] == ["down B", "up B", "down A", "up A"]
 
 
@@ -230,7 +230,7 @@ def test_a_press_that_ended_while_a_slow_frame_was_drawn_is_no_stop_and_nothing_
     box.down("B")
     box.wait(0.1)
     box.now += 1.2  # one frame
-    box.contacts.look(box.now)  # its release waits in the queue behind the heartbeat
+    box.contacts.update(box.now)  # its release waits in the queue behind the heartbeat
     assert box.told == ["down B"]
     box.up("B")
     box.wait(0.2)
@@ -242,7 +242,7 @@ def test_one_that_is_still_down_after_a_slow_frame_is_stop_with_the_next() -> No
     box.wait(0.1)
     box.down("B")
     box.now += 1.2
-    box.contacts.look(box.now)
+    box.contacts.update(box.now)
     assert box.told == ["down B"]
     box.wait(0.01)
     assert box.told == ["down B", "stop B"]
@@ -253,7 +253,7 @@ def test_where_every_frame_is_slow_b_is_stop_one_frame_later() -> None:
     box.down("B")
     while "stop B" not in box.told:
         box.now += 0.3
-        box.contacts.look(box.now)
+        box.contacts.update(box.now)
     assert box.now == pytest.approx(1.2)
 
 

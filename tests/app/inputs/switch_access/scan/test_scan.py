@@ -93,25 +93,25 @@ def test_a_step_that_was_meant_as_a_hold_is_taken_back() -> None:
 def test_by_itself_it_steps_with_the_interval_and_stays_longer_on_the_first() -> None:
     scan = woken(tree("a", "b", "c"), Pace(by_itself=True, interval=1.0, first=0.7))
     assert until(scan) == 1.7
-    assert not scan.look(1.6)
-    assert scan.look(1.7)
+    assert not scan.update(1.6)
+    assert scan.update(1.7)
     assert marked(scan) == "item b"
-    assert not scan.look(2.6)
-    assert scan.look(2.75)
+    assert not scan.update(2.6)
+    assert scan.update(2.75)
     assert marked(scan) == "item c"
 
 
 def test_it_waits_while_the_switch_is_down() -> None:
     scan = woken(tree("a", "b"), Pace(by_itself=True, interval=1.0, first=0.0))
-    assert not scan.look(1.5, wait=True)
-    assert not scan.look(2.4)
-    assert scan.look(2.5)
+    assert not scan.update(1.5, wait=True)
+    assert not scan.update(2.4)
+    assert scan.update(2.5)
 
 
 def test_by_itself_it_goes_round_so_often_then_up_then_to_sleep() -> None:
     scan = woken(TWO_GROUPS, Pace(by_itself=True, interval=1.0, first=0.0, loops=2))
     scan.select(0.0)
-    seen = [marked(scan), *(marked(scan) for step in range(1, 20) if scan.look(float(step)))]
+    seen = [marked(scan), *(marked(scan) for step in range(1, 20) if scan.update(float(step)))]
     inside = ["item a", "item b", "back a+b"]
     assert seen[:7] == [*inside, *inside, "group a+b"]
     assert seen[7:] == ["group c+d", "item e", "group a+b", "group c+d", "item e", ""]
@@ -120,8 +120,8 @@ def test_by_itself_it_goes_round_so_often_then_up_then_to_sleep() -> None:
 def test_with_one_switch_the_way_out_of_a_group_is_one_of_its_steps() -> None:
     scan = woken(TWO_GROUPS, Pace(by_itself=True, interval=1.0, first=0.0))
     scan.select(0.0)
-    scan.look(1.0)
-    scan.look(2.0)
+    scan.update(1.0)
+    scan.update(2.0)
     assert marked(scan) == "back a+b"
     assert done(scan, 2.5) == ""
     assert marked(scan) == "group a+b"
@@ -129,7 +129,7 @@ def test_with_one_switch_the_way_out_of_a_group_is_one_of_its_steps() -> None:
 
 def test_two_switches_wait_for_ever() -> None:
     scan = woken()
-    assert not scan.look(1e6)
+    assert not scan.update(1e6)
     assert marked(scan) == "group a+b"
     assert math.isnan(until(scan))
 

@@ -110,8 +110,8 @@ def screens(walk: Walk) -> Iterator[tuple[str, Callable[[], object]]]:
             f"form {form}",
             lambda form=form: inputs.pane("study")._unroll(FormView(form, inputs.pane("study").log, app.now)),
         )
-    yield "what waits", lambda: app.intents.take(Heard("end_task", "voice", 0.9, said="end"))
-    yield "what asks", lambda: app.intents.take(Heard("go_home", "voice", 0.9, said="home"))
+    yield "what waits", lambda: app.intents.submit(Heard("end_task", "voice", 0.9, said="end"))
+    yield "what asks", lambda: app.intents.submit(Heard("go_home", "voice", 0.9, said="home"))
     yield "no more", lambda: app.intents.answer(False)
     yield "reset", app.shell.reset.ask
     yield "the mode", lambda: app.show("drive") or app.shell.cards.ask_mode()

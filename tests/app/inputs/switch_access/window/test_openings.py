@@ -89,7 +89,7 @@ def test_a_pad_that_is_taken_away_leaves_nothing_pushed(
     press(openings, stage, "ahead")
     assert lever.forward > 0
     lever.disabled = True
-    openings.look()
+    openings.update()
     assert openings.pad is None
     assert lever.forward == 0.0
 

@@ -10,7 +10,7 @@ from tests.app.inputs.voice.sounds import quiet, voice
 
 def words(samples, points=None):
     points = points or Endpointer()
-    return [segment for part, at in chunks(samples) for segment in points.hear(part, at)]
+    return [segment for part, at in chunks(samples) for segment in points.feed(part, at)]
 
 
 def test_words_between_silences_are_found_where_they_are():

@@ -13,7 +13,7 @@ from tests.app.inputs.voice.sounds import quiet, voice
 def heard(*parts):
     meter = NoiseMeter()
     for part, at in chunks(np.concatenate(parts)):
-        meter.hear(part, at)
+        meter.feed(part, at)
     return meter
 
 
@@ -49,14 +49,14 @@ def test_what_was_found_before_the_ears_were_closed_counts_again_once_it_is_hear
         meter.rest()
         assert (meter.too_loud, meter.outdated) == (True, True)
         for part, at in chunks(quiet(LASTING + 0.2, noise), 20.0):
-            meter.hear(part, at)
+            meter.feed(part, at)
         assert (meter.too_loud, meter.outdated) == (loud, False)
 
 
 def test_it_is_not_switched_while_somebody_speaks():
     meter = NoiseMeter()
     for part, at in chunks(quiet(9.0, 0.2)):
-        meter.hear(part, at, speaking=True)
+        meter.feed(part, at, speaking=True)
     assert not meter.too_loud
 
 

@@ -40,7 +40,7 @@ def said(judge, *, samples=None, heed=False, finish=False):
     for part, at in chunks(
         np.concatenate((quiet(1.0), voice(0.6), quiet(1.0))) if samples is None else samples
     ):
-        hearing.hear(part, at)
+        hearing.feed(part, at)
     if finish:
         hearing.finish(at)
     return told
@@ -126,10 +126,10 @@ def test_words_that_stand_clear_of_the_noise_count_though_it_was_too_loud_a_mome
     hearing = SpeechPipeline(GRAMMAR, Judge("pause"), told.append)
     at = 0.0
     for part, at in chunks(quiet(9.0, 0.2)):
-        hearing.hear(part, at)
+        hearing.feed(part, at)
     hearing.finish(at)
     for part, now in chunks(np.concatenate((quiet(1.0), voice(0.6), quiet(0.6))), at):
-        hearing.hear(part, now)
+        hearing.feed(part, now)
     assert [event.command for event in told if isinstance(event, Result)] == ["pause"]
 
 
@@ -138,12 +138,12 @@ def test_soft_words_in_what_was_too_loud_a_moment_ago_do_not_count_before_it_is_
     hearing = SpeechPipeline(GRAMMAR, Judge("pause"), told.append)
     at = 0.0
     for part, at in chunks(quiet(9.0, 0.2)):
-        hearing.hear(part, at)
+        hearing.feed(part, at)
     hearing.finish(at)
     told.clear()
     soft = np.concatenate((quiet(0.4, 0.01), voice(0.4, 0.05), quiet(1.0, 0.01)))
     for part, now in chunks(soft, at):
-        hearing.hear(part, now)
+        hearing.feed(part, now)
     assert [event.reason for event in words(told)] == ["It is too loud here to be sure."]
 
 
@@ -171,8 +171,8 @@ class Minded(Written):
         super().__init__(looks[0])
         self.tables = [opinion(look) for look in looks]
 
-    def hear(self, samples):
-        super().hear(samples)
+    def log_probs(self, samples):
+        super().log_probs(samples)
         return self.tables[self.asked - 1]
 
 
@@ -192,9 +192,9 @@ def test_the_second_look_is_at_words_with_less_noise_in_them():
     heard = []
 
     class Noting(Written):
-        def hear(self, samples):
+        def log_probs(self, samples):
             heard.append(samples)
-            return super().hear(samples)
+            return super().log_probs(samples)
 
     samples = quiet(1.2, 0.02)
     samples[5000:14000] += voice(0.5625)

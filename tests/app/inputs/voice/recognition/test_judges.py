@@ -89,7 +89,7 @@ def test_stop_is_heard_amid_a_stream_and_told_once(kind: Kind) -> None:
     hearing = SpeechPipeline(kind.grammar, kind.judge, told.append)
     stream = np.concatenate((_quiet(1.5), kind.say(kind.phrases["stop"]), _quiet(1.5)))
     for part, at in chunks(stream):
-        hearing.hear(part, at)
+        hearing.feed(part, at)
     assert [event.command for event in told if isinstance(event, Result)] == ["stop"]
 
 
@@ -101,5 +101,5 @@ def test_stop_is_heard_while_a_question_is_open_and_nothing_else_is(kind: Kind) 
     for command in ("lights", "stop"):
         parts += [kind.say(kind.phrases[command]), _quiet(1.5)]
     for part, at in chunks(np.concatenate(parts)):
-        hearing.hear(part, at)
+        hearing.feed(part, at)
     assert [event.command for event in told if isinstance(event, Result)] == ["stop"]

@@ -110,7 +110,7 @@ def test_neither_is_said_in_one_sentence(clock):
 def test_what_is_shorter_than_one_window_is_heard_as_well():
     pytest.importorskip("hama")
     model = HamaModel()
-    assert model.hear(np.zeros(10, np.float32)).shape == (2, len(model.tokens))
+    assert model.log_probs(np.zeros(10, np.float32)).shape == (2, len(model.tokens))
 
 
 def test_the_model_is_run_on_one_core_by_samples_of_full_scale_at_most(monkeypatch):
@@ -120,7 +120,7 @@ def test_the_model_is_run_on_one_core_by_samples_of_full_scale_at_most(monkeypat
     monkeypatch.setattr(module, "chosen", lambda *_: lambda wave: heard.append(wave) or wave)
     model = HamaModel()
     assert told == [0]
-    model.hear(np.linspace(-3.0, 3.0, 800))
+    model.log_probs(np.linspace(-3.0, 3.0, 800))
     assert (heard[0].min(), heard[0].max(), heard[0].dtype) == (-1.0, 1.0, np.float32)
 
 

@@ -50,11 +50,11 @@ def test_the_model_runs_when_the_voice_sinks_and_rarely_while_it_goes_on():
     now = 5.0
     while now < 6.0:
         now += 0.05
-        spot.look(Segment(voice(now - 5.0 + 0.3), 5.0, now), now)
+        spot.search(Segment(voice(now - 5.0 + 0.3), 5.0, now), now)
     assert model.asked <= 1.0 / EVERY + 1
     asked = model.asked
     for number in range(10):
-        spot.look(Segment(voice(1.3), 5.0, now), now + LOOKS[0] + number * 0.05)
+        spot.search(Segment(voice(1.3), 5.0, now), now + LOOKS[0] + number * 0.05)
     assert model.asked - asked == len(LOOKS)
 
 

@@ -177,7 +177,7 @@ def test_nothing_that_it_says_is_taken_for_stop_by_the_microphone() -> None:
         rest = np.random.default_rng(1).normal(0.0, 1e-3, 12000).astype(np.float32)
         sound = resampled(np.asarray(voice(words, seed=1), np.float32), 24000)
         for part, at in chunks(np.concatenate((rest, sound, rest, rest))):
-            hearing.hear(part, at)
+            hearing.feed(part, at)
         return [one.command for one in told if isinstance(one, Result)]
 
     said = ("STOP is pressed.", "The robot is stopped.", "Emergency stop was released.")

@@ -45,7 +45,7 @@ class Desk:
         self.rests += 1
 
     def plug(self, *states: PadState) -> None:
-        self.gamepads.hear(states)
+        self.gamepads.update(states)
 
     def key(self, name: str) -> None:
         self.presses.press(Press("key", ord(name[0]), name, self.time))

@@ -85,7 +85,7 @@ def test_leaving_asks_for_no_key_any_more(pane: Any) -> None:
 def test_without_a_key_it_says_so(pane: Any) -> None:
     for _ in range(2):
         pane._clear("b")
-    assert "No key is the switch" in pane.remark.text
+    assert "No key is assigned to the switch" in pane.remark.text
 
 
 def test_a_figure_is_kept_and_all_are_put_back_by_one_button(pane: Any) -> None:
@@ -104,12 +104,12 @@ def test_the_test_proposes_an_interval_and_a_button_takes_it(pane: Any) -> None:
     for _ in range(pane.test.of):
         while pane.picture.phase != "go":
             pane.clock.now += 0.05
-            pane.switches.look(pane.clock.now)
+            pane.switches.update(pane.clock.now)
             pane._watch()
         pane.clock.now += 0.6
         press(pane, "enter")
         pane.clock.now += 0.2
-        pane.switches.look(pane.clock.now)
+        pane.switches.update(pane.clock.now)
     assert pane.picture.phase == "done"
     assert pane.begin.text == "Take 1.0 s"
     pane.begin.dispatch("on_release")

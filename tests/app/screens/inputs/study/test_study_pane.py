@@ -87,7 +87,7 @@ class Bench:
     def prompt(self):
         while self.log.trials.prompt is None:
             self.time += 0.5
-            self.log.look(self.time)
+            self.log.update(self.time)
         self.tick()
         return self.log.trials.prompt
 
