@@ -13,17 +13,17 @@ from kivy.app import App
 from kivy.core.window import Window
 
 from app.core.client_identity import client_identity
-from app.core.notifications import tell
+from app.core.notifications import notify
 from app.core.settings_store import Settings
 from app.device import device_name, is_android, own_folder
-from app.discovery.known_robots import Robots
+from app.discovery.known_robots import KnownRobots
 from app.garbage_collector import Collector
 from app.inputs.inputs import Inputs
 from app.inputs.methods import Methods
 from app.inputs.motion.motion_sensing import MotionSensing
 from app.intents.intent_executor import IntentExecutor
 from app.intents.intents import Intents
-from app.intents.method_permits import Permits
+from app.intents.method_permits import MethodPermits
 from app.layout.layout_choice import LayoutChoice
 from app.link.feeds import Post
 from app.network_side import NetworkSide
@@ -33,12 +33,12 @@ from app.robot_visit import RobotVisit
 from app.root import Root
 from app.screens.connect.connect import ConnectScreen
 from app.screens.connect.simulator_card import CHANNEL as SIMULATED
-from app.screens.connect.simulator_card import Simulating
+from app.screens.connect.simulator_card import SimulatorLauncher
 from app.screens.inputs.page import InputsPage
 from app.screens.parts.themes import Themes
 from app.screens.shell.key_help import toggle_help
 from app.screens.shell.stop_corner import StopCorner
-from app.session.recordings import Records
+from app.session.recordings import Recordings
 from app.session.session import Session
 from app.stop.fleet import Fleet
 from app.timers import TICK_EVERY, Timers
@@ -85,7 +85,7 @@ class PilothouseApp(App):
         self._url, self._first_screen, self._theme = url, screen or "mission", theme
         self.layouts = LayoutChoice(CATALOGUE, layout)
         self._settings_dir = settings_dir
-        self.simulating = Simulating(self, simulator, self.say, now)
+        self.simulating = SimulatorLauncher(self, simulator, self.say, now)
         self._discover, self._poll = discover, poll
         self.now = now
         """Our clock [s]."""
@@ -109,7 +109,7 @@ class PilothouseApp(App):
         return {"connect": self.connect, **(self.shell.screens if self.shell else {})}
 
     @property
-    def robots(self) -> Robots:
+    def robots(self) -> KnownRobots:
         """Every robot that is heard or saved."""
         return self.robot_list.robots
 
@@ -119,7 +119,7 @@ class PilothouseApp(App):
         """Make the connect screen; the others are made when there is a robot to show."""
         folder = Path(self._settings_dir or own_folder(lambda: self.user_data_dir))
         self.settings = Settings(folder)
-        self.records = Records(folder, self.say)
+        self.records = Recordings(folder, self.say)
         self.themes = Themes(self.settings, self._theme)
         self.client_id = client_identity(self.settings)
         self.client_name = str(self.settings.get("client_name") or device_name())
@@ -129,7 +129,7 @@ class PilothouseApp(App):
         self.pages = Pages(root, self.connect, InputsPage(app=self), self._first_screen)
         self.acting = IntentExecutor(self)
         self.acting.on_help = partial(toggle_help, self)
-        self.intents = Intents(self.acting, Permits(self.settings), self.now)
+        self.intents = Intents(self.acting, MethodPermits(self.settings), self.now)
         self.methods = Methods(self)
         self.fleet = Fleet(client_id=self.client_id, client_name=self.client_name, now=self.now)
         self.corner = StopCorner(self, self.fleet, self.say)
@@ -301,4 +301,4 @@ class PilothouseApp(App):
 
     def say(self, text: str, level: str) -> None:
         """Show one sentence, wherever the operator looks."""
-        tell(self, text, level)
+        notify(self, text, level)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.core.settings_store import Settings
-from app.link.event_order import Known
+from app.link.event_order import KnownEvents
 from app.link.feeds import Feeds, Mailbox
 from app.link.link import Link
 from app.session.logbook import marks
@@ -35,7 +35,7 @@ class Connector:
         self._client_id, self._client_name = client_id, client_name
         self._on_frame, self._now = on_frame, now
 
-    def link(self, url: str, known: Known | None = None) -> Link:
+    def link(self, url: str, known: KnownEvents | None = None) -> Link:
         """A link to the robot at `url`; `known` is how far its events are known."""
         link = Link(
             url,

@@ -7,10 +7,10 @@ from collections.abc import Callable
 
 from app.connector import Connector
 from app.core.settings_store import Settings
-from app.discovery.beacon_listener import Nearby
-from app.link.camera_decoder import Camera
+from app.discovery.beacon_listener import BeaconListener
+from app.link.camera_decoder import CameraDecoder
 from app.link.feeds import Mailbox, Post
-from app.session.recordings import Records
+from app.session.recordings import Recordings
 from app.timers import GLASS_PERIOD, wake_trigger
 from bridge.core.camera_frames import Frame
 from bridge.core.network_thread import NetworkThread
@@ -24,7 +24,7 @@ class NetworkSide:
     def __init__(
         self,
         settings: Settings,
-        records: Records,
+        records: Recordings,
         *,
         client_id: str,
         client_name: str,
@@ -37,8 +37,8 @@ class NetworkSide:
         self._drained = -math.inf
         self.mailbox = Mailbox(wake_trigger(self.drain))
         self._network = NetworkThread()
-        self._camera = Camera(self.mailbox)
-        self.nearby = Nearby(self.mailbox, self._network, now=now)
+        self._camera = CameraDecoder(self.mailbox)
+        self.nearby = BeaconListener(self.mailbox, self._network, now=now)
         if discover:
             self.nearby.start()
         self.connector = Connector(

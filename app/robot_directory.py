@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from app.core.settings_store import Settings
-from app.discovery.beacon_listener import HELLO, LATENCY, Nearby
-from app.discovery.known_robots import Robots, check_address
+from app.discovery.beacon_listener import HELLO, LATENCY, BeaconListener
+from app.discovery.known_robots import KnownRobots, check_address
 from app.link.feeds import Post
 from app.screens.connect.connect import ConnectScreen
 from app.screens.parts.dialogs import AddressDialog
@@ -32,7 +32,7 @@ class RobotDirectory:
     def __init__(self, app: Host, settings: Settings, client_id: str, now: Callable[[], float]) -> None:
         """`client_id` is who this handheld is; `now` is our clock [s]."""
         self._app, self._settings, self._client_id = app, settings, client_id
-        self.robots = Robots(now, settings.get("robots") or ())
+        self.robots = KnownRobots(now, settings.get("robots") or ())
         """Every robot that is heard or saved."""
         self._unproven = ""
         """The address that was typed last, until something answers there."""
@@ -52,7 +52,7 @@ class RobotDirectory:
         self.robots.name(url, info.name, info.kind, info.description, info.icon)
         self._save()
 
-    def show(self, nearby: Nearby) -> None:
+    def show(self, nearby: BeaconListener) -> None:
         """Bring the cards up to date, and have `nearby` measure the robots on them."""
         entries = self.robots.entries()
         self._app.connect.show_entries(entries, self._client_id)

@@ -11,8 +11,8 @@ from app.link.feeds import Post
 from app.pages import Pages
 from app.screens.connect.connect import ConnectScreen
 from app.session.connecting import connecting_words, has_failed
-from app.session.picture_feed import Pictures
-from app.session.recordings import Records
+from app.session.picture_feed import PictureFeed
+from app.session.recordings import Recordings
 from app.session.session import Session
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ class RobotVisit:
         self,
         pages: Pages,
         connect: ConnectScreen,
-        records: Records,
+        records: Recordings,
         *,
         connector: Callable[[], Connector],
         make_shell: Callable[[Session], Shell],
@@ -44,7 +44,7 @@ class RobotVisit:
         self._pages, self._connect, self._records = pages, connect, records
         self._connector, self._make_shell = connector, make_shell
         self._rest, self._on_cut, self._on_left = rest, on_cut, on_left
-        self._pictures = Pictures(now)
+        self._pictures = PictureFeed(now)
         self.session: Session | None = None
         """None while no robot is wanted."""
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Container, Mapping
 from typing import Any, TypeGuard
 
-__all__ = ["Kept", "known", "number", "shown"]
+__all__ = ["CheckedSettings", "known", "number", "shown"]
 
 LETTERS = 40
 """So much of a value is shown."""
@@ -35,7 +35,7 @@ def shown(value: object) -> str:
     return text if len(text) <= LETTERS else f"{text[: LETTERS - 1]}…"
 
 
-class Kept:
+class CheckedSettings:
     """A table of settings that is read value by value; what is not there is as usual, and no mistake."""
 
     def __init__(self, value: object, about: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-__all__ = ["tell"]
+__all__ = ["notify"]
 
 
 class Frame(Protocol):
@@ -33,7 +33,7 @@ class Host(Protocol):
         """The frame round the robot's screens; None where there is no robot."""
 
 
-def tell(app: Host, sentence: str, level: str = "warn", about: str = "") -> None:
+def notify(app: Host, sentence: str, level: str = "warn", about: str = "") -> None:
     """Show it; with a robot in place of what was said `about` the same before."""
     if app.shell is not None:
         app.shell.say(sentence, level, about=about)

@@ -16,7 +16,7 @@ from app.link.feeds import Mailbox
 from bridge.core.network_thread import NetworkThread
 from bridge.discovery.beacon import Hello, Listener
 
-__all__ = ["HELLO", "LATENCY", "Nearby"]
+__all__ = ["HELLO", "LATENCY", "BeaconListener"]
 
 log = logging.getLogger(__name__)
 
@@ -28,7 +28,7 @@ PATIENCE = 1.0
 """How long one measurement may take [s]."""
 
 
-class Nearby:
+class BeaconListener:
     """Fills the mailbox with what is heard."""
 
     def __init__(self, mailbox: Mailbox, network: NetworkThread, *, now: Callable[[], float]) -> None:

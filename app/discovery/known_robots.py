@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 
 from bridge.discovery.beacon import Hello
 
-__all__ = ["Entry", "Robots", "check_address"]
+__all__ = ["Entry", "KnownRobots", "check_address"]
 
 PATIENCE = 3.0
 """A robot silent for longer is lost [s]; it says HELLO twice a second."""
@@ -90,7 +90,7 @@ class Entry:
         return address(self.url)
 
 
-class Robots:
+class KnownRobots:
     """Keeps the list. Lives in the UI thread; the HELLOs come through the mailbox."""
 
     def __init__(self, now: Callable[[], float], saved: Iterable[dict[str, Any]] = ()) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 import msgspec
 
-__all__ = ["Choice", "Offered", "SimulatedRobot", "SimulatedWorld"]
+__all__ = ["SimulationChoice", "SimulatorOptions", "SimulatedRobot", "SimulatedWorld"]
 
 
 class SimulatedRobot(msgspec.Struct, frozen=True):
@@ -41,14 +41,14 @@ class SimulatedWorld(msgspec.Struct, frozen=True):
         return self.name.replace("_", " ").capitalize()
 
 
-class Offered(msgspec.Struct, frozen=True):
+class SimulatorOptions(msgspec.Struct, frozen=True):
     """All that can be simulated."""
 
     robots: list[SimulatedRobot]
     worlds: list[SimulatedWorld]
 
     @classmethod
-    def read(cls, text: str) -> Offered:
+    def read(cls, text: str) -> SimulatorOptions:
         """What `python -m robotside offer --json` said; ValueError when that is not to be understood."""
         offered = msgspec.convert(json.loads(text), cls)
         if not offered.robots:
@@ -65,7 +65,7 @@ class Offered(msgspec.Struct, frozen=True):
 
 
 @dataclass(frozen=True, slots=True)
-class Choice:
+class SimulationChoice:
     """At least one robot, and a world that all of them can be in."""
 
     robots: tuple[str, ...] = ("patrol",)
@@ -73,7 +73,7 @@ class Choice:
     """Empty for the robots' home."""
 
     @classmethod
-    def remembered(cls, value: Any) -> Choice:
+    def remembered(cls, value: Any) -> SimulationChoice:
         """From what `kept` gave; the usual one when that is not to be understood."""
         try:
             robots, world = tuple(value["robots"]), value["world"]
@@ -88,34 +88,34 @@ class Choice:
         """As a JSON value, to remember it."""
         return {"robots": list(self.robots), "world": self.world}
 
-    def within(self, offered: Offered) -> Choice:
+    def within(self, offered: SimulatorOptions) -> SimulationChoice:
         """What of it there is; the first robot when there is nothing of it."""
         robots = tuple(name for name in self.robots if offered.robot(name)) or (offered.robots[0].name,)
         while len(robots) > 1 and not offered.fitting(robots):
             robots = robots[:-1]
-        return _placed(Choice(robots, self.world), offered)
+        return _placed(SimulationChoice(robots, self.world), offered)
 
-    def tapped(self, robot: str, offered: Offered) -> Choice:
+    def tapped(self, robot: str, offered: SimulatorOptions) -> SimulationChoice:
         """With `robot` or without it; those who cannot be in one world with a new one are let go."""
         if robot in self.robots:
             others = tuple(name for name in self.robots if name != robot)
-            return _placed(Choice(others, self.world), offered) if others else self
+            return _placed(SimulationChoice(others, self.world), offered) if others else self
         kept: tuple[str, ...] = (robot,)
         for name in self.robots:
             if offered.fitting((*kept, name)):
                 kept = (*kept, name)
         in_order = tuple(each.name for each in offered.robots if each.name in kept)
-        return _placed(Choice(in_order, self.world), offered, robot)
+        return _placed(SimulationChoice(in_order, self.world), offered, robot)
 
-    def moved(self, world: str, offered: Offered) -> Choice:
+    def moved(self, world: str, offered: SimulatorOptions) -> SimulationChoice:
         """The same robots in another world; as it is when they cannot be there."""
         fits = any(each.name == world for each in offered.fitting(self.robots))
-        return Choice(self.robots, world) if fits else self
+        return SimulationChoice(self.robots, world) if fits else self
 
 
-def _placed(choice: Choice, offered: Offered, first: str = "") -> Choice:
+def _placed(choice: SimulationChoice, offered: SimulatorOptions, first: str = "") -> SimulationChoice:
     """In the world that it says if that fits, else in the home of one of the robots, of `first` before others."""
     fitting = [world.name for world in offered.fitting(choice.robots)]
     homes = [robot.home for name in (first, *choice.robots) if (robot := offered.robot(name))]
     wanted = [choice.world, *homes, *fitting]
-    return Choice(choice.robots, next((name for name in wanted if name in fitting), ""))
+    return SimulationChoice(choice.robots, next((name for name in wanted if name in fitting), ""))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-from app.core.checked_settings import Kept, shown
+from app.core.checked_settings import CheckedSettings, shown
 from app.inputs.binding_actions import MEANINGS
 from app.inputs.gamepad import pad_map
 from app.inputs.gamepad.pad_map import Profile
@@ -30,7 +30,7 @@ class Bindings:
         self.problems: list[str] = []
         self.keys, wrong = key_table.read(settings.get("keys"), MEANINGS)
         self.problems += wrong
-        kept = Kept(settings.get("gamepads"), "gamepads")
+        kept = CheckedSettings(settings.get("gamepads"), "gamepads")
         self.pads_on = kept.flag("on", usual=True)
         """Gamepads drive and their buttons mean something; STOP does all the same."""
         found = kept.values.get("profiles", {})

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
 from app.core.command_origin import Origin, origins
-from app.intents.method_permits import Permits
+from app.intents.method_permits import MethodPermits
 
 __all__ = [
     "CANCEL_FOR",
@@ -180,7 +180,7 @@ class IntentActions(Protocol):
 class Intents:
     """Takes what was understood, lets what is risky wait, and acts."""
 
-    def __init__(self, acts: IntentActions, permits: Permits, now: Callable[[], float]) -> None:
+    def __init__(self, acts: IntentActions, permits: MethodPermits, now: Callable[[], float]) -> None:
         """`now` is our clock [s]."""
         self._acts, self.table, self._now = acts, permits, now
         self.pending: Pending | None = None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-__all__ = ["ALWAYS", "FORBIDDEN", "SAYS", "Kept", "Permits"]
+__all__ = ["ALWAYS", "FORBIDDEN", "SAYS", "Kept", "MethodPermits"]
 
 ALWAYS = ("stop", "no")
 """Never to be forbidden to a method that can say it."""
@@ -41,7 +41,7 @@ class Kept(Protocol):
         """Remember a JSON value."""
 
 
-class Permits:
+class MethodPermits:
     """The table of methods and intents, with what the operator changed in it."""
 
     def __init__(self, settings: Kept) -> None:

@@ -5,7 +5,7 @@ Everything here lives in the network thread.
 
 from __future__ import annotations
 
-from app.link.capabilities import MANOEUVRE, Offer
+from app.link.capabilities import MANOEUVRE, Capabilities
 from bridge.client.client import BridgeClient
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist, TwistStamped
@@ -24,7 +24,7 @@ class Advertiser:
         self._client = client
         self._advertised: set[str] = set()
 
-    def follow(self, offer: Offer) -> None:
+    def follow(self, offer: Capabilities) -> None:
         """The robot offers this: advertise what it can be driven and placed by."""
         if offer.drive is not None:
             self._advertise(offer.drive, TwistStamped if offer.stamped else Twist)

@@ -13,7 +13,7 @@ from app.core.newest_worker import NewestWorker
 from app.link.feeds import Mailbox
 from bridge.core.camera_frames import Frame
 
-__all__ = ["PICTURE", "Camera", "Picture", "best_decoder"]
+__all__ = ["PICTURE", "CameraDecoder", "Picture", "best_decoder"]
 
 log = logging.getLogger(__name__)
 
@@ -80,7 +80,7 @@ def _kivy(jpeg: bytes) -> tuple[int, int, bytes]:
     return data.width, data.height, bytes(pixels)
 
 
-class Camera:
+class CameraDecoder:
     """Takes frames, posts pictures."""
 
     def __init__(self, mailbox: Mailbox, decode: Decoder | None = None) -> None:

@@ -19,7 +19,7 @@ from bridge.msgs.geometry_msgs import TwistStamped
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.msgs.rosapi_msgs import ServicesResponse, TopicsResponse
 
-__all__ = ["CAMERA", "DRIVE", "MANOEUVRE", "POSE", "Offer", "ask"]
+__all__ = ["CAMERA", "DRIVE", "MANOEUVRE", "POSE", "Capabilities", "ask_capabilities"]
 
 MANOEUVRE = "/cmd_manoeuvre"
 """Where a robot of ours is driven by what a twist does not say."""
@@ -30,7 +30,7 @@ PATIENCE = 3.0
 
 
 @dataclass(frozen=True)
-class Offer:
+class Capabilities:
     """What one robot offers."""
 
     topics: Mapping[str, str]
@@ -44,7 +44,9 @@ class Offer:
     """Topic of the drive command; None when the robot has none."""
 
     @classmethod
-    def of(cls, topics: Mapping[str, str], services: frozenset[str], before: Offer | None = None) -> Offer:
+    def of(
+        cls, topics: Mapping[str, str], services: frozenset[str], before: Capabilities | None = None
+    ) -> Capabilities:
         """Choose among what a robot told. What was chosen `before` is kept for as long as it is there.
 
         For who subscribes or advertises makes a topic of that name, so that later lists hold our own wishes too.
@@ -106,11 +108,13 @@ class Offer:
         return f"{told} Its place is by odometry." if self.pose_by_odometry else told
 
 
-NOTHING = Offer({}, frozenset(), rosapi=False)
+NOTHING = Capabilities({}, frozenset(), rosapi=False)
 """Of a robot that tells nothing."""
 
 
-async def ask(call: Callable[..., Awaitable[Any]], before: Offer | None = None) -> Offer:
+async def ask_capabilities(
+    call: Callable[..., Awaitable[Any]], before: Capabilities | None = None
+) -> Capabilities:
     """Find out what a robot offers, by a client's `call`. Raises NoReply or NotConnected."""
     found = await asyncio.gather(
         call("/rosapi/topics", None, TopicsResponse, timeout=PATIENCE),
@@ -124,6 +128,6 @@ async def ask(call: Callable[..., Awaitable[Any]], before: Offer | None = None) 
     if not isinstance(topics, TopicsResponse):
         return NOTHING
     known = {name: ros1_name(kind) for name, kind in zip(topics.topics, topics.types, strict=False)}
-    return Offer.of(
+    return Capabilities.of(
         known, frozenset(services.services if isinstance(services, ServicesResponse) else ()), before
     )

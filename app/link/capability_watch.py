@@ -10,7 +10,7 @@ import logging
 from collections.abc import Awaitable, Callable
 from typing import Any
 
-from app.link.capabilities import DRIVE, Offer, ask
+from app.link.capabilities import DRIVE, Capabilities, ask_capabilities
 from app.link.task_set import TaskSet
 from bridge.core.errors import NoReply, NotConnected
 
@@ -30,7 +30,7 @@ class CapabilityWatch:
         call: Callable[..., Awaitable[Any]],
         tasks: TaskSet,
         *,
-        on_change: Callable[[Offer], object],
+        on_change: Callable[[Capabilities], object],
         on_arrived: Callable[[bool], object],
     ) -> None:
         """`call` is a client's. `on_change` is called with what is offered when it is known and when it changed.
@@ -38,7 +38,7 @@ class CapabilityWatch:
         `on_arrived` is called once on each link after the first question, with whether it was answered.
         """
         self._call, self._tasks, self._on_change, self._on_arrived = call, tasks, on_change, on_arrived
-        self.capabilities: Offer | None = None
+        self.capabilities: Capabilities | None = None
         """None until the robot said so, which a robot that is not ours does before it is listened to."""
         self._reported = False
         self._watching: asyncio.Task[None] | None = None
@@ -82,7 +82,7 @@ class CapabilityWatch:
     async def renew(self) -> bool:
         """Ask what the robot offers; False when there was no answer."""
         try:
-            found = await ask(self._call, self.capabilities)
+            found = await ask_capabilities(self._call, self.capabilities)
         except (NoReply, NotConnected) as problem:
             log.info("what the robot offers is not known: %s", problem)
             return False

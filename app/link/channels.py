@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from app.link.event_order import Known
+from app.link.event_order import KnownEvents
 from app.link.feeds import Mailbox
 from app.link.subscriptions import Seen
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import ControlStatus
 
-__all__ = ["EVENT", "KNOWN", "LINK", "MISSED", "OFFER", "OUTCOME", "SEEN", "LinkPosts"]
+__all__ = ["EVENT", "KNOWN", "LINK", "MISSED", "CAPABILITIES", "OUTCOME", "SEEN", "LinkPosts"]
 
 EVENT, MISSED, LINK, OUTCOME = "event", "missed", "link", "outcome"
 """`Event`s, what was `Missed`, `LinkState`s, `Outcome`s, all queued."""
 KNOWN = "known"
-"""Newest wins: how far the robot's events are `Known`; it comes after them."""
-OFFER, SEEN = "offer", "seen"
+"""Newest wins: how far the robot's events are `KnownEvents`; it comes after them."""
+CAPABILITIES, SEEN = "offer", "seen"
 """The robot's `Offer` when it is known and when it changed, and what is `Seen` of the topic looked at."""
 
 
@@ -44,6 +44,6 @@ class LinkPosts:
         else:
             self._mailbox.post(SEEN, seen, received)
 
-    def post_known(self, known: Known) -> None:
+    def post_known(self, known: KnownEvents) -> None:
         """More of the robot's log is known."""
         self._mailbox.post(KNOWN, known, self._now())

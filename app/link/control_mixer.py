@@ -15,7 +15,7 @@ from app.link.drive_slot import Drive
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 
-__all__ = ["PARTS", "Parts", "Piloting", "Reach", "order"]
+__all__ = ["PARTS", "Parts", "ControlMixer", "Reach", "order"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +127,7 @@ def _given(value: float) -> float:
     return 0.0 if math.isnan(value) else value
 
 
-class Piloting:
+class ControlMixer:
     """The controls of one screen. It tells the robot what they say together, at every change of any."""
 
     def __init__(

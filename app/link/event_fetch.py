@@ -9,7 +9,7 @@ import asyncio
 import logging
 from collections.abc import Callable, Mapping
 
-from app.link.event_order import EventStream, Known, Missed
+from app.link.event_order import EventStream, KnownEvents, Missed
 from app.link.task_set import TaskSet
 from bridge.client.client import BridgeClient
 from bridge.core.errors import BridgeError, NoReply, NotConnected
@@ -35,14 +35,14 @@ class EventFetch:
         *,
         on_event: Callable[[Event], None],
         on_missed: Callable[[Missed], None],
-        on_known: Callable[[Known], object],
-        known: Known | None = None,
+        on_known: Callable[[KnownEvents], object],
+        known: KnownEvents | None = None,
         marks: Mapping[str, int] | None = None,
     ) -> None:
         """`known` and `marks` are as `EventStream` takes them; `on_known` is called when more of the log is known."""
         self._client, self._tasks, self._on_known = client, tasks, on_known
         self._stream = EventStream(on_event, on_missed, known=known, marks=marks)
-        self._known = Known()
+        self._known = KnownEvents()
         self._fetching: asyncio.Task[None] | None = None
 
     def on_connected(self) -> None:

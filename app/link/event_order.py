@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from bridge.msgs.arrays import Int32Array
 from bridge.msgs.pilothouse_msgs import Event, GetEventsRequest, GetEventsResponse
 
-__all__ = ["AT_FIRST", "AT_ONCE", "GRAVE", "EventStream", "Known", "Missed"]
+__all__ = ["AT_FIRST", "AT_ONCE", "GRAVE", "EventStream", "KnownEvents", "Missed"]
 
 AT_FIRST = 500
 """Events that are asked for by who knows none of a robot's."""
@@ -21,7 +21,7 @@ GRAVE = ("warn", "alarm")
 
 
 @dataclass(frozen=True, slots=True)
-class Known:
+class KnownEvents:
     """How far one log is known."""
 
     boot: str = ""
@@ -59,7 +59,7 @@ class EventStream:
         tell: Callable[[Event], None],
         missed: Callable[[Missed], None] = lambda _: None,
         *,
-        known: Known | None = None,
+        known: KnownEvents | None = None,
         marks: Mapping[str, int] | None = None,
     ) -> None:
         """`tell` gets each event once, oldest first, and once more when somebody has seen to it.
@@ -67,7 +67,7 @@ class EventStream:
         `missed` is told when all that was missed has been told. `known` is how far this robot's log is known
         from before, `marks` the same of any log by its identity, where it is not known which one will answer.
         """
-        known = known or Known()
+        known = known or KnownEvents()
         self._tell, self._missed, self._marks = tell, missed, dict(marks or {})
         self._boot, self._last = known.boot, known.last
         self._open = dict.fromkeys(known.open)
@@ -85,9 +85,9 @@ class EventStream:
         """There are events to ask the robot for."""
 
     @property
-    def known(self) -> Known:
+    def known(self) -> KnownEvents:
         """Everything up to where it has been told; empty before the first answer."""
-        return Known(self._boot, self._last, tuple(self._open))
+        return KnownEvents(self._boot, self._last, tuple(self._open))
 
     def start(self) -> None:
         """A link was made: everything since the last one is missing. Live events wait for the first answer."""

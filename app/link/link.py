@@ -13,14 +13,14 @@ from typing import Any
 from app.core.command_origin import Origin, origins
 from app.link.advertising import INITIAL_POSE, Advertiser
 from app.link.camera_watch import CameraWatch
-from app.link.capabilities import Offer
+from app.link.capabilities import Capabilities
 from app.link.capability_watch import CapabilityWatch
-from app.link.channels import EVENT, LINK, MISSED, OFFER, OUTCOME, LinkPosts
+from app.link.channels import CAPABILITIES, EVENT, LINK, MISSED, OUTCOME, LinkPosts
 from app.link.commands import Commands
 from app.link.drive_sender import DriveSender
 from app.link.drive_slot import Drive
 from app.link.event_fetch import EventFetch
-from app.link.event_order import Known
+from app.link.event_order import KnownEvents
 from app.link.feeds import Mailbox
 from app.link.link_health import LinkHealth
 from app.link.subscriptions import Peek, Sources
@@ -48,7 +48,7 @@ class Link:
         *,
         client_id: str,
         client_name: str,
-        known: Known | None = None,
+        known: KnownEvents | None = None,
         marks: Mapping[str, int] | None = None,
         on_picture: Callable[[Frame, float], None] | None = None,
         now: Callable[[], float] = time.monotonic,
@@ -256,7 +256,7 @@ class Link:
             self._events.without_store()
         self._events.catch_up()
 
-    def _on_capabilities(self, offer: Offer) -> None:
+    def _on_capabilities(self, offer: Capabilities) -> None:
         """Listen to what is there, advertise what is wanted, and stop a robot by the STOP that it has."""
         self._sources.follow(offer)
         self._advertiser.follow(offer)
@@ -264,7 +264,7 @@ class Link:
             self._sender.slot.latch(False)
         elif self.commands.stopping:
             self.commands.void_stop()
-        self._posts.queue(OFFER)(offer)
+        self._posts.queue(CAPABILITIES)(offer)
 
     def _on_message(self, name: str, message: Msg, received: float) -> None:
         self.health.on_sign(received)

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from app.link.capabilities import CAMERA, POSE, Offer
+from app.link.capabilities import CAMERA, POSE, Capabilities
 from bridge.client.client import BridgeClient
 from bridge.core.errors import BridgeError
 from bridge.core.topics import TOPICS, Topic
@@ -48,9 +48,9 @@ class Sources:
         """`event` takes what is told once each."""
         self._client, self._deliver, self._event = client, deliver, event
         self._ends: dict[str, tuple[str, Callable[[], None]]] = {}
-        self._offer: Offer | None = None
+        self._offer: Capabilities | None = None
 
-    def follow(self, offer: Offer | None) -> None:
+    def follow(self, offer: Capabilities | None) -> None:
         """Listen to what the robot offers; None, while that is not known, to the usual names."""
         self._offer = offer
         for entry in TOPICS:

@@ -9,7 +9,7 @@ from app.missions.mission_editor import Draft
 from bridge.msgs.pilothouse_msgs import Limits, Place, PlaceArray, RobotInfo, TaskOrder
 from widgets.map.fence import Fence
 
-__all__ = ["Refusals", "summary"]
+__all__ = ["FenceRefusals", "summary"]
 
 NAMED = 4
 """As many points are called by their numbers."""
@@ -17,7 +17,7 @@ RADIUS = 0.2
 """Of a robot that does not tell its own [m]."""
 
 
-class Refusals:
+class FenceRefusals:
     """The fence that one robot tells, and what it means for what is being made here."""
 
     def __init__(self, feeds: Feeds) -> None:
@@ -61,7 +61,7 @@ class Refusals:
 
 
 def summary(names: Iterable[str]) -> str:
-    """One short sentence about what `Refusals.draft` found; empty for nothing."""
+    """One short sentence about what `FenceRefusals.draft` found; empty for nothing."""
     names = list(names)
     points = [name.removeprefix("Point ") for name in names if name != "Home"]
     words = []

@@ -9,7 +9,7 @@ from app.link.commands import Outcome
 from app.missions.mission_editor import Draft, MissionEditor
 from bridge.msgs.pilothouse_msgs import KeptMission
 
-__all__ = ["LONGEST", "KeptMissions", "Robot"]
+__all__ = ["LONGEST", "StoredMissions", "Robot"]
 
 LONGEST = 60
 """Characters of a mission's name; the robot keeps no more."""
@@ -31,7 +31,7 @@ class Robot(Protocol):
         """Send the draft to the robot."""
 
 
-class KeptMissions:
+class StoredMissions:
     """Asks the robot and keeps what brings back the mission that was there before."""
 
     def __init__(self, robot: Robot) -> None:

@@ -9,13 +9,13 @@ from app.link.feeds import Feeds
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import Checklist
 
-__all__ = ["Checks"]
+__all__ = ["CheckListState"]
 
 MOVES = 0.05
 """A robot is on its way at this speed [m/s], or turning at this rate [rad/s]."""
 
 
-class Checks:
+class CheckListState:
     """One robot's check list on every screen that shows it. Everything here happens in the UI thread."""
 
     def __init__(self, feeds: Feeds, running: Callable[[], bool]) -> None:

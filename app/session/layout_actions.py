@@ -7,13 +7,13 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Protocol
 
-from app.session.recordings import Records
+from app.session.recordings import Recordings
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import LightState, TaskOrder, TaskStatus
 from widgets.controls.action_column import Action
 from widgets.core.task_words import TASKS
 
-__all__ = ["ACTIONS", "CARRIED", "Actions", "Line"]
+__all__ = ["ACTIONS", "CARRIED", "LayoutActions", "Line"]
 
 ACTIONS: dict[str, tuple[str, str]] = {
     "task.surface": ("Surface", "water"),
@@ -75,7 +75,7 @@ class Recording(Protocol):
 class Host(Protocol):
     """The app, as far as actions need it."""
 
-    records: Records
+    records: Recordings
 
     @property
     def visit(self) -> Recording:
@@ -86,7 +86,7 @@ class Host(Protocol):
         """The frame round the robot's screens; None before it is made."""
 
 
-class Actions:
+class LayoutActions:
     """The actions of one layout on one robot. Everything here happens in the UI thread."""
 
     def __init__(self, lines: Iterable[Line], session: Session, app: Host) -> None:

@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 from app.core.settings_store import Settings
 from app.link.commands import Outcome
-from app.link.event_order import GRAVE, Known, Missed
+from app.link.event_order import GRAVE, KnownEvents, Missed
 from bridge.msgs.arrays import Int32Array
 from bridge.msgs.pilothouse_msgs import Event
 
@@ -50,7 +50,7 @@ class Logbook:
         self._away: Missed | None = None
         """What the last absence missed; None when nothing, or when that was looked at."""
         self._asked: set[tuple[str, int]] = set()
-        self._known = Known()
+        self._known = KnownEvents()
         self._open: list[Event] | None = None
         """None when it must be looked through anew."""
         self._told = True
@@ -60,7 +60,7 @@ class Logbook:
     # what it knows
 
     @property
-    def known(self) -> Known:
+    def known(self) -> KnownEvents:
         """How far the log that was heard last is known."""
         return self._known
 
@@ -150,7 +150,7 @@ class Logbook:
         self._away, self._told = missed, False
         self._tell()
 
-    def know(self, known: Known) -> None:
+    def know(self, known: KnownEvents) -> None:
         """Remember how far the log is known, over the app's end."""
         self._known, self._open = known, None if known.boot != self._known.boot else self._open
         if known.boot:

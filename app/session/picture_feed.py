@@ -9,7 +9,7 @@ from typing import Protocol
 from app.link.camera_decoder import Picture
 from app.session.session import Session
 
-__all__ = ["Pictures"]
+__all__ = ["PictureFeed"]
 
 PICTURE_LIVES = 1.0
 """A camera that shows nothing new for longer is stale [s]."""
@@ -52,7 +52,7 @@ class PictureFrame(Protocol):
         """The screen on the glass; None before there is one."""
 
 
-class Pictures:
+class PictureFeed:
     """What the app knows of one robot's camera. Everything here happens in the UI thread."""
 
     def __init__(self, now: Callable[[], float]) -> None:

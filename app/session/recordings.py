@@ -14,13 +14,13 @@ from bridge.core.camera_frames import Frame
 from bridge.core.topics import TOPICS
 from bridge.msgs import Msg
 
-__all__ = ["Records"]
+__all__ = ["Recordings"]
 
 NAME = "%Y-%m-%d_%H-%M-%S"
 """Files are called by the time of day; where one is called so already, `_2` and so on follow."""
 
 
-class Records:
+class Recordings:
     """Writes files below one folder and says what became of them."""
 
     def __init__(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.discovery.known_robots import address
-from app.link.capabilities import Offer
+from app.link.capabilities import Capabilities
 from app.link.feeds import Feeds
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from widgets.core.task_words import known
@@ -18,7 +18,7 @@ class RobotProfile:
         """`url` is the robot's address, which stands for its name until it gives one."""
         self._feeds = feeds
         self.url = url
-        self.capabilities: Offer | None = None
+        self.capabilities: Capabilities | None = None
         """Topics and services of the robot; None until they are known."""
 
     @property

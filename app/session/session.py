@@ -8,18 +8,18 @@ from typing import Any
 
 from app.core.command_origin import origins
 from app.core.settings_store import Settings
-from app.link.capabilities import Offer
-from app.link.channels import EVENT, KNOWN, LINK, MISSED, OFFER, OUTCOME
+from app.link.capabilities import Capabilities
+from app.link.channels import CAPABILITIES, EVENT, KNOWN, LINK, MISSED, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Feeds, Post
 from app.link.link import Link
-from app.missions.fence_refusals import Refusals
+from app.missions.fence_refusals import FenceRefusals
 from app.missions.mission_drafts import MissionDrafts
 from app.missions.mission_editor import Draft
-from app.missions.stored_missions import KeptMissions
+from app.missions.stored_missions import StoredMissions
 from app.missions.tasking import Tasking
 from app.session.camera_choice import CameraChoice
-from app.session.check_list import Checks
+from app.session.check_list import CheckListState
 from app.session.control import Authority
 from app.session.event_intake import EventIntake
 from app.session.initial_pose import initial_pose
@@ -65,9 +65,9 @@ class Session:
         self.drafts = MissionDrafts(settings, self.robot)
         self.mission = self.drafts.editor
         self.tasking = Tasking(self)
-        self.checks = Checks(feeds, lambda: self.running)
-        self.refusals = Refusals(feeds)
-        self.missions = KeptMissions(self)
+        self.checks = CheckListState(feeds, lambda: self.running)
+        self.refusals = FenceRefusals(feeds)
+        self.missions = StoredMissions(self)
         self.logbook = Logbook(settings, self.command)
         self.events = EventIntake(
             self,
@@ -157,7 +157,7 @@ class Session:
         """Hand a post to the part of the session that it concerns."""
         takes: dict[str, Callable[[Any], object]] = {
             LINK: lambda state: self._on_link(state, post.received),
-            OFFER: self._on_capabilities,
+            CAPABILITIES: self._on_capabilities,
             OUTCOME: self._on_outcome,
             MISSED: self.logbook.miss,
             KNOWN: self.logbook.know,
@@ -179,7 +179,7 @@ class Session:
         self.robot_stop.on_status(status, received)
         self.authority.on_status(status)
 
-    def _on_capabilities(self, capabilities: Offer) -> None:
+    def _on_capabilities(self, capabilities: Capabilities) -> None:
         self.robot.capabilities = capabilities
         if capabilities.ours:
             self.robot_stop.local.release()

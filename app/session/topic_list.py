@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from app.link.capabilities import CAMERA, Offer
-from app.link.channels import LINK, OFFER, SEEN
+from app.link.capabilities import CAMERA, Capabilities
+from app.link.channels import CAPABILITIES, LINK, SEEN
 from app.link.feeds import LONGEST, Feed, Post
 from app.link.subscriptions import Seen
 from app.session.session import Session
 from bridge.core.topics import TOPICS, Topic
 from bridge.msgs import Msg
 
-__all__ = ["Line", "Topics"]
+__all__ = ["Line", "TopicListing"]
 
 ASK_EVERY = 3.0
 """Between two questions for the list while it is looked at [s]."""
@@ -49,7 +49,7 @@ class Line:
     """`never`, `live` or `stale`; empty where it is not listened to."""
 
 
-class Topics:
+class TopicListing:
     """The list, the search, and the one topic that is open. Everything here happens in the UI thread."""
 
     def __init__(self, session: Session) -> None:
@@ -68,7 +68,7 @@ class Topics:
     # the list
 
     @property
-    def offer(self) -> Offer | None:
+    def offer(self) -> Capabilities | None:
         """What the robot offers; None until it said so."""
         return self._session.robot.capabilities
 
@@ -90,7 +90,7 @@ class Topics:
             if all(word in name.lower() or word in kind.lower() for word in words)
         ]
 
-    def _uses(self, offer: Offer) -> dict[str, tuple[str, str]]:
+    def _uses(self, offer: Capabilities) -> dict[str, tuple[str, str]]:
         """By the robot's name: our name, and what the app does with it."""
         found: dict[str, tuple[str, str]] = {}
         for entry in TOPICS:
@@ -168,7 +168,7 @@ class Topics:
         if channel == LINK and self.opened and self._session.connected and self.problem:
             self.open(self.opened)
             return True
-        if channel == OFFER and self.opened and not self.type:
+        if channel == CAPABILITIES and self.opened and not self.type:
             self.problem = f"The robot no longer offers {self.opened}."
         if channel != SEEN or post.value.topic != self.opened:
             return False

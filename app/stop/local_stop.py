@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from app.stop.stop_state import Known, judge, silence
+from app.stop.stop_state import StopFacts, judge, silence
 from bridge.msgs.nav_msgs import Odometry
 
 __all__ = ["LocalStop"]
@@ -72,7 +72,7 @@ class LocalStop:
         if not self.latched:
             return "ready"
         rests = self._confirmed
-        return judge(Known(self._pressed_at, latched=rests or None, at_rest=rests), self._now()).phase
+        return judge(StopFacts(self._pressed_at, latched=rests or None, at_rest=rests), self._now()).phase
 
     def sentence(self, drives: bool, reaches: bool = True) -> str:
         """What is the case, for the operator; empty while it is not latched.

@@ -12,7 +12,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
 
-from app.link.capabilities import DRIVE, NOTHING, Offer, ask
+from app.link.capabilities import DRIVE, NOTHING, Capabilities, ask_capabilities
 from app.link.commands import Commands, Outcome
 from app.stop.local_stop import LocalStop
 from app.stop.stop_state import StopState
@@ -119,7 +119,7 @@ class StopLane:
         self._stopping = StopState(now, client_id)
         self._stopping.reach(False)
         self._reached = False
-        self._offer: Offer | None = None
+        self._offer: Capabilities | None = None
         self._status: ControlStatus | None = None
         self._info = RobotInfo()
         self._listening: dict[str, Callable[[], None]] = {}
@@ -191,7 +191,7 @@ class StopLane:
             return
         while self._offer is None or not self._offer.ours:
             with suppress(BridgeError):
-                self._offer = await ask(self._client.call, self._offer)
+                self._offer = await ask_capabilities(self._client.call, self._offer)
                 self._follow()
             await asyncio.sleep(AGAIN)
 

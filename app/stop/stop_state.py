@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from app.link.commands import STOP_DOUBT, Outcome
 from bridge.msgs.pilothouse_msgs import ControlStatus
 
-__all__ = ["COMES_TO_REST", "DOUBT", "Known", "StopState", "Verdict", "judge", "silence"]
+__all__ = ["COMES_TO_REST", "DOUBT", "StopFacts", "StopState", "Verdict", "judge", "silence"]
 
 DOUBT = STOP_DOUBT
 """A STOP that the robot did not take after this is unanswered; it goes on being sent [s]."""
@@ -21,7 +21,7 @@ COMES_TO_REST = 2.0
 
 
 @dataclass(frozen=True, slots=True)
-class Known:
+class StopFacts:
     """What is known of the STOP of one robot; instants are of our clock [s], NaN for what did not happen."""
 
     asked_at: float = math.nan
@@ -63,7 +63,7 @@ class Verdict:
     """The same for the operator; empty where the phase says it all."""
 
 
-def judge(known: Known, now: float) -> Verdict:
+def judge(known: StopFacts, now: float) -> Verdict:
     """What the operator may be told at the instant `now` [s]; it claims no more than what is known."""
     if not known.reached:
         return _unreached(known, now)
@@ -85,7 +85,7 @@ def judge(known: Known, now: float) -> Verdict:
     return Verdict("no_answer", "It does not answer; STOP is sent again and again.")
 
 
-def _latched(known: Known, now: float) -> Verdict:
+def _latched(known: StopFacts, now: float) -> Verdict:
     if known.at_rest:
         return Verdict("stopped", f"Pressed by {known.by}." if known.by else "")
     if known.refusal:
@@ -95,7 +95,7 @@ def _latched(known: Known, now: float) -> Verdict:
     return Verdict("moves", "STOP is pressed, and it does not come to rest.")
 
 
-def _unreached(known: Known, now: float) -> Verdict:
+def _unreached(known: StopFacts, now: float) -> Verdict:
     pressed_since = not math.isnan(known.lost_at) and known.asked_at > known.lost_at
     if not math.isnan(known.lost_at) and not pressed_since:
         return Verdict("lost", _last_heard(known, now))
@@ -106,7 +106,7 @@ def _unreached(known: Known, now: float) -> Verdict:
     return Verdict("no_answer", _last_heard(known, now) if pressed_since else known.why)
 
 
-def _last_heard(known: Known, now: float) -> str:
+def _last_heard(known: StopFacts, now: float) -> str:
     return f"STOPPED when it was last heard, {silence(now - known.lost_at)} ago. {known.why}".strip()
 
 
@@ -225,9 +225,9 @@ class StopState:
         return self._status.stopped_by
 
     @property
-    def _known(self) -> Known:
+    def _known(self) -> StopFacts:
         status = self._status
-        return Known(
+        return StopFacts(
             asked_at=self._asked_at,
             taken_at=self._taken_at,
             refusal=self._refusal,

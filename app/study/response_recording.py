@@ -12,7 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from app.core.notifications import tell
+from app.core.notifications import notify
 from app.inputs.input_snapshot import set_up
 from app.intents.intents import Heard, Verdict
 from app.link.channels import OUTCOME
@@ -198,7 +198,7 @@ class ResponseRecording:
             self.due = self._task
             if self.reminds:
                 over = "The task is over: its workload can be filled in, at Inputs, Log and study."
-                tell(self._app, over, "info", self.name)
+                notify(self._app, over, "info", self.name)
         self._task = state.task if runs else ""
 
     @staticmethod

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from app.core.checked_settings import Kept
+from app.core.checked_settings import CheckedSettings
 from app.inputs.base.method_app import SettingsApp
 from app.intents.intents import INTENTS, METHODS
 from app.study.study import Plan, plan_of
@@ -21,7 +21,7 @@ class StudySettings:
     def __init__(self, app: SettingsApp) -> None:
         """`app` is asked for its `settings`."""
         self._app = app
-        kept = Kept(app.settings.get("study"), "the study")
+        kept = CheckedSettings(app.settings.get("study"), "the study")
         for name, usual in FLAGS.items():
             kept.flag(name, usual=usual)
         self.left: tuple[Plan, int, int] | None = plan_of(kept.values.get("plan"), METHODS, tuple(INTENTS))

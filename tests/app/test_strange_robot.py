@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from app.link.capabilities import CAMERA
-from app.session.topic_list import Topics
+from app.session.topic_list import TopicListing
 from bridge.msgs.geometry_msgs import Twist
 from tests.app.link.test_link import AHEAD, Operator
 from tests.app.strange import Strange, strange_robot
@@ -163,7 +163,7 @@ def test_a_robot_that_does_not_obey_is_not_said_to_be_stopped(operator: Operator
 def test_a_topic_of_a_type_that_nobody_knew_is_learned_and_let_go(
     operator: Operator, strange: Strange
 ) -> None:
-    topics = Topics(operator.session)
+    topics = TopicListing(operator.session)
     operator.session.listeners.append(topics.hear)
     topics.open("/gripper")
     assert topics.notice == "Learning acme_msgs/Gripper …"
@@ -178,7 +178,7 @@ def test_a_topic_of_a_type_that_nobody_knew_is_learned_and_let_go(
 
 
 def test_a_type_that_cannot_be_learned_is_said(operator: Operator) -> None:
-    topics = Topics(operator.session)
+    topics = TopicListing(operator.session)
     operator.session.listeners.append(topics.hear)
     offer = operator.session.robot.capabilities
     object.__setattr__(offer, "topics", {**offer.topics, "/odd": "odd_msgs/Odd"})
@@ -226,7 +226,9 @@ def test_a_robot_without_rosapi_is_tried_by_the_usual_names(
     drives(operator, strange)
     operator.session.stop()
     operator.until(lambda: operator.session.robot_stop.phase == "stopped")
-    assert Topics(operator.session).sentence == "This robot does not tell its topics: it runs no rosapi."
+    assert (
+        TopicListing(operator.session).sentence == "This robot does not tell its topics: it runs no rosapi."
+    )
 
 
 def test_a_robot_that_takes_stamped_commands_is_driven_by_them(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import asdict
 from typing import Any
 
-from app.core.checked_settings import Kept, known, shown
+from app.core.checked_settings import CheckedSettings, known, shown
 from app.device import rotation, vibrate
 from app.inputs.base.toggleable_method import ToggleableMethod
 from app.inputs.motion.motion_app import MotionApp
@@ -88,7 +88,7 @@ class ShakeInput(ToggleableMethod):
     # what is kept
 
     def _read(self) -> None:
-        read = Kept(self._app.settings.get("shake"), "shaking")
+        read = CheckedSettings(self._app.settings.get("shake"), "shaking")
         kept, self._on, self._any = read.values, read.flag("on", usual=False), read.flag("any", usual=False)
         self.mistaken = read.sentence
         self.meaning: dict[Axis, str] = dict(USUAL_MEANING)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from app.core.command_origin import Origin, origins
-from app.core.notifications import tell
+from app.core.notifications import notify
 from app.device import rotation
 from app.inputs.base.button_presses import Press
 from app.inputs.base.text_focus import is_typing
@@ -226,7 +226,7 @@ class TiltInput(TiltOptions):
         self._sensor.listen(on=self.on and self._circle is not None)
 
     def _say(self, text: str) -> None:
-        tell(self._app, text, about=self.name)
+        notify(self._app, text, about=self.name)
 
 
 def _screen(app: MotionApp) -> Any:

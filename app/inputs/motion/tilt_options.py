@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import fields, replace
 from typing import Any
 
-from app.core.checked_settings import Kept, number
+from app.core.checked_settings import CheckedSettings, number
 from app.device.motion import Axes
 from app.inputs.base.toggleable_method import ToggleableMethod
 from app.inputs.motion.motion_app import MotionApp
@@ -25,7 +25,7 @@ class TiltOptions(ToggleableMethod):
     def __init__(self, app: MotionApp) -> None:
         """`app` is asked for its `settings`."""
         self._app = app
-        read = Kept(app.settings.get("tilt"), "the tilt")
+        read = CheckedSettings(app.settings.get("tilt"), "the tilt")
         kept = read.values
         self._on = read.flag("on", usual=False)
         self.others = read.flag("others", usual=True)

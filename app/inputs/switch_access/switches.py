@@ -14,7 +14,7 @@ from typing import Any
 
 from kivy.core.window import Window
 
-from app.core.notifications import tell
+from app.core.notifications import notify
 from app.inputs.base.button_presses import Press
 from app.inputs.base.text_focus import is_typing
 from app.inputs.switch_access.learned_usage import LearnedUsage
@@ -250,8 +250,8 @@ class SwitchAccess:
     def do(self, chosen: Selection) -> None:
         """Do it, by the entry for what is chosen on the glass: `app.intents.intents` says what is barred."""
         target, now = chosen.target, self._app.now()
-        for notify in list(self.on_selected):
-            notify(chosen)
+        for listener in list(self.on_selected):
+            listener(chosen)
         self._usage.count(chosen)
         ended = chosen.ended if math.isfinite(chosen.ended) else now
         heard = Heard(target.intent, self.name, began=chosen.began, ended=ended, said=target.words)
@@ -277,7 +277,7 @@ class SwitchAccess:
             self._say(f"Switch {switch} works again.", "info")
 
     def _say(self, text: str, level: str = "warn") -> None:
-        tell(self._app, text, level, self.name)
+        notify(self._app, text, level, self.name)
 
 
 class _Desk:

@@ -18,8 +18,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
-from app.core.checked_settings import Kept
-from app.core.notifications import tell
+from app.core.checked_settings import CheckedSettings
+from app.core.notifications import notify
 from app.device import is_android
 from app.inputs.base.method_app import MethodApp
 from app.inputs.base.toggleable_method import ToggleableMethod
@@ -110,7 +110,7 @@ class Talkback(ToggleableMethod):
     # what is kept
 
     def _read(self) -> None:
-        kept = Kept(self._app.settings.get("talk"), "talking")
+        kept = CheckedSettings(self._app.settings.get("talk"), "talking")
         self._on, self._rate = kept.flag("on", usual=False), kept.number("rate", *RATES, usual=1.0)
         self._voice = kept.word("voice", VOICES, next(iter(VOICES)))
         self.mistaken = kept.sentence
@@ -254,7 +254,7 @@ class Talkback(ToggleableMethod):
             return False
         self._speaker = speaker
         if instead and instead != self._instead:
-            tell(self._app, f"Talk-back: {instead}", "info", about=self.name)
+            notify(self._app, f"Talk-back: {instead}", "info", about=self.name)
         self._instead = instead
         return True
 
@@ -271,7 +271,7 @@ class Talkback(ToggleableMethod):
     def _fail(self, sentence: str) -> None:
         self._put_away()
         self.problem = sentence
-        tell(self._app, f"Talk-back: {sentence}", about=self.name)
+        notify(self._app, f"Talk-back: {sentence}", about=self.name)
 
     def _put_away(self) -> None:
         speaker, self._speaker = self._speaker, None

@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 from kivy.clock import Clock
 
-from app.core.notifications import tell
+from app.core.notifications import notify
 from app.inputs.base.method_app import MethodApp
 from app.inputs.voice.command_gate import CommandGate
 from app.inputs.voice.interfaces.speech_recognizer import (
@@ -285,7 +285,7 @@ class VoiceInput(VoiceOptions):
 
     def _say(self, sentence: str, level: str = "warn") -> None:
         if sentence:
-            tell(self._app, f"Voice: {sentence}", level, self.name)
+            notify(self._app, f"Voice: {sentence}", level, self.name)
 
 
 def _heard(result: Result, noise: float) -> Heard:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
-from app.core.checked_settings import Kept, known, shown
+from app.core.checked_settings import CheckedSettings, known, shown
 from app.inputs.base.method_app import MethodApp
 from app.inputs.base.toggleable_method import ToggleableMethod
 from app.inputs.voice.recognition.phrases import PHRASES
@@ -40,7 +40,7 @@ class VoiceSettings:
 
 def read_settings(value: object) -> tuple[VoiceSettings, str]:
     """The settings kept as `value`, and one sentence about what means nothing; empty when all is well."""
-    kept = Kept(value, "voice")
+    kept = CheckedSettings(value, "voice")
     on, hands_free = kept.flag("on", usual=False), kept.flag("hands_free", usual=False)
     recognizer = kept.word("recognizer", {BEST, *RECOGNIZERS}, BEST)
     model = kept.values.get("model", "")

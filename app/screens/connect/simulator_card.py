@@ -7,13 +7,13 @@ from typing import Any, Protocol
 
 from app.core.settings_store import Settings
 from app.discovery import simulator_process as simulator
-from app.discovery.simulator_options import Choice, Offered
+from app.discovery.simulator_options import SimulationChoice, SimulatorOptions
 from app.link.feeds import Mailbox
 from app.screens.connect.connect import ConnectScreen
-from app.screens.connect.simulator_choice import SimulatorChoice
+from app.screens.connect.simulator_choice import SimulatorDialog
 from app.session.session import Session
 
-__all__ = ["CHANNEL", "Simulating"]
+__all__ = ["CHANNEL", "SimulatorLauncher"]
 
 CHANNEL = "simulator"
 """Of the mailbox, on which its threads tell."""
@@ -40,7 +40,7 @@ class Host(Protocol):
         """Connect to a robot."""
 
 
-class Simulating:
+class SimulatorLauncher:
     """Starts the simulator and ends it with the app. `app` has what it needs: mailbox, settings, the connect screen."""
 
     def __init__(
@@ -54,10 +54,10 @@ class Simulating:
         self._app, self._command, self._say, self._now = app, command, say, now
         self.current: simulator.Simulator | None = None
         """The one that starts or runs."""
-        self.dialog: SimulatorChoice | None = None
+        self.dialog: SimulatorDialog | None = None
         """The question that is on the glass."""
         self._inquiry: simulator.Inquiry | None = None
-        self._offered: Offered | None = None
+        self._offered: SimulatorOptions | None = None
         self._count = 1
         self._started = 0
 
@@ -71,8 +71,8 @@ class Simulating:
         if self._command:
             self.start()
             return
-        remembered = Choice.remembered(self._app.settings.get("simulated"))
-        self.dialog = SimulatorChoice(remembered, self._chosen, running=self._runs)
+        remembered = SimulationChoice.remembered(self._app.settings.get("simulated"))
+        self.dialog = SimulatorDialog(remembered, self._chosen, running=self._runs)
         self.dialog.bind(on_close=lambda *_: setattr(self, "dialog", None))
         self._app.root.add_widget(self.dialog)
         if self._offered is not None:
@@ -86,9 +86,9 @@ class Simulating:
             )
             self._inquiry.start()
 
-    def start(self, choice: Choice | None = None) -> None:
+    def start(self, choice: SimulationChoice | None = None) -> None:
         """Start the simulator with what was chosen, the usual robot when nothing was; one that runs is ended."""
-        choice = choice or Choice()
+        choice = choice or SimulationChoice()
         self._started += 1
         self._count = 1 if self._command else len(choice.robots)
         arguments = self._command or simulator.command(f"sim:{','.join(choice.robots)}", choice.world)
@@ -132,13 +132,13 @@ class Simulating:
     def _runs(self) -> bool:
         return self.current is not None
 
-    def _chosen(self, choice: Choice) -> None:
+    def _chosen(self, choice: SimulationChoice) -> None:
         self._app.settings.set("simulated", choice.kept)
         self.start(choice)
 
     def _take(self, text: str) -> None:
         try:
-            self._offered = Offered.read(text)
+            self._offered = SimulatorOptions.read(text)
         except ValueError:
             self.hear("not offered", "What the simulator offers is not to be understood.")
             return

@@ -11,19 +11,19 @@ from kivy.properties import BooleanProperty, NumericProperty, ObjectProperty, St
 from kivy.uix.gridlayout import GridLayout
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
-from app.discovery.simulator_options import Choice, Offered
+from app.discovery.simulator_options import SimulationChoice, SimulatorOptions
 from app.screens.connect.connect import robot_icon
 from app.screens.parts.dialogs import Question
 from widgets.parts.labels import Icon
 from widgets.parts.rows import ListRow
 
-__all__ = ["SimulatorChoice"]
+__all__ = ["SimulatorDialog"]
 
 WORLD = "map"
 ASKING = "Looking which robots and worlds there are …"
 
 Builder.load_string("""
-<SimulatorChoice>:
+<SimulatorDialog>:
     columns: 1 if root.width < dp(560) else 2 if root.width < dp(800) else 3
     Card:
         id: card
@@ -92,7 +92,7 @@ Builder.load_string("""
 """)
 
 
-class SimulatorChoice(Question):
+class SimulatorDialog(Question):
     """Robots to switch on and off, one world for all of them, and a button that starts them."""
 
     offered = ObjectProperty(None, allownone=True)
@@ -109,7 +109,9 @@ class SimulatorChoice(Question):
     sentence = StringProperty(ASKING)
     action = StringProperty("Start")
 
-    def __init__(self, choice: Choice, on_answer: Callable[[Choice], object], **kwargs: Any) -> None:
+    def __init__(
+        self, choice: SimulationChoice, on_answer: Callable[[SimulationChoice], object], **kwargs: Any
+    ) -> None:
         self._rows: dict[tuple[str, str], ListRow] = {}
         self.choice = choice
         super().__init__(**kwargs)
@@ -118,7 +120,7 @@ class SimulatorChoice(Question):
             self.fbind(name, self._tell)
         self._tell()
 
-    def show_offered(self, offered: Offered) -> None:
+    def show_offered(self, offered: SimulatorOptions) -> None:
         """Show what there is."""
         self.choice = self.choice.within(offered)
         self._rows.clear()

@@ -10,7 +10,7 @@ from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
 from app.layout.layout import Layout
-from app.session.layout_actions import CARRIED, Actions
+from app.session.layout_actions import CARRIED, LayoutActions
 from widgets.controls.action_column import Action
 from widgets.parts.kit import Card, QuietButton, Text
 from widgets.parts.sensor_card import wide
@@ -36,7 +36,7 @@ TASKS = ("pause", "task.")
 class ActionButtons(GridLayout):
     """One above the other, or in a row where they are `across`."""
 
-    def __init__(self, layout: Layout, actions: Actions, **kwargs: Any) -> None:
+    def __init__(self, layout: Layout, actions: LayoutActions, **kwargs: Any) -> None:
         super().__init__(**{"cols": 1, "spacing": "10dp", **kwargs})
         self._actions = actions
         self.across = False

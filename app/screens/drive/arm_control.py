@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 from app.link.commands import Outcome
-from app.screens.drive.drive_blocked import InVain
+from app.screens.drive.drive_blocked import DriveBlocked
 from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import ArmOrder
 from widgets import ArmPanel
 
-__all__ = ["ARM", "ArmHand"]
+__all__ = ["ARM", "ArmControl"]
 
 ARM = "Arm"
 """What it is called beside what drives."""
 TOPIC, SERVICE = "/arm", "/arm/move"
 
 
-class ArmHand:
+class ArmControl:
     """Sends what a finger asks of the panel, and tells it what became of that. Everything here happens in the UI thread."""
 
-    def __init__(self, session: Session, dashboard: Dashboard, in_vain: InVain) -> None:
+    def __init__(self, session: Session, dashboard: Dashboard, in_vain: DriveBlocked) -> None:
         """`in_vain` tells why a finger on it does nothing."""
         self._session, self._dashboard, self._in_vain = session, dashboard, in_vain
         self.made: ArmPanel | None = None

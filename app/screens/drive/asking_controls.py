@@ -6,7 +6,7 @@ from typing import Any
 
 from app.layout.layout import Control
 from app.link.commands import Outcome
-from app.session.layout_actions import ACTIONS, Actions
+from app.session.layout_actions import ACTIONS, LayoutActions
 from app.session.session import Session
 from bridge.msgs.geometry_msgs import PoseStamped
 from bridge.msgs.pilothouse_msgs import FlightState, TaskOrder, Waypoint
@@ -24,7 +24,7 @@ USELESS_ACTIONS = {
 class AskingControls:
     """The controls, and which of them waits for an answer."""
 
-    def __init__(self, session: Session, actions: Actions) -> None:
+    def __init__(self, session: Session, actions: LayoutActions) -> None:
         """`actions` does what a slide confirms."""
         self._session, self._actions = session, actions
         self._controls: list[tuple[Any, Control]] = []

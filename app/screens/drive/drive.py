@@ -13,7 +13,7 @@ from app.layout.layout import Layout
 from app.layout.rects import between
 from app.screens.drive.action_buttons import ActionButtons
 from app.screens.drive.driving_base import Driving
-from app.screens.drive.intruder_overlay import Sight
+from app.screens.drive.intruder_overlay import IntruderOverlay
 from app.screens.parts.placing import off, put
 from widgets import SlideToConfirm
 from widgets.controls.sticks.stick import Stick
@@ -36,7 +36,7 @@ class DriveScreen(Driving):
         self._strip, self._form, self._dp = Rect(0, 0, 0, 0), "wide", 1.0
         self._two = layout.arrangement == "two_sticks"
         self.actions = ActionButtons(layout, self.does)
-        self.sight = Sight(self.session, self.video, self.dashboard)
+        self.sight = IntruderOverlay(self.session, self.video, self.dashboard)
         self.place("video", self.video)
         places = dict(self.instruments.places)
         self._figures = places.pop("readouts", [])

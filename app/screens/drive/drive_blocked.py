@@ -10,7 +10,7 @@ from app.screens.shell.screen_host import ScreenHost
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import FlightState
 
-__all__ = ["InVain", "grounded", "why_not"]
+__all__ = ["DriveBlocked", "grounded", "why_not"]
 
 ABOUT = "stick"
 """What the sentences tell of."""
@@ -49,7 +49,7 @@ def why_not(session: Session) -> str:
     return ""
 
 
-class InVain:
+class DriveBlocked:
     """Tells of one push once, and offers what helps."""
 
     def __init__(self, session: Session, app: ScreenHost) -> None:

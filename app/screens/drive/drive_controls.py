@@ -11,18 +11,18 @@ from kivy.uix.widget import Widget
 
 import widgets
 from app.layout.layout import SAYS, SLIDER, Control, Layout
-from app.link.channels import OFFER, OUTCOME
-from app.link.control_mixer import Parts, Piloting, Reach
+from app.link.channels import CAPABILITIES, OUTCOME
+from app.link.control_mixer import ControlMixer, Parts, Reach
 from app.link.drive_slot import Drive
 from app.link.feeds import Post
-from app.screens.drive.arm_control import ARM, ArmHand
+from app.screens.drive.arm_control import ARM, ArmControl
 from app.screens.drive.asking_controls import AskingControls
 from app.screens.drive.control_reach import ControlReach
-from app.screens.drive.drive_blocked import InVain, grounded
+from app.screens.drive.drive_blocked import DriveBlocked, grounded
 from app.screens.drive.speed_card import SpeedCard
-from app.screens.drive.tilt_control import TILT, TiltHand
+from app.screens.drive.tilt_control import TILT, TiltControl
 from app.session.dashboard import Dashboard
-from app.session.layout_actions import Actions
+from app.session.layout_actions import LayoutActions
 from app.session.session import Session
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import TaskStatus
@@ -42,7 +42,12 @@ class DriveControls(EventDispatcher):
     """Title of the one that is on the glass, of two controls in one slot; empty where every slot has one."""
 
     def __init__(
-        self, layout: Layout, session: Session, dashboard: Dashboard, actions: Actions, in_vain: InVain
+        self,
+        layout: Layout,
+        session: Session,
+        dashboard: Dashboard,
+        actions: LayoutActions,
+        in_vain: DriveBlocked,
     ) -> None:
         """`actions` does what a slide confirms, `in_vain` tells why a push does nothing."""
         self._session, self._dashboard = session, dashboard
@@ -52,14 +57,14 @@ class DriveControls(EventDispatcher):
         self._reach = ControlReach(session, self._on_reach)
         self._sticks: list[tuple[Stick, Control]] = []
         self._asking = AskingControls(session, actions)
-        self.arm = ArmHand(session, dashboard, in_vain)
+        self.arm = ArmControl(session, dashboard, in_vain)
         super().__init__()
         self._names_all = len({one.slot for one in layout.controls if _drives(one)}) > 1
         for one in layout.controls:
             self._add(one)
         self.tablet = False
         """The tablet's tilt shall drive, where the layout has a stick and no circle of its own; `take_up` puts one on the glass."""
-        self.tilt = TiltHand(self._sticks)
+        self.tilt = TiltControl(self._sticks)
         self._own: dict[str, Widget] = {
             one.called: widget for one, widget in self._all(layout) if one.slot == "stick"
         }
@@ -69,7 +74,7 @@ class DriveControls(EventDispatcher):
         self.chosen = next(iter(self.choices), "")
         self.bind(chosen=lambda *_: self.rest())
         says = {part for _, one in self._sticks for part in one.says}
-        self.piloting = Piloting(self._drive, self._kinds, lambda: self.reach, says, self._amend)
+        self.piloting = ControlMixer(self._drive, self._kinds, lambda: self.reach, says, self._amend)
 
     def take_up(self) -> bool:
         """Take up what the robot has or the operator wants besides, and put away the rest; True when that changed.
@@ -183,7 +188,7 @@ class DriveControls(EventDispatcher):
         """A message came: what the robot may, and what became of what was asked for."""
         if channel in ("/robot/info", "/limits"):
             self.take_limits()
-        elif channel == OFFER:
+        elif channel == CAPABILITIES:
             self._retake()
         elif channel == OUTCOME:
             self.arm.hear(post.value)

@@ -13,17 +13,17 @@ from kivy.uix.widget import Widget
 from app.layout.layout import Action, Layout
 from app.layout.rects import Rect
 from app.link.camera_decoder import Picture
-from app.link.channels import OFFER
+from app.link.channels import CAPABILITIES
 from app.link.feeds import Post
-from app.screens.drive.drive_blocked import InVain
+from app.screens.drive.drive_blocked import DriveBlocked
 from app.screens.drive.drive_controls import DriveControls
 from app.screens.drive.instruments import Instruments
-from app.screens.drive.small_sensors import Senses
+from app.screens.drive.small_sensors import SmallSensors
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.shell.check_card import CheckCard
 from app.screens.shell.screen_host import ScreenHost
 from app.session.dashboard import Dashboard
-from app.session.layout_actions import Actions
+from app.session.layout_actions import LayoutActions
 from app.session.session import Session
 from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import Video
@@ -59,12 +59,12 @@ class Driving(RobotScreen):
         """What is on the glass, by place."""
         self.dashboard = Dashboard(session.feeds)
         self.video = Video(fit="cover", corner=self.corner)
-        self.in_vain = InVain(session, app)
+        self.in_vain = DriveBlocked(session, app)
         confirmed = (Action(one.action) for one in layout.controls if one.action)
-        self.does = Actions((*layout.actions, *confirmed), session, app)
+        self.does = LayoutActions((*layout.actions, *confirmed), session, app)
         self.instruments = Instruments(layout, self.dashboard, session.feeds)
         self.hands = DriveControls(layout, session, self.dashboard, self.does, self.in_vain)
-        self.senses = Senses(session.feeds)
+        self.senses = SmallSensors(session.feeds)
         for gauge, topics in self.instruments.senses:
             self.senses.add(gauge, topics)
         self.senses.bind(open=self._cover_up, opacity=self._cover_up)
@@ -135,9 +135,9 @@ class Driving(RobotScreen):
         """A message came."""
         self.dashboard.deliver(channel, post.value)
         self.hands.hear(channel, post)
-        if channel == OFFER:
+        if channel == CAPABILITIES:
             self.instruments.name_sources(self.session.robot.capabilities)
-        if channel in ("/robot/info", OFFER):
+        if channel in ("/robot/info", CAPABILITIES):
             self.meet()
 
     def enter(self) -> None:

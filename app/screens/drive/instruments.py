@@ -8,7 +8,7 @@ from kivy.uix.widget import Widget
 
 import widgets
 from app.layout.layout import Instrument, Layout
-from app.link.capabilities import POSE, Offer
+from app.link.capabilities import POSE, Capabilities
 from app.link.feeds import Feeds
 from app.session.dashboard import Dashboard
 from widgets import Readout
@@ -89,7 +89,7 @@ class Instruments:
             self._titled.append((widget, one))
         return widget
 
-    def name_sources(self, offer: Offer | None) -> None:
+    def name_sources(self, offer: Capabilities | None) -> None:
         """An instrument that shows a topic of another name than the usual one says which."""
         for widget, one in self._titled:
             source = offer.source(one.topic) if offer is not None else None

@@ -15,13 +15,13 @@ from app.session.session import Session
 from widgets import IntruderBadge, Video
 from widgets.core.sensor_geometry import away_text
 
-__all__ = ["Sight"]
+__all__ = ["IntruderOverlay"]
 
 FOUND = "/intruders"
 """Topic of what was found."""
 
 
-class Sight(IntruderBadge):
+class IntruderOverlay(IntruderBadge):
     """The badge of one screen, which marks the last intruder in `video`; without a robot that looks it is not seen."""
 
     told = BooleanProperty(False)

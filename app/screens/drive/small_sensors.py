@@ -15,7 +15,7 @@ from bridge.msgs import Msg
 from widgets.parts.kit import Card, Icon
 from widgets.parts.sensor_card import Gauge
 
-__all__ = ["Senses"]
+__all__ = ["SmallSensors"]
 
 LARGEST = 0.47
 """Share of the open card's width that the first sensor has."""
@@ -29,7 +29,7 @@ HANDLE = 26
 """Width of the sign that says a strip unfolds [dp]."""
 
 
-class Senses(Card):
+class SmallSensors(Card):
     """Shows those of its sensors that the robot has; without any there is nothing on the glass."""
 
     open = BooleanProperty(False)

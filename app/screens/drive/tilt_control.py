@@ -8,13 +8,13 @@ from app.layout.layout import SAYS, Control
 from widgets import TiltCircle
 from widgets.controls.sticks.stick import Stick
 
-__all__ = ["TILT", "TiltHand"]
+__all__ = ["TILT", "TiltControl"]
 
 TILT = "Tilt"
 """What it is called on the switch between it and the stick."""
 
 
-class TiltHand:
+class TiltControl:
     """Makes the circle when it is first wanted."""
 
     def __init__(self, sticks: Sequence[tuple[Stick, Control]]) -> None:

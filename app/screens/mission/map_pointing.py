@@ -17,7 +17,7 @@ from bridge.msgs.pilothouse_msgs import Place, PlaceArray
 from widgets.map.map_overlay import MapOverlay
 from widgets.parts.kit import IconButton, PrimaryButton, QuietButton
 
-__all__ = ["MODES", "Pointing"]
+__all__ = ["MODES", "MapPointing"]
 
 MODES = [
     ("view", "View"),
@@ -59,7 +59,7 @@ class EditedMap(Protocol):
         """Have the bar that says what is selected on the glass, or away."""
 
 
-class Pointing:
+class MapPointing:
     """The fingers on the map of one mission screen, and the bar that says what they hold."""
 
     def __init__(self, screen: EditedMap, session: Session) -> None:

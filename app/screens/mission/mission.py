@@ -11,13 +11,13 @@ from kivy.properties import ListProperty, NumericProperty, ObjectProperty, Strin
 from app.layout import arrange
 from app.layout.arrange import Rect
 from app.link.camera_decoder import Picture
-from app.link.channels import EVENT, OFFER, OUTCOME
+from app.link.channels import CAPABILITIES, EVENT, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
 from app.screens.mission.map_corner import MapCorner
-from app.screens.mission.map_pointing import MODES, Pointing
+from app.screens.mission.map_pointing import MODES, MapPointing
 from app.screens.mission.map_tools import MapTools, float_over
-from app.screens.mission.mission_maps import Maps
+from app.screens.mission.mission_maps import MissionMaps
 from app.screens.mission.mission_on_map import MissionOnMap
 from app.screens.mission.mission_panel import MissionPanel
 from app.screens.parts.placing import put
@@ -81,11 +81,11 @@ class MissionScreen(RobotScreen):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.dashboard = Dashboard(self.session.feeds)
-        self._maps = Maps(self.session, self.dashboard)
+        self._maps = MissionMaps(self.session, self.dashboard)
         self.video = Video(fit="cover")
         self.compass = Compass(transparent=True)
         self.panel = MissionPanel(self.session, self.dashboard)
-        self._pointing = Pointing(self, self.session)
+        self._pointing = MapPointing(self, self.session)
         self.selection = self._pointing.bar
         self.checks = CheckCard(self.session, self.dashboard)
         self._drawing = MissionOnMap(self.session, self._maps, self.panel, self._pointing)
@@ -255,7 +255,7 @@ class MissionScreen(RobotScreen):
             self.panel.events.show(post.value)
         elif channel == OUTCOME:
             self._show_outcome(post.value)
-        elif channel == OFFER:
+        elif channel == CAPABILITIES:
             self._take_offer()
 
     def _take_offer(self) -> None:

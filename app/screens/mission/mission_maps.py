@@ -6,20 +6,20 @@ import math
 from pathlib import Path
 
 import widgets
-from app.screens.mission.map_pointing import Pointing
+from app.screens.mission.map_pointing import MapPointing
 from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.core.geo import Datum
 from widgets import GridMap
 from widgets.map.map_overlay import MapOverlay
 
-__all__ = ["Maps"]
+__all__ = ["MissionMaps"]
 
 PICTURES = Path(widgets.__file__).parent / "data"
 """Aerial pictures, one MBTiles file a world."""
 
 
-class Maps:
+class MissionMaps:
     """One map or two, of which one is shown."""
 
     def __init__(self, session: Session, dashboard: Dashboard) -> None:
@@ -27,14 +27,14 @@ class Maps:
         self.shown: MapOverlay = GridMap()
         """The map on the glass."""
         self._other: MapOverlay | None = None
-        self._pointing: Pointing | None = None
+        self._pointing: MapPointing | None = None
 
-    def follow(self, pointing: Pointing) -> None:
+    def follow(self, pointing: MapPointing) -> None:
         """Let the maps show what the robot says, and `pointing` do what fingers on them ask for."""
         self._pointing = pointing
         self._bind(self.shown, pointing)
 
-    def _bind(self, one: MapOverlay, pointing: Pointing) -> None:
+    def _bind(self, one: MapOverlay, pointing: MapPointing) -> None:
         bind = self._dashboard.bind
         pointing.follow(one)
         bind(one, "/places", lambda msg: pointing.show_places(one, msg), fresh=False)

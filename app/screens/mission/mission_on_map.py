@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from app.missions.fence_refusals import summary
-from app.screens.mission.map_pointing import Pointing
-from app.screens.mission.mission_maps import Maps
+from app.screens.mission.map_pointing import MapPointing
+from app.screens.mission.mission_maps import MissionMaps
 from app.screens.mission.mission_panel import MissionPanel
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import RobotInfo, TaskStatus
@@ -18,7 +18,9 @@ DEFAULT_RADIUS = 0.2
 class MissionOnMap:
     """Draws on the map that is on the glass."""
 
-    def __init__(self, session: Session, maps: Maps, panel: MissionPanel, pointing: Pointing) -> None:
+    def __init__(
+        self, session: Session, maps: MissionMaps, panel: MissionPanel, pointing: MapPointing
+    ) -> None:
         self._session, self._maps, self._panel, self._pointing = session, maps, panel, pointing
 
     def show_draft(self) -> None:

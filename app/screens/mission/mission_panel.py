@@ -12,7 +12,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
-from app.screens.mission.no_mission_panel import Figures, Lacking
+from app.screens.mission.no_mission_panel import Figures, NoMissionPanel
 from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import TaskProgress, TaskStatus
@@ -185,7 +185,7 @@ class MissionPanel(BoxLayout):
         self.next = Readout(name="Next point", unit="m", decimals=1)
         self.lap = Readout(name="Lap")
         self.left = Readout(name="Time left", kind="clock", unit="min")
-        self.lacking, self.plain = Lacking(), Figures(dashboard)
+        self.lacking, self.plain = NoMissionPanel(), Figures(dashboard)
         self._rest = Widget()
         self._fill = Widget(size_hint_y=None, height=0)
         self._above: list[Widget] = []

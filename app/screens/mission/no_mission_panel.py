@@ -13,10 +13,10 @@ from app.session.dashboard import Dashboard
 from widgets import Readout
 from widgets.parts.column import Column
 
-__all__ = ["Figures", "Lacking"]
+__all__ = ["Figures", "NoMissionPanel"]
 
 Builder.load_string("""
-<Lacking>:
+<NoMissionPanel>:
     spacing: dp(12)
     BoxLayout:
         size_hint_y: None
@@ -49,7 +49,7 @@ Builder.load_string("""
 """)
 
 
-class Lacking(Column):
+class NoMissionPanel(Column):
     """One sentence and the two screens that do fit such a robot."""
 
     __events__ = ("on_choose",)

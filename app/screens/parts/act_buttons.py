@@ -12,7 +12,7 @@ from kivy.uix.widget import Widget
 from app.layout.arrange import Rect
 from widgets.parts.kit import PrimaryButton, QuietButton
 
-__all__ = ["Act", "ActButtons"]
+__all__ = ["Act", "ListButtons"]
 
 STOPS_SHARE = 0.9
 """A button is at most as large as this share of STOP."""
@@ -21,7 +21,7 @@ Act = tuple[str, str, str, Callable[[], object]]
 """Name, words, icon, what a finger does with it."""
 
 
-class ActButtons:
+class ListButtons:
     """Every button by its name, and where each is just now."""
 
     def __init__(self, acts: Sequence[Act], primary: Sequence[str]) -> None:

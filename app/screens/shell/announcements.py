@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from app.link.channels import EVENT, OFFER, OUTCOME
+from app.link.channels import CAPABILITIES, EVENT, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
 from app.screens.shell.notices import BRIEF, LONG
-from app.screens.shell.reset_card import Resetting
+from app.screens.shell.reset_card import ResetPrompt
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Event
 
@@ -31,7 +31,7 @@ class Speaker(Protocol):
 class Announcements:
     """Decides what is said of one robot, and when it is true no longer."""
 
-    def __init__(self, session: Session, speaker: Speaker, reset: Resetting) -> None:
+    def __init__(self, session: Session, speaker: Speaker, reset: ResetPrompt) -> None:
         """`reset` shows an alarm that it caused itself."""
         self._session, self._speaker, self._reset = session, speaker, reset
         self._greeting = ""
@@ -42,7 +42,7 @@ class Announcements:
             self._on_outcome(post.value)
         elif channel == "/tag":
             self._show_tag(post.value.tag)
-        elif channel == OFFER:
+        elif channel == CAPABILITIES:
             self.greet()
         elif channel == EVENT:
             self._on_event(post.value)

@@ -8,12 +8,12 @@ from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Event
 from widgets import ResetCard
 
-__all__ = ["Resetting"]
+__all__ = ["ResetPrompt"]
 
 SERVICE = "/robot/reset"
 
 
-class Resetting:
+class ResetPrompt:
     """The card that asks before it is done."""
 
     def __init__(self, session: Session, notices: Notices) -> None:

@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 from app.inputs.methods import Methods
 from app.screens.shell.shell import Recording, Shell
-from app.session.recordings import Records
+from app.session.recordings import Recordings
 
 __all__ = ["ScreenHost"]
 
@@ -16,7 +16,7 @@ class ScreenHost(Protocol):
     """What a screen asks of the app: to speak, to show another screen, to say which inputs are armed."""
 
     methods: Methods
-    records: Records
+    records: Recordings
 
     @property
     def visit(self) -> Recording:

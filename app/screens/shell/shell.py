@@ -13,7 +13,7 @@ from kivy.uix.floatlayout import FloatLayout
 from app.inputs.methods import Methods
 from app.intents.intents import Intents
 from app.layout import arrange
-from app.link.channels import EVENT, LINK, OFFER, OUTCOME
+from app.link.channels import CAPABILITIES, EVENT, LINK, OUTCOME
 from app.link.feeds import Post
 from app.screens.parts.placing import put
 from app.screens.parts.robot_screen import RobotScreen
@@ -25,7 +25,7 @@ from app.screens.shell.intent_prompts import IntentPrompts
 from app.screens.shell.link_banner import LinkBanner
 from app.screens.shell.notices import BRIEF, Notices
 from app.screens.shell.rail import Rail
-from app.screens.shell.reset_card import Resetting
+from app.screens.shell.reset_card import ResetPrompt
 from app.screens.shell.stop_display import StopDisplay
 from app.screens.shell.task_question import TaskQuestion
 from app.screens.shell.top_bar import TopBar
@@ -35,7 +35,7 @@ from widgets.core.theme import theme
 
 __all__ = ["Shell"]
 
-STANDING = ("/control/status", "/task/status", "/robot/info", LINK, OFFER)
+STANDING = ("/control/status", "/task/status", "/robot/info", LINK, CAPABILITIES)
 """Channels that tell how the robot stands."""
 
 Builder.load_string("""
@@ -113,7 +113,7 @@ class Shell(FloatLayout):
         self._dashboard.bind(self.bar.ids.battery, "/battery_state")
         self._dashboard.bind(self.question, "/task/status", fresh=False)
         self.cards = ControlCards(self.session, self.notices, self._dashboard, self.say)
-        self.reset = Resetting(self.session, self.notices)
+        self.reset = ResetPrompt(self.session, self.notices)
         self._announcements = Announcements(self.session, self, self.reset)
         self.wishes = IntentPrompts(self.app.intents, self.notices, self.say)
         self._dashboard.enter()

@@ -12,7 +12,7 @@ from kivy.clock import Clock
 from kivy.metrics import Metrics
 from kivy.uix.floatlayout import FloatLayout
 
-from app.discovery.known_robots import Entry, Robots
+from app.discovery.known_robots import Entry, KnownRobots
 from app.layout import arrange
 from app.layout.arrange import Rect, StopPlace
 from app.screens.connect.connect import ConnectScreen
@@ -34,7 +34,7 @@ class Host(Protocol):
     connect: ConnectScreen
 
     @property
-    def robots(self) -> Robots:
+    def robots(self) -> KnownRobots:
         """Every robot that is heard or saved."""
 
     @property

@@ -12,10 +12,10 @@ from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets import OrderQueue, TaskCard
 
-__all__ = ["NowList"]
+__all__ = ["CurrentTask"]
 
 Builder.load_string("""
-<NowList>:
+<CurrentTask>:
     orientation: 'vertical'
     spacing: dp(8)
     BoxLayout:
@@ -63,7 +63,7 @@ Builder.load_string("""
 """)
 
 
-class NowList(BoxLayout):
+class CurrentTask(BoxLayout):
     """The running task and the queue behind it."""
 
     may = BooleanProperty(False)

@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 from app.layout.arrange import Rect
 from app.screens.mission.mission_pane import MissionPane
-from app.screens.parts.act_buttons import ActButtons
+from app.screens.parts.act_buttons import ListButtons
 from app.screens.shell.screen_host import ScreenHost
 from app.screens.tasks.event_list import EventList
 from app.screens.tasks.order_pane import OrderPane
@@ -17,12 +17,12 @@ from bridge.msgs.pilothouse_msgs import Place, ScheduledTask
 from widgets import PlaceForm, PlaceList
 from widgets.core.task_words import title
 
-__all__ = ["TaskActs"]
+__all__ = ["TaskActions"]
 
 PRIMARY = ("start", "save", "keep", "new", "new_scheduled", "recall", "keep_mission", "seen_all")
 
 
-class TaskLists(Protocol):
+class TasksView(Protocol):
     """The tasks screen, as far as its buttons need it."""
 
     ids: Any
@@ -63,10 +63,10 @@ class TaskLists(Protocol):
         """Make a place (id 0) or change one; `returns` to the map afterwards."""
 
 
-class TaskActs(ActButtons):
+class TaskActions(ListButtons):
     """The buttons of one tasks screen."""
 
-    def __init__(self, screen: TaskLists) -> None:
+    def __init__(self, screen: TasksView) -> None:
         """`screen` has its lists and panes already."""
         self._screen, self._session = screen, screen.session
         super().__init__(

@@ -6,7 +6,7 @@ import math
 
 from kivy.uix.widget import Widget
 
-from app.screens.tasks.current_task import NowList
+from app.screens.tasks.current_task import CurrentTask
 from app.screens.tasks.event_list import EventList
 from app.screens.tasks.task_tabs import TaskTabs
 from app.session.dashboard import Dashboard
@@ -28,7 +28,7 @@ class TaskLists:
     def __init__(self, session: Session, dashboard: Dashboard) -> None:
         self._session, self._dashboard = session, dashboard
         self.tabs = TaskTabs()
-        self.now, self.events = NowList(session), EventList(session)
+        self.now, self.events = CurrentTask(session), EventList(session)
         self.places, self.runs, self.schedule = PlaceList(), RunList(), ScheduleList()
         self.missions = MissionList()
         self._by_tab: dict[str, Widget] = {

@@ -15,7 +15,7 @@ from app.link.feeds import Post
 from app.screens.parts.placing import Area, above, put  # noqa: F401 - a rule names the area
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.shell.screen_host import ScreenHost
-from app.screens.tasks.task_actions import TaskActs
+from app.screens.tasks.task_actions import TaskActions
 from app.screens.tasks.task_lists import TaskLists
 from app.screens.tasks.task_panes import TaskPanes
 from app.session.dashboard import Dashboard
@@ -80,7 +80,7 @@ class TasksScreen(RobotScreen):
         self._cover: Rect | None = None
         self._returns = False
         self.notice = Rect(0, 0, 1, 1)
-        self.acts = TaskActs(self)
+        self.acts = TaskActions(self)
         self.ids.update({**self.acts.by_name, "tabs": self.tabs})
         self._bind()
 

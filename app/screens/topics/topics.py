@@ -20,7 +20,7 @@ from app.link.feeds import Post
 from app.screens.parts.placing import above, put
 from app.screens.parts.robot_screen import RobotScreen
 from app.session.session import Session
-from app.session.topic_list import Line, Topics
+from app.session.topic_list import Line, TopicListing
 from widgets import FieldView
 from widgets.core.base import age_text
 from widgets.parts.cards import Card
@@ -320,7 +320,7 @@ class TopicsScreen(RobotScreen):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.topics = Topics(self.session)
+        self.topics = TopicListing(self.session)
         self.list, self.detail = TopicList(), TopicDetail()
         self.view = FieldView(aged=False, veil_radius=1, size_hint_max_x=LEGIBLE * Metrics.density)
         self.detail.ids.ground.add_widget(self.view)

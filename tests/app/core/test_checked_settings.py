@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from app.core.checked_settings import Kept, known, number, shown
+from app.core.checked_settings import CheckedSettings, known, number, shown
 from app.device.motion import NoMotion
-from app.discovery.known_robots import Robots
+from app.discovery.known_robots import KnownRobots
 from app.inputs.bindings import Bindings
 from app.inputs.motion.motion_sensing import MotionSensing
 from app.inputs.motion.shake_input import ShakeInput
@@ -22,7 +22,7 @@ from app.inputs.switch_access.usage import Usage
 from app.inputs.voice.talkback import Talkback
 from app.inputs.voice.voice_input import VoiceInput
 from app.intents.intents import Intents
-from app.intents.method_permits import Permits
+from app.intents.method_permits import MethodPermits
 from app.study.response_recording import ResponseRecording
 
 GARBAGE: list[Any] = [
@@ -68,7 +68,7 @@ class Desk:
         self.session = self.shell = None
         self.corner = SimpleNamespace(on_pressed=[])
         self.sensing = MotionSensing(NoMotion("none"), self.now)
-        self.permits = Permits(self.settings)
+        self.permits = MethodPermits(self.settings)
         self.intents = Intents(SimpleNamespace(), self.permits, self.now)
 
     def now(self) -> float:
@@ -126,11 +126,11 @@ def test_nor_any_value_within_the_tables(tmp_path: Any, value: Any) -> None:
     }.items():
         Desk(tmp_path, {name: kept}).made(name)
     Usage({"": {"pause": value}, "drive": value})
-    Robots(lambda: 0.0, value)
+    KnownRobots(lambda: 0.0, value)
 
 
 def test_a_mistake_is_one_sentence_with_the_value_and_what_is_allowed() -> None:
-    kept = Kept({"on": "yes", "rate": 9, "voice": []}, "talking")
+    kept = CheckedSettings({"on": "yes", "rate": 9, "voice": []}, "talking")
     assert not kept.flag("on", usual=False)
     assert kept.number("rate", 0.5, 2.0, usual=1.0) == 1.0
     assert kept.word("voice", ("clear",), "clear") == "clear"
@@ -141,7 +141,7 @@ def test_a_mistake_is_one_sentence_with_the_value_and_what_is_allowed() -> None:
 
 
 def test_what_is_not_there_is_as_usual_and_no_mistake() -> None:
-    kept = Kept(None, "talking")
+    kept = CheckedSettings(None, "talking")
     assert kept.flag("on", usual=True)
     assert kept.number("rate", 0.5, 2.0, usual=1.0) == 1.0
     assert not kept.sentence

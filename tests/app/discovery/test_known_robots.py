@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from app.discovery.known_robots import Robots, check_address
+from app.discovery.known_robots import KnownRobots, check_address
 from bridge.discovery.beacon import Hello
 
 A, B = "ws://10.0.0.3:9090", "ws://10.0.0.4:9091"
@@ -25,8 +25,8 @@ def clock() -> Clock:
 
 
 @pytest.fixture
-def robots(clock: Clock) -> Robots:
-    return Robots(clock)
+def robots(clock: Clock) -> KnownRobots:
+    return KnownRobots(clock)
 
 
 @pytest.mark.parametrize(
@@ -45,7 +45,7 @@ def robots(clock: Clock) -> Robots:
         ("ws://", "is not an address"),
     ],
 )
-def test_what_is_no_address_is_said(robots: Robots, typed: str, sentence: str) -> None:
+def test_what_is_no_address_is_said(robots: KnownRobots, typed: str, sentence: str) -> None:
     with pytest.raises(ValueError, match=sentence):
         robots.add(typed)
     assert robots.entries() == []
@@ -65,7 +65,7 @@ def test_an_address_is_completed(typed: str, url: str) -> None:
     assert check_address(typed) == url
 
 
-def test_a_silent_robot_is_lost_and_then_forgotten(robots: Robots, clock: Clock) -> None:
+def test_a_silent_robot_is_lost_and_then_forgotten(robots: KnownRobots, clock: Clock) -> None:
     robots.heard(Hello(name="Patrol-1", url=A, battery=0.5), 100.0)
     assert robots.entries()[0].state == "live"
     clock.now = 106.0
@@ -75,18 +75,18 @@ def test_a_silent_robot_is_lost_and_then_forgotten(robots: Robots, clock: Clock)
     assert robots.entries() == []
 
 
-def test_a_saved_address_stays_and_learns_its_name(robots: Robots, clock: Clock) -> None:
+def test_a_saved_address_stays_and_learns_its_name(robots: KnownRobots, clock: Clock) -> None:
     url = robots.add("10.0.0.3")
     assert [(entry.state, entry.saved) for entry in robots.entries()] == [("unheard", True)]
     robots.name(url, "Patrol-1", "wheels", "Differential drive")
-    again = Robots(clock, robots.save())
+    again = KnownRobots(clock, robots.save())
     (entry,) = again.entries()
     assert (entry.name, entry.kind, entry.address) == ("Patrol-1", "wheels", "10.0.0.3")
     again.remove(url)
     assert again.entries() == []
 
 
-def test_a_saved_robot_that_says_hello_is_listed_once(robots: Robots) -> None:
+def test_a_saved_robot_that_says_hello_is_listed_once(robots: KnownRobots) -> None:
     robots.add("10.0.0.4:9091")
     robots.heard(Hello(name="Minnow", url=B, driver="tablet-B"), 100.0)
     (entry,) = robots.entries()
@@ -94,7 +94,7 @@ def test_a_saved_robot_that_says_hello_is_listed_once(robots: Robots) -> None:
 
 
 def test_robots_keep_the_order_in_which_they_were_met_so_that_no_card_moves_under_a_finger(
-    robots: Robots,
+    robots: KnownRobots,
 ) -> None:
     robots.heard(Hello(name="patrol", url=A), 100.0)
     robots.heard(Hello(name="Aqua", url=B), 100.0)
@@ -102,13 +102,13 @@ def test_robots_keep_the_order_in_which_they_were_met_so_that_no_card_moves_unde
     assert [entry.name for entry in robots.entries()] == ["patrol", "Aqua"]
 
 
-def test_robots_that_fell_silent_come_after_those_within_reach(robots: Robots) -> None:
+def test_robots_that_fell_silent_come_after_those_within_reach(robots: KnownRobots) -> None:
     robots.heard(Hello(name="patrol", url=A), 90.0)
     robots.heard(Hello(name="Aqua", url=B), 100.0)
     assert [(entry.name, entry.state) for entry in robots.entries()] == [("Aqua", "live"), ("patrol", "lost")]
 
 
-def test_a_measured_round_trip_is_shown(robots: Robots) -> None:
+def test_a_measured_round_trip_is_shown(robots: KnownRobots) -> None:
     robots.heard(Hello(name="A", url=A), 100.0)
     assert math.isnan(robots.entries()[0].latency)
     robots.measured(A, 0.012)
@@ -117,4 +117,4 @@ def test_a_measured_round_trip_is_shown(robots: Robots) -> None:
 
 @pytest.mark.parametrize("saved", [[None], ["x"], [{}], [{"url": 5}]])
 def test_damaged_saved_addresses_are_left_out(clock: Clock, saved: list[object]) -> None:
-    assert Robots(clock, saved).entries() == []  # type: ignore[arg-type]
+    assert KnownRobots(clock, saved).entries() == []  # type: ignore[arg-type]

@@ -10,7 +10,7 @@ import pytest
 
 from app.inputs.gamepad.sdl import PadState
 from app.intents.intents import Intents
-from app.intents.method_permits import Permits
+from app.intents.method_permits import MethodPermits
 from app.link.drive_slot import DriveSlot
 from bridge.msgs.geometry_msgs import Twist
 from tests.headless import Stage
@@ -160,7 +160,7 @@ class Hands:
         self.stick.bind(on_command=lambda _, twist: self.slot.want(twist))
         self.sent: list[tuple[float, Twist]] = []
         self.corner = Corner()
-        self.intents = Intents(Stops(self), Permits(Settings()), stage.time)
+        self.intents = Intents(Stops(self), MethodPermits(Settings()), stage.time)
         self.frozen = False
         self._beaten = 0.0
         self.back_pressed = 0

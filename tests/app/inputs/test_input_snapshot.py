@@ -13,13 +13,13 @@ from app.inputs.motion.shake_input import ShakeInput
 from app.inputs.motion.tilt_input import TiltInput
 from app.inputs.switch_access.switches import SwitchAccess
 from app.inputs.voice.voice_input import VoiceInput
-from app.intents.method_permits import Permits
+from app.intents.method_permits import MethodPermits
 from tests.app.inputs.pushing import Settings
 
 
 def test_what_nobody_changed_is_told_as_well_and_can_be_written_as_json() -> None:
     app: Any = SimpleNamespace(settings=Settings(), now=lambda: 1.0, session=None)
-    app.intents = SimpleNamespace(table=Permits(app.settings))
+    app.intents = SimpleNamespace(table=MethodPermits(app.settings))
     made = {"shake": ShakeInput(app), "voice": VoiceInput(app)}
     app.methods = SimpleNamespace(get=made.get)
     app.inputs = SimpleNamespace(mapped=Bindings(app.settings))

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from app.link.control_mixer import Parts, Piloting, Reach
+from app.link.control_mixer import ControlMixer, Parts, Reach
 from bridge.msgs.geometry_msgs import Twist
 from tests.app.inputs.pushing import PAD, Hands
 from tests.headless import Stage
@@ -26,7 +26,7 @@ class Thumbs(Hands):
         self.shell.screens["drive"].sticks = [(self.stick, "left"), (self.circle, "right")]
         self.shell.rest = lambda: (self.stick.rest(), self.circle.rest())
         reach = Reach(climb=1.0)
-        piloting = Piloting(
+        piloting = ControlMixer(
             self.slot.want, lambda: ("twist", "tilt"), lambda: reach, ("climb", "turn", "roll", "pitch")
         )
         self.stick.bind(on_command=lambda stick, _: piloting.take(stick, Parts(climb=stick.forward)))

@@ -15,7 +15,7 @@ from app.core.command_origin import NOBODY, origins
 from app.inputs.methods import Methods
 from app.inputs.voice.process.ending import end_aside
 from app.intents.intents import CONFIRM_FOR, Heard, Intents
-from app.intents.method_permits import Permits
+from app.intents.method_permits import MethodPermits
 from tests.app.inputs.pushing import Settings
 from tests.headless import Stage
 
@@ -85,7 +85,7 @@ class App:
         self.time, self.said, self.acts = 100.0, [], IntentActions()
         self.shell = None
         self.connect = SimpleNamespace(say=lambda text, level: self.said.append(text))
-        self.intents = Intents(self.acts, Permits(Settings()), self.now)
+        self.intents = Intents(self.acts, MethodPermits(Settings()), self.now)
         self.methods = Methods(self)
 
     def now(self) -> float:

@@ -10,7 +10,7 @@ import pytest
 
 from app.core.command_origin import NOBODY, Origin, origins
 from app.intents.intents import CANCEL_FOR, CONFIRM_FOR, INTENTS, METHODS, Heard, Intents, Verdict
-from app.intents.method_permits import SAYS, Permits
+from app.intents.method_permits import SAYS, MethodPermits
 
 
 class Notes:
@@ -47,7 +47,7 @@ class Stage:
 
     def __init__(self, settings: dict[str, Any] | None = None) -> None:
         self.time, self.settings, self.acts = 100.0, settings or {}, Notes()
-        self.permits = Permits(Kept(self.settings))
+        self.permits = MethodPermits(Kept(self.settings))
         self.intents = Intents(self.acts, self.permits, lambda: self.time)
         self.told: list[tuple[str, Verdict]] = []
         self.intents.on_taken.append(lambda heard, verdict: self.told.append((heard.intent, verdict)))

@@ -8,15 +8,15 @@ from typing import Any
 import pytest
 
 from app.link.advertising import Advertiser
-from app.link.capabilities import Offer
+from app.link.capabilities import Capabilities
 from bridge.core.topics import TOPICS
 
-OURS = Offer.of({entry.name: entry.type.MSGTYPE for entry in TOPICS}, frozenset({"/stop"}))
-STAMPED = Offer.of({"/cmd_vel": "geometry_msgs/TwistStamped"}, frozenset())
-BARE = Offer.of({"/odom": "nav_msgs/Odometry"}, frozenset())
+OURS = Capabilities.of({entry.name: entry.type.MSGTYPE for entry in TOPICS}, frozenset({"/stop"}))
+STAMPED = Capabilities.of({"/cmd_vel": "geometry_msgs/TwistStamped"}, frozenset())
+BARE = Capabilities.of({"/odom": "nav_msgs/Odometry"}, frozenset())
 
 
-def advertised(*offers: Offer) -> list[tuple[str, str]]:
+def advertised(*offers: Capabilities) -> list[tuple[str, str]]:
     found: list[tuple[str, str]] = []
     client: Any = SimpleNamespace(advertise=lambda topic, kind: found.append((topic, kind.MSGTYPE)))
     advertiser = Advertiser(client)
@@ -40,7 +40,7 @@ def advertised(*offers: Offer) -> list[tuple[str, str]]:
         (BARE, []),
     ],
 )
-def test_what_a_robot_listens_to_is_advertised(offer: Offer, expected: list[tuple[str, str]]) -> None:
+def test_what_a_robot_listens_to_is_advertised(offer: Capabilities, expected: list[tuple[str, str]]) -> None:
     assert advertised(offer) == expected
 
 

@@ -8,7 +8,7 @@ import threading
 import pytest
 from PIL import Image
 
-from app.link.camera_decoder import PICTURE, Camera, Decoder, _kivy, _pillow, best_decoder
+from app.link.camera_decoder import PICTURE, CameraDecoder, Decoder, _kivy, _pillow, best_decoder
 from app.link.feeds import Mailbox
 from bridge.core.camera_frames import Frame
 
@@ -38,7 +38,7 @@ def test_a_picture_becomes_rows_of_four_bytes_from_the_top(decode: Decoder) -> N
 def test_a_damaged_picture_is_skipped_and_counted() -> None:
     posted = threading.Event()
     mailbox = Mailbox(posted.set)
-    camera = Camera(mailbox, pillow())
+    camera = CameraDecoder(mailbox, pillow())
     camera.show(Frame(1, 5.0, 64, 32, b"no picture"), 1.0)
     camera.close()
     assert camera.bad == 1
@@ -48,7 +48,7 @@ def test_a_damaged_picture_is_skipped_and_counted() -> None:
 def test_a_decoded_picture_keeps_its_stamp_and_when_it_came() -> None:
     posted = threading.Event()
     mailbox = Mailbox(posted.set)
-    camera = Camera(mailbox, pillow())
+    camera = CameraDecoder(mailbox, pillow())
     camera.show(Frame(7, 5.0, 128, 64, jpeg()), 1.25)
     camera.close()
     ((channel, post),) = mailbox.drain()
@@ -65,7 +65,7 @@ def test_a_picture_is_decoded_in_a_thread_of_its_own() -> None:
         threads.append(threading.current_thread())
         return 1, 1, bytes(4)
 
-    camera = Camera(Mailbox(lambda: None), decode)
+    camera = CameraDecoder(Mailbox(lambda: None), decode)
     camera.show(Frame(1, 5.0, 1, 1, b""), 1.0)
     camera.close()
     assert [thread is not threading.current_thread() for thread in threads] == [True]

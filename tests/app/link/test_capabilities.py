@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from app.link.capabilities import CAMERA, Offer, ask
+from app.link.capabilities import CAMERA, Capabilities, ask_capabilities
 from bridge.core.errors import NoReply, NotConnected, ProtocolError, Refused
 from bridge.core.topics import TOPICS
 from tests.app import virtual
@@ -26,12 +26,12 @@ BOT = {
 }
 
 
-def strange(**topics: str) -> Offer:
-    return Offer.of({f"/{name}": kind for name, kind in topics.items()}, frozenset())
+def strange(**topics: str) -> Capabilities:
+    return Capabilities.of({f"/{name}": kind for name, kind in topics.items()}, frozenset())
 
 
 def test_a_robot_of_ours_has_the_usual_names_and_lacks_nothing() -> None:
-    offer = Offer.of(OURS, frozenset({"/stop", "/task/start"}))
+    offer = Capabilities.of(OURS, frozenset({"/stop", "/task/start"}))
     assert offer.ours
     assert offer.sentence == ""
     assert (offer.source("/scan"), offer.drive) == ("/scan", "/cmd_vel")
@@ -40,12 +40,12 @@ def test_a_robot_of_ours_has_the_usual_names_and_lacks_nothing() -> None:
 
 
 def test_a_stop_without_a_status_that_confirms_it_is_none_of_ours() -> None:
-    assert not Offer.of(BOT, frozenset({"/stop"})).ours
-    assert not Offer.of(OURS, frozenset()).ours
+    assert not Capabilities.of(BOT, frozenset({"/stop"})).ours
+    assert not Capabilities.of(OURS, frozenset()).ours
 
 
 def test_the_type_decides_where_the_usual_name_is_missing() -> None:
-    offer = Offer.of(BOT, frozenset())
+    offer = Capabilities.of(BOT, frozenset())
     assert offer.source("/imu/data") == "/imu"
     assert offer.source("/scan") == "/scan_front"
     assert offer.source("/pose") == "/amcl_pose"
@@ -73,7 +73,7 @@ def test_what_is_told_to_the_robot_is_no_measurement() -> None:
     ],
 )
 def test_what_only_looks_alike_is_not_shown(ours: str, kind: str, name: str) -> None:
-    assert Offer.of({name: kind}, frozenset()).source(ours) is None
+    assert Capabilities.of({name: kind}, frozenset()).source(ours) is None
 
 
 @pytest.mark.parametrize(
@@ -89,33 +89,35 @@ def test_what_only_looks_alike_is_not_shown(ours: str, kind: str, name: str) -> 
 def test_it_is_driven_by_a_topic_that_says_so_and_by_no_measurement(
     twists: list[str], drive: str | None
 ) -> None:
-    assert Offer.of(dict.fromkeys(twists, "geometry_msgs/Twist"), frozenset()).drive == drive
+    assert Capabilities.of(dict.fromkeys(twists, "geometry_msgs/Twist"), frozenset()).drive == drive
 
 
 def test_what_was_chosen_is_kept_though_our_own_wishes_appear_in_the_list() -> None:
-    before = Offer.of({"/imu": "sensor_msgs/Imu", "/b/cmd_vel": "geometry_msgs/Twist"}, frozenset())
+    before = Capabilities.of({"/imu": "sensor_msgs/Imu", "/b/cmd_vel": "geometry_msgs/Twist"}, frozenset())
     later = {**before.topics, "/imu/data": "sensor_msgs/Imu", "/cmd_vel": "geometry_msgs/Twist"}
-    kept = Offer.of(later, frozenset(), before)
+    kept = Capabilities.of(later, frozenset(), before)
     assert (kept.source("/imu/data"), kept.drive) == ("/imu", "/b/cmd_vel")
-    gone = Offer.of({"/imu/data": "sensor_msgs/Imu", "/cmd_vel": "geometry_msgs/Twist"}, frozenset(), before)
+    gone = Capabilities.of(
+        {"/imu/data": "sensor_msgs/Imu", "/cmd_vel": "geometry_msgs/Twist"}, frozenset(), before
+    )
     assert (gone.source("/imu/data"), gone.drive) == ("/imu/data", "/cmd_vel")
 
 
 def test_odometry_tells_the_place_only_where_no_map_could_be_wrong_about_it() -> None:
     assert strange(odom="nav_msgs/Odometry").pose_by_odometry
     assert not strange(odom="nav_msgs/Odometry", map="nav_msgs/OccupancyGrid").pose_by_odometry
-    assert not Offer.of(BOT, frozenset()).pose_by_odometry
-    assert not Offer.of(OURS, frozenset({"/stop"})).pose_by_odometry
+    assert not Capabilities.of(BOT, frozenset()).pose_by_odometry
+    assert not Capabilities.of(OURS, frozenset({"/stop"})).pose_by_odometry
 
 
-def asked(topics: Any, services: Any) -> Offer:
+def asked(topics: Any, services: Any) -> Capabilities:
     async def call(service: str, request: None, response: Any, *, timeout: float) -> Any:
         found = topics if service == "/rosapi/topics" else services
         if isinstance(found, Exception):
             raise found
         return response(**found)
 
-    return virtual.run(ask(call))
+    return virtual.run(ask_capabilities(call))
 
 
 def test_both_spellings_of_a_type_are_one() -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from app.link import capability_watch
-from app.link.capabilities import Offer
+from app.link.capabilities import Capabilities
 from app.link.capability_watch import CapabilityWatch
 from app.link.task_set import TaskSet
 from bridge.core.errors import NoReply
@@ -24,7 +24,7 @@ class Robot:
         monkeypatch.setattr(capability_watch, "RETRY_DELAY", 0.0)
         monkeypatch.setattr(capability_watch, "RENEW_PERIOD", 0.0)
         self.topics: dict[str, str] | None = None
-        self.changes: list[Offer] = []
+        self.changes: list[Capabilities] = []
         self.arrivals: list[bool] = []
         self.tasks = TaskSet()
         self.watch = CapabilityWatch(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from app.link.channels import EVENT, KNOWN, SEEN, LinkPosts
-from app.link.event_order import Known
+from app.link.event_order import KnownEvents
 from app.link.feeds import Mailbox
 from app.link.subscriptions import Seen
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
@@ -55,7 +55,7 @@ def test_a_type_that_was_learned_is_not_lost_among_the_messages(box: Box) -> Non
 
 
 def test_how_far_events_are_known_comes_after_them(box: Box) -> None:
-    box.posts.post_known(Known("boot", 1))
-    box.posts.post_known(Known("boot", 2))
+    box.posts.post_known(KnownEvents("boot", 1))
+    box.posts.post_known(KnownEvents("boot", 2))
     box.posts.queue(EVENT)("event")
-    assert box.drained() == [(EVENT, "event", 100.0), (KNOWN, Known("boot", 2), 100.0)]
+    assert box.drained() == [(EVENT, "event", 100.0), (KNOWN, KnownEvents("boot", 2), 100.0)]

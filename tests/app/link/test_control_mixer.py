@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from app.link.control_mixer import Parts, Piloting, Reach, order
+from app.link.control_mixer import ControlMixer, Parts, Reach, order
 from app.link.drive_slot import Drive
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
@@ -97,7 +97,7 @@ def says_of(said: Drive) -> tuple[str, ...]:
 
 def test_every_change_of_any_control_is_sent_with_what_the_others_say() -> None:
     sent: list[Drive] = []
-    piloting = Piloting(sent.append, lambda: ("twist", "tilt"), lambda: REACH, DRONE)
+    piloting = ControlMixer(sent.append, lambda: ("twist", "tilt"), lambda: REACH, DRONE)
     piloting.take("stick", Parts(climb=0.5))
     piloting.take("circle", Parts(pitch=0.2))
     piloting.take("stick", Parts())
@@ -110,7 +110,7 @@ def test_every_change_of_any_control_is_sent_with_what_the_others_say() -> None:
 
 def test_a_control_that_says_what_is_no_number_counts_as_let_go() -> None:
     sent: list[Drive] = []
-    piloting = Piloting(sent.append, tuple)
+    piloting = ControlMixer(sent.append, tuple)
     piloting.take("stick", Parts(ahead=0.5))
     piloting.take("stick", Parts(ahead=math.nan, turn=1.0))
     assert sent[-1] == Twist()
@@ -118,7 +118,7 @@ def test_a_control_that_says_what_is_no_number_counts_as_let_go() -> None:
 
 def test_what_a_push_means_anew_is_sent_at_once_and_for_nothing_that_is_let_go() -> None:
     sent: list[Drive] = []
-    piloting = Piloting(sent.append, tuple)
+    piloting = ControlMixer(sent.append, tuple)
     piloting.take("stick", Parts(ahead=2.0))
     piloting.retake({"stick": Parts(ahead=0.5), "lever": Parts(turn=1.0)})
     assert sent == [Twist.planar(2.0, 0.0), Twist.planar(0.5, 0.0)]

@@ -11,15 +11,15 @@ from typing import Any
 import pytest
 
 from app.core.command_origin import Origin, origins
-from app.link.capabilities import Offer
+from app.link.capabilities import Capabilities
 from app.link.drive_sender import DriveSender
 from bridge.core.topics import TOPICS
 from bridge.msgs.geometry_msgs import Twist, TwistStamped, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from tests.bridge.wires import Clock
 
-OURS = Offer.of({entry.name: entry.type.MSGTYPE for entry in TOPICS}, frozenset({"/stop"}))
-STAMPED = Offer.of({"/cmd_vel": "geometry_msgs/TwistStamped"}, frozenset())
+OURS = Capabilities.of({entry.name: entry.type.MSGTYPE for entry in TOPICS}, frozenset({"/stop"}))
+STAMPED = Capabilities.of({"/cmd_vel": "geometry_msgs/TwistStamped"}, frozenset())
 AHEAD = Twist(linear=Vector3(x=0.4))
 
 
@@ -40,7 +40,7 @@ class Road:
         )
         self.sender.slot.beat()
 
-    def offers(self, offer: Offer) -> None:
+    def offers(self, offer: Capabilities) -> None:
         robot = self.robot
         robot.capabilities, robot.foreign = offer, not offer.ours
         robot.steers, robot.drive_topic = offer.steers, offer.drive

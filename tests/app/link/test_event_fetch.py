@@ -10,7 +10,7 @@ import pytest
 
 from app.link import event_fetch
 from app.link.event_fetch import EventFetch
-from app.link.event_order import Known
+from app.link.event_order import KnownEvents
 from app.link.task_set import TaskSet
 from bridge.core.errors import BridgeError, NoReply
 from bridge.msgs.pilothouse_msgs import Event, GetEventsResponse
@@ -24,7 +24,7 @@ class Robot:
         self.answers: list[Any] = []
         self.asked = 0
         self.heard: list[str] = []
-        self.known: list[Known] = []
+        self.known: list[KnownEvents] = []
         self.tasks = TaskSet()
         self.fetch = EventFetch(
             self,  # type: ignore[arg-type]
@@ -32,7 +32,7 @@ class Robot:
             on_event=lambda event: self.heard.append(event.text),
             on_missed=lambda _: None,
             on_known=self.known.append,
-            known=Known("boot", 1),
+            known=KnownEvents("boot", 1),
         )
 
     async def call(self, *_: object, **__: object) -> GetEventsResponse:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import pytest
 
-from app.link.event_order import AT_FIRST, AT_ONCE, EventStream, Known, Missed
+from app.link.event_order import AT_FIRST, AT_ONCE, EventStream, KnownEvents, Missed
 from bridge.msgs.pilothouse_msgs import Event, GetEventsRequest, GetEventsResponse
 
 
@@ -41,7 +41,7 @@ class Robot:
 class Listener:
     """An event stream, and what it told."""
 
-    def __init__(self, known: Known | None = None, marks: dict[str, int] | None = None) -> None:
+    def __init__(self, known: KnownEvents | None = None, marks: dict[str, int] | None = None) -> None:
         self.told: list[Event] = []
         self.missed: list[Missed] = []
         self.stream = EventStream(self.told.append, self.missed.append, known=known, marks=marks)
@@ -102,7 +102,7 @@ def test_who_is_new_to_a_robot_is_told_the_newest_and_has_missed_nothing() -> No
 
 
 def test_of_what_the_robot_keeps_no_longer_it_is_said_that_it_is_gone() -> None:
-    listener = Listener(Known("a", 10))
+    listener = Listener(KnownEvents("a", 10))
     listener.connect(Robot(700, oldest=300))
     assert listener.texts == numbers(300, 700)
     assert listener.missed == [Missed("a", 10, 700, gone=True)]
@@ -110,7 +110,7 @@ def test_of_what_the_robot_keeps_no_longer_it_is_said_that_it_is_gone() -> None:
 
 def test_numbers_that_a_crash_of_the_robot_left_out_are_nothing_that_is_gone() -> None:
     robot = Robot(10)
-    listener = Listener(Known("a", 10))
+    listener = Listener(KnownEvents("a", 10))
     robot.kept |= Robot(1012, oldest=1011).kept
     listener.connect(robot)
     assert (listener.texts, listener.missed) == (numbers(1011, 1012), [Missed("a", 10, 1012)])
@@ -149,7 +149,7 @@ def test_without_an_answer_live_events_go_on_and_what_lies_before_them_is_still_
 
 
 def test_a_link_that_is_cut_in_the_middle_of_the_rounds_leaves_nothing_out() -> None:
-    listener, robot = Listener(Known("a", 10)), Robot(900)
+    listener, robot = Listener(KnownEvents("a", 10)), Robot(900)
     listener.stream.start()
     listener.stream.answered(robot.answer(listener.stream.request()))
     listener.connect(robot)
@@ -225,7 +225,7 @@ def test_a_robot_without_an_event_store_loses_no_live_event() -> None:
 
 
 def test_a_robot_that_says_forever_that_there_is_more_is_not_asked_forever() -> None:
-    listener = Listener(Known("a", 3))
+    listener = Listener(KnownEvents("a", 3))
     listener.stream.start()
     listener.stream.answered(GetEventsResponse([event(3)], more=True))
     assert not listener.stream.behind

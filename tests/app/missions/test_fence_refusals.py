@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from app.link.feeds import Feeds, Post
-from app.missions.fence_refusals import Refusals, summary
+from app.missions.fence_refusals import FenceRefusals, summary
 from app.missions.mission_editor import Draft
 from bridge.msgs.geometry_msgs import Point32, Polygon
 from bridge.msgs.pilothouse_msgs import Limits, Place, PlaceArray, RobotInfo, TaskOrder
@@ -26,12 +26,12 @@ def feeds() -> Feeds:
 
 
 @pytest.fixture
-def refusals(feeds) -> Refusals:
-    return Refusals(feeds)
+def refusals(feeds) -> FenceRefusals:
+    return FenceRefusals(feeds)
 
 
 def test_before_a_robot_tells_its_fence_nothing_is_refused():
-    refusals = Refusals(Feeds(lambda: 0.0))
+    refusals = FenceRefusals(Feeds(lambda: 0.0))
     assert refusals.draft(Draft(points=((1e6, 0.0),), home=(0.0, 0.0))) == {}
 
 

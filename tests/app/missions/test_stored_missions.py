@@ -9,7 +9,7 @@ import pytest
 
 from app.link.commands import Outcome
 from app.missions.mission_editor import MissionEditor
-from app.missions.stored_missions import LONGEST, KeptMissions
+from app.missions.stored_missions import LONGEST, StoredMissions
 from bridge.msgs.pilothouse_msgs import (
     GetMissionsResponse,
     KeptMission,
@@ -28,7 +28,7 @@ class Robot:
     def __init__(self) -> None:
         self.mission = MissionEditor()
         self.asked: list[tuple[str, dict[str, Any]]] = []
-        self.kept = KeptMissions(self)
+        self.kept = StoredMissions(self)
 
     def command(self, name: str, /, **fields: Any) -> None:
         self.asked.append((name, fields))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.link.capabilities import Offer
+from app.link.capabilities import Capabilities
 from app.link.feeds import Feeds, Post
 from app.session.camera_choice import CameraChoice
 from app.session.robot_profile import RobotProfile
@@ -73,5 +73,5 @@ def test_detections_belong_to_the_first_camera_alone(robot: Robot) -> None:
 def test_a_foreign_robots_picture_is_watched_by_its_topic(
     robot: Robot, topics: dict[str, str], watched: str | None
 ) -> None:
-    robot.profile.capabilities = Offer.of(topics, frozenset())
+    robot.profile.capabilities = Capabilities.of(topics, frozenset())
     assert robot.cameras.wanted("front") == watched

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from app.link.feeds import Feeds, Post
-from app.session.check_list import Checks
+from app.session.check_list import CheckListState
 from bridge.msgs.geometry_msgs import Twist, TwistWithCovariance, Vector3
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import Check, Checklist
@@ -14,7 +14,7 @@ class Robot:
 
     def __init__(self) -> None:
         self.feeds, self.running = Feeds(lambda: 0.0), False
-        self.checks = Checks(self.feeds, lambda: self.running)
+        self.checks = CheckListState(self.feeds, lambda: self.running)
 
     def tell(self, *states: str) -> None:
         told = Checklist(checks=[Check(str(index), state) for index, state in enumerate(states)])

@@ -11,10 +11,10 @@ import pytest
 from app.core.settings_store import Settings
 from app.layout.layout import ACTIONS as OFFERED
 from app.layout.layout import Action as Line
-from app.link.capabilities import Offer
+from app.link.capabilities import Capabilities
 from app.link.commands import COMMANDS
 from app.link.feeds import Feeds, Post
-from app.session.layout_actions import ACTIONS, Actions
+from app.session.layout_actions import ACTIONS, LayoutActions
 from app.session.session import Session
 from bridge.client.client import LinkState, Phase
 from bridge.msgs.pilothouse_msgs import ControlStatus, LightState, RobotInfo, TaskStatus
@@ -54,10 +54,10 @@ class Asked:
         self.recorded: list[bool] = []
         self.visit = SimpleNamespace(toggle_recording=lambda: self.recorded.append(True))
         self.shell = SimpleNamespace(reset=SimpleNamespace(ask=lambda: self.resets.append(True)))
-        self.session.robot.capabilities = Offer(
+        self.session.robot.capabilities = Capabilities(
             {"/control/status": "pilothouse_msgs/ControlStatus"}, services, rosapi=True
         )
-        self.actions = Actions([Line(what) for what in ACTIONS], self.session, self)
+        self.actions = LayoutActions([Line(what) for what in ACTIONS], self.session, self)
         self.tell("/robot/info", AQUA)
         self.tell("/control/status", ControlStatus(driver="us", driver_id="me"))
 
@@ -158,7 +158,7 @@ def test_lights_are_switched_to_what_they_are_not(asked: Asked) -> None:
 
 
 def test_what_a_robot_carries_needs_no_line_of_a_layout(asked: Asked) -> None:
-    asked.actions = Actions([Line("pause")], asked.session, asked)
+    asked.actions = LayoutActions([Line("pause")], asked.session, asked)
     assert asked.names == ["pause"], "what is not mounted shows nothing, whatever services there are"
     asked.tell("/robot/info", RobotInfo(payloads=["lights"], cameras=["front", "rear"]))
     assert asked.names == ["pause", "lights", "camera"]

@@ -11,7 +11,7 @@ import pytest
 
 from app.core.settings_store import Settings
 from app.link.commands import Outcome
-from app.link.event_order import Known, Missed
+from app.link.event_order import KnownEvents, Missed
 from app.session.logbook import AT_ONCE, LOGS, MOST, NEWS, Logbook, marks
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
@@ -44,7 +44,7 @@ def asked() -> Asked:
 @pytest.fixture
 def book(settings: Settings, asked: Asked) -> Logbook:
     book = Logbook(settings, asked)
-    book.know(Known("a", 0))
+    book.know(KnownEvents("a", 0))
     return book
 
 
@@ -149,7 +149,7 @@ def test_what_was_missed_is_said_once_and_what_waits_in_it_is_counted(book: Logb
 
 def test_of_a_log_that_is_no_more_nothing_can_be_seen_to(book: Logbook, asked: Asked) -> None:
     book.take(event(1, "alarm"))
-    book.know(Known("b", 4))
+    book.know(KnownEvents("b", 4))
     book.take(event(4, "alarm", "b"))
     assert [(one.boot, one.id) for one in book.open] == [("b", 4)]
     book.acknowledge(book.events)
@@ -160,7 +160,7 @@ def test_it_is_remembered_over_the_end_of_the_app_how_far_each_robot_is_known(
     tmp_path: Path, settings: Settings, asked: Asked
 ) -> None:
     book = Logbook(settings, asked)
-    for known in (Known("a", 7), Known("b", 3), Known("a", 9)):
+    for known in (KnownEvents("a", 7), KnownEvents("b", 3), KnownEvents("a", 9)):
         book.know(known)
     settings.close()
     assert marks(Settings(tmp_path)) == {"a": 9, "b": 3}
@@ -168,7 +168,7 @@ def test_it_is_remembered_over_the_end_of_the_app_how_far_each_robot_is_known(
 
 def test_the_logs_that_were_heard_last_are_remembered(book: Logbook, settings: Settings) -> None:
     for number in range(LOGS + 5):
-        book.know(Known(f"log {number}", 1))
+        book.know(KnownEvents(f"log {number}", 1))
     assert len(marks(settings)) == LOGS
     assert f"log {LOGS + 4}" in marks(settings)
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from app.session.recordings import Records
+from app.session.recordings import Recordings
 from bridge.core.camera_frames import Frame
 from bridge.msgs import Msg
 from bridge.msgs.nav_msgs import Odometry
@@ -21,7 +21,7 @@ class Kept:
     def __init__(self, folder: Path) -> None:
         self.said: list[tuple[str, str]] = []
         self.wall, self.now = 1_700_000_000.0, 50.0
-        self.records = Records(
+        self.records = Recordings(
             folder, lambda *said: self.said.append(said), lambda: self.wall, lambda: self.now
         )
         self.name = time.strftime("%Y-%m-%d_%H-%M-%S", time.localtime(self.wall))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.link.capabilities import Offer
+from app.link.capabilities import Capabilities
 from app.link.feeds import Feeds, Post
 from app.session.robot_profile import RobotProfile
 from bridge.msgs.pilothouse_msgs import RobotInfo
@@ -35,14 +35,14 @@ def test_before_its_services_are_known_it_may_have_any(robot: RobotProfile) -> N
 
 
 def test_a_robot_without_our_topics_is_foreign_and_lacks_tasks(robot: RobotProfile) -> None:
-    robot.capabilities = Offer({"/odom": "nav_msgs/Odometry"}, frozenset())
+    robot.capabilities = Capabilities({"/odom": "nav_msgs/Odometry"}, frozenset())
     assert robot.foreign
     assert robot.lacks_tasks
     assert not robot.offers("/task/start")
 
 
 def test_one_of_ours_that_takes_missions_alone_does_not_lack_tasks(robot: RobotProfile) -> None:
-    robot.capabilities = Offer(OURS, frozenset({"/stop", "/mission/set"}))
+    robot.capabilities = Capabilities(OURS, frozenset({"/stop", "/mission/set"}))
     assert not robot.foreign
     assert not robot.lacks_tasks
 

@@ -7,17 +7,17 @@ from types import SimpleNamespace
 
 import pytest
 
-from app.link.capabilities import Offer
-from app.link.channels import LINK, OFFER, SEEN
+from app.link.capabilities import Capabilities
+from app.link.channels import CAPABILITIES, LINK, SEEN
 from app.link.feeds import Feeds, Post
 from app.link.subscriptions import Seen
-from app.session.topic_list import Topics
+from app.session.topic_list import TopicListing
 from bridge.core.topics import TOPICS
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import OccupancyGrid
 from bridge.msgs.sensor_msgs import Imu, LaserScan
 
-FOREIGN = Offer.of(
+FOREIGN = Capabilities.of(
     {
         "/scan_front": "sensor_msgs/LaserScan",
         "/imu": "sensor_msgs/Imu",
@@ -26,13 +26,13 @@ FOREIGN = Offer.of(
     },
     frozenset({"/beep"}),
 )
-OURS = Offer.of({entry.name: entry.type.MSGTYPE for entry in TOPICS}, frozenset({"/stop"}))
+OURS = Capabilities.of({entry.name: entry.type.MSGTYPE for entry in TOPICS}, frozenset({"/stop"}))
 
 
 class Robot:
     """A session without a link: the test says what was offered and what came."""
 
-    def __init__(self, offer: Offer | None = FOREIGN) -> None:
+    def __init__(self, offer: Capabilities | None = FOREIGN) -> None:
         self.time = 10.0
         self.asked: list[tuple[str, ...]] = []
         self.robot, self.connected = SimpleNamespace(capabilities=offer), True
@@ -43,7 +43,7 @@ class Robot:
             look_away=lambda: self.asked.append(("look away",)),
             ask_offer=lambda: self.asked.append(("offer",)),
         )
-        self.topics = Topics(self)  # type: ignore[arg-type]
+        self.topics = TopicListing(self)  # type: ignore[arg-type]
 
     def now(self) -> float:
         return self.time
@@ -90,10 +90,10 @@ def test_each_way_of_having_nothing_has_its_sentence() -> None:
     assert robot.topics.sentence == "Asking the robot for its topics …"
     robot.connected = False
     assert robot.topics.sentence == "There is no connection."
-    robot.robot.capabilities = Offer({}, frozenset(), rosapi=False)
+    robot.robot.capabilities = Capabilities({}, frozenset(), rosapi=False)
     assert robot.topics.sentence == "This robot does not tell its topics: it runs no rosapi."
     assert robot.topics.summary == ""
-    robot.robot.capabilities = Offer({}, frozenset())
+    robot.robot.capabilities = Capabilities({}, frozenset())
     assert robot.topics.sentence == "This robot has no topics."
     robot.robot.capabilities, robot.topics.search = FOREIGN, " boat "
     assert robot.topics.sentence == "No topic has “boat” in its name or type."
@@ -145,8 +145,8 @@ def test_a_type_that_cannot_be_shown_and_a_topic_that_went_away_are_said() -> No
     assert robot.topics.notice == "acme_msgs/Gripper cannot be shown."
     robot.topics.hear(LINK, Post(None, robot.time, 1))
     assert robot.asked[-1] == ("look", "/gripper", "acme_msgs/Gripper"), "tried again with the connection"
-    robot.robot.capabilities = Offer.of({"/imu": "sensor_msgs/Imu"}, frozenset())
-    robot.topics.hear(OFFER, Post(robot.robot.capabilities, robot.time, 1))
+    robot.robot.capabilities = Capabilities.of({"/imu": "sensor_msgs/Imu"}, frozenset())
+    robot.topics.hear(CAPABILITIES, Post(robot.robot.capabilities, robot.time, 1))
     assert robot.topics.notice == "The robot no longer offers /gripper."
 
 

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from app.link.commands import STILL_SENDING, Outcome
-from app.stop.stop_state import COMES_TO_REST, DOUBT, Known, StopState, Verdict, judge
+from app.stop.stop_state import COMES_TO_REST, DOUBT, StopFacts, StopState, Verdict, judge
 from bridge.msgs.pilothouse_msgs import ControlStatus
 from tests.bridge.wires import Clock
 
@@ -18,49 +18,49 @@ WHY = "No robot answers."
 @pytest.mark.parametrize(
     ("known", "verdict"),
     [
-        (Known(), Verdict("ready")),
-        (Known(asked_at=99.5), Verdict("sent")),
+        (StopFacts(), Verdict("ready")),
+        (StopFacts(asked_at=99.5), Verdict("sent")),
         (
-            Known(asked_at=98.0),
+            StopFacts(asked_at=98.0),
             Verdict("no_answer", "It does not answer; STOP is sent again and again."),
         ),
-        (Known(asked_at=98.0, reached_at=99.5), Verdict("sent")),
-        (Known(asked_at=99.9, refusal=CUT), Verdict("no_answer", CUT)),
+        (StopFacts(asked_at=98.0, reached_at=99.5), Verdict("sent")),
+        (StopFacts(asked_at=99.9, refusal=CUT), Verdict("no_answer", CUT)),
         (
-            Known(asked_at=98.0, taken_at=98.1, latched=False),
+            StopFacts(asked_at=98.0, taken_at=98.1, latched=False),
             Verdict("no_answer", "It took STOP and does not say that it rests."),
         ),
-        (Known(latched=True, at_rest=True, by="Anna"), Verdict("stopped", "Pressed by Anna.")),
+        (StopFacts(latched=True, at_rest=True, by="Anna"), Verdict("stopped", "Pressed by Anna.")),
         (
-            Known(latched=True, moves_since=100.1 - COMES_TO_REST),
+            StopFacts(latched=True, moves_since=100.1 - COMES_TO_REST),
             Verdict("sent", "STOP is pressed; it comes to rest."),
         ),
         (
-            Known(latched=True, moves_since=99.9 - COMES_TO_REST),
+            StopFacts(latched=True, moves_since=99.9 - COMES_TO_REST),
             Verdict("moves", "STOP is pressed, and it does not come to rest."),
         ),
-        (Known(latched=True, moves_since=99.9, refusal=CUT), Verdict("no_answer", CUT)),
+        (StopFacts(latched=True, moves_since=99.9, refusal=CUT), Verdict("no_answer", CUT)),
         (
-            Known(asked_at=90.0, latched=False, released=True),
+            StopFacts(asked_at=90.0, latched=False, released=True),
             Verdict("released", "STOP was released."),
         ),
-        (Known(reached=False, why=WHY), Verdict("ready")),
-        (Known(reached=False, asked_at=99.5, why=WHY), Verdict("sent")),
-        (Known(reached=False, asked_at=98.0, why=WHY), Verdict("no_answer", WHY)),
-        (Known(reached=False, asked_at=99.9, why=WHY, hopeless=True), Verdict("no_answer", WHY)),
+        (StopFacts(reached=False, why=WHY), Verdict("ready")),
+        (StopFacts(reached=False, asked_at=99.5, why=WHY), Verdict("sent")),
+        (StopFacts(reached=False, asked_at=98.0, why=WHY), Verdict("no_answer", WHY)),
+        (StopFacts(reached=False, asked_at=99.9, why=WHY, hopeless=True), Verdict("no_answer", WHY)),
         (
-            Known(reached=False, lost_at=88.0, why=WHY),
+            StopFacts(reached=False, lost_at=88.0, why=WHY),
             Verdict("lost", "STOPPED when it was last heard, 12 s ago. No robot answers."),
         ),
-        (Known(reached=False, lost_at=88.0, asked_at=99.5, why=WHY), Verdict("sent")),
+        (StopFacts(reached=False, lost_at=88.0, asked_at=99.5, why=WHY), Verdict("sent")),
         (
-            Known(reached=False, lost_at=88.0, asked_at=89.0, why=WHY),
+            StopFacts(reached=False, lost_at=88.0, asked_at=89.0, why=WHY),
             Verdict("no_answer", "STOPPED when it was last heard, 12 s ago. No robot answers."),
         ),
-        (Known(lost_at=88.0), Verdict("lost", "STOPPED when it was last heard, 12 s ago.")),
+        (StopFacts(lost_at=88.0), Verdict("lost", "STOPPED when it was last heard, 12 s ago.")),
     ],
 )
-def test_what_is_known_decides(known: Known, verdict: Verdict) -> None:
+def test_what_is_known_decides(known: StopFacts, verdict: Verdict) -> None:
     assert judge(known, 100.0) == verdict
 
 

@@ -14,7 +14,7 @@ import pytest
 from app.core.command_origin import Origin, origins
 from app.core.settings_store import Settings
 from app.intents.intents import Heard, Intents
-from app.intents.method_permits import Permits
+from app.intents.method_permits import MethodPermits
 from app.link.channels import OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
@@ -78,7 +78,7 @@ class Running:
             methods=Ways(self.made),
             corner=SimpleNamespace(on_pressed=[]),
             fleet=SimpleNamespace(active=False, total=0, stopped=0),
-            intents=Intents(self.acts, Permits(self.settings), lambda: self.time),
+            intents=Intents(self.acts, MethodPermits(self.settings), lambda: self.time),
         )
         self.log = ResponseRecording(self.app, wall=lambda: 1_700_000_000.0 + self.time)
         self.app.methods.log = self.log

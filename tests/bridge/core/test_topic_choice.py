@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from app.link.capabilities import Offer
+from app.link.capabilities import Capabilities
 from bridge.core.topic_choice import CAMERA, Command, command, drive_message, source
 from bridge.msgs import ros1_name
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
@@ -93,7 +93,7 @@ CROWD = {
 
 def test_the_handheld_and_the_robot_side_choose_alike() -> None:
     types = {name: ros1_name(kind) for name, kind in CROWD.items()}
-    offer, found = Offer.of(types, frozenset()), match(CROWD)
+    offer, found = Capabilities.of(types, frozenset()), match(CROWD)
     assert (found.command, found.stamped) == (offer.drive, offer.stamped) == ("/robot/teleop", False)
     for ours in ("/odom", "/scan", "/map", CAMERA, "/battery_state", "/imu/data", "/fix", "/robot/info"):
         assert found.topics.get(ours, (None,))[0] == offer.source(ours), ours

@@ -9,7 +9,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from app.discovery.known_robots import Robots
+from app.discovery.known_robots import KnownRobots
 from app.screens.connect.connect import RobotCard
 from bridge.codec import from_json, to_json
 from bridge.discovery.beacon import Hello
@@ -110,7 +110,7 @@ def test_its_order_form_asks_for_a_throttle(info: RobotInfo, stage: Any) -> None
 
 
 def test_its_card_has_its_icon_and_name(info: RobotInfo, stage: Any) -> None:
-    robots = Robots(lambda: 0.0)
+    robots = KnownRobots(lambda: 0.0)
     url = "ws://10.0.0.3:9090"
     hello = Hello(name="Gust-1", kind=info.kind, description=info.description, icon=info.icon, url=url)
     robots.heard(from_json(to_json(hello), Hello), 0.0)
@@ -121,7 +121,7 @@ def test_its_card_has_its_icon_and_name(info: RobotInfo, stage: Any) -> None:
 
 @pytest.mark.parametrize("icon", ["", "no_such_icon"])
 def test_a_robot_without_an_icon_that_the_app_has_gets_the_generic_one(icon: str, stage: Any) -> None:
-    robots = Robots(lambda: 0.0)
+    robots = KnownRobots(lambda: 0.0)
     robots.heard(Hello(name="Odd-1", kind="odd", icon=icon, url="ws://10.0.0.4:9090"), 0.0)
     card = stage.show(RobotCard(), size=(440, 200))
     card.show_entry(robots.entries()[0], "me")
@@ -129,7 +129,7 @@ def test_a_robot_without_an_icon_that_the_app_has_gets_the_generic_one(icon: str
 
 
 def test_the_icon_of_a_saved_robot_is_kept() -> None:
-    robots = Robots(lambda: 0.0)
+    robots = KnownRobots(lambda: 0.0)
     url = robots.add("10.0.0.5")
     robots.name(url, "Gust-1", "airboat", "Airboat with a propeller", "air")
-    assert Robots(lambda: 0.0, robots.save()).entries()[0].icon == "air"
+    assert KnownRobots(lambda: 0.0, robots.save()).entries()[0].icon == "air"

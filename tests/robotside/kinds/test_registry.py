@@ -10,7 +10,7 @@ import msgspec
 import pytest
 
 import robotside
-from app.discovery.simulator_options import Offered
+from app.discovery.simulator_options import SimulatorOptions
 from bridge.msgs.pilothouse_msgs import (
     FlightState,
     Manoeuvre,
@@ -177,7 +177,7 @@ def test_an_unknown_kind_is_said_once_and_goes_as_if_on_wheels(tmp_path: Path) -
 
 def test_the_simulators_offer_has_the_icon_of_each_kind(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["offer", "--json"]) == 0
-    offered = Offered.read(capsys.readouterr().out)
+    offered = SimulatorOptions.read(capsys.readouterr().out)
     assert {robot.kind: robot.icon for robot in offered.robots} == {
         kind: record.icon for kind, record in KINDS.items()
     }

@@ -17,7 +17,7 @@ from app.inputs.switch_access.scan.target import Mark, Target
 from app.inputs.switch_access.switches import SwitchAccess
 from app.inputs.switch_access.typing_guard import TYPING_TIME
 from app.intents.intents import Intents
-from app.intents.method_permits import Permits
+from app.intents.method_permits import MethodPermits
 
 
 class Settings(dict[str, Any]):
@@ -55,7 +55,7 @@ class Hand:
         shell = SimpleNamespace(say=lambda text, level, about: self.said.append(text))
         self.presses = Presses(lambda press: False, stops.append)
         self.acts, self.told = IntentActions(), []
-        self.permits = Permits(Settings())
+        self.permits = MethodPermits(Settings())
         self.intents = Intents(self.acts, self.permits, lambda: self.now)
         self.intents.on_taken.append(lambda heard, verdict: self.told.append((heard, verdict.what)))
         self.app = SimpleNamespace(

@@ -22,7 +22,7 @@ from app.inputs.voice.talk_button import MAX_HOLD, TAP_TIMEOUT
 from app.inputs.voice.voice_input import HEARS, RETRY_PERIOD, VoiceInput
 from app.inputs.voice.voice_status import CLIPPED_TIME, CLIPS, DEAF_NOW, MUTED_NOW
 from app.intents.intents import Heard, Intents
-from app.intents.method_permits import Permits
+from app.intents.method_permits import MethodPermits
 from tests.headless import Stage
 
 
@@ -100,7 +100,7 @@ class Desk:
             talk=SimpleNamespace(speaking=False, spoke=-math.inf),
             inputs=SimpleNamespace(meanings=SimpleNamespace(held={"talk": []})),
             methods=SimpleNamespace(get=lambda _: SimpleNamespace(on=True, tracks=tracks)),
-            intents=Intents(self.acts, Permits(settings), lambda: self.t),
+            intents=Intents(self.acts, MethodPermits(settings), lambda: self.t),
         )
         self.app.intents.on_taken.append(lambda heard, _: self.taken.append(heard))
         self.speaking = VoiceInput(self.app, lambda: self.recogniser)

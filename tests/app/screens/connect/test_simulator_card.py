@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from app.discovery import simulator_process as simulator
-from app.discovery.simulator_options import Choice
-from app.screens.connect.simulator_choice import SimulatorChoice
+from app.discovery.simulator_options import SimulationChoice
+from app.screens.connect.simulator_choice import SimulatorDialog
 from sim.catalogue import catalogue
 from tests.app.glass import Glass
 
@@ -40,10 +40,10 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, str]]:
     return calls
 
 
-def asked(glass: Glass) -> SimulatorChoice:
+def asked(glass: Glass) -> SimulatorDialog:
     glass.tap(glass.app.connect.ids.simulate)
     dialog = glass.app.simulating.dialog
-    assert isinstance(dialog, SimulatorChoice)
+    assert isinstance(dialog, SimulatorDialog)
     glass.until(lambda: dialog.offered or dialog.problem, "nobody said what there is")
     glass.stage.frames(3)
     return dialog
@@ -53,7 +53,7 @@ def test_robots_and_their_world_are_chosen_and_started_together(
     glass: Glass, started: list[tuple[str, str]]
 ) -> None:
     dialog = asked(glass)
-    assert dialog.choice == Choice(("patrol",), "parking_lot")
+    assert dialog.choice == SimulationChoice(("patrol",), "parking_lot")
     glass.tap(dialog.row("robot", "scout"))
     glass.tap(dialog.row("world", "office"))
     assert dialog.ids.start.text == "Start 2 robots"
@@ -66,7 +66,7 @@ def test_robots_and_their_world_are_chosen_and_started_together(
     assert glass.app.session is None
     # the next time it is the same, and what there is is known already
     again = asked(glass)
-    assert again.choice == Choice(("patrol", "scout"), "office")
+    assert again.choice == SimulationChoice(("patrol", "scout"), "office")
     assert "The one that runs now ends." in again.sentence
     first = glass.app.simulating.current
     glass.tap(again.ids.start)
@@ -88,7 +88,7 @@ def test_one_that_does_not_start_is_said_and_another_can_be_started(
     glass: Glass, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(simulator, "command", lambda *_: FAILS)
-    glass.app.simulating.start(Choice(("patrol",), "lake"))
+    glass.app.simulating.start(SimulationChoice(("patrol",), "lake"))
     glass.until(lambda: not glass.app.connect.simulating, "it did not fail")
     assert glass.app.connect._banner.text == "The simulator did not start: The world is flooded."
     assert glass.app.connect.simulator_text == "Start the built-in simulator"

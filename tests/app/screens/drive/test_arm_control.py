@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from app.link.capabilities import Offer
-from app.link.channels import OFFER
+from app.link.capabilities import Capabilities
+from app.link.channels import CAPABILITIES
 from app.screens.drive.dive import DiveScreen
 from bridge.msgs.arrays import Float64Array
 from bridge.msgs.geometry_msgs import Point
@@ -118,9 +118,9 @@ def test_what_is_taken_off_goes_and_what_is_read_is_said(driving: Glass, robot: 
     screen = armed(driving)
     panel, session = screen.hands.arm.panel, driving.app.session
     offer = session.robot.capabilities
-    bare = Offer(offer.topics, offer.services - {"/arm/move"}, True, offer.names, offer.drive)
+    bare = Capabilities(offer.topics, offer.services - {"/arm/move"}, True, offer.names, offer.drive)
     session.robot.capabilities = bare
-    screen.hear(OFFER, type("Said", (), {"value": bare})())
+    screen.hear(CAPABILITIES, type("Said", (), {"value": bare})())
     driving.stage.frames(2)
     assert (panel.parent, screen.switch.parent, screen.hands.chosen) == (None, None, "")
     assert screen.stick is not None

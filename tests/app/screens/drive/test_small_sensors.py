@@ -9,7 +9,7 @@ import pytest
 
 from app.layout.arrange import Rect
 from app.link.feeds import Feeds, Post
-from app.screens.drive.small_sensors import Senses
+from app.screens.drive.small_sensors import SmallSensors
 from bridge.msgs import Msg
 from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
@@ -31,7 +31,7 @@ class Held:
         self.now = 100.0
         self.feeds = Feeds(lambda: self.now)
         self.feeds.link(True)
-        self.card = Senses(self.feeds)
+        self.card = SmallSensors(self.feeds)
         self.ultrasound, self.line, self.encoders = UltrasoundView(), LineSensorView(), EncodersView()
         self.card.add(self.ultrasound, SIDES)
         self.card.add(self.line, ("/line_sensor",))

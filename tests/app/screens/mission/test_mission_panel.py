@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from app.core.settings_store import Settings
-from app.link.capabilities import Offer
+from app.link.capabilities import Capabilities
 from app.link.channels import EVENT
 from app.link.feeds import Feeds, Post
 from app.session.dashboard import Dashboard
@@ -184,7 +184,7 @@ def test_a_robot_without_missions_and_tasks_is_offered_none(
 ) -> None:
     from app.screens.mission.mission_panel import MissionPanel
 
-    session.robot.capabilities = Offer({"/odom": "nav_msgs/Odometry"}, frozenset())
+    session.robot.capabilities = Capabilities({"/odom": "nav_msgs/Odometry"}, frozenset())
     panel: Any = MissionPanel(session, Dashboard(session.feeds))
     chosen: list[str] = []
     panel.lacking.bind(on_choose=lambda _, screen: chosen.append(screen))
@@ -202,12 +202,12 @@ def test_a_robot_without_missions_and_tasks_is_offered_none(
 def test_a_robot_that_turns_out_to_have_tasks_is_offered_them(stage: Stage, session: Session) -> None:
     from app.screens.mission.mission_panel import MissionPanel
 
-    session.robot.capabilities = Offer({}, frozenset())
+    session.robot.capabilities = Capabilities({}, frozenset())
     panel: Any = MissionPanel(session, Dashboard(session.feeds))
     panel.take_form("wide")
     stage.show(panel, (316, 600))
     settle(stage, panel)
-    session.robot.capabilities = Offer({}, frozenset({"/task/start", "/mission/set"}))
+    session.robot.capabilities = Capabilities({}, frozenset({"/task/start", "/mission/set"}))
     settle(stage, panel)
     assert seen(panel, panel.ids["send"])
     assert panel.lacking.parent is None

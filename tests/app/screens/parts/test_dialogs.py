@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from app.discovery.simulator_options import Choice
+from app.discovery.simulator_options import SimulationChoice
 from app.layout.rects import Rect
-from app.screens.connect.simulator_choice import SimulatorChoice
+from app.screens.connect.simulator_choice import SimulatorDialog
 from app.screens.parts.dialogs import AddressDialog, Question, free_room
 from app.screens.shell.key_help import HelpCard
 from tests.app.glass import Glass
@@ -20,7 +20,7 @@ def questions() -> list[Question]:
     many = [([str(number)], "What it does, in words") for number in range(60)]
     help_ = HelpCard()
     help_.show([("STOP", [(["Esc"], "STOP")]), ("Robot", many)])
-    return [help_, AddressDialog(lambda _: None), SimulatorChoice(Choice(), lambda _: None)]
+    return [help_, AddressDialog(lambda _: None), SimulatorDialog(SimulationChoice(), lambda _: None)]
 
 
 def test_a_card_may_be_anywhere_where_there_is_no_stop() -> None:

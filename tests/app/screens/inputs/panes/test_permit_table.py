@@ -7,14 +7,14 @@ from typing import Any
 
 import pytest
 
-from app.intents.method_permits import Permits
+from app.intents.method_permits import MethodPermits
 from app.screens.inputs.panes.permit_table import TablePane
 from tests.app.inputs.pushing import Settings
 
 
 @pytest.fixture
 def pane(stage: Any) -> Any:
-    app = SimpleNamespace(intents=SimpleNamespace(table=Permits(Settings())))
+    app = SimpleNamespace(intents=SimpleNamespace(table=MethodPermits(Settings())))
     pane = TablePane(app=app)
     stage.show(pane, (412, 700))
     return pane

@@ -11,7 +11,7 @@ import pytest
 from app.core.command_origin import origins
 from app.core.settings_store import Settings
 from app.intents.intents import Intents
-from app.intents.method_permits import Permits
+from app.intents.method_permits import MethodPermits
 from app.screens.inputs.study.form_view import FormView
 from app.screens.inputs.study.log_view import facts
 from app.screens.inputs.study.setup_view import SetupView, commands_of
@@ -61,7 +61,7 @@ class Bench:
             methods=Ways(),
             corner=SimpleNamespace(on_pressed=[]),
         )
-        self.app.intents = Intents(IntentActions(), Permits(self.settings), self.app.now)
+        self.app.intents = Intents(IntentActions(), MethodPermits(self.settings), self.app.now)
         self.log = self.app.methods.all["log"] = ResponseRecording(self.app, wall=lambda: 1.7e9)
         self.log.start()
         self.pane = StudyPane(app=self.app)
