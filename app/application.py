@@ -32,8 +32,8 @@ from app.robot_directory import RobotDirectory
 from app.robot_visit import RobotVisit
 from app.root import Root
 from app.screens.connect.connect import ConnectScreen
-from app.screens.connect.simulator_card import CHANNEL as SIMULATED
-from app.screens.connect.simulator_card import SimulatorLauncher
+from app.screens.connect.simulator_launcher import CHANNEL as SIMULATED
+from app.screens.connect.simulator_launcher import SimulatorLauncher
 from app.screens.inputs.page import InputsPage
 from app.screens.parts.themes import Themes
 from app.screens.shell.key_help import toggle_help

@@ -9,7 +9,7 @@ from typing import Protocol
 from app.core.command_origin import gave_stop
 from app.link.commands import Outcome
 from app.link.feeds import Post
-from app.session.control import Line
+from app.session.authority import Line
 from app.session.event_words import own_event, own_reason
 from app.session.logbook import Logbook
 from bridge.core.codes import Code

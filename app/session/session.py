@@ -18,9 +18,9 @@ from app.missions.mission_drafts import MissionDrafts
 from app.missions.mission_editor import Draft
 from app.missions.stored_missions import StoredMissions
 from app.missions.tasking import Tasking
+from app.session.authority import Authority
 from app.session.camera_choice import CameraChoice
 from app.session.check_list import CheckListState
-from app.session.control import Authority
 from app.session.event_intake import EventIntake
 from app.session.initial_pose import initial_pose
 from app.session.logbook import Logbook

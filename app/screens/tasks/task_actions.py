@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 from app.layout.arrange import Rect
 from app.screens.mission.mission_pane import MissionPane
-from app.screens.parts.act_buttons import ListButtons
+from app.screens.parts.list_buttons import ListButtons
 from app.screens.shell.screen_host import ScreenHost
 from app.screens.tasks.event_list import EventList
 from app.screens.tasks.order_pane import OrderPane

@@ -6,7 +6,7 @@ import pytest
 
 from app.discovery.simulator_options import SimulationChoice
 from app.layout.rects import Rect
-from app.screens.connect.simulator_choice import SimulatorDialog
+from app.screens.connect.simulator_dialog import SimulatorDialog
 from app.screens.parts.dialogs import AddressDialog, Question, free_room
 from app.screens.shell.key_help import HelpCard
 from tests.app.glass import Glass

@@ -10,7 +10,7 @@ from app.discovery import simulator_process as simulator
 from app.discovery.simulator_options import SimulationChoice, SimulatorOptions
 from app.link.feeds import Mailbox
 from app.screens.connect.connect import ConnectScreen
-from app.screens.connect.simulator_choice import SimulatorDialog
+from app.screens.connect.simulator_dialog import SimulatorDialog
 from app.session.session import Session
 
 __all__ = ["CHANNEL", "SimulatorLauncher"]

@@ -9,7 +9,7 @@ import pytest
 
 from app.discovery import simulator_process as simulator
 from app.discovery.simulator_options import SimulationChoice
-from app.screens.connect.simulator_choice import SimulatorDialog
+from app.screens.connect.simulator_dialog import SimulatorDialog
 from sim.catalogue import catalogue
 from tests.app.glass import Glass
 
