@@ -148,7 +148,7 @@ class Authority:
 
     def acquire(self, client: Operator, now: float) -> Problem:
         """Give control to `client` if it is free or its own."""
-        self._look(now)
+        self._expire(now)
         problem = self.objection(client)
         if not problem:
             self._give(client)
@@ -204,16 +204,16 @@ class Authority:
         self._asker = None
         return ""
 
-    def mind(self, now: float) -> str:
+    def update(self, now: float) -> str:
         """Let control lapse and go over when it is time.
 
         Returns the name of a driver who fell silent since the last call, whose id is `fell_id`; empty when none did.
         """
-        self._look(now)
+        self._expire(now)
         fell, self._fell = self._fell, ""
         return fell
 
-    def _look(self, now: float) -> None:
+    def _expire(self, now: float) -> None:
         if self._asker is not None and now - self._asker.client.last_heard > CONTROL_TIMEOUT:
             self._asker = None
         if self._driver is not None and now - self._driver.client.last_heard > CONTROL_TIMEOUT:
@@ -222,7 +222,7 @@ class Authority:
         elif self._asker is not None and now >= self._asker.due:
             self._pass_on()
 
-    def gone(self, client: Operator) -> bool:
+    def on_gone(self, client: Operator) -> bool:
         """Forget a client whose socket closed; True when it had control."""
         if self._asker is not None and self._asker.client.id == client.id:
             self._asker = None

@@ -88,13 +88,13 @@ class CommandGate(Authority):
         """A drive command of `client` is in force."""
         return self._giver is not None and self._giver.id == client.id
 
-    def gone(self, client: Operator) -> bool:
+    def on_gone(self, client: Operator) -> bool:
         """Forget a client whose socket closed, and the drive command it `drives` by; True when it had control."""
         self._expiry.forget(client)
         self._sticks.forget(client.id)
         if self.drives(client):
             self._giver = None
-        return super().gone(client)
+        return super().on_gone(client)
 
     def stop(self, name: str, client_id: str = "", given: float = -math.inf) -> None:
         """Latch STOP; from anyone, any time. `name` pressed it, whose `client_id` is empty without one.
@@ -129,13 +129,13 @@ class CommandGate(Authority):
         moving = not at_rest(order)
         said = self._fault(client, order, now, stamp)
         given = now if stamp is None or math.isnan(stamp) else stamp
-        counts = not finite(order) or self._sticks.hear(client.id, moving, given, now)
+        counts = not finite(order) or self._sticks.on_command(client.id, moving, given, now)
         if not said and (moving or not (auto or trouble or self.stopped)):
             said = trouble or self._refusal(client, now, counts)
             if not said:
                 self._sticks.obey(client.id, now)
                 self._giver, self._until = client, self._expiry.given(client, now, stamp) + HOLD_TIME
-                self.look(now)
+                self.update_speed_cap(now)
                 # the robot's own limits are looked at where orders reach its port
                 return Ruling(paced(order, self._info, self.pace.share))
             self._sticks.void(client.id)
@@ -154,13 +154,13 @@ class CommandGate(Authority):
         self.hold()
         return True
 
-    def look(self, now: float) -> None:
+    def update_speed_cap(self, now: float) -> None:
         """Let the speed follow the link of who has control; to be called often."""
         driver = self.driver
         if driver is not None and math.isnan(driver.client.rtt):
             self.pace.limit(self._unmeasured_share, now)
         elif self._follows():
-            self.pace.look(driver.client.rtt if driver else math.nan, now)
+            self.pace.update(driver.client.rtt if driver else math.nan, now)
         else:
             self.pace.free()
 
@@ -182,7 +182,7 @@ class CommandGate(Authority):
         """Why a sound command of `client` is not obeyed; empty when it is, and then it has control."""
         if self.stopped:
             return STOP_SENTENCE
-        self._look(now)
+        self._expire(now)
         return self.objection(client) or (self.acquire(client, now) if counts else LET_GO_SENTENCE)
 
     def _fault(self, client: Operator, order: Order, now: float, stamp: float | None) -> Problem:

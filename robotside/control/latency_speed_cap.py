@@ -49,7 +49,7 @@ class LatencySpeedCap:
         """The share as it is told, never more than it is."""
         return 1.0 if self.share >= 1.0 else math.floor(self.share / SHARE_STEP + 1e-9) * SHARE_STEP
 
-    def look(self, rtt: float, now: float) -> None:
+    def update(self, rtt: float, now: float) -> None:
         """The driver's round trip is `rtt` [s] now; NaN when it is not known or nobody drives."""
         self.limit(share(rtt), now)
 

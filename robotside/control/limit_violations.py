@@ -69,7 +69,7 @@ class LimitViolations:
         self._info, self._say, self._clock = info, say, clock
         self._next: dict[str, float] = {}
 
-    def look(self, client: str, order: Order) -> None:
+    def check(self, client: str, order: Order) -> None:
         """`client`, by its id, is obeyed with this `order`, as far as it may be."""
         said = excess(order, self._info)
         now = self._clock()

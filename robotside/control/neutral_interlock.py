@@ -41,7 +41,7 @@ class NeutralInterlock:
     def __init__(self) -> None:
         self._pushes: dict[str, _Push] = {}
 
-    def hear(self, client: str, moving: bool, given: float, now: float) -> bool:
+    def on_command(self, client: str, moving: bool, given: float, now: float) -> bool:
         """A command came that was `given` at that time [s], `moving` or of zero; True when its stick counts."""
         push = self._pushes.get(client)
         given = min(given, now)

@@ -16,7 +16,7 @@ class StopLatch:
     def __init__(self, records: Records, say: Say) -> None:
         self._records, self._say = records, say
         self._unkept = False
-        records.watch("facts", self._look)
+        records.watch("facts", self._on_change)
 
     def note(self, by: str) -> None:
         """STOP is pressed, `by` somebody; nobody when it is released."""
@@ -44,7 +44,7 @@ class StopLatch:
             said = f"That STOP is {state} could not be kept: {said}"
             self._say("stop", Notice(Code.STOP_UNKEPT, said, state=state), "alarm")
 
-    def _look(self) -> None:
+    def _on_change(self) -> None:
         if self._unkept and self._records.stop_kept:
             self._unkept = False
             state = "pressed" if self._records.stopped_by else "released"

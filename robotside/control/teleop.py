@@ -99,7 +99,7 @@ class Teleop:
         self._safe, self._options = safe, options
         self._say, self._clock = say, clock
         self._measured, self._go_home = measured, go_home
-        self._excesses = LimitViolations(robot.info, say, clock)
+        self._violations = LimitViolations(robot.info, say, clock)
         self._ran = self._returned = False
         self._pushed = -math.inf
         self._done: Act | None = None
@@ -111,7 +111,7 @@ class Teleop:
             robot = self._robot.info.name
             over = Notice(Code.TASK_OVERTURNED, f"Paused: {robot} has turned over.", robot=robot)
             self._engine.pause(over, "alarm")
-        lost = controls.mind(clock)
+        lost = controls.update(clock)
         if lost:
             said, who = (
                 f"{lost} was not heard for {CONTROL_TIMEOUT:.0f} s and lost control.",
@@ -120,7 +120,7 @@ class Teleop:
             lapsed = Notice(Code.CONTROL_LAPSED, said, actor_id=who, name=lost, seconds=CONTROL_TIMEOUT)
             self._say("control", lapsed, "warn")
             self._lost(lost, who, now)
-        controls.look(clock)
+        controls.update_speed_cap(clock)
         if controls.expired(clock) and not self._engine.running:
             self.rest(now)
         self._keep_safe(now)
@@ -145,7 +145,7 @@ class Teleop:
         name, client_id = self._controls.name(client), self._controls.id(client)
         said = f"Paused: {name} took the stick."
         engine.pause(Notice(Code.TASK_TAKEN_OVER, said, actor_id=client_id, name=name), "warn")
-        self._excesses.look(client.id, order)
+        self._violations.check(client.id, order)
         self._ran = self._returned = False
         self._robot.follow(self._kept_off(settled(ruling.order, self._robot.info)))
         return ""
@@ -197,15 +197,15 @@ class Teleop:
         self._enter(now)
         self._do(self._safe.step(now, self._measured(), lost=self._controls.driver is None))
 
-    def gone(self, client: Operator, now: float) -> None:
+    def on_gone(self, client: Operator, now: float) -> None:
         """A client's socket closed; if it was driving, the robot takes its safe state at once."""
         drove, name, who = (
             self._controls.drives(client),
             self._controls.name(client),
             self._controls.id(client),
         )
-        held = self._controls.gone(client)
-        self._excesses.forget(client.id)
+        held = self._controls.on_gone(client)
+        self._violations.forget(client.id)
         if drove and not self._engine.running:
             self.rest(now)
         if held:

@@ -42,16 +42,16 @@ _BINARY = {"/scan", "/map", CAMERA}
 class Listener(Protocol):
     """Whom a link tells; called in the link's thread."""
 
-    def found(self, found: Found) -> None:
+    def on_found(self, found: Found) -> None:
         """The robot is reached, stands still, and offers this."""
 
-    def lost(self, sentence: str) -> None:
+    def on_lost(self, sentence: str) -> None:
         """The robot is not reached, for this reason."""
 
-    def heard(self, topic: str, msg: Msg) -> None:
+    def on_message(self, topic: str, msg: Msg) -> None:
         """A message came on what is `topic` with us."""
 
-    def held(self, sentence: str) -> None:
+    def on_held(self, sentence: str) -> None:
         """The robot is reached and obeys others, for this reason; empty when it obeys us."""
 
 
@@ -128,7 +128,7 @@ class ForeignLink:
                 self._pressing.cancel()
             if self._asking is not None:
                 self._asking.cancel()
-            self._listener.lost(state.sentence)
+            self._listener.on_lost(state.sentence)
 
     async def _ask(self) -> None:
         found = await self._offer()
@@ -146,7 +146,7 @@ class ForeignLink:
             if before is None or before.topics.get(topic) != found.topics.get(topic):
                 self._unsubscribe(topic)
                 self._subscribe(topic)
-        self._listener.found(found)
+        self._listener.on_found(found)
         if self._pressed:
             self._press()
 
@@ -206,14 +206,16 @@ class ForeignLink:
             self._mine = msg.stopped and msg.stopped_by == self._name
             self._busy = msg.mode == "AUTO" and not others
             expected = self._mine and self._pressed
-            self._listener.held(_holder(structs.replace(msg, stopped=not expected and msg.stopped), others))
+            self._listener.on_held(
+                _holder(structs.replace(msg, stopped=not expected and msg.stopped), others)
+            )
             if self._mine and self._releases and not self._pressed:
                 self._work(self._unstop())
             if msg.stopped and msg.driver_id == self._id and not self._mine:
                 # only who has control may release STOP, and that is done where it was pressed
                 self._begin("/control/release")
         else:
-            self._listener.heard(topic, msg)
+            self._listener.on_message(topic, msg)
 
     def _subscribe(self, topic: str) -> None:
         if self._found is None or topic not in self._found.topics or topic in self._leave:

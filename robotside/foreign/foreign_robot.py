@@ -162,7 +162,7 @@ class ForeignRobot:
         """Bring it to rest and let go of it."""
         self._link.close()
 
-    def found(self, found: Found) -> None:
+    def on_found(self, found: Found) -> None:
         """The link: the robot is reached, stands still, and offers this."""
         with self._lock:
             self._twist, self._rests = None, 0 if self._held else REST_REPEATS
@@ -172,7 +172,7 @@ class ForeignRobot:
                 self._said.extend(Notice(Code.FOREIGN_REMARK, remark) for remark in found.remarks)
             self._lock.notify_all()
 
-    def lost(self, sentence: str) -> None:
+    def on_lost(self, sentence: str) -> None:
         """The link: the robot is not reached, for this reason."""
         with self._lock:
             self._twist, self._rests = None, 0
@@ -182,7 +182,7 @@ class ForeignRobot:
             self._newest = {topic: msg for topic, msg in self._newest.items() if topic == "/map"}
             self._lock.notify_all()
 
-    def heard(self, topic: str, msg: Msg) -> None:
+    def on_message(self, topic: str, msg: Msg) -> None:
         """The link: a message came."""
         if isinstance(msg, CompressedImage) and not msg.data.startswith(JPEG_START):
             self._refuse(msg)
@@ -192,7 +192,7 @@ class ForeignRobot:
             self._newest[topic] = msg
             self._lock.notify_all()
 
-    def held(self, sentence: str) -> None:
+    def on_held(self, sentence: str) -> None:
         """The link: the robot obeys others, for this reason; empty when it obeys us."""
         with self._lock:
             if sentence:

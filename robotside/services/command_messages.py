@@ -21,7 +21,7 @@ def listener(station: Station) -> Callable[[Operator, str, Msg, float | None], N
     """The one that takes in all that clients publish. A goal is an order as those of the services; its refusal is an event."""
     orders = TaskOrders(station)
 
-    def hear(client: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
+    def on_message(client: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
         if isinstance(msg, PoseStamped):
             pose = Pose2.from_msg(msg.pose)
             try:
@@ -30,4 +30,4 @@ def listener(station: Station) -> Callable[[Operator, str, Msg, float | None], N
                 station.events.say("command", problem.notice, "warn")
         station.on_message(client, topic, msg, stamp)
 
-    return hear
+    return on_message

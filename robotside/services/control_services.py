@@ -108,5 +108,5 @@ class _ControlOrders:
         )
         changed = Notice(Code.SETTING_CHANGED, text, actor_id=who, name=by, setting=name, value=value)
         station.options.set(name, value, lambda: station.events.say("control", changed))
-        station.controls.look(station.clock())
+        station.controls.update_speed_cap(station.clock())
         return said

@@ -144,7 +144,7 @@ class Station:
     def on_gone(self, client: Operator) -> None:
         """A client left; if it was driving, the robot stops at once."""
         self._remarks.forget(client.id)
-        self._guard.run(partial(self.teleop.gone, client, self.now))
+        self._guard.run(partial(self.teleop.on_gone, client, self.now))
         self.publish_control()
 
     def publish_control(self) -> None:

@@ -6,14 +6,14 @@ import asyncio
 import random
 from pathlib import Path
 
-from bench.support.crash import Ledger, crash, look
+from bench.support.crash import Ledger, crash, find_losses
 
 
 async def killed(state: Path, ledger: Ledger) -> list[str]:
     rng, lost = random.Random(3), list[str]()
     for early in (0.0, 0.0, 1.0, 0.0):
         lost += (await crash(state, ledger, rng, early)).lost
-    return lost + await look(state, ledger)
+    return lost + await find_losses(state, ledger)
 
 
 def test_what_was_acknowledged_is_there_after_a_kill(tmp_path: Path) -> None:

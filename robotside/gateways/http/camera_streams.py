@@ -114,7 +114,7 @@ class CameraStreams:
     def looking(self, topic: str = CAMERA) -> Iterator[_Newest]:
         """Somebody looks: the camera of that topic works, and its newest picture is at hand."""
         newest = _Newest()
-        self._door.subscribe(newest, topic, newest.take)
+        self._door.subscribe(newest, topic, newest.on_picture)
         try:
             yield newest
         finally:
@@ -134,7 +134,7 @@ class _Newest:
         self._jpeg: bytes | None = None
         self._came = asyncio.Event()
 
-    def take(self, _: str, msg: Msg) -> None:
+    def on_picture(self, _: str, msg: Msg) -> None:
         """A picture was taken."""
         if isinstance(msg, CompressedImage):
             self._jpeg = msg.data

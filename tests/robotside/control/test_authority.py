@@ -45,7 +45,7 @@ def driver(authority: Authority) -> str:
 def pass_time(authority: Authority, seconds: float, *clients: FakeClient, start: float = NOW) -> float:
     for client in clients:
         client.last_heard = start + seconds
-    authority.mind(start + seconds)
+    authority.update(start + seconds)
     return start + seconds
 
 
@@ -146,7 +146,7 @@ def test_control_of_a_driver_who_is_lost_goes_to_who_asks(
     authority.acquire(anna, NOW)
     authority.request(bert, NOW)
     if cut == "gone":
-        assert authority.gone(anna)
+        assert authority.on_gone(anna)
     else:
         pass_time(authority, CONTROL_TIMEOUT + 0.1, bert)
     assert driver(authority) == "Bert"
@@ -159,7 +159,7 @@ def test_who_asks_and_is_lost_asks_no_longer(
     authority.acquire(anna, NOW)
     authority.request(bert, NOW)
     if cut == "gone":
-        assert not authority.gone(bert)
+        assert not authority.on_gone(bert)
     elif cut == "taken back":
         assert authority.release(bert) == ""
     else:
@@ -219,8 +219,8 @@ def test_two_of_one_name_can_be_told_apart_and_keep_their_names(authority: Autho
     authority.introduce(one, "id-1", "vm")
     authority.introduce(other, "id-2", "vm")
     assert (authority.name(one), authority.name(other)) == ("vm", "vm (2)")
-    authority.gone(one)
-    authority.gone(other)
+    authority.on_gone(one)
+    authority.on_gone(other)
     again, back = FakeClient("c3", NOW), FakeClient("c4", NOW)
     authority.introduce(again, "id-2", "vm")
     authority.introduce(back, "id-1", "vm")
@@ -235,6 +235,6 @@ def test_a_crowd_of_one_name_is_bounded_and_nobody_s_name_too_long(authority: Au
         client = FakeClient(f"c{number}", NOW)
         authority.introduce(client, f"id-{number}", "v" * 99)
         names.add(authority.name(client))
-        authority.gone(client)
+        authority.on_gone(client)
     assert len(names) >= 256
     assert max(map(len, names)) <= 40

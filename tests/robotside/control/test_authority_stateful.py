@@ -189,12 +189,12 @@ class Operators(RuleBasedStateMachine):
 
     def _leave(self, client: Operator) -> None:
         drove = self.controls.drives(client)
-        self.controls.gone(client)
+        self.controls.on_gone(client)
         if drove:
             self.robot.stop()
 
     def _tick(self) -> None:
-        self.controls.mind(self.now)
+        self.controls.update(self.now)
         if self.controls.expired(self.now):
             self.robot.stop()
 

@@ -85,7 +85,7 @@ def test_control_lapses_when_its_driver_falls_silent(
     controls: CommandGate, anna: FakeClient, bert: FakeClient
 ) -> None:
     controls.acquire(anna, 10.0)
-    assert controls.mind(10.0 + CONTROL_TIMEOUT) == ""
+    assert controls.update(10.0 + CONTROL_TIMEOUT) == ""
     assert controls.acquire(bert, 10.0 + CONTROL_TIMEOUT) != ""
     assert controls.acquire(bert, 10.1 + CONTROL_TIMEOUT) == ""
 
@@ -99,7 +99,7 @@ def test_a_client_that_was_cut_takes_its_control_back_over_a_new_socket(
     bert.last_heard = 10.1 + TAKEOVER_SILENCE
     assert controls.objection(bert) == ""
     assert controls.acquire(bert, bert.last_heard) == ""
-    assert not controls.gone(anna)
+    assert not controls.on_gone(anna)
     assert controls.driver is not None
 
 
@@ -123,7 +123,7 @@ def test_closing_the_socket_while_driving_stops_the_robot_and_frees_control(
 ) -> None:
     controls.drive(anna, AHEAD, 10.0)
     assert controls.drives(anna)
-    assert controls.gone(anna), "it had control"
+    assert controls.on_gone(anna), "it had control"
     assert not controls.driving
     assert controls.driver is None
     assert not controls.expired(11.0)
@@ -134,7 +134,7 @@ def test_a_socket_that_closes_tells_whether_it_had_control_driving_or_not(
 ) -> None:
     controls.acquire(anna, 10.0)
     assert not controls.drives(anna)
-    assert controls.gone(anna)
+    assert controls.on_gone(anna)
 
 
 def test_closing_a_watchers_socket_stops_nothing(
@@ -142,7 +142,7 @@ def test_closing_a_watchers_socket_stops_nothing(
 ) -> None:
     controls.drive(anna, AHEAD, 10.0)
     assert not controls.drives(bert)
-    assert not controls.gone(bert)
+    assert not controls.on_gone(bert)
     assert controls.drives(anna)
     assert controls.driver is not None
 
@@ -291,7 +291,7 @@ def test_a_stick_held_while_another_has_control_does_not_drive_off_when_he_goes(
 ) -> None:
     controls.drive(anna, AHEAD, 10.0)
     held(controls, bert, 10.0, 11.0)
-    controls.gone(anna)
+    controls.on_gone(anna)
     assert controls.drive(bert, AHEAD, 11.0, stamp=11.0).said == LET_GO_SENTENCE
     assert controls.driver is None
 
@@ -326,7 +326,7 @@ def test_a_zero_that_was_overtaken_does_not_stand_for_rest(controls: CommandGate
 def test_who_went_leaves_no_stick_behind(controls: CommandGate, anna: FakeClient) -> None:
     controls.drive(anna, AHEAD, 10.0)
     controls.halt()
-    controls.gone(anna)
+    controls.on_gone(anna)
     assert controls.drive(anna, AHEAD, 10.1).order == AHEAD
 
 
@@ -379,7 +379,7 @@ def test_an_operator_whose_link_is_not_measured_never_drives_at_full_speed(
     controls = CommandGate(RobotInfo(max_speed=0.7, max_yaw_rate=1.9), follows=lambda: follows)
     assert controls.drive(anna, FULL, 10.0).order == Twist.planar(0.35, 0.0)
     assert controls.pace.shown == 0.5
-    controls.look(12.0)
+    controls.update_speed_cap(12.0)
     assert controls.drive(anna, FULL, 12.0).order == Twist.planar(0.35, 0.0), "it does not rise with time"
 
 
@@ -387,14 +387,14 @@ def test_the_cap_of_an_unmeasured_link_is_set_and_ends_with_the_first_measuremen
     anna.rtt = math.nan
     controls = CommandGate(RobotInfo(max_speed=0.7, max_yaw_rate=1.9), unmeasured_share=0.2)
     controls.acquire(anna, 10.0)
-    controls.look(10.0)
+    controls.update_speed_cap(10.0)
     assert controls.pace.share == 0.2
     anna.rtt = 0.05
-    controls.look(12.0)
+    controls.update_speed_cap(12.0)
     assert controls.pace.share == 1.0
     anna.rtt = math.nan
-    controls.look(12.1)
+    controls.update_speed_cap(12.1)
     assert controls.pace.share == 0.2, "it falls at once"
     controls.release(anna)
-    controls.look(15.0)
+    controls.update_speed_cap(15.0)
     assert controls.pace.share == 1.0, "nobody drives"

@@ -19,12 +19,12 @@ def test_full_speed_to_200_ms_and_from_there_down_to_a_crawl_at_400_ms(rtt: floa
 
 def test_it_falls_at_once_and_rises_slowly() -> None:
     pace = LatencySpeedCap()
-    pace.look(0.05, 10.0)
-    pace.look(0.5, 10.1)
+    pace.update(0.05, 10.0)
+    pace.update(0.5, 10.1)
     assert pace.share == MIN_SHARE
-    pace.look(0.05, 10.6)
+    pace.update(0.05, 10.6)
     assert MIN_SHARE < pace.share < 0.5
-    pace.look(0.05, 13.0)
+    pace.update(0.05, 13.0)
     assert pace.share == 1.0
 
 
@@ -32,7 +32,7 @@ def test_what_is_shown_changes_in_steps_and_is_never_more_than_it_is() -> None:
     pace = LatencySpeedCap()
     shown = set()
     for step in range(1000):
-        pace.look(0.2 + step / 5000, step * 0.02)
+        pace.update(0.2 + step / 5000, step * 0.02)
         assert pace.shown <= pace.share + 1e-9
         shown.add(pace.shown)
     assert 10 < len(shown) < 20
@@ -41,6 +41,6 @@ def test_what_is_shown_changes_in_steps_and_is_never_more_than_it_is() -> None:
 
 def test_set_free_it_follows_no_link() -> None:
     pace = LatencySpeedCap()
-    pace.look(0.5, 10.0)
+    pace.update(0.5, 10.0)
     pace.free()
     assert (pace.share, pace.shown) == (1.0, 1.0)

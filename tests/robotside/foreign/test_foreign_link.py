@@ -180,16 +180,16 @@ class Told:
     def __init__(self) -> None:
         self.reached = False
 
-    def found(self, found: Found) -> None:
+    def on_found(self, found: Found) -> None:
         self.reached = True
 
-    def lost(self, sentence: str) -> None:
+    def on_lost(self, sentence: str) -> None:
         self.reached = False
 
-    def heard(self, topic: str, msg: Msg) -> None:
+    def on_message(self, topic: str, msg: Msg) -> None:
         pass
 
-    def held(self, sentence: str) -> None:
+    def on_held(self, sentence: str) -> None:
         pass
 
 
@@ -266,6 +266,7 @@ async def test_a_robot_side_drives_patrols_and_stops_through_another_and_rests_w
         await until(lambda: far.at_rest)
         assert await order(client, "/stop/release") == "STOP is released."
         # behind it is released a moment later
+        await until(lambda: not behind.station.controls.stopped)
         await until(lambda: not (robot.trouble or serves.station.fitness.unfit))
         assert await order(client, "/task/resume") == "Resumed."
         await until(lambda: far.pose[0] > 0.5)

@@ -63,7 +63,7 @@ def found(*topics: str, remarks: tuple[str, ...] = ()) -> Found:
 
 
 def here(*topics: str, remarks: tuple[str, ...] = ()) -> tuple[ForeignRobot, Line]:
-    line = Line(lambda listener: listener.found(found(*topics, remarks=remarks)))
+    line = Line(lambda listener: listener.on_found(found(*topics, remarks=remarks)))
     robot = ForeignRobot(URL, patience=0.0, connect=line)
     for number in range(REST_REPEATS + 2):
         robot.read(number * REPEAT_PERIOD)
@@ -72,7 +72,7 @@ def here(*topics: str, remarks: tuple[str, ...] = ()) -> tuple[ForeignRobot, Lin
 
 
 def nobody(listener: Listener) -> None:
-    listener.lost("No robot answers at robot:9090 (connection refused).")
+    listener.on_lost("No robot answers at robot:9090 (connection refused).")
 
 
 def test_with_nobody_there_it_says_so_and_commands_go_nowhere() -> None:
@@ -104,9 +104,9 @@ def test_the_start_waits_for_the_robot_and_for_what_it_sends_once() -> None:
 
     def meet(listener: Listener) -> None:
         def later() -> None:
-            listener.found(found("/robot/info", "/map", CAMERA))
-            listener.heard("/robot/info", told)
-            listener.heard("/map", OccupancyGrid())
+            listener.on_found(found("/robot/info", "/map", CAMERA))
+            listener.on_message("/robot/info", told)
+            listener.on_message("/map", OccupancyGrid())
 
         threads.append(threading.Timer(0.05, later))
         threads[0].start()
@@ -124,12 +124,12 @@ def test_a_robot_without_camera_offers_none() -> None:
 
 
 def test_what_is_missing_is_told_once_even_when_the_link_comes_back() -> None:
-    line = Line(lambda listener: listener.found(found(remarks=("There is no laser.",))))
+    line = Line(lambda listener: listener.on_found(found(remarks=("There is no laser.",))))
     robot = ForeignRobot(URL, patience=0.0, connect=line)
     remark = Event(level="warn", kind="robot", text="There is no laser.", code="foreign_remark")
     assert robot.read(0.0) == [("/events", remark)]
-    robot.lost("The connection was cut.")
-    robot.found(found(remarks=("There is no laser.",)))
+    robot.on_lost("The connection was cut.")
+    robot.on_found(found(remarks=("There is no laser.",)))
     assert robot.read(1.0) == []
 
 
@@ -169,7 +169,7 @@ def test_a_rest_that_did_not_leave_is_not_counted() -> None:
 def test_while_the_line_is_lost_nothing_is_said() -> None:
     robot, line = here()
     robot.drive(SPEED)
-    robot.lost("The connection was cut.")
+    robot.on_lost("The connection was cut.")
     line.sent.clear()
     for number in range(60):
         robot.read(20.0 + number / 60)
@@ -179,12 +179,12 @@ def test_while_the_line_is_lost_nothing_is_said() -> None:
 def test_after_an_outage_rest_is_said_and_the_command_before_it_is_forgotten() -> None:
     robot, line = here()
     robot.drive(SPEED)
-    robot.lost("The connection was cut.")
+    robot.on_lost("The connection was cut.")
     line.sent.clear()
     robot.read(20.0)
     robot.drive(SPEED)
     assert line.sent == []
-    robot.found(found())
+    robot.on_found(found())
     assert robot.trouble == ""
     for number in range(600):
         robot.read(30.0 + number / 60)
@@ -194,8 +194,8 @@ def test_after_an_outage_rest_is_said_and_the_command_before_it_is_forgotten() -
 def test_of_each_topic_the_newest_is_read_in_the_order_of_arrival() -> None:
     robot, _ = here("/odom", "/scan")
     for speed in (1.0, 2.0):
-        robot.heard("/odom", Odometry(child_frame_id=str(speed)))
-        robot.heard("/scan", LaserScan(range_max=speed))
+        robot.on_message("/odom", Odometry(child_frame_id=str(speed)))
+        robot.on_message("/scan", LaserScan(range_max=speed))
     read = robot.read(50.0)
     assert [topic for topic, _ in read] == ["/odom", "/scan"]
     assert isinstance(read[1][1], LaserScan)
@@ -205,14 +205,14 @@ def test_of_each_topic_the_newest_is_read_in_the_order_of_arrival() -> None:
 
 def test_what_came_before_the_link_was_lost_is_not_read_after_it() -> None:
     robot, _ = here("/odom")
-    robot.heard("/odom", Odometry())
-    robot.heard("/map", OccupancyGrid())
-    robot.lost("The connection was cut.")
+    robot.on_message("/odom", Odometry())
+    robot.on_message("/map", OccupancyGrid())
+    robot.on_lost("The connection was cut.")
     assert [topic for topic, _ in robot.read(50.0)] == ["/map"]
 
 
 def stamp_of(robot: ForeignRobot, msg: Msg, now: float) -> float:
-    robot.heard("/scan", msg)
+    robot.on_message("/scan", msg)
     ((_, read),) = robot.read(now)
     return float(read.header.stamp.seconds)  # type: ignore[attr-defined]
 
@@ -250,7 +250,7 @@ def test_stamps_of_a_topic_never_go_back() -> None:
 def test_the_camera_is_asked_for_on_demand_and_the_end_is_passed_on() -> None:
     robot, line = here(CAMERA)
     robot.want(CAMERA, True)
-    robot.heard(CAMERA, CompressedImage(data=JPEG_START))
+    robot.on_message(CAMERA, CompressedImage(data=JPEG_START))
     assert [topic for topic, _ in robot.read(50.0)] == [CAMERA]
     robot.close()
     assert (line.wanted, line.closed) == ([(CAMERA, True)], True)
@@ -259,7 +259,7 @@ def test_the_camera_is_asked_for_on_demand_and_the_end_is_passed_on() -> None:
 def test_pictures_that_are_no_jpeg_are_left_out_and_that_is_said_once() -> None:
     robot, _ = here(CAMERA)
     for _ in range(3):
-        robot.heard(CAMERA, CompressedImage(format="png", data=b"\x89PNG"))
+        robot.on_message(CAMERA, CompressedImage(format="png", data=b"\x89PNG"))
     said = "The camera's pictures are png, not JPEG: they are left out."
     png = [KeyValue("format", "png")]
     refused = Event(level="warn", kind="robot", text=said, code="camera_unreadable", parameters=png)
@@ -269,31 +269,31 @@ def test_pictures_that_are_no_jpeg_are_left_out_and_that_is_said_once() -> None:
 def test_a_robot_in_others_hands_is_not_driven_until_they_let_go() -> None:
     robot, line = here()
     robot.drive(SPEED)
-    robot.held("The robot is driven by Fred: ask there, or wait until it is released.")
+    robot.on_held("The robot is driven by Fred: ask there, or wait until it is released.")
     line.sent.clear()
     robot.drive(SPEED)
     robot.read(20.0)
     assert line.sent == []
     assert robot.trouble == "The robot is driven by Fred: ask there, or wait until it is released."
-    robot.held("")
+    robot.on_held("")
     robot.drive(SPEED)
     assert (robot.trouble, line.sent) == ("", [SPEED])
 
 
 def test_whose_hands_it_was_in_is_forgotten_with_the_link() -> None:
     robot, _ = here()
-    robot.held("The robot is driven by Fred.")
-    robot.lost("The connection was cut.")
+    robot.on_held("The robot is driven by Fred.")
+    robot.on_lost("The connection was cut.")
     assert robot.trouble == "The robot cannot be reached: the connection was cut."
-    robot.found(found())
+    robot.on_found(found())
     assert robot.trouble == ""
 
 
 def test_one_that_is_found_in_others_hands_is_left_alone() -> None:
     robot, line = here()
-    robot.lost("The connection was cut.")
-    robot.held("The robot is on a task of its own.")
-    robot.found(found())
+    robot.on_lost("The connection was cut.")
+    robot.on_held("The robot is on a task of its own.")
+    robot.on_found(found())
     line.sent.clear()
     robot.read(20.0)
     assert line.sent == []

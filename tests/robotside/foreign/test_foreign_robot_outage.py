@@ -35,7 +35,7 @@ class Far:
 
     def __call__(self, url: str, listener: Listener) -> Far:
         self.listener = listener
-        listener.found(FOUND)
+        listener.on_found(FOUND)
         return self
 
     def robot_time(self) -> float:
@@ -65,7 +65,7 @@ class Far:
             self.speed = twist.linear.x
         self._waiting.clear()
         speed = TwistWithCovariance(Twist.planar(self.speed, 0.0))
-        self.listener.heard("/odom", Odometry(pose=PoseWithCovariance(), twist=speed))
+        self.listener.on_message("/odom", Odometry(pose=PoseWithCovariance(), twist=speed))
 
     def freeze(self) -> None:
         self.frozen = True
@@ -73,11 +73,11 @@ class Far:
     def lose(self) -> None:
         self.silent = False
         self._waiting.clear()
-        self.listener.lost(CUT)
+        self.listener.on_lost(CUT)
 
     def come_back(self) -> None:
         self.frozen = False
-        self.listener.found(FOUND)
+        self.listener.on_found(FOUND)
 
 
 class Outage:
