@@ -59,7 +59,7 @@ def test_it_is_there_when_a_robot_is_known_and_counts_who_is_stopped(
     press(glass)
     glass.until(lambda: corner.button.word == "1 of 1", "not stopped")
     hear(glass, other)
-    assert corner.list.footnote == "1 more came since: press STOP ALL again."
+    assert corner.list.footnote == "1 more found since: press STOP ALL again."
     press(glass)
     glass.until(lambda: corner.button.word == "2 of 2", "not both are stopped")
     assert corner.list.title == "STOPPED 2 of 2"
