@@ -42,14 +42,14 @@ class ActionGoals:
     def __init__(
         self,
         client: Peer,
-        session: Operator,
+        operator: Operator,
         queue: SendQueue,
         door: RobotDoor,
         client_services: ClientServices,
     ) -> None:
         """`queue` holds the messages that wait to be sent to the client."""
         self._client = client
-        self._session = session
+        self._operator = operator
         self._queue = queue
         self._door = door
         self._client_services = client_services
@@ -108,7 +108,7 @@ class ActionGoals:
                 self._send_feedback(op, Raw(to_json(feedback)))
 
         try:
-            result = await self._door.run(self._session, action.name, goal, on_feedback)
+            result = await self._door.run(self._operator, action.name, goal, on_feedback)
             self._end(op, _done(op, to_json(result), GoalStatus.STATUS_SUCCEEDED))
         except BridgeError as error:
             self._end(op, _failed(op, str(error)))

@@ -62,11 +62,11 @@ class NodeGraph:
             list(self._actions),
         )
         return {NODE: robot} | {
-            f"/client_{session.id}": Node(
+            f"/client_{operator.id}": Node(
                 list(peer.protocol.advertised),
                 list(peer.protocol.subscriptions),
                 list(peer.protocol.services),
                 list(peer.protocol.actions),
             )
-            for session, peer in self._clients.items()
+            for operator, peer in self._clients.items()
         }

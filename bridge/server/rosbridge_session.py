@@ -55,20 +55,20 @@ class RosbridgeSession:
     """One client of the rosbridge protocol; a `MessageHandler` of its connection."""
 
     def __init__(
-        self, writer: FrameWriter, batch: WriteBatch, session: Operator, context: ServerContext
+        self, writer: FrameWriter, batch: WriteBatch, operator: Operator, context: ServerContext
     ) -> None:
         """`writer` is the connection, `batch` gathers what leaves in this step of the loop."""
         self.protocol = ServerSession(context.compat)
         """The state of the protocol: subscriptions, advertisements, pending calls and goals."""
-        self.session = session
-        self.queue = SendQueue(writer, batch, session.address)
+        self.operator = operator
+        self.queue = SendQueue(writer, batch, operator.address)
         self._context = context
         self._clock = asyncio.get_running_loop().time
-        self._round_trip = RoundTrip(session.opened)
-        self._faults = ClientFaults(session.address)
-        self._topics = TopicOperations(self, session, self.queue, context)
-        self._services = ServiceOperations(self, session, context)
-        self._goals = ActionGoals(self, session, self.queue, context.door, context.client_services)
+        self._round_trip = RoundTrip(operator.opened)
+        self._faults = ClientFaults(operator.address)
+        self._topics = TopicOperations(self, operator, self.queue, context)
+        self._services = ServiceOperations(self, operator, context)
+        self._goals = ActionGoals(self, operator, self.queue, context.door, context.client_services)
         self._unhandled: deque[Arrival] = deque()
         self._handlers = self._make_handlers()
 
@@ -100,7 +100,7 @@ class RosbridgeSession:
 
         Errors that the message causes are logged and answered, never raised.
         """
-        self.session.last_heard = self._context.now()
+        self.operator.last_heard = self._context.now()
         arrivals = self.protocol.receive(message, self._clock())
         if len(arrivals) == 1 and not self._unhandled:
             self._handle(arrivals[0])
@@ -156,7 +156,7 @@ class RosbridgeSession:
         try:
             frames = op_frames(op, size)
         except ProtocolError as error:
-            log.warning("%s: %s", self.session.address, error)
+            log.warning("%s: %s", self.operator.address, error)
             return
         self.queue.send(lane, frames)
 
@@ -186,7 +186,7 @@ class RosbridgeSession:
             self._report(error, arrival)
 
     def _note_round_trip(self) -> None:
-        self.session.rtt, self.session.answered = self._round_trip.rtt, self._round_trip.answered
+        self.operator.rtt, self.operator.answered = self._round_trip.rtt, self._round_trip.answered
 
     def _report(self, error: ProtocolError, arrival: Arrival) -> None:
         """Log what is wrong with an operation, and send it to a client that wants errors, with op and id."""

@@ -94,8 +94,6 @@ class BridgeServer:
         """
         self.port = 0
         """Port that it listens on; 0 until started."""
-        self.sessions: set[Operator] = set()
-        """The connected clients; watchers of a camera are not among them."""
         cameras = None if cameras is None else list(cameras)
         self._door = door
         self._wanted: dict[str, Callable[[], None]] = {}
@@ -125,6 +123,11 @@ class BridgeServer:
         self._server: Server | None = None
         self._batch: WriteBatch | None = None
         self._tasks: set[asyncio.Task[None]] = set()
+
+    @property
+    def operators(self) -> set[Operator]:
+        """The connected clients; watchers of a camera are not among them."""
+        return set(self._clients)
 
     async def start(self, host: str = "127.0.0.1", port: int = 9090) -> None:
         """Begin to listen; port 0 takes a free one. BridgeError when that is not possible."""
@@ -222,19 +225,17 @@ class BridgeServer:
             self._open.discard(ws)
 
     async def _serve_client(self, ws: CallbackConnection, batch: WriteBatch) -> None:
-        session = self._door.join(_address(ws))
-        client = RosbridgeSession(ws, batch, session, self._context)
+        operator = self._door.join(_address(ws))
+        client = RosbridgeSession(ws, batch, operator, self._context)
         ws.batch = batch
-        self.sessions.add(session)
-        self._clients[session] = client
+        self._clients[operator] = client
         client.measure_round_trip()
         try:
             await ws.serve(client)
         finally:
-            self.sessions.discard(session)
-            del self._clients[session]
+            del self._clients[operator]
             try:
-                self._door.leave(session)
+                self._door.leave(operator)
             finally:
                 await client.close()
 

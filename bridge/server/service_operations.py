@@ -31,10 +31,10 @@ TIME_SERVICE = "/rosapi/get_time"
 class ServiceOperations:
     """The calls that one client has made."""
 
-    def __init__(self, client: Peer, session: Operator, context: ServerContext) -> None:
+    def __init__(self, client: Peer, operator: Operator, context: ServerContext) -> None:
         """Responses are sent by `client.send`."""
         self._client = client
-        self._session = session
+        self._operator = operator
         self._context = context
         self._tasks: set[asyncio.Task[None]] = set()
 
@@ -44,14 +44,14 @@ class ServiceOperations:
         try:
             known = self._context.rosapi.answer(name, op.args)
             if known is not None:
-                self._session.asked_time = self._session.asked_time or name == TIME_SERVICE
+                self._operator.asked_time = self._operator.asked_time or name == TIME_SERVICE
                 self._respond(op, name, id, known)
                 return
             if name in self._context.client_services.services:
                 self._context.client_services.call(self._client, name, id, op)
                 return
             request = arguments(op.args, self._context.door.service(name).request)
-            outcome = self._context.door.call(self._session, name, request, op.timeout)
+            outcome = self._context.door.call(self._operator, name, request, op.timeout)
             # the arguments would keep the whole frame in memory while the call is under way
             op = msgspec.structs.replace(op, args=MISSING)
             if isinstance(outcome, Msg):
@@ -75,7 +75,7 @@ class ServiceOperations:
 
     def _refuse(self, op: CallService, name: str, id: Id, error: Exception) -> None:
         if not isinstance(error, BridgeError):
-            log.error("The answer of %s to %s cannot be sent", name, self._session.address, exc_info=error)
+            log.error("The answer of %s to %s cannot be sent", name, self._operator.address, exc_info=error)
         reason = str(error) if isinstance(error, BridgeError) else f"The answer of {name} cannot be sent."
         self._respond(op, name, id, msgspec.json.encode(reason), result=False)
 

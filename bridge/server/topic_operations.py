@@ -42,12 +42,12 @@ class TopicOperations:
     """The topics that one client publishes and subscribes."""
 
     def __init__(
-        self, client: Subscriber, session: Operator, queue: SendQueue, context: ServerContext
+        self, client: Subscriber, operator: Operator, queue: SendQueue, context: ServerContext
     ) -> None:
         """`queue` holds what waits to be sent to the client."""
         self._client = client
         self._protocol = client.protocol
-        self._session = session
+        self._operator = operator
         self._queue = queue
         self._context = context
         self._switchboard = context.switchboard
@@ -157,7 +157,7 @@ class TopicOperations:
     ) -> None:
         if channel.entry is not None:
             # a message that fits the table is decoded; the door gives it to the robot and to those who subscribe
-            self._context.door.publish(self._session, channel.name, cast(Msg, msg), stamp)
+            self._context.door.publish(self._operator, channel.name, cast(Msg, msg), stamp)
             return
         latch = self._client in channel.publishers and (latch or self._protocol.latches(channel.name))
         self._switchboard.pass_on(channel, msg, self._client, latch=latch)

@@ -240,7 +240,7 @@ async def test_a_cut_link_is_told_and_taken_up_again_with_all_subscriptions():
         await made.connected()
         await heard.reach(2)
         assert len(await gone.reach(1)) == 1
-        assert len(robot.sessions) == 1
+        assert len(robot.operators) == 1
 
 
 async def test_a_robot_that_starts_again_is_found_again():

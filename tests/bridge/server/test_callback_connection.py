@@ -106,7 +106,7 @@ async def test_a_client_may_ping_and_close_as_ever():
         await foreign.ws.close(1000)
         assert foreign.ws.close_code == 1000
         await gone.reach(1)
-        assert robot.sessions == set()
+        assert robot.operators == set()
 
 
 async def test_what_was_said_in_the_same_breath_as_goodbye_is_still_heard():

@@ -96,7 +96,7 @@ async def test_a_published_command_arrives_typed_with_its_session_and_stamp():
         await foreign.say(op="publish", topic="cmd_vel", msg={"linear": {"x": 0.5}}, stamp=12.5)
         await foreign.say(op="publish", topic="/cmd_vel", msg={})
         first, second = await heard.reach(2)
-        (session,) = robot.sessions
+        (session,) = robot.operators
         assert first == (session, "/cmd_vel", Twist(Vector3(0.5)), 12.5)
         assert second == (session, "/cmd_vel", Twist(), None)
 
@@ -239,13 +239,13 @@ async def test_a_session_knows_its_address_and_when_it_was_last_heard_and_is_gon
     async with server(now=clock, on_gone=gone) as robot:
         async with peer(robot) as foreign:
             await foreign.settled()
-            (session,) = robot.sessions
+            (session,) = robot.operators
             assert session.address.startswith("127.0.0.1:")
             clock.time = 12.0
             await foreign.settled()
             assert (session.opened, session.last_heard) == (10.0, 12.0)
         assert await gone.reach(1) == [session]
-        assert robot.sessions == set()
+        assert robot.operators == set()
 
 
 async def test_demand_follows_subscribers_even_those_who_vanish():
@@ -303,7 +303,7 @@ async def test_a_client_that_never_reads_its_events_is_disconnected_and_the_othe
             if gone:
                 break
         assert len(await gone.reach(1)) == 1
-        assert len(robot.sessions) == 1
+        assert len(robot.operators) == 1
 
 
 async def test_everything_that_is_not_a_stream_arrives_in_order():
@@ -340,7 +340,7 @@ async def test_a_camera_sends_two_frames_ahead_and_then_the_newest_when_acknowle
             await viewer.ws.send(text)
         seen.append(frames.unpack(await viewer.ws.recv()).seq)
         assert seen == [1, 2, 5]
-        assert robot.sessions == set()
+        assert robot.operators == set()
 
 
 async def test_a_camera_that_does_not_exist_is_refused_with_those_that_do():

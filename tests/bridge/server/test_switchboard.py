@@ -142,7 +142,7 @@ def test_each_publishers_latched_message_is_told_and_forgotten_with_it(board):
 
 
 def test_a_topic_needs_a_type(board):
-    with pytest.raises(ProtocolError, match="no topic /chatter here, and to make one its type must be told"):
+    with pytest.raises(ProtocolError, match="no topic /chatter here, and a new one needs its type"):
         want(board, Ear(), "/chatter")
 
 

@@ -71,7 +71,7 @@ async def test_a_stop_over_http_that_may_not_have_reached_the_robot_says_so(tmp_
 
 async def test_the_way_to_who_drives_is_measured_by_the_server(tmp_path: Path) -> None:
     async with serving(tmp_path, FakeRobot()) as serves, connected(serves):
-        (session,) = serves.server.sessions
+        (session,) = serves.server.operators
         await until(lambda: not math.isnan(session.rtt))
         assert 0 <= session.rtt < 2
         assert session.answered >= session.opened
@@ -94,7 +94,7 @@ async def test_a_stamp_counts_only_from_who_has_asked_for_the_time(tmp_path: Pat
 async def test_a_program_that_stamps_nothing_and_was_quiet_drives_at_its_first_word(tmp_path: Path) -> None:
     robot = FakeRobot()
     async with serving(tmp_path, robot) as serves, connect(serves.addresses.bridge) as socket:
-        (session,) = serves.server.sessions
+        (session,) = serves.server.operators
         opened = session.answered
         await until(
             lambda: session.answered > opened + MAX_UNSTAMPED_AGE
