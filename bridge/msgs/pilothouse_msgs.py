@@ -124,29 +124,29 @@ class AckermannState(Msg, frozen=True, gc=False):
     header: Header = Header()
     """Frame base_link, the middle of the rear axle."""
     speed: float = 0.0
-    """Of the middle of the rear axle, ahead [m/s]."""
+    """Speed of the middle of the rear axle, ahead [m/s]."""
     steering: float = 0.0
-    """Of a wheel in the middle of the front axle [rad], positive to the left."""
+    """Steering angle of a virtual wheel in the middle of the front axle [rad], positive to the left."""
     turning_radius: float = math.inf
-    """Of the middle of the rear axle [m], positive to the left; +inf straight ahead."""
+    """Turning radius of the middle of the rear axle [m], positive to the left; +inf straight ahead."""
     wheels: list[str] = []
     """Names of the wheels."""
     wheel_angles: Float64Array = field(default_factory=Float64Array)
     """Steering angle of each wheel [rad], positive to the left."""
     wheel_speeds: Float64Array = field(default_factory=Float64Array)
-    """At the rim of each [m/s]."""
+    """Speed at the rim of each wheel [m/s]."""
 
 
 class CommandRequest(Msg, frozen=True, gc=False):
-    """A one-shot command. An empty request, as of std_srvs/Trigger, is one without identity or expiry."""
+    """A single command. An empty request, as of std_srvs/Trigger, has no identity and no expiry."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/CommandRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string")
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     command_id: str = ""
-    """Unique per command; the same id sent again gets the first answer and is not executed twice."""
+    """Unique per command; the robot answers a repeated id with the first answer and executes it once."""
     stamp: float = math.nan
-    """When the operator gave it [s], operators' clock; NaN when the sender does not know it."""
+    """When the operator gave it [s], operators' clock; NaN when not known."""
     valid_for: float = 5.0
     """Refused when older than this on arrival [s]."""
     client_id: str = ""
@@ -156,13 +156,13 @@ class CommandRequest(Msg, frozen=True, gc=False):
 
 
 class AcknowledgeEventsRequest(CommandRequest, frozen=True, gc=False):
-    """Acknowledge events; the first client to do so is remembered."""
+    """Acknowledges events; the robot stores the first client that does."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/AcknowledgeEventsRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "int32[]")
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     ids: Int32Array = field(default_factory=Int32Array)
-    """Their numbers."""
+    """Numbers of the events."""
 
 
 class CommandResponse(Msg, frozen=True, gc=False):
@@ -171,13 +171,13 @@ class CommandResponse(Msg, frozen=True, gc=False):
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/CommandResponse"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
     success: bool = False
-    """It was accepted."""
+    """The robot accepted it."""
     message: str = ""
-    """One sentence: what was accepted, or why not and what is allowed."""
+    """One sentence: the accepted command, or the reason of the refusal and the allowed values."""
     code: str = ""
     """Code of the reason, as in docs/bridge.md, such as stop_is_pressed; empty where it was accepted."""
     actor_id: str = ""
-    """The client_id that the reason is about, as the one that has control; empty without one, or when it
+    """The client_id that the reason is about, such as the one with control; empty without one, or when it
     is not known.
     """
     parameters: list[KeyValue] = []
@@ -192,7 +192,7 @@ class AcknowledgeEventsResponse(CommandResponse, frozen=True, gc=False):
 
 
 class ArmOrder(Msg, frozen=True, gc=False):
-    """Where an arm is to go; the first of these that says something counts."""
+    """Goal of an arm; the first field that is set counts."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/ArmOrder"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "geometry_msgs/Point", "float64", "float64[]", "float64")
@@ -202,11 +202,11 @@ class ArmOrder(Msg, frozen=True, gc=False):
     point: Point = Point(math.nan, math.nan, math.nan)
     """For the tip, in base_link [m]; x is NaN for none."""
     pitch: float = math.nan
-    """Of the hand at that point [rad], positive pointing down; NaN any."""
+    """Pitch of the hand at that point [rad], positive pointing down; NaN for any."""
     angles: Float64Array = field(default_factory=Float64Array)
-    """Of the joints from the foot on [rad]; empty for none."""
+    """Angles of the joints, from the foot on [rad]; empty for none."""
     gripper: float = math.nan
-    """Opening between the fingers [m]; NaN leaves it as it is."""
+    """Opening between the fingers [m]; NaN leaves it unchanged."""
 
 
 class ArmState(Msg, frozen=True, gc=False):
@@ -237,25 +237,25 @@ class ArmState(Msg, frozen=True, gc=False):
     joints: list[str] = []
     """Names of the joints, from the foot on."""
     angles: Float64Array = field(default_factory=Float64Array)
-    """Of each [rad]."""
+    """Angle of each [rad]."""
     wanted: Float64Array = field(default_factory=Float64Array)
-    """Where each is going [rad]."""
+    """Commanded angle of each [rad]."""
     gripper: float = 0.0
     """Opening between the fingers [m]."""
     pose: str = ""
-    """The named pose that it is in; empty for any other."""
+    """Name of the present pose; empty for any other."""
     poses: list[str] = []
-    """The poses that have names."""
+    """Names of all poses."""
     tip: Point = Point()
-    """Between the fingertips, in base_link [m]."""
+    """Position between the fingertips, in base_link [m]."""
     pitch: float = 0.0
-    """Of the hand [rad], positive pointing down."""
+    """Pitch of the hand [rad], positive pointing down."""
     touching: bool = False
     """The hand touches something."""
 
 
 class Bumper(Msg, frozen=True, gc=False):
-    """The bumper ring."""
+    """State of the bumper ring."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Bumper"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "bool", "float64")
@@ -263,13 +263,13 @@ class Bumper(Msg, frozen=True, gc=False):
     header: Header = Header()
     """Frame base_link."""
     pressed: bool = False
-    """Something touches it."""
+    """An object touches it."""
     bearing: float = math.nan
-    """Direction of the contact in base_link [rad], 0 ahead, positive to the left; NaN when there is none."""
+    """Direction of the contact in base_link [rad], 0 ahead, positive to the left; NaN without contact."""
 
 
 class Check(Msg, frozen=True, gc=False):
-    """One line of the list that is looked through before the first motion."""
+    """One line of the checklist before the first motion."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Check"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "string", "string")
@@ -278,7 +278,7 @@ class Check(Msg, frozen=True, gc=False):
     state: str = "unknown"
     """ok, bad or unknown."""
     text: str = ""
-    """One sentence: what was found, and what to do about it when it is not good."""
+    """One sentence: the finding, and the remedy when it is not good."""
 
 
 class Checklist(Msg, frozen=True, gc=False):
@@ -289,11 +289,11 @@ class Checklist(Msg, frozen=True, gc=False):
     stamp: Time = Time()
     """When it changed, operators' clock."""
     checks: list[Check] = []
-    """Always the same ones in the same order."""
+    """Always the same checks in the same order."""
 
 
 class Compass(Msg, frozen=True, gc=False):
-    """A compass that a tilt does not disturb: the magnetic field turned level by the accelerometer."""
+    """A tilt-compensated compass: the magnetic field, levelled by the accelerometer."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Compass"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64", "float64", "float64")
@@ -301,11 +301,11 @@ class Compass(Msg, frozen=True, gc=False):
     header: Header = Header()
     """Frame base_link."""
     heading: float = math.nan
-    """Of the bow [deg], 0 north, clockwise, 0 to 360; NaN while the unit falls freely."""
+    """Heading of the bow [deg], 0 north, clockwise, 0 to 360; NaN while the unit falls freely."""
     roll: float = 0.0
-    """As the accelerometer has it [rad]."""
+    """Roll by the accelerometer [rad]."""
     pitch: float = 0.0
-    """[rad], positive nose down."""
+    """Pitch by the accelerometer [rad], positive nose down."""
 
 
 class ControlStatus(Msg, frozen=True, gc=False):
@@ -334,7 +334,7 @@ class ControlStatus(Msg, frozen=True, gc=False):
     mode: str = "MANUAL"
     """MANUAL, AUTO, PAUSED or STOPPED."""
     driver: str = ""
-    """Name of who has control; empty when it is free."""
+    """Name of the client that has control; empty when it is free."""
     driver_id: str = ""
     """The client_id that acquired it."""
     stopped: bool = False
@@ -342,33 +342,33 @@ class ControlStatus(Msg, frozen=True, gc=False):
     stopped_by: str = ""
     """Name of the client that pressed STOP."""
     stopped_by_id: str = ""
-    """The client_id of who pressed it; empty when it gave none, or before the robot's last start."""
+    """The client_id that pressed it; empty when it gave none, or before the robot's last start."""
     at_rest: bool = True
     """The wheels stand still, as measured."""
     requested_by: str = ""
     """Name of the client that asks the driver for control; empty without one."""
     requested_by_id: str = ""
-    """The client_id of who asks for it."""
+    """The client_id that asks for it."""
     handover: Time = Time()
-    """When control goes over unless the driver objects, operators' clock; 0 without a request."""
+    """When control changes hands unless the driver objects, operators' clock; 0 without a request."""
     speed_cap: float = 1.0
     """Share of the full speed that the driver's link allows, 0 to 1."""
     follows_link: bool = True
     """The speed falls with the driver's link; /settings/set switches it."""
     stop_tested: Time = Time()
-    """When STOP was last pressed and brought it to rest, operators' clock; 0 when never since it started."""
+    """When STOP last brought the robot to rest, operators' clock; 0 when never since its start."""
     lost_link_stops_task: bool = False
     """A task is paused when the link to the driver is lost; /settings/set switches it."""
 
 
 class DeletePlaceRequest(CommandRequest, frozen=True, gc=False):
-    """Forget a place."""
+    """Deletes a place."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/DeletePlaceRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "int32")
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     id: int32 = 0
-    """Of the place."""
+    """Number of the place."""
 
 
 class DeletePlaceResponse(CommandResponse, frozen=True, gc=False):
@@ -379,13 +379,13 @@ class DeletePlaceResponse(CommandResponse, frozen=True, gc=False):
 
 
 class DeleteScheduleRequest(CommandRequest, frozen=True, gc=False):
-    """Forget a scheduled task."""
+    """Deletes a scheduled task."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/DeleteScheduleRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "int32")
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     id: int32 = 0
-    """Of the scheduled task."""
+    """Number of the scheduled task."""
 
 
 class DeleteScheduleResponse(CommandResponse, frozen=True, gc=False):
@@ -417,7 +417,7 @@ class Event(Msg, frozen=True, gc=False):
     id: int32 = 0
     """Counts from 1, over restarts of the robot side."""
     boot: str = ""
-    """Identity of the log; a new one, of a log that was started fresh, starts the numbers anew."""
+    """Identity of the log; the ids of a new log start again from 1."""
     stamp: Time = Time()
     """When it happened."""
     level: str = "info"
@@ -427,7 +427,7 @@ class Event(Msg, frozen=True, gc=False):
     text: str = ""
     """One sentence for the operator."""
     position: Point = Point(math.nan, math.nan, math.nan)
-    """Where in map [m]; NaN when it has no place."""
+    """Position in map [m]; NaN without one."""
     acknowledged_by: str = ""
     """Name of the operator that acknowledged it; empty until then."""
     acknowledged: Time = Time()
@@ -451,7 +451,7 @@ class FlightState(Msg, frozen=True, gc=False):
     phase: str = ""
     """landed, taking_off, flying, landing; turned_over: it lies on its back, rotors off."""
     height: float = math.nan
-    """Above the ground right under it, as its ultrasound has it [m]; NaN when that is out of reach."""
+    """Height above the ground below, by ultrasound [m]; NaN when out of range."""
     climb: float = 0.0
     """Upward speed [m/s]."""
 
@@ -467,22 +467,24 @@ class Following(Msg, frozen=True, gc=False):
     present: bool = False
     """A person follows."""
     distance: float = math.nan
-    """To who follows [m]; NaN when it is not known."""
+    """Distance to that person [m]; NaN when not known."""
 
 
 class GetEventsRequest(Msg, frozen=True, gc=False):
-    """Ask for the events after since."""
+    """Returns the events after `since`."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetEventsRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string", "int32[]", "int32")
     since: int32 = 0
-    """Number of the last event that is known."""
+    """Number of the last event that the client knows."""
     boot: str = ""
-    """The boot that since belongs to; of another one all are given, for an empty one the newest 500."""
+    """The boot that `since` belongs to; for another boot all events are returned, for an empty one the
+    newest 500.
+    """
     open: Int32Array = field(default_factory=Int32Array)
     """Earlier events that the client knows as unacknowledged; those acknowledged since are returned too."""
     most: int32 = 0
-    """At most so many later events in one answer, the first of them; 0 for all, or the newest 500 of
+    """Maximum number of later events in one answer, the first of them; 0 for all, or the newest 500 of
     another boot.
     """
 
@@ -495,13 +497,13 @@ class GetEventsResponse(Msg, frozen=True, gc=False):
     events: list[Event] = []
     """Oldest first."""
     more: bool = False
-    """There are later ones: ask again, since the last of these."""
+    """There are later events: call again with `since` the last of these."""
     oldest: int32 = 0
-    """Number of the oldest event that is kept; 0 when there is none, or it is not known."""
+    """Number of the oldest stored event; 0 when there is none, or it is not known."""
 
 
 class GetHistoryRequest(CommandRequest, frozen=True, gc=False):
-    """Ask for the tasks that were done."""
+    """Returns past tasks."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetHistoryRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -517,11 +519,11 @@ class GetHistoryRequest(CommandRequest, frozen=True, gc=False):
     before: int32 = 0
     """Only runs with a smaller number; 0 begins with the newest."""
     limit: int32 = 50
-    """At most so many."""
+    """Maximum number of runs."""
 
 
 class Waypoint(Msg, frozen=True, gc=False):
-    """A place to pass, in the map frame."""
+    """A point to pass, in the map frame."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Waypoint"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("float64", "float64", "float64", "string")
@@ -557,37 +559,37 @@ class TaskOrder(Msg, frozen=True, gc=False):
     id: int32 = 0
     """Given by the robot; 0 for a new one."""
     task: str = ""
-    """patrol, deliver, guide, go_to, go_home, hold, follow_heading, dock, take_off, land or surface; which
-    ones a robot knows is in its RobotInfo.
+    """patrol, deliver, guide, go_to, go_home, hold, follow_heading, dock, take_off, land or surface;
+    RobotInfo lists those that a robot knows.
     """
     places: list[str] = []
-    """Names. Patrol: none takes the stored mission. Deliver: from, to and, if it shall go on to one then,
-    a third. Guide: in this order. Go_to and dock: one.
+    """Names of places. patrol: none for the stored mission; deliver: from, to and optionally a third to go
+    on to; guide: in this order; go_to and dock: one.
     """
     goals: list[Waypoint] = []
-    """Instead of places, for go_to: points in the map frame."""
+    """For go_to in place of places: points in the map frame."""
     message: str = ""
     """Message for the person who receives it or is guided; empty for none."""
     recipient_tag: str = ""
-    """Content of the recipient's card, instead of the place's own; empty for that."""
+    """Content of the recipient's card, in place of the place's own; empty for the place's own."""
     heading: float = math.nan
-    """Where follow_heading goes [rad], 0 east, anticlockwise; NaN for where it points."""
+    """Direction for follow_heading [rad], 0 east, anticlockwise; NaN for the present one."""
     speed: float = math.nan
     """Speed [m/s]; NaN for the robot's cruising speed, or the throttle's."""
     throttle: float = math.nan
-    """For follow_heading in place of a speed: share of the full power, -1 to 1; NaN where the speed says
-    it.
+    """For follow_heading in place of a speed: share of the full power, -1 to 1; NaN where the speed is
+    given.
     """
     height: float = math.nan
-    """For take_off, hold and follow_heading: to hold above the map's origin [m], below water negative; NaN
-    the usual or the present one.
+    """For take_off, hold and follow_heading: height to hold above the map's origin [m], negative below
+    water; NaN for the default or the present one.
     """
     duration: float = math.nan
-    """Time to hold or to follow the heading [s]; NaN until stopped."""
+    """Time to hold or to follow the heading [s]; NaN for until stopped."""
 
 
 class TaskRun(Msg, frozen=True, gc=False):
-    """A task that was done or is under way, as the robot's history has it."""
+    """A past or present run of a task in the robot's history."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskRun"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -616,9 +618,9 @@ class TaskRun(Msg, frozen=True, gc=False):
     state: str = ""
     """As in TaskStatus: RUNNING, PAUSED, SUCCEEDED, CANCELED, FAILED or INTERRUPTED."""
     reason: str = ""
-    """One sentence: what became of it and why."""
+    """One sentence: the outcome and its cause."""
     distance: float = 0.0
-    """Driven in this run [m]."""
+    """Distance driven in this run [m]."""
     visited: int32 = 0
     """Waypoints or places reached."""
     by: str = ""
@@ -648,14 +650,14 @@ class GetHistoryResponse(CommandResponse, frozen=True, gc=False):
 
 
 class GetMissionRequest(Msg, frozen=True, gc=False):
-    """Ask for the stored mission."""
+    """Returns the stored mission."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ()
 
 
 class Mission(Msg, frozen=True, gc=False):
-    """Where to patrol and how."""
+    """The points of a patrol and the way to visit them."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Mission"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -671,17 +673,17 @@ class Mission(Msg, frozen=True, gc=False):
     )
     UNITS: ClassVar[dict[str, str]] = {"dwell": "s"}
     stamp: Time = Time()
-    """When the robot stored it; 0 when it never was."""
+    """When the robot stored it; 0 when never stored."""
     waypoints: list[Waypoint] = []
-    """Where to go, in the map frame."""
+    """Points to visit, in the map frame."""
     home: list[Waypoint] = []
-    """The place to return to: one waypoint, or none when it is not set."""
+    """Home, the place to return to: one waypoint, or none when not set."""
     motion: str = "loop"
     """loop, random or intermittent."""
     dwell: float = 5.0
     """Time to stay at each point in intermittent motion [s]."""
     laps: int32 = 0
-    """Rounds to make; 0 goes on until stopped."""
+    """Number of laps; 0 for until stopped."""
     stop_on_intruder: bool = False
     """Pause when an intruder is found, for any `on_intruder`."""
     name: str = ""
@@ -705,13 +707,13 @@ class GetMissionResponse(Msg, frozen=True, gc=False):
     success: bool = False
     """Always true."""
     message: str = ""
-    """One sentence when none was stored yet, else empty."""
+    """One sentence when none is stored yet, else empty."""
     mission: Mission = field(default_factory=Mission)
     """The stored mission."""
     code: str = ""
     """Code of the reason, as in docs/bridge.md, such as stop_is_pressed; empty where it was accepted."""
     actor_id: str = ""
-    """The client_id that the reason is about, as the one that has control; empty without one, or when it
+    """The client_id that the reason is about, such as the one with control; empty without one, or when it
     is not known.
     """
     parameters: list[KeyValue] = []
@@ -719,7 +721,7 @@ class GetMissionResponse(Msg, frozen=True, gc=False):
 
 
 class GetMissionsRequest(CommandRequest, frozen=True, gc=False):
-    """Ask for the missions that are kept."""
+    """Returns the missions stored under names."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionsRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string")
@@ -727,7 +729,7 @@ class GetMissionsRequest(CommandRequest, frozen=True, gc=False):
 
 
 class KeptMission(Msg, frozen=True, gc=False):
-    """A mission that is kept under a name."""
+    """A mission stored under a name."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/KeptMission"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "time", "int32", "string", "int32")
@@ -736,7 +738,7 @@ class KeptMission(Msg, frozen=True, gc=False):
     stamp: Time = Time()
     """When its newest revision was stored, operators' clock."""
     points: int32 = 0
-    """Waypoints of it."""
+    """Number of waypoints."""
     motion: str = ""
     """loop, random or intermittent."""
     revisions: int32 = 0
@@ -757,13 +759,13 @@ class GetMissionsResponse(CommandResponse, frozen=True, gc=False):
         "pilothouse_msgs/KeptMission[]",
     )
     names: list[str] = []
-    """In the order of the alphabet."""
+    """Names in alphabetical order."""
     missions: list[KeptMission] = []
-    """The same with what is known of each."""
+    """The same missions in detail."""
 
 
 class Intruder(Msg, frozen=True, gc=False):
-    """A thing that does not belong here."""
+    """An object that does not belong there."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Intruder"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string", "geometry_msgs/Point", "time", "int32")
@@ -773,15 +775,15 @@ class Intruder(Msg, frozen=True, gc=False):
     class_id: str = "cone"
     """Its class."""
     position: Point = Point()
-    """In map [m]."""
+    """Position in map [m]."""
     first_seen: Time = Time()
-    """When it was seen first."""
+    """When it was first seen."""
     sightings: int32 = 1
     """Number of sightings."""
 
 
 class IntruderArray(Msg, frozen=True, gc=False):
-    """All intruders known; latched on /intruders, sent once per change."""
+    """All known intruders; latched on /intruders, sent once per change."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/IntruderArray"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "pilothouse_msgs/Intruder[]")
@@ -792,7 +794,7 @@ class IntruderArray(Msg, frozen=True, gc=False):
 
 
 class LightState(Msg, frozen=True, gc=False):
-    """The lights of a robot; to the robot, how they shall be."""
+    """The lights of a robot: their state, or as a command the state to set."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/LightState"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64")
@@ -845,13 +847,13 @@ class Limits(Msg, frozen=True, gc=False):
 
 
 class LineSensor(Msg, frozen=True, gc=False):
-    """A row of cells that look down at the ground and measure how bright it is."""
+    """A row of cells that measure the brightness of the ground under them."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/LineSensor"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float32[]", "float64")
     UNITS: ClassVar[dict[str, str]] = {"spacing": "m"}
     header: Header = Header()
-    """Its frame; the cells lie along the frame's y axis."""
+    """Frame of the sensor; the cells lie along its y axis."""
     values: Float32Array = field(default_factory=Float32Array)
     """From the leftmost cell to the rightmost one, 0 dark to 1 bright; NaN for a cell without a value."""
     spacing: float = math.nan
@@ -859,9 +861,10 @@ class LineSensor(Msg, frozen=True, gc=False):
 
 
 class Manoeuvre(Msg, frozen=True, gc=False):
-    """Motion that a twist alone cannot express, until the next order. To the robot a command; on
+    """Motion that a twist alone cannot express, until the next order: a command to the robot; on
     /manoeuvre the one that it carries out.
-    Which kinds a robot knows is in its RobotInfo. What a kind does not name below is not looked at.
+    RobotInfo lists the kinds that a robot knows. A kind uses the fields that name it below and ignores
+    the others.
     """
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Manoeuvre"
@@ -890,22 +893,22 @@ class Manoeuvre(Msg, frozen=True, gc=False):
     kind: str = ""
     """twist, steer, course, tilt, hover, take_off, land, surface or rest."""
     twist: Twist = Twist()
-    """twist: all of it. tilt: climb in linear.z, turn in angular.z."""
+    """twist: all of it; tilt: climb in linear.z, turn in angular.z."""
     speed: float = math.nan
-    """steer, course: ahead [m/s]; NaN where the throttle says it."""
+    """steer, course: speed ahead [m/s]; NaN where the throttle is given."""
     throttle: float = math.nan
-    """steer, course: share of the full power, -1 to 1; NaN where the speed says it."""
+    """steer, course: share of the full power, -1 to 1; NaN where the speed is given."""
     steering: float = 0.0
     """steer: angle of the front wheels [rad], of the rudder [rad]; positive to the left."""
     roll: float = 0.0
-    """tilt: to hold [rad]."""
+    """tilt: roll to hold [rad]."""
     pitch: float = 0.0
-    """tilt: to hold [rad], positive nose down."""
+    """tilt: pitch to hold [rad], positive nose down."""
     yaw: float = math.nan
-    """course, hover: to hold in map [rad]; NaN the present one."""
+    """course, hover: direction to hold in map [rad]; NaN for the present one."""
     height: float = math.nan
-    """course, hover, take_off: to hold above the map's origin [m], below water negative; NaN the present
-    or the usual one.
+    """course, hover, take_off: height to hold above the map's origin [m], negative below water; NaN for
+    the present or the default one.
     """
 
 
@@ -924,17 +927,17 @@ class MotorArray(Msg, frozen=True, gc=False):
     header: Header = Header()
     """Frame base_link."""
     names: list[str] = []
-    """Of each motor."""
+    """Names of the motors."""
     speeds: Float64Array = field(default_factory=Float64Array)
-    """Of what the motor turns [rad/s]; of a leg its swing's greatest."""
+    """Speed of the part that each motor turns [rad/s]; of a leg the maximum of its swing."""
     torques: Float64Array = field(default_factory=Float64Array)
-    """There [N m]."""
+    """Torque on that part [N m]."""
     temperatures: Float64Array = field(default_factory=Float64Array)
-    """Of the winding [degC]."""
+    """Temperature of each winding [degC]."""
 
 
 class MoveArmRequest(CommandRequest, frozen=True, gc=False):
-    """Where a mounted arm is to go."""
+    """Moves a mounted arm."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/MoveArmRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -947,7 +950,7 @@ class MoveArmRequest(CommandRequest, frozen=True, gc=False):
     )
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     order: ArmOrder = field(default_factory=ArmOrder)
-    """By a pose's name, a point for the tip, or angles."""
+    """Goal as a pose's name, a point for the tip, or angles."""
 
 
 class MoveArmResponse(CommandResponse, frozen=True, gc=False):
@@ -958,7 +961,7 @@ class MoveArmResponse(CommandResponse, frozen=True, gc=False):
 
 
 class Place(Msg, frozen=True, gc=False):
-    """A named pose, so that people say Office 12 and never coordinates."""
+    """A named pose, so that people can say Office 12 in place of coordinates."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Place"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -976,11 +979,11 @@ class Place(Msg, frozen=True, gc=False):
     id: int32 = 0
     """Given by the robot and never used again; 0 asks for a new place."""
     name: str = ""
-    """Name of the place; two places never have the same."""
+    """Name of the place, unique."""
     kind: str = "place"
     """place, office, home, dock, reception, lab or hall."""
     floor: str = "0"
-    """The floor that it is on, as people call it."""
+    """Name of its floor."""
     x: float = 0.0
     """East of the map's origin [m]."""
     y: float = 0.0
@@ -994,7 +997,7 @@ class Place(Msg, frozen=True, gc=False):
 
 
 class PlaceArray(Msg, frozen=True, gc=False):
-    """All places known; latched on /places, sent once per change."""
+    """All known places; latched on /places, sent once per change."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/PlaceArray"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "pilothouse_msgs/Place[]")
@@ -1005,7 +1008,7 @@ class PlaceArray(Msg, frozen=True, gc=False):
 
 
 class RecallMissionRequest(CommandRequest, frozen=True, gc=False):
-    """Make a kept mission the stored one."""
+    """Makes a named mission the robot's stored mission."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/RecallMissionRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
@@ -1081,33 +1084,33 @@ class RobotInfo(Msg, frozen=True, gc=False):
     max_yaw_rate: float = 0.0
     """Greatest turn rate [rad/s], either way."""
     radius: float = 0.0
-    """Of the circle that the body fits in [m]."""
+    """Radius of the circle around the body [m]."""
     cameras: list[str] = []
     """Names of the camera streams; each is served at ws://HOST:PORT/camera/NAME."""
     latitude: float = math.nan
-    """Of the map frame's origin [deg]; NaN when the map has no place on earth."""
+    """Of the map frame's origin [deg]; NaN when the map has no geographic position."""
     longitude: float = math.nan
     """Of the map frame's origin [deg]."""
     camera_fov: float = math.nan
     """Horizontal field of view of the first camera [rad]."""
     manoeuvres: list[str] = []
-    """Which kinds of pilothouse_msgs/Manoeuvre it knows; empty for one that knows twists only."""
+    """Kinds of pilothouse_msgs/Manoeuvre that it knows; empty for a robot that knows twists only."""
     payloads: list[str] = []
-    """Names of the payloads that are mounted."""
+    """Names of the mounted payloads."""
     laser_x: float = 0.0
     """Distance of the laser ahead of base_link [m]."""
     tasks: list[str] = []
-    """Which tasks of pilothouse_msgs/TaskOrder it knows; empty for one that does not say."""
+    """Tasks of pilothouse_msgs/TaskOrder that it knows; empty when not known."""
     max_climb: float = 0.0
-    """Greatest speed up and down [m/s]; 0 for one that stays on the ground or the water."""
+    """Greatest speed up and down [m/s]; 0 for a robot that stays on the ground or the water."""
     max_tilt: float = 0.0
-    """Greatest roll and pitch that it holds by order [rad]; 0 for one that takes no such order."""
+    """Greatest roll and pitch that it holds on command [rad]; 0 for a robot without that command."""
     max_steering: float = 0.0
-    """Greatest angle of its front wheels or its rudder [rad]; 0 for one that has none."""
+    """Greatest angle of its front wheels or its rudder [rad]; 0 for a robot without them."""
     min_radius: float = 0.0
-    """Of the tightest turn that it drives [m]; 0 for one that turns where it stands."""
+    """Radius of its tightest turn [m]; 0 for a robot that turns on the spot."""
     icon: str = ""
-    """Of its kind, a name of Material Symbols, as in sailing; empty for a generic one."""
+    """Icon of its kind, a name of Material Symbols, as in sailing; empty for a generic one."""
     moves: str = ""
     """Verb for its motion, as a sentence begins: Sails; empty for Drives."""
     holds: str = ""
@@ -1131,13 +1134,13 @@ class RudderState(Msg, frozen=True, gc=False):
     header: Header = Header()
     """Frame base_link."""
     angle: float = 0.0
-    """[rad], positive turns the boat to the left."""
+    """Angle of the rudder [rad], positive turns the boat to the left."""
     wanted: float = 0.0
     """Commanded rudder angle [rad]."""
     throttle: float = 0.0
     """Commanded thrust of the propeller, a fraction of its full thrust, -1 to 1."""
     thrust: float = 0.0
-    """Of the propeller [N], negative astern."""
+    """Thrust of the propeller [N], negative astern."""
 
 
 class TaskProgress(Msg, frozen=True, gc=False):
@@ -1147,17 +1150,17 @@ class TaskProgress(Msg, frozen=True, gc=False):
     ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
     UNITS: ClassVar[dict[str, str]] = {"distance_to_next": "m", "time_left": "s", "distance_driven": "m"}
     stamp: Time = Time()
-    """When it was reckoned."""
+    """When it was computed."""
     task_id: int32 = 0
-    """That of TaskStatus."""
+    """The task_id of TaskStatus."""
     progress: float = math.nan
-    """Of this lap, or of the whole where laps are counted: 0 to 1."""
+    """Progress of this lap, or of the whole where laps are counted: 0 to 1."""
     distance_to_next: float = math.nan
-    """Along the path [m]."""
+    """Distance to the next point, along the path [m]."""
     time_left: float = math.nan
-    """Estimate to the end of this lap, or of the whole where laps are counted [s]."""
+    """Estimated time to the end of this lap, or of the whole where laps are counted [s]."""
     distance_driven: float = 0.0
-    """In this run [m]."""
+    """Distance driven in this run [m]."""
 
 
 class RunTaskFeedback(TaskProgress, frozen=True, gc=False):
@@ -1169,7 +1172,7 @@ class RunTaskFeedback(TaskProgress, frozen=True, gc=False):
 
 
 class StartTaskRequest(CommandRequest, frozen=True, gc=False):
-    """Start a task."""
+    """Starts a task."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/StartTaskRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -1188,11 +1191,11 @@ class StartTaskRequest(CommandRequest, frozen=True, gc=False):
     order: TaskOrder = field(default_factory=TaskOrder)
     """The order; with its task empty, the field `task` counts."""
     instead: bool = False
-    """Also while a task is under way, which ends only when this one is accepted; the queue waits then."""
+    """Replaces a task under way, which ends only when this one is accepted; the queue waits then."""
 
 
 class RunTaskGoal(StartTaskRequest, frozen=True, gc=False):
-    """Run a task until its result. Cancelling the goal ends the task."""
+    """Runs a task until its result; cancelling the goal ends the task."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskGoal"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -1218,13 +1221,13 @@ class RunTaskResult(Msg, frozen=True, gc=False):
     state: str = ""
     """SUCCEEDED; any other outcome is a failure with its reason."""
     message: str = ""
-    """One sentence: what was done."""
+    """One sentence: the result."""
     visited: int32 = 0
     """Waypoints reached."""
 
 
 class ScheduledTask(Msg, frozen=True, gc=False):
-    """A task that starts by itself, at a time of day or every so often."""
+    """A task that starts by itself, at a time of day or at intervals."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/ScheduledTask"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -1240,21 +1243,21 @@ class ScheduledTask(Msg, frozen=True, gc=False):
     id: int32 = 0
     """Given by the robot; 0 asks for a new one."""
     enabled: bool = True
-    """It starts when its time comes; kept and not started otherwise."""
+    """It starts at its time; a disabled one is kept and does not start."""
     order: TaskOrder = field(default_factory=TaskOrder)
     """The order."""
     at: str = ""
-    """Time of day as HH:MM, local time of the robot; empty when `every` says it."""
+    """Time of day as HH:MM, local time of the robot; empty when `every` is given."""
     days: _Boolx7 = field(default_factory=lambda: [True, True, True, True, True, True, True])
     """Days on which `at` counts, Monday first."""
     every: float = 0.0
-    """From one start to the next [s]; 0 when `at` says it."""
+    """Time from one start to the next [s]; 0 when `at` is given."""
     next: Time = Time()
     """Its next start, operators' clock, set by the robot; 0 for never."""
 
 
 class Schedule(Msg, frozen=True, gc=False):
-    """All that starts by itself; latched on /schedule, sent once per change."""
+    """Scheduled tasks; latched on /schedule, sent once per change."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Schedule"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "pilothouse_msgs/ScheduledTask[]")
@@ -1265,7 +1268,7 @@ class Schedule(Msg, frozen=True, gc=False):
 
 
 class SetLightsRequest(CommandRequest, frozen=True, gc=False):
-    """Set the brightness of the robot's lights."""
+    """Sets the brightness of the robot's lights."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetLightsRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "float64")
@@ -1282,7 +1285,7 @@ class SetLightsResponse(CommandResponse, frozen=True, gc=False):
 
 
 class SetMissionRequest(CommandRequest, frozen=True, gc=False):
-    """Store a mission on the robot."""
+    """Stores a mission on the robot."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetMissionRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -1295,7 +1298,7 @@ class SetMissionRequest(CommandRequest, frozen=True, gc=False):
     )
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     mission: Mission = field(default_factory=Mission)
-    """Replaces what was stored."""
+    """Replaces the stored mission."""
 
 
 class SetMissionResponse(CommandResponse, frozen=True, gc=False):
@@ -1306,13 +1309,13 @@ class SetMissionResponse(CommandResponse, frozen=True, gc=False):
 
 
 class SetModeRequest(CommandRequest, frozen=True, gc=False):
-    """Give the robot to a person or to its task."""
+    """Gives the robot to an operator or to its task."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetModeRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     mode: str = ""
-    """MANUAL pauses the task, AUTO goes on with it."""
+    """MANUAL pauses the task, AUTO resumes it."""
 
 
 class SetModeResponse(CommandResponse, frozen=True, gc=False):
@@ -1323,7 +1326,7 @@ class SetModeResponse(CommandResponse, frozen=True, gc=False):
 
 
 class SetOptionRequest(CommandRequest, frozen=True, gc=False):
-    """Change one of the robot's settings; it is kept over restarts."""
+    """Changes one of the robot's settings; the value persists over restarts."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -1350,7 +1353,7 @@ class SetOptionResponse(CommandResponse, frozen=True, gc=False):
 
 
 class SetPlaceRequest(CommandRequest, frozen=True, gc=False):
-    """Store a place, or change the one with its id."""
+    """Stores a place, or changes the one with its id."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetPlaceRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -1363,7 +1366,7 @@ class SetPlaceRequest(CommandRequest, frozen=True, gc=False):
     )
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     place: Place = Place()
-    """Replaces what was stored under its id; 0 makes a new one."""
+    """Replaces the place with its id; 0 makes a new one."""
 
 
 class SetPlaceResponse(CommandResponse, frozen=True, gc=False):
@@ -1379,11 +1382,11 @@ class SetPlaceResponse(CommandResponse, frozen=True, gc=False):
         "int32",
     )
     id: int32 = 0
-    """Of the place; 0 when it was not accepted."""
+    """Number of the place; 0 when not accepted."""
 
 
 class SetQueueRequest(CommandRequest, frozen=True, gc=False):
-    """Replace what comes after the task that runs."""
+    """Replaces the tasks after the running one."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetQueueRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -1397,9 +1400,9 @@ class SetQueueRequest(CommandRequest, frozen=True, gc=False):
     )
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     revision: int32 = 0
-    """That of the TaskQueue it was made from; refused when the queue has changed since."""
+    """Revision of the TaskQueue that it edits; refused when the queue has changed since."""
     orders: list[TaskOrder] = []
-    """Waiting, the next one first; those with an id stay what they were."""
+    """Waiting orders, the next one first; those with an id stay unchanged."""
 
 
 class SetQueueResponse(CommandResponse, frozen=True, gc=False):
@@ -1410,7 +1413,7 @@ class SetQueueResponse(CommandResponse, frozen=True, gc=False):
 
 
 class SetScheduleRequest(CommandRequest, frozen=True, gc=False):
-    """Store a scheduled task, or change the one with its id."""
+    """Stores a scheduled task, or changes the one with its id."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetScheduleRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -1423,7 +1426,7 @@ class SetScheduleRequest(CommandRequest, frozen=True, gc=False):
     )
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     task: ScheduledTask = field(default_factory=ScheduledTask)
-    """Replaces what was stored under its id; 0 makes a new one."""
+    """Replaces the task with its id; 0 makes a new one."""
 
 
 class SetScheduleResponse(CommandResponse, frozen=True, gc=False):
@@ -1439,11 +1442,11 @@ class SetScheduleResponse(CommandResponse, frozen=True, gc=False):
         "int32",
     )
     id: int32 = 0
-    """Of the scheduled task; 0 when it was not accepted."""
+    """Number of the scheduled task; 0 when not accepted."""
 
 
 class SonarRing(Msg, frozen=True, gc=False):
-    """Distances all round by ultrasound, each the nearest thing in a cone."""
+    """Distances all round by ultrasound, each to the nearest object in a cone."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SonarRing"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -1466,17 +1469,17 @@ class SonarRing(Msg, frozen=True, gc=False):
     header: Header = Header()
     """Frame base_link."""
     bearings: Float64Array = field(default_factory=Float64Array)
-    """Of each cone's middle in base_link [rad], 0 ahead, positive to the left."""
+    """Direction of each cone's middle in base_link [rad], 0 ahead, positive to the left."""
     field_of_view: float = 0.0
     """Width of a cone [rad]."""
     radius: float = 0.0
-    """From the middle of the robot to each sonar [m]."""
+    """Distance of each sonar from the middle of the robot [m]."""
     range_min: float = 0.0
-    """Shortest that can be measured [m]."""
+    """Shortest measurable distance [m]."""
     range_max: float = 0.0
-    """Longest [m]."""
+    """Longest measurable distance [m]."""
     ranges: Float32Array = field(default_factory=Float32Array)
-    """From each sonar [m]; +inf nothing in range, -inf too close (REP-117)."""
+    """Distance from each sonar [m]; +inf for nothing in range, -inf for too close (REP-117)."""
 
 
 class StartTaskResponse(CommandResponse, frozen=True, gc=False):
@@ -1505,11 +1508,11 @@ class TaskQueue(Msg, frozen=True, gc=False):
     stamp: Time = Time()
     """When it changed, operators' clock."""
     revision: int32 = 0
-    """Counts every change; /task/queue/set names the one that it was made from."""
+    """Counts every change; /task/queue/set names the revision that it edits."""
     orders: list[TaskOrder] = []
-    """Waiting, the next one first."""
+    """Waiting orders, the next one first."""
     held: str = ""
-    """Why it waits for /task/resume, as the end of a sentence; empty while it goes on by itself."""
+    """Reason why it waits for /task/resume, as the end of a sentence; empty while it goes on by itself."""
 
 
 class TaskStatus(Msg, frozen=True, gc=False):
@@ -1543,11 +1546,11 @@ class TaskStatus(Msg, frozen=True, gc=False):
     task: str = ""
     """patrol, deliver, guide, go_to, go_home, hold, follow_heading, dock or empty."""
     state: str = "IDLE"
-    """IDLE, RUNNING, PAUSED, SUCCEEDED, CANCELED, FAILED or INTERRUPTED (a restart cut it; resume or
-    cancel it).
+    """IDLE, RUNNING, PAUSED, SUCCEEDED, CANCELED, FAILED or INTERRUPTED (by a restart; resume or cancel
+    it).
     """
     reason: str = ""
-    """One sentence for the operator: what it does and why."""
+    """One sentence for the operator: its activity and the cause."""
     motion: str = ""
     """loop, random or intermittent; empty without a patrol."""
     waypoint: int32 = 0
@@ -1555,14 +1558,14 @@ class TaskStatus(Msg, frozen=True, gc=False):
     waypoints: int32 = 0
     """Number of waypoints."""
     lap: int32 = 0
-    """From 1."""
+    """Number of the lap, from 1."""
     laps: int32 = 0
-    """0 until stopped."""
+    """Number of laps; 0 for until stopped."""
     visited: int32 = 0
     """Waypoints reached in this run."""
     phase: str = ""
-    """driving, waiting, dwelling, holding, turning, planning (looks for a way), docking, circling, taking
-    off, landing or surfacing; empty when it does none of them.
+    """driving, waiting, dwelling, holding, turning, planning (searches a path), docking, circling, taking
+    off, landing or surfacing; empty for none of them.
     """
     asks: str = ""
     """A question that /task/confirm answers, as in: Has it been picked up at Office 12? Empty for none."""
