@@ -22,7 +22,7 @@ def when(topic: Topic) -> str:
 
 def table() -> str:
     """The table in Markdown."""
-    lines = ["| topic | type | to | how often | what |", "|---|---|---|---|---|"]
+    lines = ["| topic | type | to | rate | content |", "|---|---|---|---|---|"]
     lines += [f"| `{t.name}` | {t.type.MSGTYPE} | {t.to} | {when(t)} | {t.doc} |" for t in TOPICS]
     return "\n".join(lines)
 

@@ -53,8 +53,8 @@ TOPICS: tuple[Topic, ...] = (
     Topic("/odom", nav_msgs.Odometry, 20, "handheld", "pose and speed by the wheels alone, in `odom`"),
     Topic("/imu/data", sensor_msgs.Imu, 50, "handheld", "attitude, turn rate, acceleration"),
     Topic("/fix", sensor_msgs.NavSatFix, 5, "handheld", "position by satellite"),
-    Topic("/scan", sensor_msgs.LaserScan, 10, "handheld", "the laser's last sweep"),
-    Topic("/bumper", pilothouse_msgs.Bumper, 10, "handheld", "the bumper ring"),
+    Topic("/scan", sensor_msgs.LaserScan, 10, "handheld", "the newest sweep of the laser"),
+    Topic("/bumper", pilothouse_msgs.Bumper, 10, "handheld", "contact of the bumper ring"),
     Topic(
         "/line_sensor",
         pilothouse_msgs.LineSensor,
@@ -69,10 +69,16 @@ TOPICS: tuple[Topic, ...] = (
         "handheld",
         "distance to the nearest thing ahead, by its echo",
     ),
-    Topic("/range/left", sensor_msgs.Range, 10, "handheld", "the same to the left"),
-    Topic("/range/right", sensor_msgs.Range, 10, "handheld", "the same to the right"),
-    Topic("/range/rear", sensor_msgs.Range, 10, "handheld", "the same to the rear"),
-    Topic("/battery_state", sensor_msgs.BatteryState, 1, "handheld", "the battery"),
+    Topic("/range/left", sensor_msgs.Range, 10, "handheld", "distance to the nearest thing on the left"),
+    Topic("/range/right", sensor_msgs.Range, 10, "handheld", "distance to the nearest thing on the right"),
+    Topic("/range/rear", sensor_msgs.Range, 10, "handheld", "distance to the nearest thing behind"),
+    Topic(
+        "/battery_state",
+        sensor_msgs.BatteryState,
+        1,
+        "handheld",
+        "state of the battery",
+    ),
     Topic(
         "/joint_states", sensor_msgs.JointState, 20, "handheld", "angles and speeds of wheels, legs or rotors"
     ),
@@ -158,11 +164,11 @@ TOPICS: tuple[Topic, ...] = (
         pilothouse_msgs.Following,
         5,
         "handheld",
-        "whether the guided person follows",
+        "the guided person: following or not, and the distance",
     ),
     Topic("/events", pilothouse_msgs.Event, 0, "handheld", "events, each once", once=True),
     Topic("/diagnostics", diagnostic_msgs.DiagnosticArray, 1, "handheld", "health of the robot's parts"),
-    Topic("/tf", tf2_msgs.TFMessage, 20, "handheld", "map, odom and base_link"),
+    Topic("/tf", tf2_msgs.TFMessage, 20, "handheld", "transforms of map, odom and base_link"),
     Topic(
         "/sim/ground_truth",
         nav_msgs.Odometry,
@@ -179,13 +185,13 @@ TOPICS: tuple[Topic, ...] = (
         "robot",
         "a drive command that a twist cannot express, such as steer or tilt; counts for 0.25 s",
     ),
-    Topic("/goal_pose", geometry_msgs.PoseStamped, 0, "robot", "a goal to go to, once"),
+    Topic("/goal_pose", geometry_msgs.PoseStamped, 0, "robot", "a goal for the robot, once"),
     Topic(
         "/initialpose",
         geometry_msgs.PoseWithCovarianceStamped,
         0,
         "robot",
-        "its true pose in `map`, set by the operator",
+        "the robot's true pose in `map`, from the operator",
     ),
 )
 
