@@ -30,13 +30,14 @@ class _Parser(argparse.ArgumentParser):
 
 def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser = _Parser(prog="main.py", description="Pilothouse: supervise and drive robots.")
-    parser.add_argument("url", nargs="?", help="robot to connect to, as in ws://192.168.1.7:9090")
+    parser.add_argument("url", nargs="?", help="address of the robot, as in ws://192.168.1.7:9090")
     parser.add_argument(
-        "--layout", help=f"drive screen for any robot: a .toml file, {', '.join(layouts.names())}"
+        "--layout",
+        help=f"layout of the drive screen for any robot: a .toml file, {', '.join(layouts.names())}",
     )
-    parser.add_argument("--screen", default="mission", choices=SCREENS, help="screen to show once connected")
-    parser.add_argument("--theme", choices=THEMES, help="look; the last one unless given")
-    parser.add_argument("--size", help="of the window [px], as in 412x892")
+    parser.add_argument("--screen", default="mission", choices=SCREENS, help="first screen after connecting")
+    parser.add_argument("--theme", choices=THEMES, help="colours; default: the last choice")
+    parser.add_argument("--size", help="size of the window [px], as in 412x892")
     arguments = parser.parse_args(argv)
     if arguments.url is not None:
         arguments.url = check_address(arguments.url)

@@ -23,17 +23,17 @@ PAGE = ROOT / "docs" / "performance.md"
 def options(arguments: Sequence[str], known: Sequence[str]) -> argparse.Namespace:
     """What the command line asks for; SystemExit 2 with one sentence for a name that is none."""
     parser = argparse.ArgumentParser(prog="python -m bench", description="Measures Pilothouse.")
-    parser.add_argument("name", nargs="*", help=f"which: {', '.join(known)}; all of them without a name")
+    parser.add_argument("name", nargs="*", help=f"benches to run: {', '.join(known)}; default: all")
     parser.add_argument(
-        "--data", type=Path, metavar="DIR", help="recordings for the benches that judge a recogniser"
+        "--data", type=Path, metavar="DIR", help="folder of recordings for the benches of a recogniser"
     )
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write every result into this file, too")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="file for all results")
     parser.add_argument(
         "--doc",
         nargs="?",
         const="",
         metavar="CONDITIONS",
-        help="write docs/performance.md from out/bench, with these remarks on the machine; measures the named benches",
+        help="write docs/performance.md from out/bench, with these remarks on the machine; measures only the named benches",
     )
     asked = parser.parse_args(arguments)
     unknown = [name for name in asked.name if name not in known]

@@ -1,4 +1,4 @@
-"""Phrases on the command line of `python -m robotside`, and what is wrong with what was said."""
+"""Command line of `python -m robotside`: its options, checked, and the robots that they name."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SIMULATED = "sim:"
 
 
 class UserMistake(Exception):
-    """What was typed cannot be done; the text is one sentence."""
+    """A mistake on the command line; the text is one sentence."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,11 +30,11 @@ class One:
     """One of the robots to serve."""
 
     name: str
-    """Of a simulated one, as in `patrol`; `ros:URL` of another."""
+    """Name of a simulated robot, as in `patrol`; `ros:URL` of another."""
     payloads: tuple[str, ...]
-    """What it carries besides."""
+    """Its extra payloads."""
     called: str
-    """What people are to call it; empty for what the robot or its settings say."""
+    """Name for people; empty for that of the robot or its settings."""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -43,16 +43,16 @@ class _Parser(argparse.ArgumentParser):
 
 
 def read(argv: Sequence[str] | None) -> argparse.Namespace:
-    """The options; UserMistake with one sentence for what cannot be."""
+    """The options; UserMistake with one sentence for a mistake."""
     words = list(sys.argv[1:] if argv is None else argv)
     if words and words[0].startswith("-") and words[0] not in ("-h", "--help"):
         words.insert(0, "serve")
-    about = "The robot's computer. `serve` may be left out before options; `serve --help` lists them."
+    about = "The robot's computer. `serve` is optional before options; `serve --help` lists them."
     parser = _Parser(prog="python -m robotside", description=about)
     commands = parser.add_subparsers(dest="command", required=True)
     _add_serve(commands.add_parser("serve", help="serve one robot, or several in one simulated world"))
-    offer = commands.add_parser("offer", help="say which robots and worlds can be simulated")
-    offer.add_argument("--json", action="store_true", help="for programs")
+    offer = commands.add_parser("offer", help="list the robots and worlds that can be simulated")
+    offer.add_argument("--json", action="store_true", help="as JSON, for programs")
     options = parser.parse_args(words)
     if options.command == "serve":
         _check(options)
@@ -64,34 +64,34 @@ def _add_serve(serve: argparse.ArgumentParser) -> None:
     add(
         "--robot",
         default="sim:patrol",
-        help="what to serve: sim:patrol, several in one world as sim:patrol,scout+arm with what they carry, "
-        "or ros:ws://HOST:9090 for one behind a rosbridge server",
+        help="robots to serve: sim:patrol; several in one world with their payloads, as sim:patrol,scout+arm; "
+        "or ros:ws://HOST:9090 for a robot behind a rosbridge server",
     )
     add(
         "--world",
         default="",
-        help="where simulated robots are: a name or a TOML file; the robot's home if left out",
+        help="world of the simulated robots: a name or a TOML file; default: the robot's home",
     )
     add(
         "--host",
         default="127.0.0.1",
-        help="where to listen: this machine alone, unless 0.0.0.0 lets a phone in",
+        help="address to listen on: by default this machine only; 0.0.0.0 lets a phone in",
     )
     add(
         "--port",
         type=int,
         default=9090,
-        help="of the rosbridge socket, the next robot's is one more; 0 takes free ones",
+        help="port of the rosbridge socket, one more for each further robot; 0 takes free ports",
     )
-    add("--http-port", type=int, default=8080, help="of the web site, likewise")
-    add("--payloads", default="", help="what a simulated robot carries besides: arm,laser,…")
+    add("--http-port", type=int, default=8080, help="port of the web site, likewise")
+    add("--payloads", default="", help="extra payloads of a simulated robot: arm,laser,…")
     _add_more(serve)
 
 
 def _add_more(serve: argparse.ArgumentParser) -> None:
     add = serve.add_argument
-    add("--protocols", default="", help="rosbridge and http, which are always up")
-    add("--seed", type=int, default=0, help="of the simulation's and the patrol's random numbers")
+    add("--protocols", default="", help="rosbridge and http; both always run")
+    add("--seed", type=int, default=0, help="seed of the random numbers of simulation and patrol")
     add("--speed", type=float, default=1.0, help="simulated seconds per second; commands expire in real time")
     add(
         "--config",
@@ -99,18 +99,18 @@ def _add_more(serve: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="ROBOT.TOML",
-        help="limits, fence, safe state, database, name; docs/robot.toml.example has every setting; "
-        "of several robots one for all, or one each in their order",
+        help="settings file: limits, fence, safe state, database, name; docs/robot.toml.example has all settings; "
+        "for several robots one for all, or one each in their order",
     )
     add(
         "--state",
         type=Path,
         default=None,
-        help="directory of the database; of several robots each has one in it",
+        help="directory of the database; each of several robots has its own in it",
     )
-    add("--name", default="", help="what people call the robot; of several robots with commas between")
-    add("--gui", action="store_true", help="show simulated robots in the physics engine's own window")
-    add("--with-parent", action="store_true", help="end when the program that started it is gone")
+    add("--name", default="", help="name of the robot; names of several robots, separated by commas")
+    add("--gui", action="store_true", help="show simulated robots in the physics engine's window")
+    add("--with-parent", action="store_true", help="exit when the program that started it exits")
 
 
 def _check(options: argparse.Namespace) -> None:
@@ -123,7 +123,7 @@ def _check(options: argparse.Namespace) -> None:
     if options.robot.startswith("ros:"):
         for given, option in ((options.payloads, "payloads"), (options.world, "world"), (options.gui, "gui")):
             if given:
-                raise UserMistake(f"--{option} is for simulated robots; a real one has what it has.")
+                raise UserMistake(f"--{option} is for simulated robots only.")
     if options.gui and not os.environ.get("DISPLAY"):
         raise UserMistake("--gui needs a display, and DISPLAY is not set.")
     unknown = set(filter(None, options.protocols.split(","))) - {"rosbridge", "http"}
@@ -139,7 +139,7 @@ def robots(options: argparse.Namespace) -> list[One]:
         return [One(text, (), options.name)]
     words = [word.strip().removeprefix(SIMULATED) for word in rest.split(",")]
     if kind != "sim" or not all(words):
-        said = "simulated ones are written as sim:patrol or sim:patrol,scout, others as ros:ws://192.168.1.7:9090"
+        said = "write simulated ones as sim:patrol or sim:patrol,scout, others as ros:ws://192.168.1.7:9090"
         raise UserMistake(f"There is no robot {text!r}; {said}.")
     if len(words) > MAX_ROBOTS:
         raise UserMistake(f"One robot side serves at most {MAX_ROBOTS} robots, not {len(words)}.")
@@ -151,7 +151,7 @@ def _one(word: str, called: str, options: argparse.Namespace, count: int) -> One
     name, *carried = word.split("+")
     if options.payloads and count > 1:
         raise UserMistake(
-            f"--payloads is for one robot; say of each of {count} what it carries, as in sim:patrol+arm+lights,scout."
+            f"--payloads is for one robot. For {count} robots give each its payloads, as in sim:patrol+arm+lights,scout."
         )
     return One(name, (*carried, *filter(None, options.payloads.split(","))), called)
 
@@ -162,10 +162,10 @@ def _names(text: str, count: int) -> list[str]:
         return [text] * count
     names = [name.strip() for name in text.split(",")]
     if len(names) != count:
-        raise UserMistake(f"--name must have {count} names with commas between, not {len(names)}: {text!r}.")
+        raise UserMistake(f"--name must have {count} names separated by commas, not {len(names)}: {text!r}.")
     for name, times in Counter(names).items():
         if times > 1:
-            raise UserMistake(f"--name gives {name!r} to {times} robots; each needs one of its own.")
+            raise UserMistake(f"--name gives {name!r} to {times} robots; each robot needs its own name.")
     return names
 
 
@@ -173,9 +173,7 @@ def configs(options: argparse.Namespace, count: int) -> list[Config]:
     """The settings of each of the robots; BadConfig or UserMistake with one sentence."""
     files: list[Path] = options.config
     if len(files) not in (0, 1, count):
-        raise UserMistake(
-            f"--config is given once, or {count} times for {count} robots, not {len(files)} times."
-        )
+        raise UserMistake(f"Give --config once, or {count} times for {count} robots, not {len(files)} times.")
     read = [load(file) for file in files] or [DEFAULT_CONFIG]
     if len(read) == count:
         return read
@@ -183,7 +181,7 @@ def configs(options: argparse.Namespace, count: int) -> list[Config]:
     for what, given in (("name", only.robot.name), ("database", only.database.url)):
         if given is not None:
             raise UserMistake(
-                f"{files[0]}: its {what} cannot be that of {count} robots; give each a --config of its own."
+                f"{files[0]}: {count} robots cannot share its {what}; give each a --config of its own."
             )
     return read * count
 

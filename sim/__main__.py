@@ -72,15 +72,15 @@ class _Parser(argparse.ArgumentParser):
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser("python -m sim", description="Look at a simulated world.")
+    parser = _Parser("python -m sim", description="View a simulated world.")
     parser.add_argument(
-        "--world", default="", help=f"{', '.join(WORLDS)} or a TOML file; the robot's home if left out"
+        "--world", default="", help=f"{', '.join(WORLDS)} or a TOML file; default: the robot's home"
     )
     parser.add_argument(
-        "--robot", default="patrol", help=f"{', '.join(ROBOTS)}, or several with commas between"
+        "--robot", default="patrol", help=f"{', '.join(ROBOTS)}, or several separated by commas"
     )
     parser.add_argument("--picture", metavar="FILE", help="draw the world from above into a PNG or JPEG file")
-    parser.add_argument("--gui", action="store_true", help="watch it in the physics engine's window")
+    parser.add_argument("--gui", action="store_true", help="show the world in the physics engine's window")
     return parser
 
 

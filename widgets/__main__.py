@@ -24,9 +24,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
         prog="python -m widgets", description="Show every widget in every state."
     )
-    parser.add_argument("name", nargs="?", default="", help="one widget, as in Compass; all without it")
+    parser.add_argument("name", nargs="?", default="", help="name of one widget, as in Compass; default: all")
     parser.add_argument(
-        "--pictures", "--out", type=Path, metavar="DIR", help="write PNG files and index.html there"
+        "--pictures", "--out", type=Path, metavar="DIR", help="folder for PNG files and index.html"
     )
     options = parser.parse_args(arguments)
     prepare(offscreen=options.pictures is not None)

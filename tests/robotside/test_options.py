@@ -75,7 +75,7 @@ def test_settings_are_one_file_for_all_or_one_each(tmp_path: Path) -> None:
     one, two = (("--config", str(file)) for file in files)
     assert [each.limits.max_speed for each in configs(read(one), 3)] == [0.1, 0.1, 0.1]
     assert [each.limits.max_speed for each in configs(read([*one, *two]), 2)] == [0.1, 0.2]
-    with pytest.raises(UserMistake, match="--config is given once, or 3 times for 3 robots, not 2 times"):
+    with pytest.raises(UserMistake, match="Give --config once, or 3 times for 3 robots, not 2 times"):
         configs(read([*one, *two]), 3)
 
 
@@ -89,7 +89,7 @@ def test_what_two_robots_cannot_share_is_refused(tmp_path: Path, text: str, what
     options = read(["--config", str(file)])
     assert len(configs(options, 1)) == 1
     with pytest.raises(
-        UserMistake, match=f"its {what} cannot be that of 2 robots; give each a --config of its own"
+        UserMistake, match=f"2 robots cannot share its {what}; give each a --config of its own"
     ):
         configs(options, 2)
 
@@ -104,26 +104,26 @@ def test_a_wrong_file_among_several_is_named(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("--robot sim:patrol,,scout", "There is no robot 'sim:patrol,,scout'; simulated ones are written as"),
+        ("--robot sim:patrol,,scout", "There is no robot 'sim:patrol,,scout'; write simulated ones as"),
         (
             f"--robot sim:{','.join(['patrol'] * 33)}",
             f"One robot side serves at most {MAX_ROBOTS} robots, not 33.",
         ),
         (
             "--robot sim:patrol,scout --payloads arm",
-            "--payloads is for one robot; say of each of 2 what it carries",
+            "--payloads is for one robot. For 2 robots give each its payloads",
         ),
         (
             "--robot sim:patrol,scout --name Rex",
-            "--name must have 2 names with commas between, not 1: 'Rex'.",
+            "--name must have 2 names separated by commas, not 1: 'Rex'.",
         ),
         (
             "--robot sim:patrol,scout --name Rex,Rex",
-            "--name gives 'Rex' to 2 robots; each needs one of its own.",
+            "--name gives 'Rex' to 2 robots; each robot needs its own name.",
         ),
         (
             "--robot ros:ws://192.0.2.7:9 --world lake",
-            "--world is for simulated robots; a real one has what it has.",
+            "--world is for simulated robots only.",
         ),
         ("--gui", "--gui needs a display, and DISPLAY is not set."),
     ],

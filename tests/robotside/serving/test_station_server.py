@@ -283,7 +283,7 @@ def test_a_mistake_in_the_settings_file_is_one_sentence_and_no_robot_is_made(
         ),
         (
             "serve --robot ros:ws://192.0.2.1:9090 --payloads arm",
-            "--payloads is for simulated robots; a real one has what it has.",
+            "--payloads is for simulated robots only.",
         ),
         ("serve --protocols mqtt", "There is no protocol mqtt; there are rosbridge and http."),
         (
@@ -292,7 +292,7 @@ def test_a_mistake_in_the_settings_file_is_one_sentence_and_no_robot_is_made(
         ),
         (
             "serve --robot rover",
-            "There is no robot 'rover'; simulated ones are written as sim:patrol or sim:patrol,scout, others as ros:ws://192.168.1.7:9090.",
+            "There is no robot 'rover'; write simulated ones as sim:patrol or sim:patrol,scout, others as ros:ws://192.168.1.7:9090.",
         ),
         (
             "serve --robot ros:http://here",
@@ -300,7 +300,7 @@ def test_a_mistake_in_the_settings_file_is_one_sentence_and_no_robot_is_made(
         ),
         (
             "serve --robot ros:",
-            "There is no robot 'ros:'; simulated ones are written as sim:patrol or sim:patrol,scout, others as ros:ws://192.168.1.7:9090.",
+            "There is no robot 'ros:'; write simulated ones as sim:patrol or sim:patrol,scout, others as ros:ws://192.168.1.7:9090.",
         ),
         (
             "serve --robot ros:ws://here:9 --speed 2",
@@ -355,7 +355,7 @@ def test_a_fault_in_the_file_of_a_vehicle_is_one_sentence(
 
 
 @pytest.mark.parametrize(
-    ("words", "told"), [("--help", "`serve` may be left out"), ("serve --help", "--robot ROBOT")]
+    ("words", "told"), [("--help", "`serve` is optional"), ("serve --help", "--robot ROBOT")]
 )
 def test_help_is_given(capsys: pytest.CaptureFixture[str], words: str, told: str) -> None:
     with pytest.raises(SystemExit) as ended:
