@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import math
+import subprocess
+import sys
 from collections.abc import Awaitable, Callable
 from typing import Any
 
@@ -239,3 +241,19 @@ async def test_calls_of_an_operator_that_is_gone_are_forgotten() -> None:
     waiting.append(start(door, operator))
     await ended(waiting)
     assert not door._calls._count
+
+
+def test_the_door_of_a_station_knows_no_transport() -> None:
+    script = "import sys, robotside.door.station_door; print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    names = loaded.stdout.split()
+    assert "robotside.door.door" in names
+    transports = (
+        "websockets",
+        "starlette",
+        "uvicorn",
+        "bridge.server",
+        "bridge.client",
+        "robotside.gateways",
+    )
+    assert [name for name in names if name.startswith(transports)] == []

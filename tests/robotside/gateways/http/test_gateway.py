@@ -1,0 +1,56 @@
+"""The HTTP gateway by itself: start and stop, its URL, and STOP through the door."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from pathlib import Path
+
+import httpx
+import pytest
+
+from bridge.core.errors import BridgeError
+from robotside.gateways.http.gateway import HttpGateway
+from robotside.gateways.scaling.picture_scaling import PictureScaler
+from tests.fakes import FakeRobot
+from tests.robotside.scene import Scene
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Scene:
+    return Scene(FakeRobot(), tmp_path)
+
+
+@pytest.fixture
+async def pictures() -> AsyncIterator[PictureScaler]:
+    made = PictureScaler()
+    yield made
+    await made.close()
+
+
+async def test_it_is_stopped_without_having_been_started(scene: Scene, pictures: PictureScaler) -> None:
+    await HttpGateway(scene.door, "127.0.0.1", 0, pictures, lambda: "").stop()
+
+
+async def test_stop_goes_by_the_door(scene: Scene, pictures: PictureScaler) -> None:
+    gateway = HttpGateway(scene.door, "127.0.0.1", 0, pictures, lambda: "ws://192.0.2.7:9090")
+    await gateway.start()
+    where = gateway.endpoints()["http"]
+    assert where == f"http://127.0.0.1:{gateway.port}"
+    async with httpx.AsyncClient(base_url=where) as web:
+        assert "ws://192.0.2.7:9090" in (await web.get("/")).text
+        answer = await web.post("/stop?name=Fred")
+        await gateway.stop()
+        with pytest.raises(httpx.ConnectError):
+            await web.get("/")
+    assert (answer.status_code, answer.text) == (200, "Stopped.\n")
+    assert scene.station.controls.stopped_by == "Fred"
+
+
+async def test_a_port_that_is_taken_is_one_sentence(scene: Scene, pictures: PictureScaler) -> None:
+    first = HttpGateway(scene.door, "127.0.0.1", 0, pictures, lambda: "")
+    await first.start()
+    second = HttpGateway(scene.door, "127.0.0.1", first.port, pictures, lambda: "")
+    with pytest.raises(BridgeError, match="--http-port names another port"):
+        await second.start()
+    await second.stop()
+    await first.stop()

@@ -1,0 +1,39 @@
+"""Addresses under which others reach a listening socket."""
+
+from __future__ import annotations
+
+import socket
+
+import pytest
+
+from robotside.gateways import addresses
+from robotside.gateways.addresses import listening_socket, url
+
+
+@pytest.mark.parametrize(
+    ("host", "expected"),
+    [
+        ("192.0.2.7", "ws://192.0.2.7:9090"),
+        ("robot.local", "ws://robot.local:9090"),
+        ("2001:db8::7", "ws://[2001:db8::7]:9090"),
+    ],
+)
+def test_a_host_is_given_to_others_as_it_is(host: str, expected: str) -> None:
+    assert url("ws", host, 9090) == expected
+
+
+@pytest.mark.parametrize("everywhere", ["0.0.0.0", "::", ""])
+def test_for_all_hosts_the_machines_own_address_is_given(
+    everywhere: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(addresses, "_own_address", lambda: "192.0.2.9")
+    assert url("http", everywhere, 8080) == "http://192.0.2.9:8080"
+
+
+def test_a_socket_listens_where_it_is_asked_to_and_a_taken_port_fails() -> None:
+    with listening_socket("127.0.0.1", 0) as first:
+        port = first.getsockname()[1]
+        with socket.create_connection(("127.0.0.1", port), timeout=5):
+            pass
+        with pytest.raises(OSError, match="in use"):
+            listening_socket("127.0.0.1", port)
