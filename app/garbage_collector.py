@@ -24,9 +24,9 @@ with software GL a look takes 12 to 18 ms then, for 125 000 objects, and 26 to 3
 73 000 of them go; several times that while others keep the processor busy. The 56 000 objects that were there from the
 start are left out of it, else it would be 34 and 51 ms.
 """
-AGAIN = 10_000
+RECHECK_OBJECTS = 10_000
 """Objects found in a look at everything that are worth another one with the next."""
-PATIENCE = 7
+MAX_RECHECKS = 7
 """How often what was expected to go, and is still held, is waited for: twice as long each time, 4 s in all.
 
 Its last frame, an animation, a touch or an answer on its way may hold a screen for a while after it was left.
@@ -80,7 +80,7 @@ class Collector:
         blocks = sys.getallocatedblocks()  # 0.01 to 0.05 ms
         if self._due or self._again() or blocks - self._blocks >= OLD:
             # a screen comes apart in two goes: the first lets go of the second
-            self._due = gc.collect() >= AGAIN
+            self._due = gc.collect() >= RECHECK_OBJECTS
             self._blocks = sys.getallocatedblocks()
             return
         self._blocks = min(self._blocks, blocks)
@@ -91,7 +91,7 @@ class Collector:
         """What was expected to go is still there, and it is time for another look."""
         if self._left is None:
             return False
-        if self._left() is None or self._wait == PATIENCE:
+        if self._left() is None or self._wait == MAX_RECHECKS:
             self._left = None
             return False
         self._looks += 1

@@ -50,7 +50,7 @@ TYPES: dict[Kind, tuple[int, ...]] = {
     "gravity": (TYPE_GRAVITY, TYPE_GAME_ROTATION_VECTOR),
 }
 """Android's sensors that tell it, the better one first."""
-PERIOD, MOST = 0.02, 25
+SAMPLE_PERIOD, MAX_SAMPLES = 0.02, 25
 """Between two samples of a simulated one [s], and how many it tells at once."""
 LATE = 1.0
 """A sample that is older than that [s] comes from a clock that was set anew."""
@@ -139,9 +139,9 @@ class SimulatedMotion:
     def tell(self) -> None:
         """What a sensor would have told of how it is held, since this was called last; at most half a second of it."""
         now = self._now()
-        due = 1 if math.isnan(self._last) else min(MOST, int((now - self._last) / PERIOD))
+        due = 1 if math.isnan(self._last) else min(MAX_SAMPLES, int((now - self._last) / SAMPLE_PERIOD))
         for back in reversed(range(due)):
-            self._tell(now - back * PERIOD)
+            self._tell(now - back * SAMPLE_PERIOD)
         if due:
             self._last = now
 

@@ -22,9 +22,9 @@ log = logging.getLogger(__name__)
 
 HELLO, LATENCY = "hello ", "latency "
 """Channels of the mailbox, each followed by the robot's url: a `Hello`; `(url, seconds)`."""
-PERIOD = 3.0
+MEASURE_PERIOD = 3.0
 """Between two measurements of one robot [s]."""
-PATIENCE = 1.0
+MEASURE_TIMEOUT = 1.0
 """How long one measurement may take [s]."""
 
 
@@ -69,7 +69,7 @@ class BeaconListener:
                     await asyncio.gather(
                         *(self._measure(url, *place) for url, place in self._targets.items())
                     )
-                    await asyncio.sleep(PERIOD)
+                    await asyncio.sleep(MEASURE_PERIOD)
         except OSError as error:
             log.warning("cannot listen for robots: %s", error)
         finally:
@@ -86,7 +86,7 @@ class BeaconListener:
         with socket.socket() as plug:
             plug.setblocking(False)
             try:
-                async with asyncio.timeout(PATIENCE):
+                async with asyncio.timeout(MEASURE_TIMEOUT):
                     await loop.sock_connect(plug, (host, port))
                 latency = self._now() - before
             except (OSError, TimeoutError):

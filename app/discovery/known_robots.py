@@ -12,9 +12,9 @@ from bridge.discovery.beacon import Hello
 
 __all__ = ["Entry", "KnownRobots", "check_address"]
 
-PATIENCE = 3.0
+SILENCE_LIMIT = 3.0
 """A robot silent for longer is lost [s]; it says HELLO twice a second."""
-FORGET = 60.0
+FORGET_DELAY = 60.0
 """A robot silent for longer, and not saved, is listed no more [s]."""
 PORT = 9090
 """Where a robot listens when the address does not say it."""
@@ -82,7 +82,7 @@ class Entry:
         """`live`, `lost` (it was heard and fell silent) or `unheard` (an address that never said HELLO)."""
         if math.isnan(self.silent):
             return "unheard"
-        return "lost" if self.silent > PATIENCE else "live"
+        return "lost" if self.silent > SILENCE_LIMIT else "live"
 
     @property
     def address(self) -> str:
@@ -141,7 +141,7 @@ class KnownRobots:
         self._heard = {
             url: (hello, at)
             for url, (hello, at) in self._heard.items()
-            if now - at <= FORGET or url in self._saved
+            if now - at <= FORGET_DELAY or url in self._saved
         }
         heard = [self._entry(hello, now - at) for hello, at in self._heard.values()]
         unheard = [

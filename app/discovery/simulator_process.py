@@ -14,7 +14,7 @@ from pathlib import Path
 __all__ = ["Inquiry", "Simulator", "available", "command", "inquiry"]
 
 READY = re.compile(r"^robotside: ready\b.*?\bbridge=(\S+)")
-PATIENCE = 60.0
+START_TIMEOUT = 60.0
 """How long it may take until it serves [s]: a first start compiles and draws much."""
 GRACE = 5.0
 """How long it may take to bring the robot to rest and end [s]."""
@@ -48,7 +48,7 @@ class Simulator:
         *,
         robots: int = 1,
         after: Simulator | None = None,
-        patience: float = PATIENCE,
+        patience: float = START_TIMEOUT,
     ) -> None:
         """`on_ready` gets the bridge's url of the first of its `robots`, once all of them are served.
 
@@ -193,11 +193,11 @@ class Inquiry:
             )
             if self._closing.is_set():
                 process.kill()
-            said, problem = process.communicate(timeout=PATIENCE)
+            said, problem = process.communicate(timeout=START_TIMEOUT)
         except subprocess.TimeoutExpired:
             process.kill()
             process.communicate()
-            self._fail(f"it did not answer within {PATIENCE:.0f} s")
+            self._fail(f"it did not answer within {START_TIMEOUT:.0f} s")
         except OSError as error:
             self._fail(error.strerror or str(error))
         else:

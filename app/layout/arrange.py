@@ -31,7 +31,7 @@ __all__ = [
 
 SELECTION = 310
 """Width of the bar for what is selected on a phone's map [dp]."""
-WIDEST = 720
+MAX_LIST_WIDTH = 720
 """Width from which a row's switch is too far from its words [dp]."""
 STRIP = 190
 """A strip beside STOP that is narrower has no room for a sentence [dp]."""
@@ -242,7 +242,7 @@ def inputs(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
 
 
 def _readable(detail: Rect, dp: float) -> Rect:
-    return Rect(detail.x, detail.y, min(detail.width, WIDEST * dp), detail.height)
+    return Rect(detail.x, detail.y, min(detail.width, MAX_LIST_WIDTH * dp), detail.height)
 
 
 def inputs_alone(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:

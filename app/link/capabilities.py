@@ -25,7 +25,7 @@ MANOEUVRE = "/cmd_manoeuvre"
 """Where a robot of ours is driven by what a twist does not say."""
 POSE = "/pose"
 """Our name of where the robot is."""
-PATIENCE = 3.0
+ANSWER_TIMEOUT = 3.0
 """For one answer about what there is [s]."""
 
 
@@ -108,7 +108,7 @@ class Capabilities:
         return f"{told} Its place is by odometry." if self.pose_by_odometry else told
 
 
-NOTHING = Capabilities({}, frozenset(), rosapi=False)
+NO_CAPABILITIES = Capabilities({}, frozenset(), rosapi=False)
 """Of a robot that tells nothing."""
 
 
@@ -117,8 +117,8 @@ async def ask_capabilities(
 ) -> Capabilities:
     """Find out what a robot offers, by a client's `call`. Raises NoReply or NotConnected."""
     found = await asyncio.gather(
-        call("/rosapi/topics", None, TopicsResponse, timeout=PATIENCE),
-        call("/rosapi/services", None, ServicesResponse, timeout=PATIENCE),
+        call("/rosapi/topics", None, TopicsResponse, timeout=ANSWER_TIMEOUT),
+        call("/rosapi/services", None, ServicesResponse, timeout=ANSWER_TIMEOUT),
         return_exceptions=True,
     )
     for one in found:
@@ -126,7 +126,7 @@ async def ask_capabilities(
             raise one
     topics, services = found
     if not isinstance(topics, TopicsResponse):
-        return NOTHING
+        return NO_CAPABILITIES
     known = {name: ros1_name(kind) for name, kind in zip(topics.topics, topics.types, strict=False)}
     return Capabilities.of(
         known, frozenset(services.services if isinstance(services, ServicesResponse) else ()), before

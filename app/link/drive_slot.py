@@ -20,15 +20,15 @@ __all__ = ["Drive", "DriveSlot", "stamped_at"]
 Drive = Twist | Manoeuvre
 """What a robot is driven by: a manoeuvre of the kind `steer`, `tilt` or `twist` where a twist does not say it."""
 
-PERIOD = 0.05
+SEND_PERIOD = 0.05
 """Between two drive commands while the stick is held [s]."""
-HEARTBEAT = 0.15
+HEARTBEAT_TIMEOUT = 0.15
 """A user interface silent for longer steers nothing [s]."""
-REARM = 1.0
+REARM_DELAY = 1.0
 """After a longer silence of the user interface the stick must be pushed anew [s]."""
-LATCHED = 0.1
+LATCHED_PERIOD = 0.1
 """Between two commands to rest while the slot is latched [s]."""
-ZEROS = 3
+REST_REPEATS = 3
 """How often the command to rest is said after the stick is let go."""
 KINDS = ("twist", "steer", "tilt")
 """Of manoeuvres that are streams; whatever lasts is a task."""
@@ -116,7 +116,7 @@ class DriveSlot:
         """
         self._check(order)
         with self._lock:
-            if self._wanted != _ZERO and self._now() - self._beat <= REARM:
+            if self._wanted != _ZERO and self._now() - self._beat <= REARM_DELAY:
                 self._wanted = order if _is_finite(order) else _ZERO
 
     @staticmethod
@@ -139,7 +139,7 @@ class DriveSlot:
         """Say rest a few times, whatever was said before; the stick must be pushed anew."""
         with self._lock:
             self._void()
-            self._last_sent, self._zeros = _ZERO, ZEROS
+            self._last_sent, self._zeros = _ZERO, REST_REPEATS
 
     @property
     def driving(self) -> bool:
@@ -151,11 +151,11 @@ class DriveSlot:
         with self._lock:
             if self._last_sent == _ZERO:
                 return longest
-            left = self._beat + HEARTBEAT + _INSTANT - self._now()
+            left = self._beat + HEARTBEAT_TIMEOUT + _INSTANT - self._now()
             return min(longest, left) if left > 0 else longest
 
     def due(self, *, allowed: bool = True) -> Drive | None:
-        """What has to be sent now, at once on a change and each `PERIOD` while held; None when nothing.
+        """What has to be sent now, at once on a change and each `SEND_PERIOD` while held; None when nothing.
 
         Not `allowed` means rest, and that the stick must be pushed anew.
         """
@@ -166,8 +166,8 @@ class DriveSlot:
             order = self._effective(now)
             changed = not _alike(order, self._last_sent)
             if changed and order == _ZERO:
-                self._zeros = ZEROS
-            waited = now - self._sent_at >= (LATCHED if self._latched else PERIOD) - 1e-9
+                self._zeros = REST_REPEATS
+            waited = now - self._sent_at >= (LATCHED_PERIOD if self._latched else SEND_PERIOD) - 1e-9
             silent = order == _ZERO and self._zeros == 0 and not self._latched
             if not changed and (not waited or silent):
                 return None
@@ -177,6 +177,6 @@ class DriveSlot:
 
     def _effective(self, now: float) -> Drive:
         silence = now - self._beat
-        if silence > REARM:
+        if silence > REARM_DELAY:
             self._void()
-        return self._wanted if silence <= HEARTBEAT else _ZERO
+        return self._wanted if silence <= HEARTBEAT_TIMEOUT else _ZERO

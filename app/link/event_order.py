@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from bridge.msgs.arrays import Int32Array
 from bridge.msgs.pilothouse_msgs import Event, GetEventsRequest, GetEventsResponse
 
-__all__ = ["AT_FIRST", "AT_ONCE", "GRAVE", "EventStream", "KnownEvents", "Missed"]
+__all__ = ["FIRST_LIMIT", "PART_LIMIT", "GRAVE", "EventStream", "KnownEvents", "Missed"]
 
-AT_FIRST = 500
+FIRST_LIMIT = 500
 """Events that are asked for by who knows none of a robot's."""
-AT_ONCE = 250
+PART_LIMIT = 250
 """Events in one answer: more would hold up what comes behind them on a slow link."""
-MOST_OPEN = 500
+MAX_OPEN = 500
 """Events that are asked after whether somebody has seen to them."""
 GRAVE = ("warn", "alarm")
 """Levels of what somebody has to see to."""
@@ -99,9 +99,9 @@ class EventStream:
     def request(self) -> GetEventsRequest:
         """What to ask the robot now."""
         if not self._boot:
-            return GetEventsRequest(most=AT_FIRST)
-        open = Int32Array(list(self._open)[-MOST_OPEN:])
-        return GetEventsRequest(since=self._last, boot=self._boot, open=open, most=AT_ONCE)
+            return GetEventsRequest(most=FIRST_LIMIT)
+        open = Int32Array(list(self._open)[-MAX_OPEN:])
+        return GetEventsRequest(since=self._last, boot=self._boot, open=open, most=PART_LIMIT)
 
     def answered(self, answer: GetEventsResponse) -> None:
         """The answer to `request` came."""

@@ -17,13 +17,13 @@ from bridge.msgs import Msg
 
 __all__ = ["Feed", "Feeds", "Mailbox", "Post"]
 
-PERIODS = 10
+STALE_PERIODS = 10
 """A stream is stale when this many of its periods pass in silence."""
-SHORTEST, LONGEST = 0.5, 3.0
+MIN_STALE_DELAY, MAX_STALE_DELAY = 0.5, 3.0
 """Bounds of that silence [s]: jitter of a fast stream is no failure, and a slow one is not forgiven for long."""
 GAPS = 3
 """A stream whose rate nobody knows is stale after so many times the last pause between two messages, or more."""
-SETTLES = 1.0
+REPEAT_WINDOW = 1.0
 """What is said once may come more than once to who has just subscribed, within this [s]."""
 RATE_WINDOW = 1.0
 """Length over which a stream's rate is measured [s]."""
@@ -107,16 +107,16 @@ class Feed:
         if not self.repeats:
             return math.inf
         if self.learns:
-            return max(LONGEST, GAPS * self._gap)
-        return min(max(PERIODS / self.topic.rate, SHORTEST), LONGEST)
+            return max(MAX_STALE_DELAY, GAPS * self._gap)
+        return min(max(STALE_PERIODS / self.topic.rate, MIN_STALE_DELAY), MAX_STALE_DELAY)
 
     def put(self, message: Msg, received: float, count: int = 1) -> None:
         """Replace the message; `count` came since the last `put`."""
         if math.isnan(self._first):
             self._first = received
-        elif received - self._first > SETTLES:
+        elif received - self._first > REPEAT_WINDOW:
             self._gap = (received - self.received) / count
-        if math.isnan(self._since) or received - self._since > LONGEST:
+        if math.isnan(self._since) or received - self._since > MAX_STALE_DELAY:
             self._since, self._count, self.rate = received, 0, math.nan
         else:
             self._count += count

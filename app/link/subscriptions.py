@@ -22,11 +22,11 @@ __all__ = ["Peek", "Seen", "Sources"]
 
 UNUSED = ("/tf", "/diagnostics", "/bumper")
 """Topics that no screen shows."""
-FASTEST = 50
+MIN_INTERVAL = 50
 """No stream is asked for more often than this [ms]: the eye sees no more."""
-SLOW = {"/line_sensor": 100, "/joint_states": 100}
+SLOW_INTERVALS = {"/line_sensor": 100, "/joint_states": 100}
 """Streams that are shown as figures, with the time between two that can be read [ms]."""
-BULKY = (
+CBOR_TYPES = (
     "sensor_msgs/LaserScan",
     "nav_msgs/OccupancyGrid",
     "sensor_msgs/CompressedImage",
@@ -34,7 +34,7 @@ BULKY = (
     "sensor_msgs/PointCloud2",
 )
 """Types whose numbers travel as CBOR; the real servers lose others in it."""
-ENDLESS = ("sensor_msgs/Range",)
+INFINITE_TYPES = ("sensor_msgs/Range",)
 """Types with an infinity that means something, which JSON cannot say: as CBOR, from a robot of ours."""
 
 Deliver = Callable[[str, Msg, float], object]
@@ -69,13 +69,15 @@ class Sources:
     def _subscribe(self, entry: Topic, name: str) -> Callable[[], None]:
         if entry.once:
             return self._client.subscribe(name, entry.type, self._event, queue_length=100)
-        fast = entry.rate * FASTEST > 1000
+        fast = entry.rate * MIN_INTERVAL > 1000
         return self._client.subscribe(
             name,
             entry.type,
             lambda message, received: self._hear(entry.name, message, received),
-            throttle_rate=SLOW.get(entry.name, FASTEST if fast else 0),
-            compression="cbor" if entry.type.MSGTYPE in (ENDLESS if self._ours else ()) + BULKY else "none",
+            throttle_rate=SLOW_INTERVALS.get(entry.name, MIN_INTERVAL if fast else 0),
+            compression="cbor"
+            if entry.type.MSGTYPE in (INFINITE_TYPES if self._ours else ()) + CBOR_TYPES
+            else "none",
         )
 
     @property
@@ -140,8 +142,8 @@ class Peek:
             topic,
             kind,
             lambda message, received: self._tell(Seen(topic, message), received),
-            throttle_rate=FASTEST,
-            compression="cbor" if name in BULKY else "none",
+            throttle_rate=MIN_INTERVAL,
+            compression="cbor" if name in CBOR_TYPES else "none",
         )
 
     def close(self) -> None:

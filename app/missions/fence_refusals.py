@@ -11,7 +11,7 @@ from widgets.map.fence import Fence
 
 __all__ = ["FenceRefusals", "summary"]
 
-NAMED = 4
+MAX_NAMED_POINTS = 4
 """As many points are called by their numbers."""
 RADIUS = 0.2
 """Of a robot that does not tell its own [m]."""
@@ -65,7 +65,7 @@ def summary(names: Iterable[str]) -> str:
     names = list(names)
     points = [name.removeprefix("Point ") for name in names if name != "Home"]
     words = []
-    if len(points) > NAMED:
+    if len(points) > MAX_NAMED_POINTS:
         words.append(f"{len(points)} points")
     elif points:
         words.append(f"point{'s' if len(points) > 1 else ''} {', '.join(points)}")

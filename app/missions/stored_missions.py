@@ -9,9 +9,9 @@ from app.link.commands import Outcome
 from app.missions.mission_editor import Draft, MissionEditor
 from bridge.msgs.pilothouse_msgs import KeptMission
 
-__all__ = ["LONGEST", "StoredMissions", "Robot"]
+__all__ = ["MAX_NAME_LENGTH", "StoredMissions", "Robot"]
 
-LONGEST = 60
+MAX_NAME_LENGTH = 60
 """Characters of a mission's name; the robot keeps no more."""
 
 
@@ -61,7 +61,7 @@ class StoredMissions:
 
     def save(self, name: str) -> None:
         """Send the points on the map to the robot, to be kept under a name."""
-        self._robot.mission.set_name(name.strip()[:LONGEST])
+        self._robot.mission.set_name(name.strip()[:MAX_NAME_LENGTH])
         self._robot.send_mission()
 
     def lacking(self, name: str) -> str:

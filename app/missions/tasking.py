@@ -17,9 +17,9 @@ from bridge.msgs.pilothouse_msgs import (
     TaskOrder,
 )
 
-__all__ = ["AT_ONCE", "Robot", "Tasking"]
+__all__ = ["RUNS_LIMIT", "Robot", "Tasking"]
 
-AT_ONCE = 30
+RUNS_LIMIT = 30
 """Runs asked for at a time."""
 
 
@@ -87,7 +87,7 @@ class Tasking:
 
     def ask_history(self, before: int = 0) -> None:
         """Ask for the runs before a number; 0 begins with the newest."""
-        self._robot.command("history", before=before, limit=AT_ONCE)
+        self._robot.command("history", before=before, limit=RUNS_LIMIT)
 
     def _forget(self, name: str, number: int, words: str, undo: Callable[[], None]) -> None:
         self._deleted[name, number], self._words[name, number] = undo, words

@@ -11,7 +11,7 @@ from bridge.msgs.pilothouse_msgs import Checklist
 
 __all__ = ["CheckListState"]
 
-MOVES = 0.05
+MIN_MOVING_SPEED = 0.05
 """A robot is on its way at this speed [m/s], or turning at this rate [rad/s]."""
 
 
@@ -59,4 +59,4 @@ class CheckListState:
         if told is None:
             return self._running()
         v, turn = told.twist.twist.linear, told.twist.twist.angular.z
-        return self._running() or math.hypot(v.x, v.y, v.z) > MOVES or abs(turn) > MOVES
+        return self._running() or math.hypot(v.x, v.y, v.z) > MIN_MOVING_SPEED or abs(turn) > MIN_MOVING_SPEED

@@ -14,7 +14,7 @@ __all__ = ["AGE_STEP", "Dashboard"]
 
 AGE_STEP = 0.5
 """Ages closer than this look the same [s]: nothing is drawn anew for less."""
-LIVES = 1.0
+EMPTY_TIMEOUT = 1.0
 """What has an `empty` message is taken off the glass when it is older than this [s]."""
 
 
@@ -84,7 +84,7 @@ class Dashboard:
                 binding.show(binding.empty)
 
     def _believed(self, topic: str) -> bool:
-        return math.isnan(self._feeds.lost_at) and self._feeds.age(topic) <= LIVES
+        return math.isnan(self._feeds.lost_at) and self._feeds.age(topic) <= EMPTY_TIMEOUT
 
     def _refresh(self, binding: _Binding) -> None:
         widget, state = binding.widget, self._feeds.state(binding.topic)

@@ -11,15 +11,15 @@ from app.link.event_order import GRAVE, KnownEvents, Missed
 from bridge.msgs.arrays import Int32Array
 from bridge.msgs.pilothouse_msgs import Event
 
-__all__ = ["MOST", "Logbook", "marks"]
+__all__ = ["MAX_EVENTS", "Logbook", "marks"]
 
-MOST = 5000
+MAX_EVENTS = 5000
 """Events that are kept; a robot keeps as many."""
-AT_ONCE = 500
+MAX_ACKNOWLEDGED = 500
 """Events that one command acknowledges; the robot takes 1000."""
-LOGS = 50
+MAX_LOGS = 50
 """Logs of which it is remembered how far they are known."""
-NEWS = 15.0
+NEWS_AGE = 15.0
 """What happened longer ago is no news when it comes [s]."""
 REMEMBERED = "events"
 """Name in the settings."""
@@ -126,7 +126,7 @@ class Logbook:
     def is_news(event: Event, clock: float) -> bool:
         """Whether it has just happened, by the operators' `clock` [s], NaN for unknown; an acknowledgement is none."""
         stamp = event.stamp.seconds
-        return not event.acknowledged_by and not (stamp > 0 and clock - stamp > NEWS)
+        return not event.acknowledged_by and not (stamp > 0 and clock - stamp > NEWS_AGE)
 
     # what comes in
 
@@ -140,7 +140,7 @@ class Logbook:
         self._open = None
         if event.acknowledged_by:
             self._asked.discard(key)
-        while len(self._events) > MOST:
+        while len(self._events) > MAX_EVENTS:
             del self._events[next(iter(self._events))]
         self._tell()
         return True
@@ -155,7 +155,7 @@ class Logbook:
         self._known, self._open = known, None if known.boot != self._known.boot else self._open
         if known.boot:
             kept = {boot: last for boot, last in marks(self._settings).items() if boot != known.boot}
-            newest = dict([*kept.items(), (known.boot, known.last)][-LOGS:])
+            newest = dict([*kept.items(), (known.boot, known.last)][-MAX_LOGS:])
             self._settings.set(REMEMBERED, newest)
 
     def answered(self, outcome: Outcome) -> None:
@@ -178,8 +178,8 @@ class Logbook:
         wanted = [one for one in events if not one.acknowledged_by and not self.is_asked(one)]
         numbers = [one.id for one in wanted if not boot or one.boot == boot]
         self._asked |= {(one.boot, one.id) for one in wanted}
-        for start in range(0, len(numbers), AT_ONCE):
-            self._send("acknowledge", ids=Int32Array(numbers[start : start + AT_ONCE]))
+        for start in range(0, len(numbers), MAX_ACKNOWLEDGED):
+            self._send("acknowledge", ids=Int32Array(numbers[start : start + MAX_ACKNOWLEDGED]))
         self._tell()
 
     def look(self) -> None:

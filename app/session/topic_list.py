@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from app.link.capabilities import CAMERA, Capabilities
 from app.link.channels import CAPABILITIES, LINK, SEEN
-from app.link.feeds import LONGEST, Feed, Post
+from app.link.feeds import MAX_STALE_DELAY, Feed, Post
 from app.link.subscriptions import Seen
 from app.session.session import Session
 from bridge.core.topics import TOPICS, Topic
@@ -220,7 +220,7 @@ class TopicListing:
         if feed is None or feed.repeats or self.state != "live" or not feed.learns:
             return math.nan
         since = self._now() - feed.received
-        return since if since > LONGEST else math.nan
+        return since if since > MAX_STALE_DELAY else math.nan
 
     @property
     def notice(self) -> str:

@@ -19,14 +19,14 @@ from typing import Protocol
 
 from app.discovery.known_robots import Entry
 from app.stop.stop_lane import Report, StopLane
-from app.stop.stop_state import DOUBT, silence
+from app.stop.stop_state import ANSWER_TIMEOUT, silence
 from bridge.core.network_thread import NetworkThread
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
 from bridge.msgs.std_msgs import Time
 
-__all__ = ["MOST", "Connected", "Fleet", "Row", "known"]
+__all__ = ["MAX_ROBOTS", "Connected", "Fleet", "Row", "known"]
 
-MOST = 100
+MAX_ROBOTS = 100
 """So many robots are stopped at once at most."""
 HEAD_START = 0.02
 """So long the connected robot's own STOP has the computer to itself [s]."""
@@ -153,7 +153,7 @@ class Fleet:
         now: Callable[[], float] = time.monotonic,
         new_id: Callable[[], str] = lambda: uuid.uuid4().hex,
         open_lane: Callable[[str], Lane] | None = None,
-        most: int = MOST,
+        most: int = MAX_ROBOTS,
     ) -> None:
         """`now` is our clock [s]; `most` is how many robots are stopped at once."""
         self._open_lane: Callable[[str], Lane] = open_lane or partial(
@@ -246,7 +246,7 @@ class Fleet:
 
     def close(self) -> None:
         """Let go, and end the network thread; a STOP that was pressed just now has a moment to get through."""
-        until = self._now() + DOUBT
+        until = self._now() + ANSWER_TIMEOUT
         while any(row.phase == "sent" for row in self.rows) and self._now() < until:
             time.sleep(0.01)
             self.look(None)

@@ -13,11 +13,11 @@ from bridge.msgs.nav_msgs import Odometry
 
 __all__ = ["LocalStop"]
 
-STILL, UNTURNED = 0.02, 0.03
+MAX_RESTING_SPEED, MAX_RESTING_TURN = 0.02, 0.03
 """A robot slower than this rests [m/s, rad/s]: odometry of real wheels trembles."""
-RESTS = 0.3
+REST_DURATION = 0.3
 """So long its odometry must say so [s]."""
-BELIEVED = 1.0
+ODOMETRY_TIMEOUT = 1.0
 """Odometry older than this says nothing of now [s]."""
 
 
@@ -53,7 +53,7 @@ class LocalStop:
         self._heard_at = received
         if math.isnan(self._first_at) and self.latched and received >= self._pressed_at:
             self._first_at = received
-        if not (speed < STILL and turning < UNTURNED):
+        if not (speed < MAX_RESTING_SPEED and turning < MAX_RESTING_TURN):
             self._rests_since = math.nan
         elif math.isnan(self._rests_since):
             self._rests_since = received
@@ -64,7 +64,7 @@ class LocalStop:
         if math.isnan(self._rests_since) or math.isnan(self._first_at):
             return False
         rested = self._heard_at - max(self._rests_since, self._first_at)
-        return rested >= RESTS and self._now() - self._heard_at < BELIEVED
+        return rested >= REST_DURATION and self._now() - self._heard_at < ODOMETRY_TIMEOUT
 
     @property
     def phase(self) -> str:
@@ -93,6 +93,6 @@ class LocalStop:
         age = self._now() - self._heard_at
         if math.isnan(age):
             return "No odometry has come that could confirm that it rests."
-        if age >= BELIEVED:
+        if age >= ODOMETRY_TIMEOUT:
             return f"Its odometry was last heard {silence(age)} ago."
         return f"Its odometry {'says' if self._confirmed else 'does not yet say'} that it rests."

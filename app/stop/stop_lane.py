@@ -12,7 +12,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
 
-from app.link.capabilities import DRIVE, NOTHING, Capabilities, ask_capabilities
+from app.link.capabilities import DRIVE, NO_CAPABILITIES, Capabilities, ask_capabilities
 from app.link.commands import Commands, Outcome
 from app.stop.local_stop import LocalStop
 from app.stop.stop_state import StopState
@@ -31,7 +31,7 @@ M = TypeVar("M", bound=Msg)
 
 TICK = 0.1
 """Between two looks at how it goes, and between two commands to rest [s]."""
-AGAIN = 1.0
+RETRY_DELAY = 1.0
 """To a robot that took STOP and moves it is sent anew after this [s]."""
 BACKOFF = (0.5, 2.0)
 """First and longest wait between two attempts to reach it [s]."""
@@ -158,7 +158,7 @@ class StopLane:
             if not self._only_zero:
                 await self._commands.stop()
                 with suppress(TimeoutError):
-                    async with asyncio.timeout(AGAIN):
+                    async with asyncio.timeout(RETRY_DELAY):
                         await self._done.wait()
             if self._done.is_set() or self._only_zero:
                 self._wanted.clear()
@@ -193,12 +193,12 @@ class StopLane:
             with suppress(BridgeError):
                 self._offer = await ask_capabilities(self._client.call, self._offer)
                 self._follow()
-            await asyncio.sleep(AGAIN)
+            await asyncio.sleep(RETRY_DELAY)
 
     def _follow(self) -> None:
         if self._only_zero:
             self._commands.void_stop()
-            self._listen((self._offer or NOTHING).source("/odom"), Odometry, self._zero.on_odometry)
+            self._listen((self._offer or NO_CAPABILITIES).source("/odom"), Odometry, self._zero.on_odometry)
             if self._drive is not None:
                 self._client.advertise(self._drive, TwistStamped if self._stamped else Twist)
             return

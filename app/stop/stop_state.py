@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from app.link.commands import STOP_DOUBT, Outcome
 from bridge.msgs.pilothouse_msgs import ControlStatus
 
-__all__ = ["COMES_TO_REST", "DOUBT", "StopFacts", "StopState", "Verdict", "judge", "silence"]
+__all__ = ["REST_TIMEOUT", "ANSWER_TIMEOUT", "StopFacts", "StopState", "Verdict", "judge", "silence"]
 
-DOUBT = STOP_DOUBT
+ANSWER_TIMEOUT = STOP_DOUBT
 """A STOP that the robot did not take after this is unanswered; it goes on being sent [s]."""
-COMES_TO_REST = 2.0
+REST_TIMEOUT = 2.0
 """A robot whose STOP is latched rests within this, or it is not obeyed [s]."""
 
 
@@ -78,7 +78,7 @@ def judge(known: StopFacts, now: float) -> Verdict:
     if known.refusal:
         return Verdict("no_answer", known.refusal)
     since = known.asked_at if math.isnan(known.reached_at) else max(known.asked_at, known.reached_at)
-    if now - since < DOUBT:
+    if now - since < ANSWER_TIMEOUT:
         return Verdict("sent")
     if not math.isnan(known.taken_at):
         return Verdict("no_answer", "It took STOP and does not say that it rests.")
@@ -90,7 +90,7 @@ def _latched(known: StopFacts, now: float) -> Verdict:
         return Verdict("stopped", f"Pressed by {known.by}." if known.by else "")
     if known.refusal:
         return Verdict("no_answer", known.refusal)
-    if now - known.moves_since < COMES_TO_REST:
+    if now - known.moves_since < REST_TIMEOUT:
         return Verdict("sent", "STOP is pressed; it comes to rest.")
     return Verdict("moves", "STOP is pressed, and it does not come to rest.")
 
@@ -101,7 +101,7 @@ def _unreached(known: StopFacts, now: float) -> Verdict:
         return Verdict("lost", _last_heard(known, now))
     if math.isnan(known.asked_at):
         return Verdict("ready")
-    if not known.hopeless and now - known.asked_at < DOUBT:
+    if not known.hopeless and now - known.asked_at < ANSWER_TIMEOUT:
         return Verdict("sent")
     return Verdict("no_answer", _last_heard(known, now) if pressed_since else known.why)
 

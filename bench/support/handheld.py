@@ -390,7 +390,7 @@ def trust_blindly() -> None:
         """Kivy finds it by its name."""
 
     Inputs.update, Inputs.rest = update, rest  # type: ignore[method-assign]
-    drive_slot.HEARTBEAT = drive_slot.REARM = math.inf
+    drive_slot.HEARTBEAT_TIMEOUT = drive_slot.REARM_DELAY = math.inf
 
 
 def watch_by_topic() -> None:

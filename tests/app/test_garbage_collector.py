@@ -132,7 +132,7 @@ def test_what_never_goes_is_not_looked_for_for_ever(
     monkeypatch.setattr(gc, "collect", lambda *of: found.append(of) or 0)
     for _ in range(10_000):
         collector.look()
-    assert len([of for of in found if not of]) == 1 + garbage.PATIENCE
+    assert len([of for of in found if not of]) == 1 + garbage.MAX_RECHECKS
 
 
 def test_what_was_there_before_is_not_looked_at(collector: Collector) -> None:

@@ -19,9 +19,9 @@ __all__ = ["ActionButtons"]
 
 NARROW = 110
 """On a narrower button the icon is above the word [dp]."""
-MOST = 3
+MAX_IN_ROW = 3
 """So many above each other have room for a finger; of more some are on the glass, and a button turns to the next."""
-LEAST = 88
+MIN_WIDTH = 88
 """Width that a button in a row needs [dp]."""
 ICON = 32
 """Taken by the icon beside the words [dp]."""
@@ -81,7 +81,11 @@ class ActionButtons(GridLayout):
 
     def _fitting(self, names: list[str]) -> list[Widget]:
         """The buttons that have room; of more than that those of the page, what moves the robot on the first."""
-        room = max(MOST, min(MOST + 1, int(self.width // (LEAST * Metrics.density)))) if self.across else MOST
+        room = (
+            max(MAX_IN_ROW, min(MAX_IN_ROW + 1, int(self.width // (MIN_WIDTH * Metrics.density))))
+            if self.across
+            else MAX_IN_ROW
+        )
         if len(names) <= room:
             return [self.buttons[name] for name in names]
         names = sorted(names, key=lambda name: not name.startswith(TASKS))

@@ -9,7 +9,7 @@ from app.layout.arrange_dive import dive
 from app.layout.layout import Layout
 from app.layout.rects import Rect, StopPlace
 from app.screens.drive.driving_base import Driving
-from app.screens.parts.placing import AWAY, off, put
+from app.screens.parts.placing import AWAY_X, off, put
 from app.session.layout_actions import CARRIED
 from widgets import ActionColumn
 from widgets.controls.action_column import Action as Offered
@@ -105,7 +105,7 @@ class DiveScreen(Driving):
         self.video.corner = 0 if form == "tall" else 14 * dp
         for slot, found in self.places.items():
             for widget in found:
-                put(widget, places.get(slot, Rect(AWAY, 0, 1, 1)))
+                put(widget, places.get(slot, Rect(AWAY_X, 0, 1, 1)))
         self._place_arm(wide)
         self.place_checks(places["notice_low"], self.video.top, dp)
         self._strip = Rect(0, 0, 0, 0)

@@ -24,7 +24,7 @@ __all__ = ["DriveScreen"]
 
 HIDES = ("top_left", "top_right", "top")
 """Places of instruments that may lie under the unfolded sensors, or under what is said."""
-LEAST, FIGURES = 110.0, 52.0
+MIN_HEIGHT, FIGURES = 110.0, 52.0
 """Of an instrument, and of the figures in one row, less height shows nothing that can be read [dp]."""
 
 
@@ -152,7 +152,7 @@ class DriveScreen(Driving):
             lids.append(self.arranged["senses_open"])
         if not self.hide_checks() and self.checks.open:
             lids.append(Rect(*self.low.pos, *self.low.size))
-        left = {slot: _left(self.arranged[slot], lids, LEAST * self._dp, 8 * self._dp) for slot in HIDES}
+        left = {slot: _left(self.arranged[slot], lids, MIN_HEIGHT * self._dp, 8 * self._dp) for slot in HIDES}
         figures = left["readouts"] = self._figures_left(lids, alone=left["top_left"] is None)
         self._show_figures(figures or self.arranged["readouts"])
         if figures is not None and figures.overlaps(Rect(*self.low.pos, *self.low.size)):
@@ -178,7 +178,7 @@ class DriveScreen(Driving):
         place, least, gap = self.arranged["readouts"], FIGURES * self._dp, 8 * self._dp
         cover = self.cover
         if cover is None or not cover.overlaps(place):
-            return _left(place, lids, LEAST * self._dp, gap)
+            return _left(place, lids, MIN_HEIGHT * self._dp, gap)
         if self._form != "tall" or not alone:
             return _left(place, lids, least, gap)
         row = [self.arranged[slot] for slot in ("top_left", "top_right", "readouts")]

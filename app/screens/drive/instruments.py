@@ -15,7 +15,7 @@ from widgets import Readout
 
 __all__ = ["Instruments"]
 
-LONGEST_NAME = 14
+MAX_NAME_LENGTH = 14
 """Letters of a topic's name on an instrument."""
 SENSES = "senses"
 """The slot whose widgets look after themselves, by what the robot has."""
@@ -101,4 +101,4 @@ class Instruments:
 
 def _brief(name: str) -> str:
     """The end of a topic's name, as much as an instrument has room for."""
-    return name if len(name) <= LONGEST_NAME else f"…{name[1 - LONGEST_NAME :]}"
+    return name if len(name) <= MAX_NAME_LENGTH else f"…{name[1 - MAX_NAME_LENGTH :]}"

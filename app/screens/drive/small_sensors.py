@@ -21,7 +21,7 @@ LARGEST = 0.47
 """Share of the open card's width that the first sensor has."""
 SECOND = 0.42
 """Share of the height that the upper one of two beside it has."""
-LEAST = 62
+MIN_WIDTH = 62
 """Width that a sensor needs on the strip; one that is too narrow shows the first ones only [dp]."""
 ALIKE = 1.0
 """Ages that differ by less are the same [s]."""
@@ -129,7 +129,7 @@ class SmallSensors(Card):
         self.opacity = 1 if self.shown else 0
         self.floating = not self.covers
         handle = dp(HANDLE) if self.foldable else 0.0
-        room = int((rect.width - handle) // dp(LEAST)) if self.folded else len(self.shown)
+        room = int((rect.width - handle) // dp(MIN_WIDTH)) if self.folded else len(self.shown)
         seen = self.shown[: max(1, room)]
         rects = (_strip if self.folded else _card)(rect, len(seen), handle)
         for gauge, there in zip(seen, rects, strict=True):

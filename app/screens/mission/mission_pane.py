@@ -9,7 +9,7 @@ from kivy.properties import ObjectProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
-from app.missions.stored_missions import LONGEST
+from app.missions.stored_missions import MAX_NAME_LENGTH
 from app.screens.parts.pane_head import PaneHead
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import KeptMission
@@ -53,8 +53,8 @@ class MissionPane(BoxLayout):
         return self._session.missions.lacking(self.field.text)
 
     def _typed(self, *_: object) -> None:
-        if len(self.field.text) > LONGEST:  # the robot would cut it off
-            self.field.text = self.field.text[:LONGEST]
+        if len(self.field.text) > MAX_NAME_LENGTH:  # the robot would cut it off
+            self.field.text = self.field.text[:MAX_NAME_LENGTH]
         self.refresh()
 
     def begin(self) -> None:

@@ -14,7 +14,7 @@ from widgets.parts.kit import PrimaryButton, QuietButton
 
 __all__ = ["Act", "ListButtons"]
 
-STOPS_SHARE = 0.9
+MAX_SHARE_OF_STOP = 0.9
 """A button is at most as large as this share of STOP."""
 
 Act = tuple[str, str, str, Callable[[], object]]
@@ -44,7 +44,7 @@ class ListButtons:
 
         None is as large as STOP in its place [px], which is the largest thing to press.
         """
-        tall, self._most = form == "tall", STOPS_SHARE * stop.width * stop.height
+        tall, self._most = form == "tall", MAX_SHARE_OF_STOP * stop.width * stop.height
         strip.clear_widgets()
         self.under.clear_widgets()
         strip.cols = (2 if len(names) > 2 else 1) if tall else max(1, len(names))

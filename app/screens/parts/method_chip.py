@@ -16,9 +16,9 @@ from widgets.parts.kit import Icon, Text
 
 __all__ = ["InputsChip"]
 
-NOTHING = "tune"
+NO_METHOD_ICON = "tune"
 """Icon while no method is armed."""
-BRIEF = 1
+BRIEF_COUNT = 1
 """So many icons a brief one shows; the rest is counted."""
 
 Builder.load_string("""
@@ -80,13 +80,13 @@ class InputsChip(Pressable, BoxLayout):
         self.clear_widgets()
         # what does not work goes before what does: it must not be the one that has no room
         told = sorted((one for one in self.methods if one[0] in METHOD_SIGNS), key=self._rank)
-        shown = told[:BRIEF] if self.brief else told
+        shown = told[:BRIEF_COUNT] if self.brief else told
         for name, well in shown:
             self.add_widget(
                 MethodSign(name=METHOD_SIGNS[name][0], struck=not well, idle=well and name in self.idle)
             )
         if not shown:
-            self.add_widget(MethodSign(name=NOTHING, idle=True))
+            self.add_widget(MethodSign(name=NO_METHOD_ICON, idle=True))
         if len(told) > len(shown):
             more = Text(text=f"+{len(told) - len(shown)}", font_size="14sp", size_hint_x=None)
             more.text_size = None, None

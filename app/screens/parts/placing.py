@@ -8,11 +8,11 @@ from kivy.uix.widget import Widget
 
 from app.layout.arrange import Rect
 
-__all__ = ["AWAY", "Area", "above", "put"]
+__all__ = ["AWAY_X", "Area", "above", "put"]
 
-AWAY = -1e4
+AWAY_X = -1e4
 """x of what is off the glass [px]."""
-LEAST = 120.0
+MIN_READABLE_HEIGHT = 120.0
 """Lower ones show nothing that can be read [dp]."""
 
 Builder.load_string("""
@@ -35,7 +35,7 @@ def put(widget: Widget, rect: Rect) -> None:
 
 def off(place: Rect) -> Rect:
     """As large, off the glass."""
-    return Rect(AWAY, place.y, place.width, place.height)
+    return Rect(AWAY_X, place.y, place.width, place.height)
 
 
 def above(place: Rect, cover: Rect | None, dp: float) -> Rect:
@@ -46,6 +46,6 @@ def above(place: Rect, cover: Rect | None, dp: float) -> Rect:
     if cover is None or not place.overlaps(cover):
         return place
     low = cover.top + 8 * dp
-    if place.top - low < LEAST * dp:
-        return Rect(AWAY, place.y, place.width, place.height)
+    if place.top - low < MIN_READABLE_HEIGHT * dp:
+        return Rect(AWAY_X, place.y, place.width, place.height)
     return Rect(place.x, low, place.width, place.top - low)

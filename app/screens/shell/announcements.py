@@ -7,7 +7,7 @@ from typing import Protocol
 from app.link.channels import CAPABILITIES, EVENT, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
-from app.screens.shell.notices import BRIEF, LONG
+from app.screens.shell.notices import BRIEF_DURATION, LONG_DURATION
 from app.screens.shell.reset_card import ResetPrompt
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Event
@@ -21,7 +21,7 @@ MAX_TAG_LENGTH = 40
 class Speaker(Protocol):
     """The frame, as far as announcements need it."""
 
-    def say(self, text: str, level: str = "info", about: str = "", stay: float = BRIEF) -> None:
+    def say(self, text: str, level: str = "info", about: str = "", stay: float = BRIEF_DURATION) -> None:
         """Show one sentence for `stay` [s]."""
 
     def unsay(self, about: str) -> None:
@@ -53,7 +53,7 @@ class Announcements:
         if offer is not None and offer.sentence != self._greeting:
             self._greeting = offer.sentence
             if offer.sentence:
-                self._speaker.say(offer.sentence, "info", about="offer", stay=LONG)
+                self._speaker.say(offer.sentence, "info", about="offer", stay=LONG_DURATION)
 
     def tick(self) -> None:
         """Say what was missed."""

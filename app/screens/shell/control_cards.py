@@ -7,7 +7,7 @@ from collections.abc import Callable
 from kivy.metrics import Metrics
 
 from app.link.commands import Outcome
-from app.screens.shell.notices import LONG, Notices
+from app.screens.shell.notices import LONG_DURATION, Notices
 from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import TaskQueue, TaskStatus
@@ -150,4 +150,4 @@ class ControlCards:
             self._session.command("resume")
 
     def _tell(self, text: str, level: str) -> None:
-        self._say(text, level, about=ABOUT, stay=LONG)
+        self._say(text, level, about=ABOUT, stay=LONG_DURATION)

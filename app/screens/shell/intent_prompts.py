@@ -16,9 +16,9 @@ __all__ = ["IntentPrompts", "heard_words"]
 
 ABOUT = "intent"
 """What the sentences tell of."""
-BUZZ = 0.08
+BUZZ_DURATION = 0.08
 """How long the phone vibrates when a gesture or a word was understood [s]."""
-FELT = ("voice", "shake", "switches")
+EYES_FREE_METHODS = ("voice", "shake", "switches")
 """Methods whose user may not look at the glass."""
 
 
@@ -72,8 +72,8 @@ class IntentPrompts:
 
     def _told(self, heard: Heard, verdict: Verdict) -> None:
         """What is done or cancelled is said; what waits has its card."""
-        if heard.method in FELT and verdict.what in ("acted", "waits", "asks"):
-            vibrate(BUZZ)
+        if heard.method in EYES_FREE_METHODS and verdict.what in ("acted", "waits", "asks"):
+            vibrate(BUZZ_DURATION)
         if not verdict.done or not verdict.sentence or verdict.what in ("cancelled", "practised"):
             return  # its card goes, and whoever said no is told so; the study's own card says what was understood
         done = verdict.what == "acted"

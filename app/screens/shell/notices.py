@@ -12,15 +12,15 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from app.layout.arrange import Rect
-from app.screens.parts.placing import AWAY
+from app.screens.parts.placing import AWAY_X
 from app.screens.parts.robot_screen import RobotScreen
 from widgets.parts.kit import ActionToast, Banner, Toast
 
-__all__ = ["BRIEF", "LONG", "Notices"]
+__all__ = ["BRIEF_DURATION", "LONG_DURATION", "Notices"]
 
-BRIEF, LONG = 4.0, 10.0
+BRIEF_DURATION, LONG_DURATION = 4.0, 10.0
 """How long a sentence stays over the screen, and one that is said once of a robot [s]."""
-WIDEST = 560.0
+MAX_WIDTH = 560.0
 """Wider ones are hard to read [dp]."""
 
 Builder.load_string("""
@@ -46,13 +46,13 @@ class Notices(BoxLayout):
 
     def add_widget(self, widget: Widget, *args: Any, **kwargs: Any) -> None:
         """Add it off the glass: it comes with the next layout, and until then nobody sees it as wide as it happened to be, or touches it."""
-        widget.pos, widget.width = (AWAY, 0), self.width
+        widget.pos, widget.width = (AWAY_X, 0), self.width
         super().add_widget(widget, *args, **kwargs)
 
     def place(self, screen: RobotScreen) -> None:
         """Stand in the room that `screen` leaves, and let it clear away what would be seen only in part."""
         room = screen.notice
-        self.width = min(WIDEST * Metrics.density, room.width)
+        self.width = min(MAX_WIDTH * Metrics.density, room.width)
         # what is too much for its room goes up, never down over what can be touched
         low = max(room.y, min(room.top, screen.top) - self.height)
         x = room.x + (room.width - self.width) / 2
@@ -91,7 +91,7 @@ class Notices(BoxLayout):
 
     def offer(self, text: str, action: str, act: Callable[[], None], icon: str = "undo") -> None:
         """One sentence with something to do about it, `icon` on its button."""
-        toast = ActionToast(text=text, action=action, action_icon=icon, stay=LONG)
+        toast = ActionToast(text=text, action=action, action_icon=icon, stay=LONG_DURATION)
         toast.bind(on_act=lambda _: act())
         self.add_widget(toast)
 

@@ -38,13 +38,13 @@ TALKS = {
     "wrong": ("Hold to talk", "warn"),
 }
 """How voice stands, to the words of the button to talk and the role of its icon."""
-NAV = 60
+BAR_HEIGHT = 60
 """Height of the bar of a phone without the button to talk [dp]."""
-LOW = 66
+MIN_TALK_HEIGHT = 66
 """Height of the button to talk on a phone's side [dp]."""
-TALL = 120
+MAX_TALK_HEIGHT = 120
 """Height of the button to talk where there is room [dp]."""
-UPPER = 4
+UPPER_COUNT = 4
 """As many stand at the upper end of the edge, the others at the lower."""
 
 Builder.load_string("""
@@ -125,9 +125,9 @@ class Rail(Edged, FloatLayout):
         step = rect.width / len(buttons)
         for index, button in enumerate(buttons):
             button.framed, button.padding = False, (0, 10 * dp, 0, 9 * dp)
-            button.size = min(step, 82 * dp), NAV * dp
+            button.size = min(step, 82 * dp), BAR_HEIGHT * dp
             button.pos = rect.x + step * index + (step - button.width) / 2, rect.y
-        talk, low = self.ids.talk, rect.y + NAV * dp
+        talk, low = self.ids.talk, rect.y + BAR_HEIGHT * dp
         talk.flow = "horizontal"
         talk.size = min(rect.width - 24 * dp, 560 * dp), max(rect.top - low - 10 * dp, 44 * dp)
         talk.pos = rect.x + (rect.width - talk.width) / 2, low + 2 * dp
@@ -135,22 +135,22 @@ class Rail(Edged, FloatLayout):
     def _below_each_other(self, buttons: Sequence[Any], rect: Rect, dp: float) -> None:
         """Along the left edge, the button to talk between the upper and the lower ones."""
         talk, gap = self.ids.talk, 8 * dp
-        room = rect.height - 24 * dp - ((LOW * dp + 2 * gap) if self.talks else 0)
+        room = rect.height - 24 * dp - ((MIN_TALK_HEIGHT * dp + 2 * gap) if self.talks else 0)
         step = min(72 * dp, room / len(buttons))
-        high, lower = min(64 * dp, step), len(buttons) - UPPER
+        high, lower = min(64 * dp, step), len(buttons) - UPPER_COUNT
         for index, button in enumerate(buttons):
             # what is lower than its icon and its word need gives up its edges first
             edge = max(0.0, min(10 * dp, (high - 43 * dp) / 2))
             button.framed, button.padding = True, (0, edge, 0, max(0.0, edge - dp))
             button.size = rect.width - 12 * dp, high
-            if index >= UPPER:
+            if index >= UPPER_COUNT:
                 button.pos = rect.x + 6 * dp, rect.y + 12 * dp + (len(buttons) - 1 - index) * step
             else:
                 button.pos = rect.x + 6 * dp, rect.top - 12 * dp - high - index * step
         low = rect.y + 12 * dp + (lower - 1) * step + high + gap
-        top = rect.top - 12 * dp - high - (UPPER - 1) * step - gap
+        top = rect.top - 12 * dp - high - (UPPER_COUNT - 1) * step - gap
         talk.flow = "vertical"
-        talk.size = rect.width - 6 * dp, max(LOW * dp, min(TALL * dp, top - low))
+        talk.size = rect.width - 6 * dp, max(MIN_TALK_HEIGHT * dp, min(MAX_TALK_HEIGHT * dp, top - low))
         talk.pos = rect.x + 3 * dp, low + (top - low - talk.height) / 2
 
     def show(

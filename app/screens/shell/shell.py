@@ -23,7 +23,7 @@ from app.screens.shell.announcements import Announcements
 from app.screens.shell.control_cards import ControlCards
 from app.screens.shell.intent_prompts import IntentPrompts
 from app.screens.shell.link_banner import LinkBanner
-from app.screens.shell.notices import BRIEF, Notices
+from app.screens.shell.notices import BRIEF_DURATION, Notices
 from app.screens.shell.rail import Rail
 from app.screens.shell.reset_card import ResetPrompt
 from app.screens.shell.stop_display import StopDisplay
@@ -269,7 +269,7 @@ class Shell(FloatLayout):
         for screen in self.screens.values():
             screen.hear(EVENT, post)
 
-    def say(self, text: str, level: str = "info", about: str = "", stay: float = BRIEF) -> None:
+    def say(self, text: str, level: str = "info", about: str = "", stay: float = BRIEF_DURATION) -> None:
         """One sentence over the screen for `stay` [s]; `about` is the command or the kind of event it tells of."""
         self.notices.say(text, level, about, stay)
         self._place_notices()

@@ -11,7 +11,7 @@ from widgets.core.task_words import TASKS
 
 __all__ = ["control", "control_nav", "fix", "mode", "standing"]
 
-LONGEST, BRIEFEST = 14, 8
+MAX_NAME_LENGTH, MAX_BRIEF_LENGTH = 14, 8
 """Letters of a driver's name in the bar, and on a button of a phone's navigation."""
 
 MODES = {
@@ -83,7 +83,7 @@ def control_nav(session: Session) -> tuple[str, str, str]:
         return f"Ask{_countdown(authority.left)}", "hourglass_top", "warn"
     who = session.control
     if who == "other":
-        return _short(authority.status.driver, BRIEFEST), "lock", "warn"
+        return _short(authority.status.driver, MAX_BRIEF_LENGTH), "lock", "warn"
     return "You" if who == "mine" else "Control", CONTROLS[who][0], ""
 
 
@@ -105,7 +105,7 @@ def _countdown(left: float) -> str:
     return f" · {math.ceil(left)} s" if math.isfinite(left) else ""
 
 
-def _short(name: str, longest: int = LONGEST) -> str:
+def _short(name: str, longest: int = MAX_NAME_LENGTH) -> str:
     """The beginning of a long name."""
     return name if len(name) <= longest else f"{name[: longest - 1].rstrip()}…"
 

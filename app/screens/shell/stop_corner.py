@@ -24,7 +24,7 @@ from widgets import StopAll, StopList
 
 __all__ = ["StopCorner"]
 
-READABLE = 280
+MIN_READABLE_HEIGHT = 280
 """So high must be what is left of a screen above the list and what is said, else the list is folded [dp]."""
 
 
@@ -153,7 +153,7 @@ class StopCorner:
         if shell is not None and listed.parent is not None:
             said = shell.notices.room
             left = body.top - whole.top - 8 * dp - said.height
-            alone = not shell.notices.asks and left >= READABLE * dp
+            alone = not shell.notices.asks and left >= MIN_READABLE_HEIGHT * dp
             cramped = said.height > 0 and whole.overlaps(said) and not alone
         self._spread = self._spread and cramped
         listed.cramped, listed.folded = cramped, cramped and not self._spread

@@ -7,7 +7,7 @@ from typing import Any
 
 from kivy.uix.boxlayout import BoxLayout
 
-from app.session.logbook import MOST
+from app.session.logbook import MAX_EVENTS
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Event
 from widgets import EventLog
@@ -21,7 +21,7 @@ class EventList(BoxLayout):
     def __init__(self, session: Session, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._session, self._book = session, session.logbook
-        self.log = EventLog(most=MOST, state="live")
+        self.log = EventLog(most=MAX_EVENTS, state="live")
         self.add_widget(self.log)
         self.log.bind(on_command=lambda _, event: self._book.acknowledge([event]))
         self._stale, self._shown = True, False

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import pytest
 
-from app.link.event_order import AT_FIRST, AT_ONCE, EventStream, KnownEvents, Missed
+from app.link.event_order import FIRST_LIMIT, PART_LIMIT, EventStream, KnownEvents, Missed
 from bridge.msgs.pilothouse_msgs import Event, GetEventsRequest, GetEventsResponse
 
 
@@ -76,7 +76,7 @@ def test_an_app_that_was_away_for_600_events_gets_all_of_them_in_several_rounds_
     robot.asked = 0
     listener.connect(robot, live=[event(610)])
     assert listener.texts == numbers(1, 610)
-    assert robot.asked == 600 // AT_ONCE + 1
+    assert robot.asked == 600 // PART_LIMIT + 1
     assert listener.missed == [Missed("a", 10, 610, live=frozenset({610}))]
 
 
@@ -91,7 +91,7 @@ def test_an_app_that_was_killed_and_started_again_gets_what_it_missed_however_mu
 def test_an_app_that_missed_little_is_told_what_was_before_that_as_well() -> None:
     listener = Listener(marks={"a": 998})
     listener.connect(Robot(1000))
-    assert listener.texts == numbers(1001 - AT_FIRST, 1000)
+    assert listener.texts == numbers(1001 - FIRST_LIMIT, 1000)
     assert listener.missed == [Missed("a", 998, 1000)]
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from app.link.commands import Outcome
 from app.missions.mission_editor import MissionEditor
-from app.missions.stored_missions import LONGEST, StoredMissions
+from app.missions.stored_missions import MAX_NAME_LENGTH, StoredMissions
 from bridge.msgs.pilothouse_msgs import (
     GetMissionsResponse,
     KeptMission,
@@ -131,7 +131,7 @@ def test_a_link_that_is_given_up_ends_a_recall(robot: Robot) -> None:
 def test_points_are_saved_under_a_name_that_the_robot_can_keep(robot: Robot) -> None:
     robot.kept.save(f"  {'N' * 80} ")
     (name, fields) = robot.asked[-1]
-    assert (name, fields["mission"].name) == ("mission", "N" * LONGEST)
+    assert (name, fields["mission"].name) == ("mission", "N" * MAX_NAME_LENGTH)
     assert len(fields["mission"].waypoints) == 2
 
 

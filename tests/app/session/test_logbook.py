@@ -12,7 +12,7 @@ import pytest
 from app.core.settings_store import Settings
 from app.link.commands import Outcome
 from app.link.event_order import KnownEvents, Missed
-from app.session.logbook import AT_ONCE, LOGS, MOST, NEWS, Logbook, marks
+from app.session.logbook import MAX_ACKNOWLEDGED, MAX_EVENTS, MAX_LOGS, NEWS_AGE, Logbook, marks
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
 
@@ -106,10 +106,10 @@ def test_a_link_that_is_given_up_leaves_nothing_waiting(book: Logbook) -> None:
 
 
 def test_very_many_are_acknowledged_in_parts_that_the_robot_takes(book: Logbook, asked: Asked) -> None:
-    for number in range(1, AT_ONCE + 8):
+    for number in range(1, MAX_ACKNOWLEDGED + 8):
         book.take(event(number, "warn"))
     book.acknowledge(book.open)
-    assert [len(part) for part in asked] == [AT_ONCE, 7]
+    assert [len(part) for part in asked] == [MAX_ACKNOWLEDGED, 7]
 
 
 def test_what_was_missed_is_marked_until_it_was_looked_at(book: Logbook) -> None:
@@ -167,10 +167,10 @@ def test_it_is_remembered_over_the_end_of_the_app_how_far_each_robot_is_known(
 
 
 def test_the_logs_that_were_heard_last_are_remembered(book: Logbook, settings: Settings) -> None:
-    for number in range(LOGS + 5):
+    for number in range(MAX_LOGS + 5):
         book.know(KnownEvents(f"log {number}", 1))
-    assert len(marks(settings)) == LOGS
-    assert f"log {LOGS + 4}" in marks(settings)
+    assert len(marks(settings)) == MAX_LOGS
+    assert f"log {MAX_LOGS + 4}" in marks(settings)
 
 
 @pytest.mark.parametrize("strange", [[], "a", {"a": "many"}, {"a": True}, {"a": None}])
@@ -180,16 +180,16 @@ def test_strange_settings_are_none(settings: Settings, strange: object) -> None:
 
 
 def test_the_newest_are_kept(book: Logbook) -> None:
-    for number in range(1, MOST + 3):
+    for number in range(1, MAX_EVENTS + 3):
         book.take(event(number))
-    assert (len(book.events), book.events[0].id) == (MOST, 3)
+    assert (len(book.events), book.events[0].id) == (MAX_EVENTS, 3)
 
 
 @pytest.mark.parametrize(
     ("stamp", "by", "clock", "news"),
     [
         (100.0, "", 101.0, True),
-        (100.0, "", 101.0 + NEWS, False),
+        (100.0, "", 101.0 + NEWS_AGE, False),
         (100.0, "", math.nan, True),
         (0.0, "", 900.0, True),
         (100.0, "Anna", 101.0, False),

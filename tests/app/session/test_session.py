@@ -13,7 +13,7 @@ from app.link.channels import EVENT, LINK, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Feeds, Post
 from app.session.session import Session
-from app.stop.stop_state import COMES_TO_REST
+from app.stop.stop_state import REST_TIMEOUT
 from bridge.client.client import LinkState, Phase
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskStatus
 from tests.bridge.wires import Clock
@@ -86,7 +86,7 @@ def test_stop_is_done_when_the_robot_says_that_it_rests(watch: Watch) -> None:
 
 def test_a_robot_that_does_not_come_to_rest_in_time_is_said_to_move(watch: Watch) -> None:
     watch.told(at_rest=False)
-    watch.clock.time += COMES_TO_REST - 0.1
+    watch.clock.time += REST_TIMEOUT - 0.1
     watch.told(at_rest=False)
     assert watch.session.robot_stop.phase == "sent"
     watch.clock.time += 0.2

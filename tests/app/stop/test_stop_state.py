@@ -7,7 +7,7 @@ import math
 import pytest
 
 from app.link.commands import STILL_SENDING, Outcome
-from app.stop.stop_state import COMES_TO_REST, DOUBT, StopFacts, StopState, Verdict, judge
+from app.stop.stop_state import ANSWER_TIMEOUT, REST_TIMEOUT, StopFacts, StopState, Verdict, judge
 from bridge.msgs.pilothouse_msgs import ControlStatus
 from tests.bridge.wires import Clock
 
@@ -32,11 +32,11 @@ WHY = "No robot answers."
         ),
         (StopFacts(latched=True, at_rest=True, by="Anna"), Verdict("stopped", "Pressed by Anna.")),
         (
-            StopFacts(latched=True, moves_since=100.1 - COMES_TO_REST),
+            StopFacts(latched=True, moves_since=100.1 - REST_TIMEOUT),
             Verdict("sent", "STOP is pressed; it comes to rest."),
         ),
         (
-            StopFacts(latched=True, moves_since=99.9 - COMES_TO_REST),
+            StopFacts(latched=True, moves_since=99.9 - REST_TIMEOUT),
             Verdict("moves", "STOP is pressed, and it does not come to rest."),
         ),
         (StopFacts(latched=True, moves_since=99.9, refusal=CUT), Verdict("no_answer", CUT)),
@@ -89,7 +89,7 @@ def watch() -> Watch:
 
 def test_a_robot_that_is_slow_to_rest_is_not_obeyed_only_after_its_time(watch: Watch) -> None:
     watch.told(at_rest=False)
-    watch.clock.time += COMES_TO_REST - 0.1
+    watch.clock.time += REST_TIMEOUT - 0.1
     watch.told(at_rest=False)
     assert watch.phase == "sent"
     watch.clock.time += 0.2
@@ -123,13 +123,13 @@ def test_pressing_again_while_it_is_sent_puts_no_doubt_off(watch: Watch) -> None
     for _ in range(4):
         watch.stopping.press()
         watch.outcome("sent")
-        watch.clock.time += DOUBT / 3
+        watch.clock.time += ANSWER_TIMEOUT / 3
     assert watch.phase == "no_answer"
 
 
 def test_that_there_is_no_answer_is_no_reason(watch: Watch) -> None:
     watch.stopping.press()
-    watch.clock.time += DOUBT
+    watch.clock.time += ANSWER_TIMEOUT
     watch.outcome("no_reply", STILL_SENDING, silent=True)
     assert watch.stopping.verdict.sentence == "It does not answer; STOP is sent again and again."
 
@@ -209,7 +209,7 @@ def test_stop_pressed_without_a_link_is_said_to_be_unanswered(watch: Watch) -> N
     watch.clock.time += 1.0
     watch.stopping.press()
     assert watch.phase == "sent"
-    watch.clock.time += DOUBT
+    watch.clock.time += ANSWER_TIMEOUT
     assert watch.phase == "no_answer"
 
 

@@ -119,8 +119,8 @@ def test_a_question_about_history_that_makes_no_sense_is_refused(scene: Scene) -
 
 
 def test_an_app_asks_for_no_more_at_once_than_the_robot_takes(scene: Scene) -> None:
-    assert scene.ask("/history/get", GetHistoryRequest(limit=tasking.AT_ONCE)).success
-    numbers = Int32Array(list(range(1, logbook.AT_ONCE + 1)))
+    assert scene.ask("/history/get", GetHistoryRequest(limit=tasking.MAX_ACKNOWLEDGED)).success
+    numbers = Int32Array(list(range(1, logbook.MAX_ACKNOWLEDGED + 1)))
     assert not scene.refused("/events/acknowledge", AcknowledgeEventsRequest(ids=numbers)).startswith(
         "At most "
     )
