@@ -1,4 +1,4 @@
-"""What is on the glass: the connect page, the inputs page, or the screens of one robot in their frame."""
+"""Pages on the glass: the connect page, the inputs page, or the screens of one robot in their frame."""
 
 from __future__ import annotations
 

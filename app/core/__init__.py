@@ -1,1 +1,1 @@
-"""What all rooms stand on: settings, a worker thread, the origin of a command."""
+"""Foundations of every room: settings, a worker thread, the origin of a command."""

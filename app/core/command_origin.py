@@ -1,4 +1,4 @@
-"""Where a command came from: by which method, how sure it was, and when the hand or the voice began and ended.
+"""The origin of a command: its method, how sure it was, and when the hand or the voice began and ended.
 
 with origins.during(Origin("voice", confidence=0.9, began=12.1, ended=12.8, decided=12.9, said="go home")):
     session.command("home")        # takes the origin along by itself

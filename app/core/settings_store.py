@@ -1,4 +1,4 @@
-"""What the handheld remembers: one JSON file, replaced as a whole, so that a cut never leaves half of it."""
+"""The settings of the handheld: one JSON file, replaced as a whole, so that a cut never leaves half of it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the samples of the accelerometer and of gravity come from: the phone's own sensors, or made up, or nowhere.
+"""Sources of the accelerometer's and of gravity's samples: the phone's own sensors, simulated ones, or none.
 
 Axes are Android's, those of the device and not of the screen: x to the right and y up on a phone that is held upright, z out of
 the glass. What lies still on its back reads (0, 0, 9.8) of either kind.

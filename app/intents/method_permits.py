@@ -1,4 +1,4 @@
-"""What each method may do, as the operator has set it; kept in the settings, checked when it is read."""
+"""Permissions of each input method, set by the operator, kept in the settings and checked when they are read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where everything sits on the glass: rectangles by screen and by the shape of the window.
+"""Places on every screen: rectangles by screen and by the shape of the window.
 
 Pure arithmetic in the window's pixels, origin at the lower left. Turning the device moves widgets and
 makes none anew, so nothing that was entered is lost.

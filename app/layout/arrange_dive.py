@@ -1,4 +1,4 @@
-"""Where everything sits on a drive screen in three columns: rectangles by the shape of the window.
+"""Places on a drive screen in three columns: rectangles by the shape of the window.
 
 Pure arithmetic in the window's pixels, origin at the lower left.
 """

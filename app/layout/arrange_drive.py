@@ -1,4 +1,4 @@
-"""Where everything sits on a drive screen whose instruments float on the video: rectangles by the shape of the window."""
+"""Places on a drive screen whose instruments float on the video: rectangles by the shape of the window."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is wrong with a line of a layout, each in one sentence that says where it stands and what is allowed."""
+"""Faults in a line of a layout, each as one sentence that says where it is and what is allowed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether the widget that a layout names can do there what the layout wants of it: what cannot is said in a sentence."""
+"""Checks that the widget named by a layout can do what the layout wants of it; each fault is one sentence."""
 
 from __future__ import annotations
 

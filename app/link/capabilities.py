@@ -1,4 +1,4 @@
-"""What a robot offers, as its rosapi tells, and which of its topics take the place of the usual ones.
+"""Capabilities of a robot, as its rosapi lists them, and which of its topics take the place of the usual ones.
 
 On a robot of ours every topic has its usual name. Any other has names of its own: `/scan_front`, `/imu`,
 `/turtle1/cmd_vel`. Among them `bridge.core.topic_choice` chooses.

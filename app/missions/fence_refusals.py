@@ -1,4 +1,4 @@
-"""What the robot would refuse for its fence, said before it is asked. The robot's own answer is what counts."""
+"""Refusals that the robot's fence would cause, said before it is asked. The robot's own answer is what counts."""
 
 from __future__ import annotations
 

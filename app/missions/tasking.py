@@ -1,4 +1,4 @@
-"""What the operator wants done, as the UI thread sees it: orders, places, queue, schedule and history of one robot."""
+"""The operator's orders, places, queue, schedule and history of one robot, as the UI thread sees them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who has control of the robot, who asks for it and for how long still, as this handheld knows it.
+"""Control of the robot, as this handheld knows it: its holder, the one who asks for it, and the time left.
 
 The robot decides and tells everybody on `/control/status`; what is said here is what changed between two of those.
 """

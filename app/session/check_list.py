@@ -1,4 +1,4 @@
-"""Whether the check list is unfolded: by itself until the robot first moves, afterwards as a finger wants it; and whether it is over."""
+"""State of the check list: unfolded until the robot first moves, afterwards as the operator chooses; and whether it is over."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the operator can have done at once, by the lines of a layout: each as it stands now, and what a press does."""
+"""Actions that a layout offers: the state of each, and the effect of a press."""
 
 from __future__ import annotations
 

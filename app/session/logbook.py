@@ -1,4 +1,4 @@
-"""What happened to one robot, as the UI thread knows it: every event once, what was missed, and who saw to what."""
+"""Events of one robot, as the UI thread knows them: each once, those that were missed, and who acknowledged which."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the operator keeps: snapshots of the camera and recordings of everything that came."""
+"""Snapshots of the camera and recordings of everything that came, as files."""
 
 from __future__ import annotations
 

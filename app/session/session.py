@@ -1,4 +1,4 @@
-"""Being connected to one robot, as the UI thread sees it: what it said, what it was asked, what is being edited."""
+"""The session with one robot, as the UI thread sees it: its messages, its answers, and what is being edited."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What became of STOP: decided here for the robot that is connected, for every robot of STOP ALL, and for one without a STOP.
+"""The state of STOP: decided here for the robot that is connected, for every robot of STOP ALL, and for one without a STOP.
 
 `judge` decides, by what is known and the time alone. `StopState` notes what is heard of a robot that has a STOP.
 """

@@ -1,4 +1,4 @@
-"""Why a stick that is pushed does not drive, said where it is pushed."""
+"""Reasons why a stick that is pushed does not drive, said where it is pushed."""
 
 from __future__ import annotations
 

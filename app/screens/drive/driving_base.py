@@ -1,5 +1,5 @@
-"""What every drive screen is made of, however it is arranged: the picture, the instruments and hands of a layout, what can
-be done by a button, the small sensors, and the robot's own checks."""
+"""The base of every drive screen, however it is arranged: picture, instruments, controls and action buttons of a layout, small
+sensors, and the robot's own checks."""
 
 from __future__ import annotations
 

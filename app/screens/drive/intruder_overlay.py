@@ -1,4 +1,4 @@
-"""What was found that does not belong here, on the drive screen: a badge, and where it is in the picture."""
+"""Intruders on the drive screen: a badge, and their place in the picture."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How fast the stick may drive at its rim: a slide within what the robot may, with the limits that its owner set it."""
+"""The greatest speed of the stick: a slider within what the robot may, with the limits that its owner set."""
 
 from __future__ import annotations
 

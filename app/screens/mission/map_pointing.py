@@ -1,4 +1,4 @@
-"""What a finger on the map does: add and move points, set home, make places, say where the robot is."""
+"""Editing by a finger on the map: points, home, places, and the place of the robot."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the mission screen offers beside its map: sending, motion, task, progress, events."""
+"""The panel beside the map: sending, motion, task, progress, events."""
 
 from __future__ import annotations
 

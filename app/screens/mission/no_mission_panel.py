@@ -1,4 +1,4 @@
-"""What stands beside the map of a robot that stores no missions and offers no tasks: that, and where to go instead."""
+"""The panel beside the map of a robot that stores no missions and offers no tasks: that, and where to go instead."""
 
 from __future__ import annotations
 

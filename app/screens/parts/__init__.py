@@ -1,1 +1,1 @@
-"""What several screens are built of."""
+"""Parts that several screens are built of."""

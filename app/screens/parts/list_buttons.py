@@ -1,4 +1,4 @@
-"""What can be done about a list and about what is beside it: buttons below the list, and a strip beside STOP."""
+"""Buttons for a list and for the pane beside it: some below the list, others in a strip beside STOP."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What lies over the screens about who steers: hand-over, mode, a task paused by the stick, and a capped speed."""
+"""Cards over the screens about control: hand-over, mode, a task paused by the stick, and a capped speed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was understood and waits, over every screen of a robot; and in a sentence what came of everything that was understood."""
+"""Prompts for a recognised intent that waits, over every screen of a robot; and a sentence on the outcome of each intent."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What keys and gamepad do, over everything else until it is closed."""
+"""Help for keys and gamepad, over everything else until it is closed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is said over every screen: one sentence at a time that leaves by itself, and cards that stay until they are answered."""
+"""Notices over every screen: one sentence at a time that leaves by itself, and cards that stay until they are answered."""
 
 from __future__ import annotations
 

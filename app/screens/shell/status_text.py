@@ -1,4 +1,4 @@
-"""How a robot stands, in the few words of the top bar: mode, position by satellite, who has control."""
+"""Status of the robot in the few words of the top bar: mode, position by satellite, control."""
 
 from __future__ import annotations
 

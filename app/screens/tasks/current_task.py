@@ -1,4 +1,4 @@
-"""What runs, with what can be done about it, and below it what comes next."""
+"""The task under way, its buttons, and the queue below it."""
 
 from __future__ import annotations
 

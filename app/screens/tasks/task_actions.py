@@ -1,4 +1,4 @@
-"""What can be done on the tasks screen: its buttons, where each is just now, and what a finger does with it."""
+"""Buttons of the tasks screen: which are shown, when each can be pressed, and what it does."""
 
 from __future__ import annotations
 
