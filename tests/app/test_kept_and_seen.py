@@ -79,7 +79,7 @@ def test_what_somebody_else_saw_to_a_moment_before_is_shown_with_the_name_and_no
     robot.hold_answers()
     glass.tap(seen_button(tasks, "It touched something."))
     assert robot.until(lambda: asked(robot, "/events/acknowledge"))
-    glass.until(lambda: notes(tasks)["It touched something."] == "Telling the robot \u2026", notes(tasks))
+    glass.until(lambda: notes(tasks)["It touched something."] == "Sending to the robot \u2026", notes(tasks))
     robot.events[0] = Event(
         id=1, boot="a", level="alarm", kind="contact", text="It touched something.", acknowledged_by="Anna"
     )
