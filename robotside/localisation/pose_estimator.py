@@ -255,7 +255,7 @@ class PoseEstimator:
         pose = self._localiser.pose
         if pose is not None:
             self.track.add(stamp.seconds, pose)
-            self._tell(stamp, pose, odom, self._localiser)
+            self._publish_pose(stamp, pose, odom, self._localiser)
 
     def _against(self) -> float:
         """Bearing of what it may push against [rad]; NaN for nothing, and where a laser sees better. One without a bearing lies ahead of its way."""
@@ -330,7 +330,7 @@ class PoseEstimator:
             # who drives it against something has to see that at once
             self._say("localisation", unsure, "alarm" if self.pushes else "warn")
 
-    def _tell(self, stamp: Time, pose: Pose2, odom: Pose2, localiser: Localiser) -> None:
+    def _publish_pose(self, stamp: Time, pose: Pose2, odom: Pose2, localiser: Localiser) -> None:
         covariance = zeros36()
         spread = localiser.covariance
         for row, i in enumerate((0, 1, 5)):

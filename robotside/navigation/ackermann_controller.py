@@ -132,7 +132,7 @@ class AckermannController(GroundBound):
         pieces = yield from lattice.search(pose, goal)
         if not pieces:
             raise Unreachable(f"There is no way to {place_sentence(name, *goal[:2])} that it can drive.")
-        self._take(pieces)
+        self._follow(pieces)
         return np.concatenate([piece.points for piece in pieces])
 
     def forget(self) -> None:
@@ -155,7 +155,7 @@ class AckermannController(GroundBound):
             return False
         if len(self._pieces) == 1:
             return True
-        self._take(self._pieces[1:])
+        self._follow(self._pieces[1:])
         return False
 
     def steer(self, pose: Pose2, points: Points, *, sure: bool) -> None:
@@ -252,7 +252,7 @@ class AckermannController(GroundBound):
         else:
             self._robot.drive(Twist.planar(way * CREEP_SPEED, CREEP_SPEED * bend))
 
-    def _take(self, pieces: list[Piece]) -> None:
+    def _follow(self, pieces: list[Piece]) -> None:
         if self._pieces and self._pieces[0].ahead != pieces[0].ahead:
             self._steered = -self._steered
         self._pieces = pieces

@@ -218,7 +218,7 @@ class Navigator:
             return LegState.BLOCKED if self.reason else LegState.UNDER_WAY
         if not controller.under_way and not self.planning:
             self._ask(now)
-        looks = self.planning and not self._look(pose, goal, now)
+        looks = self.planning and not self._search_on(pose, goal, now)
         if looks and (controller.stands or not controller.under_way):
             self._robot.stop()  # it may be rolling still, with no way to roll along
             return LegState.BLOCKED if self.reason else LegState.UNDER_WAY
@@ -230,7 +230,7 @@ class Navigator:
         if now - self._planned >= REPLAN_PERIOD and self._in_the_way(now):
             self._ask(now)
         if self.planning and not looks:
-            looks = not self._look(pose, goal, now)
+            looks = not self._search_on(pose, goal, now)
         if not looks or not controller.stands:
             controller.steer(pose, points, sure=self.sure)
         return LegState.UNDER_WAY
@@ -253,7 +253,7 @@ class Navigator:
         if self.controller.stands:
             self._robot.stop()
 
-    def _look(self, pose: Pose2, goal: Goal, now: float) -> bool:
+    def _search_on(self, pose: Pose2, goal: Goal, now: float) -> bool:
         """Look for the way that was asked for, as long as one update may take; True when there is one to go on."""
         if self._search is None and self.controller.stands and not self._stands(pose, now):
             return False

@@ -123,11 +123,11 @@ class Ledger:
             job.settle("")
             return
         self.memory.put(job)
-        if not self._writer.submit(job, self._told):
+        if not self._writer.submit(job, self._on_written):
             self.memory.failed(job)
             job.settle(f"The database is slow: {self.memory.pending} changes wait already.")
 
-    def _told(self, job: Job, problem: str) -> None:
+    def _on_written(self, job: Job, problem: str) -> None:
         if problem:
             self.memory.failed(job)
             self._trust(problem)

@@ -279,11 +279,11 @@ class Agenda:
         ahead = (
             now - self._civil()
         )  # the computer's clock may have been set since the start, the operators' goes on evenly
-        tasks = [_told(task, ahead) for task in self._records.schedule.stored()]
+        tasks = [_with_times(task, ahead) for task in self._records.schedule.stored()]
         self._publish("/schedule", Schedule(Time.at(now), tasks))
 
 
-def _told(task: ScheduledTask, ahead: float) -> ScheduledTask:
+def _with_times(task: ScheduledTask, ahead: float) -> ScheduledTask:
     """With its next start by a clock that is `ahead` [s] of the computer's."""
     if task.next.seconds <= 0 or abs(ahead) < CLOCK_TOLERANCE:
         return task

@@ -177,7 +177,7 @@ class Engine:
     def pause(self, reason: Notice, level: str = "info") -> None:
         """Hold the running task where it is; `reason` is one sentence."""
         if self.running:
-            self._tell("PAUSED", reason)
+            self._publish_status("PAUSED", reason)
             self._say("task", reason, level)
             self._navigator.rest()  # last: the robot may fail to obey, and the task is held all the same
 
@@ -186,7 +186,7 @@ class Engine:
         if self.paused and self.task:
             self._navigator.rest()
             self._situation.forget_confirmation()
-            self._tell("RUNNING", self._situation.doing.text or f"{self.task.title} goes on.")
+            self._publish_status("RUNNING", self._situation.doing.text or f"{self.task.title} goes on.")
             resumed = Notice(Code.TASK_RESUMED, f"{self.task.title} resumed.", task=self.task.name)
             self._say("task", resumed, "info")
 
@@ -222,7 +222,7 @@ class Engine:
         task.root.tick_once()
         here.forget_confirmation()
         if task.root.status is Status.RUNNING:
-            self._tell("RUNNING", here.doing.text)
+            self._publish_status("RUNNING", here.doing.text)
             self._report(task.course, now)
         elif task.root.status is Status.SUCCESS:
             self._end("SUCCEEDED", Notice(Code.TASK_DONE, task.done(), task=task.name), "ok")
@@ -238,7 +238,7 @@ class Engine:
         self._count(task.course if task else None, state, reason)
         self._say("task", reason, level)
 
-    def _tell(self, state: str, reason: str) -> None:
+    def _publish_status(self, state: str, reason: str) -> None:
         if self.task:
             self._count(self.task.course, state, reason)
 

@@ -34,7 +34,7 @@ class PostgresqlStore(Store):
 
     def open(self) -> Opened:
         """Everything it has, unless another robot side works with it."""
-        self._take()
+        self._take_lock()
         upgrade(self._storage.engine)
         content, unread = self._storage.load()
         return Opened(self._storage, content, unread, 0)
@@ -50,7 +50,7 @@ class PostgresqlStore(Store):
                 self._lock.close()
         self._storage.close()
 
-    def _take(self) -> None:
+    def _take_lock(self) -> None:
         """Hold a lock for as long as the connection lives: what is in memory here would not know what others write.
 
         PostgreSQL looks after its connections, so that a robot without power loses it soon.

@@ -131,7 +131,7 @@ class WriterThread:
         now = time.monotonic()
         if now >= self._next_retry:
             self._next_retry = now + RETRY_PERIOD
-            self._tell(self.on_damage if self._broken else self.on_idle)
+            self._call_back(self.on_damage if self._broken else self.on_idle)
         if self._changed and now >= self._next_backup:
             self._next_backup = now + BACKUP_PERIOD
             self._back_up()
@@ -147,13 +147,13 @@ class WriterThread:
                 return
             if problem.damaged:
                 self._broken, self._held = True, batch
-                self._tell(self.on_damage)
+                self._call_back(self.on_damage)
                 return
             said = str(problem)
         else:
             said, self._changed = "", True
         for job, told in batch:
-            self._tell(told, job, said)
+            self._call_back(told, job, said)
 
     def _rebuild(self, work: _Rebuild) -> None:
         """Start fresh; what was held back is among the rows, since it was handed in before them."""
@@ -164,34 +164,34 @@ class WriterThread:
             said = self._store.rebuild(work.puts)
         except NotWritten as problem:
             self._give_up_held(str(problem))
-            self._tell(work.told, "", str(problem))
+            self._call_back(work.told, "", str(problem))
             return
         held, self._held = self._held, []
         for job, told in held:
-            self._tell(told, job, "")
-        self._tell(work.told, said, "")
+            self._call_back(told, job, "")
+        self._call_back(work.told, said, "")
 
     def _hold(self, batch: list[tuple[Job, OnWritten]]) -> None:
         if len(self._held) < MAX_WAITING:
             self._held += batch
             return
         for job, told in batch:
-            self._tell(told, job, "The database is damaged: nothing was stored.")
+            self._call_back(told, job, "The database is damaged: nothing was stored.")
 
     def _give_up_held(self, said: str) -> None:
         held, self._held = self._held, []
         for job, told in held:
-            self._tell(told, job, said)
+            self._call_back(told, job, said)
 
     def _back_up(self) -> None:
         try:
             self._store.back_up()
         except NotWritten as problem:
-            self._tell(self.on_trouble, f"The backup could not be made. {problem}")
+            self._call_back(self.on_trouble, f"The backup could not be made. {problem}")
         else:
             self._changed = False
 
-    def _tell(self, call: Callable[..., None], *arguments: object) -> None:
+    def _call_back(self, call: Callable[..., None], *arguments: object) -> None:
         try:
             self._call_soon(call, *arguments)
         except RuntimeError:

@@ -34,10 +34,10 @@ class Dwell(Behaviour):
         self.feedback_message = f"Standing for another {max(left, 0.0):.0f} s."
         if left <= 1e-6:
             return Status.SUCCESS
-        self._say(left)
+        self._report(left)
         return Status.RUNNING
 
-    def _say(self, left: float) -> None:
+    def _report(self, left: float) -> None:
         goal = self._course.goal if self._course else None
         where = f" at {goal.spoken}" if goal else ""
         text = f"Standing{where} for {self._duration:.0f} s."
