@@ -68,10 +68,10 @@ def control(**changes: str) -> str:
         (control() * 3, "3 controls into stick, where 2 fit"),
         (control() * 2, "two controls called 'Stick' in stick; each has a title"),
         (control() + control(widget="GoalPad"), "two controls called 'Stick' in stick"),
-        (control(forward="turn"), "two controls that say turn"),
+        (control(forward="turn"), "two controls for turn"),
         (
             "arrangement = 'two_sticks'\n" + control() + control(slot="right_stick"),
-            "Layout x has two controls that say ahead",
+            "Layout x has two controls for ahead",
         ),
         (control(slot="slider"), "control 1: SpeedCard goes into slider, and nothing else"),
         (control(widget="SpeedCard"), "control 1: SpeedCard goes into slider"),
