@@ -14,7 +14,17 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
-__all__ = ["PACKAGES", "PAGE", "circles", "floors", "module_imports", "room_imports", "room_of", "with_maps"]
+__all__ = [
+    "PACKAGES",
+    "PAGE",
+    "circles",
+    "floors",
+    "module_imports",
+    "outer_imports",
+    "room_imports",
+    "room_of",
+    "with_maps",
+]
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "architecture.md"
@@ -169,13 +179,18 @@ def _rows(package: str, order: Iterable[str]) -> Iterator[str]:
         yield f"| `{room}` | {idea(room)} | {count} | {targets or '–'} |"
 
 
-def _map(package: str) -> Iterator[str]:
-    """The outer rooms of a package as a Mermaid flow chart, arrows that others imply left out."""
+def outer_imports(package: str) -> Graph:
+    """The same for the outer rooms: a room within another one counts as that."""
     outer: dict[str, set[str]] = defaultdict(set)
     for room, targets in room_imports(package).items():
         name = _outer(room)
         outer[name] |= {_outer(target) for target in targets} - {name}
-    graph = direct({room: frozenset(targets) for room, targets in outer.items()})
+    return {room: frozenset(targets) for room, targets in outer.items()}
+
+
+def _map(package: str) -> Iterator[str]:
+    """The outer rooms of a package as a Mermaid flow chart, arrows that others imply left out."""
+    graph = direct(outer_imports(package))
     yield "```mermaid"
     yield "flowchart TD"
     for room in sorted(graph):

@@ -18,6 +18,7 @@ from scripts.room_map import (
     floors,
     imported_names,
     module_imports,
+    outer_imports,
     room_imports,
     room_of,
     sources,
@@ -140,6 +141,11 @@ def test_imports_between_rooms_go_to_lower_floors_only(package):
 def test_no_rooms_and_no_modules_import_each_other(package):
     assert not circles(room_imports(package))
     assert not circles(module_imports(package))
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_the_outer_rooms_of_the_map_import_each_other_in_no_circle(package):
+    assert not circles(outer_imports(package))
 
 
 def test_a_circle_is_found_through_others():
