@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from app.inputs.motion.shake import AXES, USUAL, Axis, Lesson, PersonalAxis, Recogniser, fitted
-from app.inputs.motion.shake.lesson import READY
+from app.inputs.motion.shake.lesson import READY_TIME
 from bench.support import motion
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
@@ -216,7 +216,7 @@ def lesson(takes: list[Recording]) -> dict[str, dict[Axis, PersonalAxis]]:
         if axis in own:
             continue
         asked = Lesson((axis,))
-        still = np.tile(take.samples.mean(axis=0), (int(READY * take.rate) + 2, 1))
+        still = np.tile(take.samples.mean(axis=0), (int(READY_TIME * take.rate) + 2, 1))
         for index, (x, y, z) in enumerate(np.concatenate([still, take.samples]).tolist()):
             asked.feed(index / take.rate, (x, y, z))
             if asked.over or asked.sentence:

@@ -1,4 +1,4 @@
-"""What a key or a button of a gamepad means: one of the app's intents, pausing or going on by turns, or something that is on while it is held.
+"""Actions of keys and gamepad buttons: an intent, pause and resume by turns, or something that lasts while it is held.
 
 meanings.press("go_home", press)        # asks the one way in, app.intents
 meanings.held["talk"].append(listen)    # listen(True) while the key is held, listen(False) when it is not
@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 from app.inputs.base.button_presses import Press
 from app.inputs.base.method_app import MethodApp
-from app.inputs.keys.held_key import LONGEST, HeldKey
+from app.inputs.keys.held_key import MAX_HOLD, HeldKey
 from app.intents.intents import INTENTS, Heard
 
 __all__ = ["HOLDS", "MEANINGS", "BindingActions", "meaning_icon", "meaning_words"]
@@ -120,7 +120,7 @@ class BindingActions:
         """Why nobody holds it any more; empty where it was simply let go, None where it is held."""
         press, now = held.press, self._now()
         if held.too_long(now):
-            return f"{press.name.upper()} is held for {LONGEST:.0f} s"
+            return f"{press.name.upper()} is held for {MAX_HOLD:.0f} s"
         if press.source == "pad":
             return f"{press.device or 'The gamepad'} is silent" if self._silent(press.number) else None
         away = press.name == self._newest and held.silent(now)

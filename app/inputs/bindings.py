@@ -1,4 +1,4 @@
-"""What keys and gamepads mean, as the user has set it up: read from the settings, checked, and kept there."""
+"""Bindings of keys and gamepads as the user has set them up: read from the settings, checked, and kept there."""
 
 from __future__ import annotations
 

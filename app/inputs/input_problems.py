@@ -1,4 +1,4 @@
-"""What is wrong with the methods that are on, said over whatever is on the glass: whoever counts on one must not have to look for it."""
+"""Problems of the methods that are on, said over the screen that is shown: who relies on one must not have to look for it."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from app.inputs.base.method_app import MethodApp
 
 __all__ = ["MethodProblems"]
 
-EVERY = 0.2
+CHECK_PERIOD = 0.2
 """So often they are asked [s]."""
-CALM = 2.0
+CALM_TIME = 2.0
 """A problem that was away for less is still the same one [s]: a sensor may be just too slow by turns."""
-STAYS = 10.0
+MESSAGE_TIME = 10.0
 """How long the sentence stands [s], unless the problem ends before."""
-ABOUT = "methods"
+MESSAGE_TOPIC = "methods"
 
 
 class MethodProblems:
@@ -35,7 +35,7 @@ class MethodProblems:
         """With each heartbeat."""
         if now < self._next:
             return
-        self._next = now + EVERY
+        self._next = now + CHECK_PERIOD
         if self._app.shell is not self._shell:
             self._shell = self._app.shell
             self._seen.clear()  # on another glass it is news again
@@ -43,7 +43,7 @@ class MethodProblems:
         wrong = {name: problem for name in methods.armed if (problem := methods.get(name).problem)}
         begun = [name for name in wrong if name not in self._seen]
         self._seen.update(dict.fromkeys(wrong, now))
-        self._seen = {name: at for name, at in self._seen.items() if now - at < CALM}
+        self._seen = {name: at for name, at in self._seen.items() if now - at < CALM_TIME}
         if not self._shown <= self._seen.keys():
             self._unsay()
         if begun:
@@ -53,13 +53,13 @@ class MethodProblems:
         self._shown = frozenset(wrong)
         self._text = " ".join(f"{name.capitalize()}: {problem}" for name, problem in wrong.items())
         if self._shell is not None:
-            self._shell.say(self._text, "warn", about=ABOUT, stay=STAYS)
+            self._shell.say(self._text, "warn", about=MESSAGE_TOPIC, stay=MESSAGE_TIME)
         else:
             self._app.connect.say(self._text, "warn")
 
     def _unsay(self) -> None:
         self._shown = frozenset()
         if self._shell is not None:
-            self._shell.unsay(ABOUT)
+            self._shell.unsay(MESSAGE_TOPIC)
         else:
             self._app.connect.unsay(self._text)

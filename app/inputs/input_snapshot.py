@@ -1,4 +1,4 @@
-"""How every method of giving commands is set up, what nobody changed included: a study is read long after its defaults were."""
+"""A snapshot of how every method is set up, defaults included: a study is read long after its defaults have changed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the operator's hands and the system do to the app as a whole: keys, gamepads, a window that goes away.
+"""Keys, gamepads and the window itself as inputs of the whole app.
 
 Presses go to STOP, then to switches (who puts himself first into `presses.takers`), then to what drives, then to what
 else they mean. What pushes a control is looked at in `app.inputs.stick_arbiter`.

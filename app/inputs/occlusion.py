@@ -1,4 +1,4 @@
-"""What lies over a control on the glass, so that no hand means it any longer."""
+"""Occlusion of controls: one with something over it can no longer be meant by a hand."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What happened to a gamepad, said to the operator."""
+"""Messages to the operator about gamepads: plugged, unplugged, silent."""
 
 from __future__ import annotations
 

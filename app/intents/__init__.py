@@ -1,1 +1,1 @@
-"""What was understood, who may ask for it, and what is done about it."""
+"""Intents: what was understood, who may ask for it, and how it is carried out."""

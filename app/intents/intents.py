@@ -1,4 +1,4 @@
-"""The one way in: whatever understands a hand, a voice or a switch says what it `Heard`, and here is decided what comes of it.
+"""The entry for intents: every method submits what it understood, and here is decided what comes of it.
 
 verdict = app.intents.submit(Heard("go_home", "voice", confidence=0.8, began=12.1, ended=12.8, said="go home"))
 if verdict.sentence: talk.say(verdict.sentence)
@@ -24,8 +24,8 @@ from app.core.command_origin import Origin, origins
 from app.intents.method_permits import MethodPermits
 
 __all__ = [
-    "CANCEL_FOR",
-    "CONFIRM_FOR",
+    "CANCEL_TIME",
+    "CONFIRM_TIME",
     "INTENTS",
     "LOCAL_INTENTS",
     "METHODS",
@@ -44,11 +44,11 @@ PRESSED = ("button", "switches", "gamepad", "keyboard", "map")
 """Methods that do not guess: what is pressed was meant, so that nothing waits to be cancelled."""
 SEEN = ("button", "switches", "map")
 """Of these what was chosen stood in words on the glass: nothing is asked again."""
-CANCEL_FOR = 2.0
+CANCEL_TIME = 2.0
 """What was understood acts after this unless it is cancelled [s]."""
-CONFIRM_FOR = 5.0
+CONFIRM_TIME = 5.0
 """What asks waits so long for a yes [s]."""
-FRAME = 0.1
+MAX_FRAME = 0.1
 """Of what may be cancelled no frame takes more: while the glass stands still nobody sees it, and no finger cancels it [s]."""
 
 Risk = Literal["at_once", "cancel", "confirm"]
@@ -253,7 +253,7 @@ class Intents:
         """With each frame: what has waited long enough acts, or lapses where nobody said yes."""
         pending, looked, self._looked = self.pending, self._looked, now
         if pending is not None and not pending.question:
-            pending.until += max(0.0, now - max(looked, pending.began) - FRAME)
+            pending.until += max(0.0, now - max(looked, pending.began) - MAX_FRAME)
         if pending is None or now < pending.until:
             return
         self.pending = None
@@ -285,7 +285,7 @@ class Intents:
 
     def _wait(self, heard: Heard, risk: Risk, now: float) -> Verdict:
         question = risk == "confirm"
-        until = now + (CONFIRM_FOR if question else CANCEL_FOR)
+        until = now + (CONFIRM_TIME if question else CANCEL_TIME)
         self.pending = Pending(heard, question, now, until, now)
         words = self._acts.words(heard.intent)
         return Verdict("asks", f"{words}?") if question else Verdict("waits", f"{words}, unless cancelled.")

@@ -1,4 +1,4 @@
-"""How much a task asked of somebody, and how usable the app was: raw NASA-TLX and SUS, scored as published and kept.
+"""Questionnaires on workload and usability: raw NASA-TLX and SUS, scored as published and kept.
 
 store = Workloads(folder / "responses")
 store.put(Workload(form="tlx", answers={"mental": 35, …}, …))
@@ -26,7 +26,7 @@ TLX = ("mental", "physical", "temporal", "performance", "effort", "frustration")
 """Scales of the NASA task load index, in the order of its form."""
 TLX_STEP, TLX_MOST = 5, 100
 SUS_ITEMS, SUS_MOST = 10, 5
-KEPT = 2000
+MAX_KEPT = 2000
 """At most so many, the newest, are kept."""
 
 
@@ -110,7 +110,7 @@ class Workloads:
     def put(self, workload: Workload) -> None:
         """Keep one; ValueError where it cannot be scored."""
         _ = workload.score
-        self._kept = [*self.kept, workload][-KEPT:]
+        self._kept = [*self.kept, workload][-MAX_KEPT:]
         self._write()
 
     def erase(self) -> None:
@@ -139,7 +139,7 @@ class Workloads:
                 log.warning("a line of %s was left out", self.path.name)
             else:
                 kept.append(one)
-        return kept[-KEPT:]
+        return kept[-MAX_KEPT:]
 
     def _write(self) -> None:
         fresh = self.path.with_suffix(".new")

@@ -30,11 +30,11 @@ FILE = "responses.jsonl"
 """The file that is written; `responses-1.jsonl` is the one before it, and so on."""
 BYTES, FILES = 1_000_000, 8
 """A file is closed when it has so many bytes; so many files are kept, the oldest is deleted."""
-WAITING = 1000
+MAX_WAITING = 1000
 """Lines that may wait for the disk; beyond that the newest are dropped and counted."""
-KEPT = 20_000
+MAX_KEPT = 20_000
 """At most so many, the newest, are read into memory."""
-SNIPPET = 20_000
+MAX_SNIPPET = 20_000
 """A snippet that is longer as JSON is left out [bytes]."""
 KINDS = ("command", "drive", "selection", "armed")
 """What a line tells of: a command; driving from its begin to its end; something chosen on a screen by switches; for how
@@ -108,14 +108,14 @@ class ResponseLog:
         self.dropped = 0
         """Lines that did not get into the file."""
         self._counting = threading.Lock()
-        self._queue: queue.Queue[bytes | Callable[[], object] | None] = queue.Queue(WAITING)
+        self._queue: queue.Queue[bytes | Callable[[], object] | None] = queue.Queue(MAX_WAITING)
         self._thread: threading.Thread | None = None
         self._closed = False
 
     def put(self, response: Response) -> None:
         """Write a line; what is too long of a snippet is left out."""
         line = msgspec.json.encode(response)
-        if response.snippet is not None and len(msgspec.json.encode(response.snippet)) > SNIPPET:
+        if response.snippet is not None and len(msgspec.json.encode(response.snippet)) > MAX_SNIPPET:
             line = msgspec.json.encode(msgspec.structs.replace(response, snippet=None))
         self._give(line)
 
@@ -247,7 +247,7 @@ def lines(folder: Path) -> Iterable[bytes]:
             yield from file
 
 
-def read(folder: Path, most: int = KEPT) -> tuple[list[Response], int]:
+def read(folder: Path, most: int = MAX_KEPT) -> tuple[list[Response], int]:
     """The newest responses, at most `most`, the oldest of them first; and how many lines could not be understood.
 
     A power cut may leave half a line: that one is left out and counted, all others are read.

@@ -1,4 +1,4 @@
-"""Keeps the response log of the running app: hears what is understood, sent and answered, and leads the study.
+"""Recording of responses: what is understood, sent and answered goes into the log, and a study can be led.
 
 Made and closed with the methods; while the log is switched off nothing is kept, and nothing listens.
 """

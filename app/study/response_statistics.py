@@ -1,4 +1,4 @@
-"""What the response log says: success with its interval, response times with their spread, false activations, presses.
+"""Statistics of the response log: success with its interval, response times with their spread, false activations, presses.
 
 Pure arithmetic on `app.study.response_log.Response`; nothing here knows a screen.
 """
@@ -34,7 +34,7 @@ PAPER = {"button": 1.0, "voice": 0.775, "shake": 0.625}
 """Share recognised in the paper of the patrol robot, each command triggered ten times."""
 Z95 = 1.959964
 """Of the normal distribution, 95 % two-sided."""
-SLOWEST = 60.0
+MAX_RESPONSE_TIME = 60.0
 """A time beyond is no response any more: the app was paused, or somebody went away [s]."""
 
 
@@ -181,7 +181,7 @@ def seconds(one: Response, until: str = "sent") -> float:
     if one.t_input_start is None or end is None:
         return math.nan
     took = end - one.t_input_start
-    return took if 0 <= took <= SLOWEST else math.nan
+    return took if 0 <= took <= MAX_RESPONSE_TIME else math.nan
 
 
 def times(responses: Iterable[Response], until: str = "sent") -> dict[tuple[str, str], Spread]:

@@ -19,13 +19,13 @@ from app.intents.intents import INTENTS, LOCAL_INTENTS, Heard, Verdict
 from app.link.commands import Outcome
 from app.study.response_log import Response
 
-__all__ = ["EFFECT_WITHIN", "UNDO_WITHIN", "Asked", "State", "ResponseTracks"]
+__all__ = ["MAX_EFFECT_TIME", "MAX_UNDO_TIME", "Asked", "State", "ResponseTracks"]
 
-EFFECT_WITHIN = 10.0
+MAX_EFFECT_TIME = 10.0
 """A change of the robot's state later than this after the command is not its effect [s]."""
-UNDO_WITHIN = 5.0
+MAX_UNDO_TIME = 5.0
 """The opposite command so soon after is taken for taking it back [s]."""
-MOST = 64
+MAX_TRACKS = 64
 """Commands that are followed at a time; the oldest is put as it stands."""
 
 INTENT_OF = {"home": "go_home", "cancel": "end_task", "acquire": "take_control", "request": "take_control"}
@@ -255,7 +255,7 @@ class ResponseTracks:
     def update(self, now: float) -> None:
         """Put those of which nothing more will come."""
         for key, track in list(self._tracks.items()):
-            over = UNDO_WITHIN if track.effect else EFFECT_WITHIN
+            over = MAX_UNDO_TIME if track.effect else MAX_EFFECT_TIME
             if not track.waits and now - track.since > over:
                 self._close(key)
 
@@ -280,12 +280,12 @@ class ResponseTracks:
     def _open(self, key: str, intent: str, method: str) -> _Track:
         now = self._now()
         for other in self._tracks.values():
-            recent = now - other.since <= UNDO_WITHIN and not other.waits
+            recent = now - other.since <= MAX_UNDO_TIME and not other.waits
             if recent and intent in UNDOES.get(other.response.recognised, ()):
                 other.response.undo = True
         if key in self._tracks:
             self._close(key)
-        while len(self._tracks) >= MOST:
+        while len(self._tracks) >= MAX_TRACKS:
             self._close(next(iter(self._tracks)))
         response = self._new(method)
         response.recognised = intent

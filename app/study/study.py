@@ -17,18 +17,18 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-__all__ = ["ANSWER_WITHIN", "Block", "Plan", "Prompt", "Trials", "latin_row", "plan_of", "saved"]
+__all__ = ["ANSWER_TIMEOUT", "Block", "Plan", "Prompt", "Trials", "latin_row", "plan_of", "saved"]
 
-ANSWER_WITHIN = 8.0
+ANSWER_TIMEOUT = 8.0
 """A prompt that nobody answered for so long is missed [s]."""
-GAP = (1.5, 3.5)
+PROMPT_GAP = (1.5, 3.5)
 """Between an answer and the next prompt, drawn by lot so that nobody answers by rhythm [s]."""
 COMMANDS = ("stop", "pause", "resume", "patrol", "go_home")
 """Those of the paper's patrol robot."""
 TRIGGERS = 10
 """Prompts for each command and method, as in the paper."""
 POSTURES = ("standing", "walking")
-MOST_TRIGGERS = 50
+MAX_TRIGGERS = 50
 
 
 def latin_row(count: int, row: int) -> list[int]:
@@ -147,7 +147,7 @@ class Trials:
     @property
     def left(self) -> float:
         """Until the prompt is missed [s]; NaN between prompts."""
-        return max(0.0, self.prompt.at + ANSWER_WITHIN - self._now()) if self.prompt else math.nan
+        return max(0.0, self.prompt.at + ANSWER_TIMEOUT - self._now()) if self.prompt else math.nan
 
     def begin(self) -> None:
         """Begin a block, or go on after a pause."""
@@ -163,7 +163,7 @@ class Trials:
         """Show the next prompt when its time has come, and give up one that nobody answers."""
         if self.stage == "gap" and now >= self._next:
             self._ask(now)
-        elif self.prompt is not None and now - self.prompt.at >= ANSWER_WITHIN:
+        elif self.prompt is not None and now - self.prompt.at >= ANSWER_TIMEOUT:
             missed = self.prompt
             self.last = "Nothing was understood."
             self.on_missed(missed)
@@ -204,7 +204,7 @@ class Trials:
         self.on_moved()
 
     def _rest(self) -> None:
-        self.stage, self._next = "gap", self._now() + self._lot.uniform(*GAP)
+        self.stage, self._next = "gap", self._now() + self._lot.uniform(*PROMPT_GAP)
 
 
 def saved(trials: Trials) -> dict[str, Any]:
@@ -246,7 +246,7 @@ def _sound(plan: Plan, methods: Sequence[str], intents: Sequence[str]) -> bool:
     """It can be led; TypeError where there are lists or tables in place of names."""
     return bool(
         plan.row >= 1
-        and 1 <= plan.triggers <= MOST_TRIGGERS
+        and 1 <= plan.triggers <= MAX_TRIGGERS
         and plan.methods
         and set(plan.methods) <= set(methods)
         and plan.postures

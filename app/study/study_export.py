@@ -1,4 +1,4 @@
-"""All that a study gathered as one zip: lines of JSON, the same as a table, forms, settings, and what each of it means."""
+"""Export of a study as one zip: lines of JSON, the same as a table, forms, settings, and a description of each."""
 
 from __future__ import annotations
 

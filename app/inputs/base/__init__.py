@@ -1,1 +1,1 @@
-"""What all input methods share."""
+"""Parts that all input methods share."""

@@ -1,4 +1,4 @@
-"""What the ways in share that are switched on and off, and keep what they are set to under their own name in the settings."""
+"""Base of the input methods that are switched on and off and keep their settings under their own name."""
 
 from __future__ import annotations
 

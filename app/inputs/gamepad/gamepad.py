@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from app.inputs.gamepad.pad_map import Profile
 from app.inputs.gamepad.sdl import PadState
 
-__all__ = ["SILENT", "Gamepads", "PadEvent", "KivyPads"]
+__all__ = ["SILENCE_TIMEOUT", "Gamepads", "PadEvent", "KivyPads"]
 
-SILENT = 0.12
+SILENCE_TIMEOUT = 0.12
 """A pushed gamepad that measures nothing new for longer drives nothing [s]."""
-REARM = 1.0
+REARM_TIMEOUT = 1.0
 """After a longer silence its stick must be let go before it drives again [s]."""
 AXES, RIGHT_AXES, FOUR = (0, 1), (2, 3), ("a", "b", "x", "y")
 """Axes of the left and of the right stick and the four buttons, as most gamepads number them."""
@@ -89,7 +89,7 @@ class Gamepads:
 
     def silent(self, number: int) -> bool:
         """What it says to hold is held by nobody who is known to be there: it measures nothing new, and hangs on no cable."""
-        return self.age(number) > SILENT and self.name(number) not in self.wired
+        return self.age(number) > SILENCE_TIMEOUT and self.name(number) not in self.wired
 
     def update(self, states: Iterable[PadState]) -> None:
         """Take in what is plugged in now and what it measures; news are told from here."""
@@ -103,7 +103,7 @@ class Gamepads:
                 self._on_news(PadEvent("plugged", state.name))
                 continue
             if state.raw != known.state.raw:
-                if self._now() - known.alive > REARM and self._pushed(known):
+                if self._now() - known.alive > REARM_TIMEOUT and self._pushed(known):
                     known.centred = False
                 known.alive = self._now()
             known.state = state

@@ -1,4 +1,4 @@
-"""What the sticks, triggers and buttons of a gamepad mean: a profile for each by its name, checked when it is read.
+"""Profiles of gamepads: what sticks, triggers and buttons do, by the gamepad's name, checked when they are read.
 
 profile, wrong = read(kept)
 profile.lean(state)     # {"left": (ahead, aside), "right": …}

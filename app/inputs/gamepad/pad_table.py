@@ -1,4 +1,4 @@
-"""Where everything is on a gamepad, by SDL's table of them: `a:b0,leftx:a0,lefttrigger:a2,dpup:h0.1,…`. No SDL in here."""
+"""Places of sticks and buttons by SDL's table of gamepads: `a:b0,leftx:a0,lefttrigger:a2,dpup:h0.1,…`. No SDL in here."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What SDL, on which Kivy's window stands, knows and Kivy does not hand on: fingers that are gone, and gamepads.
+"""SDL, below Kivy's window, asked for what Kivy does not hand on: lifted fingers, and gamepads.
 
 Kivy opens the gamepads that are there when its window is made, tells of their axes and buttons, and never that one went
 or came. It drops the end of a touch that comes while the app is paused. SDL itself knows both.

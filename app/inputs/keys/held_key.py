@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 from app.inputs.base.button_presses import Press
 
-__all__ = ["GAP", "LONGEST", "REPEATS", "HeldKey"]
+__all__ = ["REPEAT_TIMEOUT", "MAX_HOLD", "MIN_REPEATS", "HeldKey"]
 
-GAP = 0.3
+REPEAT_TIMEOUT = 0.3
 """A key whose repeats have come and stay away for longer was let go, though nobody told [s]."""
-REPEATS = 2
+MIN_REPEATS = 2
 """So many of them first: a system may repeat nothing."""
-LONGEST = 30.0
+MAX_HOLD = 30.0
 """Nothing is held for longer: something may lie on it [s]."""
 
 
@@ -46,8 +46,8 @@ class HeldKey:
 
     def silent(self, now: float) -> bool:
         """Its repeats stay away, which only the key that went down last can be judged by."""
-        return self.repeats >= REPEATS and now - self.heard > GAP
+        return self.repeats >= MIN_REPEATS and now - self.heard > REPEAT_TIMEOUT
 
     def too_long(self, now: float) -> bool:
         """No hand holds it for so long."""
-        return now - self.since > LONGEST
+        return now - self.since > MAX_HOLD

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 
 from app.inputs.base.button_presses import Press
-from app.inputs.keys.held_key import GAP, LONGEST, HeldKey
+from app.inputs.keys.held_key import MAX_HOLD, REPEAT_TIMEOUT, HeldKey
 from app.inputs.keys.key_table import ARROWS, DRIVING, KeyTable
 
-__all__ = ["GAP", "LONGEST", "KeyDrive"]
+__all__ = ["REPEAT_TIMEOUT", "MAX_HOLD", "KeyDrive"]
 
-LEAST = 0.15
+MIN_PUSH = 0.15
 """It begins with so much of the whole way: less is nothing to some controls."""
 PLACES = {**DRIVING, **ARROWS}
 PUSHES = {
@@ -116,7 +116,7 @@ class KeyDrive:
         if self._began is None:
             self._began = self._now()
         share = min(1.0, (self._now() - self._began) / table.rise) if table.rise else 1.0
-        share = min(max(share, LEAST), table.slow if self._slow else 1.0)
+        share = min(max(share, MIN_PUSH), table.slow if self._slow else 1.0)
         return {stick: self._push(stick, alive, share) for stick in self.sticks}
 
     def _push(self, stick: str, alive: list[str], share: float) -> tuple[float, float]:
@@ -137,4 +137,4 @@ class KeyDrive:
         held.stale = held.up(self._is_down)
         if not held.stale and held.too_long(self._now()):
             held.stale = True
-            self._on_lost(f"{name.upper()} is held for {LONGEST:.0f} s: the robot rests.")
+            self._on_lost(f"{name.upper()} is held for {MAX_HOLD:.0f} s: the robot rests.")

@@ -1,4 +1,4 @@
-"""What the keys mean: a table that the user changes, checked when it is read. No Kivy in here."""
+"""The table of keys that the user changes, checked when it is read. No Kivy in here."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 
 from app.device.motion import GRAVITY, KINDS, Axes, Kind, MotionError, MotionSource
 
-__all__ = ["SILENT", "Fault", "Health", "Judge", "MotionSensing"]
+__all__ = ["SILENCE_TIMEOUT", "Fault", "Health", "Judge", "MotionSensing"]
 
 log = logging.getLogger(__name__)
 
@@ -24,27 +24,27 @@ Feed = Callable[[float, Axes], object]
 Fault = str
 """`absent`, `refused`, `paused`, `waiting`, `silent`, `broken`, `jumps`, `frozen`, `slow`; empty for none."""
 
-QUEUE = 256
+MAX_QUEUE = 256
 """Samples that wait for the UI thread: 2.5 s of two kinds. The oldest make room."""
-SILENT = 0.3
+SILENCE_TIMEOUT = 0.3
 """Without a sample for so long it is silent [s]."""
-FIRST = 1.5
+FIRST_SAMPLE_TIMEOUT = 1.5
 """How long the first sample may take [s]: a phone's fusion begins slowly."""
-WINDOW = 1.0
+RATE_WINDOW = 1.0
 """What the rate is counted over [s]."""
-FROZEN = 1.0
+FROZEN_TIMEOUT = 1.0
 """The same to the last bit for so long is no hand, and no table either [s]."""
-LONG = 2.0
+FAULT_TIME = 2.0
 """How long a fault is told after it was last seen [s]."""
-OLD = 1.0
+MAX_SAMPLE_AGE = 1.0
 """What was measured so long ago is no news [s]: a phone that slept hands it out in one go."""
-AHEAD = 0.5
+MAX_SAMPLE_LEAD = 0.5
 """Nothing was measured so far in the future [s]; taken, it would make all that follows old."""
-BEYOND = 200.0
+MAX_ACCELERATION = 200.0
 """No phone measures more [m/s²]; most end at 78 or 157."""
-LEAP = {"acceleration": 120.0, "gravity": 10.0}
+MAX_LEAP = {"acceleration": 120.0, "gravity": 10.0}
 """From one sample to the next no hand does that [m/s²]; for gravity that is 60°."""
-SPARE = {"acceleration": BEYOND, "gravity": 0.25 * GRAVITY}
+MAX_DEVIATION = {"acceleration": MAX_ACCELERATION, "gravity": 0.25 * GRAVITY}
 """How far its length may be from 1 g [m/s²]."""
 
 
@@ -79,7 +79,11 @@ class Judge:
         if not all(math.isfinite(value) for value in (t, *axes)):
             self._seen["broken"] = now
             return False
-        if now - t > OLD or t - now > AHEAD or (self._last is not None and t <= self._last[0]):
+        if (
+            now - t > MAX_SAMPLE_AGE
+            or t - now > MAX_SAMPLE_LEAD
+            or (self._last is not None and t <= self._last[0])
+        ):
             return False
         if self._jumped(axes):
             self._seen["jumps"] = now
@@ -88,16 +92,16 @@ class Judge:
             self._same_since = t
         self._last, self._heard = (t, axes), came
         self._times.append(t)
-        while self._times[0] < t - WINDOW:
+        while self._times[0] < t - RATE_WINDOW:
             self._times.popleft()
         return True
 
     def _jumped(self, axes: Axes) -> bool:
         """It is longer than can be, or too far from the one before and from the one that was left out for that."""
         length = math.hypot(*axes)
-        if length > BEYOND or abs(length - GRAVITY) > SPARE[self._kind]:
+        if length > MAX_ACCELERATION or abs(length - GRAVITY) > MAX_DEVIATION[self._kind]:
             return True
-        leap = LEAP[self._kind]
+        leap = MAX_LEAP[self._kind]
         known = [other for other in (self._last and self._last[1], self._leapt) if other is not None]
         if known and all(math.dist(axes, other) > leap for other in known):
             self._leapt = axes
@@ -109,7 +113,7 @@ class Judge:
     def rate(self) -> float:
         """Samples in a second [Hz] by their own times; NaN while it is not known."""
         times = self._times
-        if len(times) < 3 or times[-1] - times[0] < WINDOW / 2:
+        if len(times) < 3 or times[-1] - times[0] < RATE_WINDOW / 2:
             return math.nan
         return (len(times) - 1) / (times[-1] - times[0])
 
@@ -123,14 +127,14 @@ class Judge:
         return Health(fault, self._words(fault, least), self.rate, now - heard)
 
     def _fault(self, now: float, least: float, heard: float) -> Fault:
-        recent = [name for name, at in self._seen.items() if now - at < LONG]
+        recent = [name for name, at in self._seen.items() if now - at < FAULT_TIME]
         if heard == -math.inf and not recent:
-            return "waiting" if now - self._begun < FIRST else "silent"
+            return "waiting" if now - self._begun < FIRST_SAMPLE_TIMEOUT else "silent"
         if recent:
             return "broken" if "broken" in recent else recent[0]
-        if now - heard > SILENT:
+        if now - heard > SILENCE_TIMEOUT:
             return "silent"
-        if self._last is not None and self._last[0] - self._same_since > FROZEN:
+        if self._last is not None and self._last[0] - self._same_since > FROZEN_TIMEOUT:
             return "frozen"
         return "slow" if self.rate < least else ""
 
@@ -159,7 +163,7 @@ class MotionSensing:
     def __init__(self, source: MotionSource, now: Callable[[], float] = time.monotonic) -> None:
         self._source, self._now = source, now
         self._kinds = {kind: _Kind(Judge(kind, now())) for kind in KINDS}
-        self._queue: deque[tuple[Kind, float, Axes, float]] = deque(maxlen=QUEUE)
+        self._queue: deque[tuple[Kind, float, Axes, float]] = deque(maxlen=MAX_QUEUE)
         """Kind, when it was measured, axes, and when it came [s]."""
         self._came: dict[Kind, float] = {}
         """When the newest of each kind came [s]: a glass that is slow to look makes no sensor silent."""

@@ -17,7 +17,7 @@ from app.device import rotation, vibrate
 from app.inputs.base.toggleable_method import ToggleableMethod
 from app.inputs.motion.motion_app import MotionApp
 from app.inputs.motion.shake import (
-    LEAST_RATE,
+    MIN_RATE,
     USUAL,
     WORDS,
     Axis,
@@ -42,15 +42,15 @@ CHOICES: dict[Axis, tuple[str, ...]] = {
     "fb": ("resume", "pause", "go_home", "end_task", "hold", "land", "surface", "lights", "snapshot", ""),
 }
 """What may be chosen; empty for nothing. Left-right is STOP, always."""
-FELT = 0.12
+VIBRATION_TIME = 0.12
 """How long the phone vibrates when something was understood [s]."""
-FELT_STOP = 0.4
+STOP_VIBRATION_TIME = 0.4
 """[s]"""
-SNIPPET = 6.0
+SNIPPET_TIME = 6.0
 """So much of what was measured goes into the log with the operator's consent [s]."""
-NEEDED = LEAST_RATE - 0.4
+NEEDED_RATE = MIN_RATE - 0.4
 """A sensor of 25 Hz is never quite that by its own times [Hz]."""
-LEAST_FOR_STOP = 15.0
+MIN_STOP_RATE = 15.0
 """A sensor that loses samples is said to be slow, and a STOP that was understood all the same is done [Hz]."""
 
 
@@ -142,7 +142,7 @@ class ShakeInput(ToggleableMethod):
         """Why it does not work though it is on, as one sentence; empty when it is well."""
         if not self._on and not self.busy:
             return self.mistaken
-        health = self._app.sensing.health("acceleration", least=NEEDED)
+        health = self._app.sensing.health("acceleration", least=NEEDED_RATE)
         return self.mistaken if health.fault in ("", "waiting") else str(health.sentence)
 
     @property
@@ -150,7 +150,7 @@ class ShakeInput(ToggleableMethod):
         """In a word or two."""
         if not self._on:
             return "off"
-        health = self._app.sensing.health("acceleration", least=NEEDED)
+        health = self._app.sensing.health("acceleration", least=NEEDED_RATE)
         words = {"": "listening", "slow": f"{health.rate:.0f} Hz: too slow", "absent": "no sensor"}
         return str(words.get(health.fault, health.fault))
 
@@ -237,13 +237,13 @@ class ShakeInput(ToggleableMethod):
             before = self.lesson.axis
             self.lesson.feed(t, axes)
             if self.lesson.axis != before:
-                vibrate(FELT)
+                vibrate(VIBRATION_TIME)
             return
         self._recent.append((t, axes))
         self._recogniser.any_shake = self._any and self._moves()
         shake = self._recogniser.feed(t, axes)
         if shake is not None:
-            least = NEEDED if shake.ended else LEAST_FOR_STOP
+            least = NEEDED_RATE if shake.ended else MIN_STOP_RATE
             if self._app.sensing.health("acceleration", least=least).fault != "slow":
                 self.understood(shake)
 
@@ -255,7 +255,7 @@ class ShakeInput(ToggleableMethod):
         if not intent:
             self.said = f"{WORDS[shake.axis]} means nothing."
             return
-        vibrate(FELT_STOP if stops else FELT)
+        vibrate(STOP_VIBRATION_TIME if stops else VIBRATION_TIME)
         if self._trying and not (stops and self._app.intents.possible("stop")):
             self.said = "Understood; while it is tried out nothing is done."
             return
@@ -282,7 +282,7 @@ class ShakeInput(ToggleableMethod):
         return status is None or not status.at_rest
 
     def _snippet(self, shake: Shake) -> dict[str, Any]:
-        since = max(shake.began - 1.0, shake.told - SNIPPET)
+        since = max(shake.began - 1.0, shake.told - SNIPPET_TIME)
         samples = [(t, axes) for t, axes in self._recent if t >= since]
         return {
             "axis": shake.axis,

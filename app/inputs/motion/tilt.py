@@ -36,7 +36,7 @@ MIN_CUT, BETA = 1.0, 0.007
 """Of the 1 € filter, on degrees [Hz]."""
 SPAN, ENOUGH = 0.3, 3
 """Neutral is the mean of that [s], of at least so many samples."""
-SILENT = 0.3
+SILENCE_TIMEOUT = 0.3
 """Without a sample for so long the clutch opens [s]."""
 OVER, TOO_LONG = 50.0, 0.5
 """Tilted by more than that [deg] for so long [s] it is no steering any more."""
@@ -44,7 +44,7 @@ ODD, FALL = 0.6 * GRAVITY, 0.3
 """That far from 1 g [m/s²] for so long [s] nobody holds it."""
 RISES, FALLS = 1.0 / 0.4, 1.0 / 0.1
 """How fast a command grows and goes [1/s]."""
-CREEP = 5.0
+CREEP_TIME = 5.0
 """So slowly [s] neutral follows the hand of one who walks, as long as that commands nothing."""
 
 
@@ -228,7 +228,7 @@ class Tilt:
         if self._pressed:
             return
         self._pressed, self.why = True, ""
-        if now - self._heard <= SILENT:
+        if now - self._heard <= SILENCE_TIMEOUT:
             self._close()
 
     def release(self) -> None:
@@ -244,7 +244,7 @@ class Tilt:
 
     def update(self, now: float) -> Pair:
         """What it commands at `now`, to the right and ahead, shares of full command, together at most 1."""
-        if self._pressed and not self.why and now - self._heard > SILENT and self._closed:
+        if self._pressed and not self.why and now - self._heard > SILENCE_TIMEOUT and self._closed:
             self._open("The sensor is silent: the tablet does not steer.")
         if not self._closed:
             return 0.0, 0.0
@@ -276,7 +276,7 @@ class Tilt:
         if tilt < self.settings.zone:
             self._met = True
             if self.settings.walking and self.neutral is None:
-                self._from = _towards(neutral, up, min(1.0, dt / CREEP))
+                self._from = _towards(neutral, up, min(1.0, dt / CREEP_TIME))
         if tilt < OVER:
             self._far = math.nan
         elif math.isnan(self._far):

@@ -1,4 +1,4 @@
-"""What is used how often: counted while the app runs, and used from the next start on, so that nothing moves in a session."""
+"""Counts of what is used how often: taken while the app runs, used from the next start on, so that nothing moves in a session."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from app.core.checked_settings import number
 
 __all__ = ["Usage"]
 
-FADES = 0.9
+FADE = 0.9
 """Each start everything counts so much less than before: what is not used any more makes room."""
-LEAST = 0.5
+MIN_COUNT = 0.5
 """What counts less is forgotten."""
-MOST = 1e9
+MAX_COUNT = 1e9
 """Nobody has done anything more often."""
 PLACES, NAMES = 40, 80
 """So many places are remembered, and names in each; the most used ones stay."""
@@ -52,7 +52,7 @@ def _counts(names: object) -> dict[str, float]:
     if not isinstance(names, Mapping):
         return {}
     return {
-        str(name): times * FADES
+        str(name): times * FADE
         for name, counted in list(names.items())[:NAMES]
-        if (times := number(counted, LEAST / FADES, MOST)) is not None
+        if (times := number(counted, MIN_COUNT / FADE, MAX_COUNT)) is not None
     }

@@ -1,4 +1,4 @@
-"""Which spoken commands count now: fewer while the app itself talks, and while something asks."""
+"""A gate for spoken commands: fewer count while the app itself talks, and while something asks."""
 
 from __future__ import annotations
 

@@ -35,17 +35,17 @@ __all__ = ["RATES", "Talkback", "aloud"]
 Kind = Literal["answer", "alarm", "label"]
 RATES = (0.7, 1.6)
 """How fast it may talk, 1 is usual."""
-MOST = 4
+MAX_WAITING = 4
 """So many sentences wait at most; the oldest that is no alarm is left out."""
-STALE = 6.0
+MAX_AGE = 6.0
 """An answer or a label that waited longer is not said any more [s]."""
-SLEEPS = 60.0
+SLEEP_TIMEOUT = 60.0
 """After so long a silence the voice is put away [s]."""
-LOST = 15.0
+SENTENCE_TIMEOUT = 15.0
 """A voice that does not end a sentence within so long is taken to have lost it [s]."""
 EYES_OFF = ("voice", "shake")
 """Methods that are answered aloud: whoever uses them may not look at the glass."""
-LONGEST = 200
+MAX_LETTERS = 200
 """Letters of a sentence that are spoken."""
 HALT = {"stop": "halt", "stops": "halts", "stopped": "halted", "stopping": "halting"}
 """It never says STOP, which the microphone would take for the operator's."""
@@ -54,7 +54,7 @@ _STOPS = re.compile(r"\bstop(s|ped|ping)?\b", re.IGNORECASE)
 
 def aloud(words: str) -> str:
     """The words as they are spoken: no quotation marks, no line breaks, and never STOP."""
-    plain = re.sub(r"[“”\"…·\s\u00a0]+", " ", words).strip()[:LONGEST]
+    plain = re.sub(r"[“”\"…·\s\u00a0]+", " ", words).strip()[:MAX_LETTERS]
     return _STOPS.sub(lambda found: HALT[found[0].lower()], plain)
 
 
@@ -201,7 +201,7 @@ class Talkback(ToggleableMethod):
             self._lines.appendleft(line)
         else:
             self._lines.append(line)
-        while len(self._lines) > MOST:
+        while len(self._lines) > MAX_WAITING:
             mild = [one for one in self._lines if one.kind != "alarm"]
             self._lines.remove(mild[0] if mild else self._lines[-1])
         said = self._now_said
@@ -219,11 +219,11 @@ class Talkback(ToggleableMethod):
     def _turn(self, now: float) -> None:
         while self._told:
             self._on_speech(*self._told.popleft(), now)
-        if self._now_said is not None and now - self._began > LOST:
+        if self._now_said is not None and now - self._began > SENTENCE_TIMEOUT:
             self._ended(now)
         if self._now_said is None and self._lines:
             self._next()
-        if self._speaker is not None and self._now_said is None and now - self._used > SLEEPS:
+        if self._speaker is not None and self._now_said is None and now - self._used > SLEEP_TIMEOUT:
             self._put_away()
 
     def _next(self) -> None:
@@ -231,7 +231,7 @@ class Talkback(ToggleableMethod):
         now = self._app.now()
         while self._lines:
             line = self._lines.popleft()
-            if line.kind == "alarm" or now - line.at <= STALE:
+            if line.kind == "alarm" or now - line.at <= MAX_AGE:
                 break
         else:
             return

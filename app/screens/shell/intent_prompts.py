@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from app.device import vibrate
-from app.intents.intents import CANCEL_FOR, CONFIRM_FOR, INTENTS, PRESSED, Heard, Intents, Pending, Verdict
+from app.intents.intents import CANCEL_TIME, CONFIRM_TIME, INTENTS, PRESSED, Heard, Intents, Pending, Verdict
 from app.intents.method_permits import LOOKS
 from app.screens.parts.method_signs import METHOD_SIGNS
 from app.screens.shell.notices import Notices
@@ -61,7 +61,7 @@ class IntentPrompts:
                 self._show(pending)
             self._notices.keep(self.card, shown=pending is not None, first=True)
         if pending is not None:
-            self.card.count(pending.until - now, CONFIRM_FOR if pending.question else CANCEL_FOR)
+            self.card.count(pending.until - now, CONFIRM_TIME if pending.question else CANCEL_TIME)
 
     def _show(self, pending: Pending) -> None:
         heard = pending.heard

@@ -11,7 +11,7 @@ import pytest
 from app.inputs.base.button_presses import Press
 from app.inputs.binding_actions import MEANINGS, BindingActions, meaning_icon, meaning_words
 from app.inputs.gamepad.pad_map import MEANT, Profile
-from app.inputs.keys.held_key import LONGEST
+from app.inputs.keys.held_key import MAX_HOLD
 from app.inputs.keys.key_table import KeyTable
 from app.inputs.shortcuts import Shortcuts
 from app.intents.intents import INTENTS, Heard
@@ -192,7 +192,7 @@ def test_a_key_pressed_after_it_is_repeated_in_its_place(desk: Desk) -> None:
 
 def test_nothing_is_held_for_longer_than_a_hand_would_and_that_is_said(desk: Desk) -> None:
     _, told = desk.holds()
-    desk.pass_time(LONGEST - 0.1)
+    desk.pass_time(MAX_HOLD - 0.1)
     assert told == [True]
     desk.pass_time(0.2)
     assert told == [True, False]

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from app.inputs.input_problems import CALM, MethodProblems
+from app.inputs.input_problems import CALM_TIME, MethodProblems
 
 
 class Glass:
@@ -73,7 +73,7 @@ def test_it_is_said_once_when_it_begins_and_unsaid_when_it_ends(desk: Desk, wher
     desk.wait(20.0)
     assert glass.said == ["Shake: The motion sensor is silent."]
     desk.ails("shake", "")
-    desk.wait(CALM)
+    desk.wait(CALM_TIME)
     assert glass.shown == ""
     desk.ails("shake", "The motion sensor is silent.")
     assert len(glass.said) == 2

@@ -14,7 +14,7 @@ import app.inputs.methods as methods_of
 from app.core.command_origin import NOBODY, origins
 from app.inputs.methods import Methods
 from app.inputs.voice.process.ending import end_aside
-from app.intents.intents import CONFIRM_FOR, Heard, Intents
+from app.intents.intents import CONFIRM_TIME, Heard, Intents
 from app.intents.method_permits import MethodPermits
 from tests.app.inputs.pushing import Settings
 from tests.headless import Stage
@@ -141,7 +141,7 @@ def test_what_came_of_a_question_is_said_where_the_question_was(make: Any) -> No
     voice, shake = app.methods.get("voice"), app.methods.get("shake")
     voice.said = app.intents.submit(Heard("go_home", "voice")).sentence
     assert voice.said == "go_home?"
-    app.time += CONFIRM_FOR + 1.0
+    app.time += CONFIRM_TIME + 1.0
     app.intents.update(app.time)
     assert voice.said == "Not done, no yes came: go_home."
     assert shake.said == "", "it asked nothing"

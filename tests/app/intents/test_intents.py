@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from app.core.command_origin import NOBODY, Origin, origins
-from app.intents.intents import CANCEL_FOR, CONFIRM_FOR, INTENTS, METHODS, Heard, Intents, Verdict
+from app.intents.intents import CANCEL_TIME, CONFIRM_TIME, INTENTS, METHODS, Heard, Intents, Verdict
 from app.intents.method_permits import SAYS, MethodPermits
 
 
@@ -101,7 +101,7 @@ def test_stop_is_done_before_anybody_hears_of_what_it_takes_the_place_of(stage: 
 
 def test_what_may_be_cancelled_acts_after_two_seconds_and_not_before(stage: Stage) -> None:
     assert stage.say("resume") == "waits"
-    stage.wait(CANCEL_FOR - 0.01)
+    stage.wait(CANCEL_TIME - 0.01)
     assert stage.acts.names == []
     stage.wait(0.01)
     assert stage.acts.names == ["resume"]
@@ -126,7 +126,7 @@ def test_what_may_be_cancelled_does_not_act_out_of_a_frame_in_which_nobody_could
     stage.wait(0.5)
     stage.frame(2.2)
     assert stage.acts.names == [], "the glass stood still: nobody saw it"
-    stage.wait(CANCEL_FOR - 0.7)
+    stage.wait(CANCEL_TIME - 0.7)
     assert stage.acts.names == []
     stage.say("no")
     stage.wait(10.0)
@@ -149,7 +149,7 @@ def test_being_quite_sure_does_not_set_anything_in_motion_unasked(stage: Stage) 
 
 def test_a_question_without_an_answer_lapses(stage: Stage) -> None:
     stage.say("go_home")
-    stage.wait(CONFIRM_FOR)
+    stage.wait(CONFIRM_TIME)
     assert stage.acts.names == []
     assert stage.told[-1] == ("go_home", Verdict("lapsed", "Not done, no yes came: Go home."))
     assert stage.say("yes") == "not now"
@@ -183,7 +183,7 @@ def test_a_newer_wish_takes_the_place_of_what_waits(stage: Stage, newer: str) ->
 def test_what_cannot_be_done_any_more_when_its_time_comes_is_not_done(stage: Stage) -> None:
     stage.say("resume")
     stage.acts.reasons["resume"] = "STOP is pressed; release it first."
-    stage.wait(CANCEL_FOR)
+    stage.wait(CANCEL_TIME)
     assert stage.acts.names == []
     assert stage.told[-1][1] == Verdict("not now", "STOP is pressed; release it first.")
 

@@ -117,7 +117,7 @@ def held(monkeypatch, log):
 
 
 def test_all_can_be_erased_though_more_lines_wait_than_may(tmp_path, monkeypatch):
-    monkeypatch.setattr("app.study.response_log.WAITING", 3)
+    monkeypatch.setattr("app.study.response_log.MAX_WAITING", 3)
     log = ResponseLog(tmp_path)
     gate, _ = held(monkeypatch, log)
     for number in range(20):
@@ -168,7 +168,7 @@ def test_what_comes_after_the_end_is_ignored(tmp_path):
 
 
 def test_a_disk_that_hangs_holds_nobody_up(tmp_path, monkeypatch):
-    monkeypatch.setattr("app.study.response_log.WAITING", 3)
+    monkeypatch.setattr("app.study.response_log.MAX_WAITING", 3)
     gate = threading.Event()
     log = ResponseLog(tmp_path)
     monkeypatch.setattr(log, "_write", lambda _: gate.wait(5))

@@ -11,7 +11,7 @@ import pytest
 from app.core.command_origin import NOBODY, Origin
 from app.intents.intents import Heard, Verdict
 from app.link.commands import Outcome
-from app.study.response_timing import EFFECT_WITHIN, MOST, UNDO_WITHIN, Asked, ResponseTracks, State
+from app.study.response_timing import MAX_EFFECT_TIME, MAX_TRACKS, MAX_UNDO_TIME, Asked, ResponseTracks, State
 
 WALL = 1_700_000_000.0
 
@@ -125,7 +125,7 @@ def test_what_the_app_does_by_itself_and_what_only_reads_is_no_response(followed
 def test_what_waits_is_one_line_that_ends_as_it_ends(followed):
     heard = followed.hear("go_home", what="asks")
     followed.now += 2
-    followed.tracks.update(followed.now + EFFECT_WITHIN * 3)
+    followed.tracks.update(followed.now + MAX_EFFECT_TIME * 3)
     followed.tracks.on_command(heard, Verdict("lapsed", "Not done, no yes came: Go home."))
     (line,) = followed.lines
     assert (line.verdict, line.rejected) == ("lapsed", "Not done, no yes came: Go home.")
@@ -165,7 +165,7 @@ def test_a_state_that_was_there_before_is_no_effect(followed):
 
 def test_the_opposite_command_soon_after_takes_it_back(followed):
     followed.hear()
-    followed.now += UNDO_WITHIN - 1
+    followed.now += MAX_UNDO_TIME - 1
     followed.hear("resume", began=53.0)
     first, second = followed.end()
     assert (first.undo, second.undo) == (True, False)
@@ -173,7 +173,7 @@ def test_the_opposite_command_soon_after_takes_it_back(followed):
 
 def test_the_opposite_command_later_is_a_command_of_its_own(followed):
     followed.hear()
-    followed.now += UNDO_WITHIN + 1
+    followed.now += MAX_UNDO_TIME + 1
     followed.hear("resume", began=55.0)
     assert [line.undo for line in followed.end()] == [False, False]
 
@@ -181,15 +181,15 @@ def test_the_opposite_command_later_is_a_command_of_its_own(followed):
 def test_a_line_is_put_when_nothing_more_can_come_of_it(followed):
     followed.hear()
     followed.answer()
-    followed.tracks.update(followed.now + EFFECT_WITHIN - 1)
+    followed.tracks.update(followed.now + MAX_EFFECT_TIME - 1)
     assert followed.lines == []
-    followed.tracks.update(followed.now + EFFECT_WITHIN)
+    followed.tracks.update(followed.now + MAX_EFFECT_TIME)
     assert len(followed.lines) == 1
 
 
 def test_what_is_done_on_the_handheld_has_its_effect_at_once(followed):
     followed.hear("slower")
-    followed.tracks.update(followed.now + UNDO_WITHIN + 0.1)
+    followed.tracks.update(followed.now + MAX_UNDO_TIME + 0.1)
     (line,) = followed.lines
     assert line.t_effect == line.t_decided
 
@@ -233,10 +233,10 @@ def test_driving_choosing_and_listening_have_lines_of_their_own(followed):
 
 
 def test_many_commands_at_once_are_bounded_and_none_is_lost(followed):
-    for number in range(MOST + 10):
+    for number in range(MAX_TRACKS + 10):
         followed.hear("lights", began=float(number))
     assert len(followed.lines) == 10
-    assert len(followed.end()) == MOST + 10
+    assert len(followed.end()) == MAX_TRACKS + 10
 
 
 def test_a_time_that_is_not_known_is_none(followed):

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import pytest
 
-from app.study.study import ANSWER_WITHIN, COMMANDS, Plan, Trials, latin_row, plan_of, saved
+from app.study.study import ANSWER_TIMEOUT, COMMANDS, Plan, Trials, latin_row, plan_of, saved
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 6])
@@ -122,7 +122,7 @@ def test_a_prompt_that_nobody_answers_is_missed_once():
     led = Led()
     led.trials.begin()
     prompt = led.next()
-    led.wait(ANSWER_WITHIN - 0.1)
+    led.wait(ANSWER_TIMEOUT - 0.1)
     assert led.missed == []
     led.wait(0.1)
     led.wait(0.1)

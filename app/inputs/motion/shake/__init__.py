@@ -1,7 +1,7 @@
 """Shakes of the handheld as commands: the recogniser, what it goes by, and the lesson that fits it to one person."""
 
 from app.inputs.motion.shake.lesson import Lesson
-from app.inputs.motion.shake.recogniser import LEAST_RATE, Recogniser, Shake
+from app.inputs.motion.shake.recogniser import MIN_RATE, Recogniser, Shake
 from app.inputs.motion.shake.tuning import (
     AXES,
     USUAL,
@@ -16,7 +16,7 @@ from app.inputs.motion.shake.tuning import (
 
 __all__ = [
     "AXES",
-    "LEAST_RATE",
+    "MIN_RATE",
     "USUAL",
     "WORDS",
     "Axis",

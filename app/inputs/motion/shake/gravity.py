@@ -11,9 +11,9 @@ GRAVITY = 9.80665
 Motion = tuple[float, float, float]
 """To the right, up, and forward: a quarter turn from both. All three change sign together on phones that measure gravity downward,
 which nothing here minds. [m/s²]"""
-SETTLING = 1.0
+SETTLING_TIME = 1.0
 """For so long gravity is the mean of what came [s]."""
-SMOOTH = 0.02
+SMOOTHING_TIME = 0.02
 """Time constant that takes the edge off a knock [s]."""
 SIDEWAYS, UPRIGHT = (0.6, 1.7), (0.45, 1.2)
 """Held sideways, with a screen that does not turn along, is what has its x up by so much, and so many times its y; it is upright again
@@ -39,13 +39,13 @@ class GravityFilter:
         self._age += dt
         beyond = (math.sqrt(x * x + y * y + z * z) - GRAVITY) / 2.0
         tau = self._tau * (1.0 + beyond * beyond)
-        if self._age < SETTLING:
+        if self._age < SETTLING_TIME:
             tau = min(tau, self._age)
         share = dt / (tau + dt)
         gx = gravity[0] = gravity[0] + share * (x - gravity[0])
         gy = gravity[1] = gravity[1] + share * (y - gravity[1])
         gz = gravity[2] = gravity[2] + share * (z - gravity[2])
-        share = dt / (SMOOTH + dt)
+        share = dt / (SMOOTHING_TIME + dt)
         smooth = self._smooth
         ux = smooth[0] = smooth[0] + share * (x - gx - smooth[0])
         uy = smooth[1] = smooth[1] + share * (y - gy - smooth[1])

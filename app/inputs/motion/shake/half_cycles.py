@@ -6,7 +6,7 @@ import math
 
 __all__ = ["HalfCycles"]
 
-JUST = 0.3
+MAX_RUN_AGE = 0.3
 """A run that is no older belongs to the burst that begins [s]."""
 
 
@@ -29,7 +29,7 @@ class HalfCycles:
 
     def begin(self, t: float) -> None:
         """A burst begins at `t` [s]: of what ran on before, only the last one counts."""
-        if self.count and self.since < t - JUST:
+        if self.count and self.since < t - MAX_RUN_AGE:
             self.count = 1
             self.evidence, self.sum = min(self.peak / self.threshold, self.cap), self.peak
             self.since = t

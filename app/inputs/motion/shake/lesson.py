@@ -21,21 +21,21 @@ from app.inputs.motion.shake.tuning import (
     PersonalAxis,
 )
 
-__all__ = ["MOVING", "READY", "Lesson", "Measured", "measure"]
+__all__ = ["MOVING_TIME", "READY_TIME", "Lesson", "Measured", "measure"]
 
-READY = 1.2
+READY_TIME = 1.2
 """Before each movement the phone is held still for so long [s]."""
-MOVING = 3.0
+MOVING_TIME = 3.0
 """Each is done for so long [s]."""
-FEWEST = 3
+MIN_HALF_CYCLES = 3
 """Half cycles that a movement needs."""
-STRAIGHT = 0.62
+MIN_STRAIGHTNESS = 0.62
 """Less straight than this, 1/3 to 1, it was no movement to and fro."""
-ROUND = 0.55
+MAX_ROUNDNESS = 0.55
 """Nor was it if it went more round than this, 0 to 1."""
-APART = math.cos(math.radians(35.0))
+MAX_COSINE = math.cos(math.radians(35.0))
 """Two movements that are closer than that cannot be told from each other."""
-LEAK = 0.25
+LEAK_TIME = 0.25
 """As in the recogniser [s]."""
 
 
@@ -75,7 +75,7 @@ class Lesson:
     @property
     def doing(self) -> bool:
         """The hand is to move now; before that it is to be still."""
-        return not self.over and self.elapsed >= READY
+        return not self.over and self.elapsed >= READY_TIME
 
     @property
     def elapsed(self) -> float:
@@ -86,7 +86,7 @@ class Lesson:
     def progress(self) -> float:
         """Of all three, 0 to 1."""
         asked = len(self._asked)
-        done = min(1.0, self.elapsed / (READY + MOVING)) if asked else 0.0
+        done = min(1.0, self.elapsed / (READY_TIME + MOVING_TIME)) if asked else 0.0
         return 1.0 - (asked - done) / len(AXES)
 
     def feed(self, t: float, axes: Motion) -> None:
@@ -101,7 +101,7 @@ class Lesson:
         motion = self._ground.motion(dt, *axes)
         if self.doing:
             self._moved.append((t, motion))
-        if self.elapsed >= READY + MOVING:
+        if self.elapsed >= READY_TIME + MOVING_TIME:
             self._measured(self._asked[0])
 
     def _measured(self, axis: Axis) -> None:
@@ -118,15 +118,15 @@ def measure(axis: Axis, moved: list[tuple[float, Motion]], others: dict[Axis, Pe
     spread = _spread(moved)
     along = [spread.way[0] * x + spread.way[1] * y + spread.way[2] * z for _, (x, y, z) in moved]
     peaks, times = _halves([t for t, _ in moved], along)
-    if len(peaks) < FEWEST or median(peaks) < LEAST_PEAK:
+    if len(peaks) < MIN_HALF_CYCLES or median(peaks) < LEAST_PEAK:
         return Measured(None, f"{name} was too gentle: shake harder, to and fro.")
     gap = median(b - a for a, b in pairwise(times))
     if gap > MOST_GAP:
         return Measured(None, f"{name} was too slow: once to and fro takes at most {2 * MOST_GAP:.1f} s.")
-    if spread.straight < STRAIGHT or spread.round > ROUND:
+    if spread.straight < MIN_STRAIGHTNESS or spread.round > MAX_ROUNDNESS:
         return Measured(None, f"{name} went round and round: go to and fro on a line.")
     for other, own in others.items():
-        if abs(sum(a * b for a, b in zip(spread.way, own.way, strict=True))) > APART:
+        if abs(sum(a * b for a, b in zip(spread.way, own.way, strict=True))) > MAX_COSINE:
             return Measured(
                 None, f"{name} looked like {WORDS[other].lower()}: do it once more, along another line."
             )
@@ -139,7 +139,7 @@ def _spread(moved: list[tuple[float, Motion]]) -> Spread:
     sums, turned = [0.0] * 6, [0.0] * 3
     for (before, _), (t, (x, y, z)) in pairwise(moved):
         dt = t - before
-        keep = max(0.0, 1.0 - dt / LEAK)
+        keep = max(0.0, 1.0 - dt / LEAK_TIME)
         vx, vy, vz = vx * keep + x * dt, vy * keep + y * dt, vz * keep + z * dt
         for i, product in enumerate((vx * vx, vy * vy, vz * vz, vx * vy, vx * vz, vy * vz)):
             sums[i] += product * dt
@@ -147,7 +147,7 @@ def _spread(moved: list[tuple[float, Motion]]) -> Spread:
             turned[i] += product * dt
         power += (x * x + y * y + z * z) * dt
     seconds = moved[-1][0] - moved[0][0] if moved else 0.0
-    return Spread(sums, seconds, Turning((turned[0], turned[1], turned[2]), power, LEAK))
+    return Spread(sums, seconds, Turning((turned[0], turned[1], turned[2]), power, LEAK_TIME))
 
 
 def _halves(times: list[float], values: list[float]) -> tuple[list[float], list[float]]:

@@ -21,35 +21,35 @@ from app.inputs.motion.shake.shake_axes import lines
 from app.inputs.motion.shake.spread import Spread, Turning
 from app.inputs.motion.shake.tuning import AXES, USUAL, Axis, Tuning
 
-__all__ = ["LEAST_RATE", "Recogniser", "Shake"]
+__all__ = ["MIN_RATE", "Recogniser", "Shake"]
 
-LEAST_RATE = 25.0
+MIN_RATE = 25.0
 """Samples in a second that are needed [Hz]."""
-BLOCK = 0.08
+BLOCK_TIME = 0.08
 """The movement is judged so often [s]."""
-WARMING = 2.0
+WARM_UP_TIME = 2.0
 """Nothing is understood before the background is known for so long [s]."""
-KEPT = 10.0
+HISTORY_TIME = 10.0
 """For so long blocks are kept [s]."""
-LOOKED_BACK = 6.0
+BACKGROUND_TIME = 6.0
 """The background is what was in this time [s]."""
-LATELY = 0.4
+RECENT_TIME = 0.4
 """And not in this: the burst may have begun [s]."""
-GAP = 0.5
+MAX_GAP = 0.5
 """After so long without a sample everything begins anew [s]."""
-PEAK = 12.0
+MAX_PEAK = 12.0
 """The loudest block of a burst counts for no more where its end is looked for [m/s²]."""
-FAINT = 0.8
+FAINT_PEAK = 0.8
 """A burst has ended below this in any case [m/s²]."""
-AHEAD = 0.16
+LEAD_TIME = 0.16
 """A burst began so long before it was seen to [s]."""
 SURE_AT = 2.0
 """Half cycles and evidence of so many times what is needed are as sure as can be."""
 WEIGHTLESS, FALLING = 1.5, 0.2
 """What weighs no more [m/s²] for so long [s] falls: it is caught or it bounces, and neither is a command."""
-STEP = 8.0
+STEP_PEAK = 8.0
 """From here on what goes up and down may be somebody who begins to run [m/s², mean of the peaks]."""
-STRONG = 12.0
+STRONG_PEAK = 12.0
 """Mean peak of a strong shake [m/s²]: nobody carries a phone about like that."""
 
 
@@ -133,7 +133,7 @@ class Recogniser:
         self._ground = GravityFilter(tuning.settling)
         self._lines = lines(tuning)
         self._halves = [HalfCycles(line.threshold, line.gap, tuning.cap) for line in self._lines]
-        self._blocks: deque[_Block] = deque(maxlen=int(KEPT / BLOCK))
+        self._blocks: deque[_Block] = deque(maxlen=int(HISTORY_TIME / BLOCK_TIME))
         self._velocity = [0.0, 0.0, 0.0]
         self._sums = [0.0] * 10
         self._count = 0
@@ -150,10 +150,10 @@ class Recogniser:
     def feed(self, t: float, axes: Motion) -> Shake | None:
         """One sample, measured at `t` [s], with gravity [m/s², axes of the device]; what cannot be is passed over."""
         dt = t - self._last
-        if -GAP < dt <= 0.0 or not math.isfinite(axes[0] + axes[1] + axes[2] + t):
+        if -MAX_GAP < dt <= 0.0 or not math.isfinite(axes[0] + axes[1] + axes[2] + t):
             return None
         self._last = t
-        if not 0.0 < dt < GAP:
+        if not 0.0 < dt < MAX_GAP:
             self._anew()
             self._begun = self._block_since = t
             self._ground.motion(1e-6, *axes)
@@ -168,7 +168,7 @@ class Recogniser:
         for line, halves in zip(self._lines, self._halves, strict=True):
             a, b, c = line.way
             halves.feed(t, a * x + b * y + c * z)
-        return self._judge(t) if t - self._block_since >= BLOCK else None
+        return self._judge(t) if t - self._block_since >= BLOCK_TIME else None
 
     def _add(self, dt: float, x: float, y: float, z: float) -> None:
         """To the block that is under way."""
@@ -205,7 +205,7 @@ class Recogniser:
         )
         self._sums, self._count, self._block_since = [0.0] * 10, 0, t
         self._look_back(t)
-        if self._background is None or t - self._begun < WARMING:
+        if self._background is None or t - self._begun < WARM_UP_TIME:
             return None
         return self._decide(t, loud, self._background)
 
@@ -214,8 +214,8 @@ class Recogniser:
         burst = self._burst
         if burst is not None and t - burst.began <= 4.0:
             return
-        until = t - (LATELY if burst is None else 1.5)
-        blocks = [block for block in self._blocks if t - LOOKED_BACK <= block.at <= until]
+        until = t - (RECENT_TIME if burst is None else 1.5)
+        blocks = [block for block in self._blocks if t - BACKGROUND_TIME <= block.at <= until]
         if len(blocks) <= 10:
             self._background = None
             return
@@ -250,7 +250,7 @@ class Recogniser:
         return shake or self._after(t, burst, background)
 
     def _note(self, burst: _Burst, background: _Background) -> None:
-        burst.soft = self._halves[1].mean < STEP
+        burst.soft = self._halves[1].mean < STEP_PEAK
         for line, halves in zip(self._lines, self._halves, strict=True):
             for i in line.counts_for:
                 way = self._tuning.ways[i]
@@ -268,21 +268,21 @@ class Recogniser:
         """STOP does not wait for the end."""
         tuning = self._tuning
         if 0 in burst.best and self._halves[0].count:
-            spread = self._spread(max(burst.began - AHEAD, self._halves[0].since - 0.25), t, background)
+            spread = self._spread(max(burst.began - LEAD_TIME, self._halves[0].since - 0.25), t, background)
             scores = self._scores(spread, burst.soft)
             if self._fits(0, spread, scores, background) and scores[0] >= tuning.ahead * max(scores[1:]):
                 return self._told(0, t, burst, spread, scores)
         if self.any_shake:
-            strong = [i for i, best in burst.best.items() if best.mean >= STRONG]
+            strong = [i for i, best in burst.best.items() if best.mean >= STRONG_PEAK]
             if strong:
-                spread = self._spread(burst.began - AHEAD, t, background)
+                spread = self._spread(burst.began - LEAD_TIME, t, background)
                 scores = self._scores(spread, burst.soft)
                 return self._told(max(strong, key=scores.__getitem__), t, burst, spread, scores)
         return None
 
     def _after(self, t: float, burst: _Burst, background: _Background) -> Shake | None:
         tuning = self._tuning
-        limit = max(tuning.ends * min(burst.peak, PEAK), tuning.ends_above * background.level, FAINT)
+        limit = max(tuning.ends * min(burst.peak, MAX_PEAK), tuning.ends_above * background.level, FAINT_PEAK)
         if t - burst.began < tuning.quiet:
             return None
         lately = [block.loud for block in self._blocks if block.at > t - tuning.quiet]
@@ -295,12 +295,12 @@ class Recogniser:
             halves.forget()
         if burst.told or burst.calm - burst.began > tuning.longest:
             return None
-        spread = self._spread(burst.began - AHEAD, burst.calm, background)
+        spread = self._spread(burst.began - LEAD_TIME, burst.calm, background)
         scores = self._scores(spread, burst.soft)
         i = max(range(3), key=scores.__getitem__)
         if i not in burst.best or not self._fits(i, spread, scores, background):
             return None
-        if i and (background.level > tuning.rough or self._fell > burst.began - AHEAD):
+        if i and (background.level > tuning.rough or self._fell > burst.began - LEAD_TIME):
             return None
         return self._told(i, t, burst, spread, scores, ended=True)
 
@@ -341,4 +341,4 @@ class Recogniser:
         way, best = self._tuning.ways[i], burst.best[i]
         much = min(1.0, best.evidence / way.evidence / SURE_AT)
         confidence = math.sqrt(much * min(1.0, spread.straight) * scores[i] / (sum(scores) or 1.0))
-        return Shake(AXES[i], burst.began - AHEAD, t, ended, confidence, best.mean, best.halves)
+        return Shake(AXES[i], burst.began - LEAD_TIME, t, ended, confidence, best.mean, best.halves)

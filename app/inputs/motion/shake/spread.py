@@ -1,4 +1,4 @@
-"""How velocity is spread over the directions during a movement: which way it went, and whether it went to and fro or round."""
+"""Spread of velocity over the directions of a movement: which way it went, and whether to and fro or round."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from app.inputs.motion.shake.gravity import Motion
 
 __all__ = ["Spread", "Turning", "along", "principal"]
 
-STEPS = 6
+ITERATIONS = 6
 """Of the power iteration: enough for what is four times as long as wide."""
-LEAST = 0.15
+MIN_SHARE = 0.15
 """Share of the squared pace that forgetting leaves, however slow the movement."""
 
 
@@ -21,7 +21,7 @@ def principal(xx: float, yy: float, zz: float, xy: float, xz: float, yz: float) 
     rows = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
     way = rows[max(range(3), key=lambda i: rows[i][i])]
     length = 1.0
-    for _ in range(STEPS):
+    for _ in range(ITERATIONS):
         x, y, z = (row[0] * way[0] + row[1] * way[1] + row[2] * way[2] for row in rows)
         length = math.sqrt(x * x + y * y + z * z) or 1.0
         way = (x / length, y / length, z / length)
@@ -73,5 +73,5 @@ def _round(total: float, turning: Turning) -> tuple[float, float]:
         return 0.0, 0.0
     # a velocity that is forgotten is smaller than it was and turned ahead: the square of its own share is taken off
     square = turning.power / total
-    pace = math.sqrt(max(square - 1.0 / turning.leak**2, LEAST * square, 1e-3))
+    pace = math.sqrt(max(square - 1.0 / turning.leak**2, MIN_SHARE * square, 1e-3))
     return pace, math.hypot(*turning.sums) / (total * pace)

@@ -1,4 +1,4 @@
-"""What the recogniser goes by: its thresholds, those of one person, and how they are kept in the settings."""
+"""Thresholds of the recogniser of shakes, those of one person, and how they are kept in the settings."""
 
 from __future__ import annotations
 
@@ -140,19 +140,19 @@ LEAST_PEAK, MOST_PEAK = 2.5, 60.0
 """What a lesson may have measured [m/s²]."""
 LEAST_GAP, MOST_GAP = 0.1, 1.2
 """[s]"""
-GENTLE = 1.0
+GENTLE_SHARE = 1.0
 """A threshold below so much of the usual one is gentle."""
-UNHURRIED = 0.7
+SLOW_HALF_CYCLE = 0.7
 """Half a cycle that takes longer is slow [s]."""
-BROAD = 0.35
+MIN_SLOW_PACE = 0.35
 """Who goes slowly goes far, and so no slower than this [m/s]; somebody who walks sways by less."""
 CLOSE, TRUE = 0.58, 0.75
 """Whose line is known stays closer to it, and straighter, than anybody does: what the lesson loosens elsewhere is made up for."""
 HASTY, HARD = 0.6, 2.0
 """Of the person's own gap, and of the usual threshold."""
-SWUNG = 1.4
+SWUNG_WEIGHT = 1.4
 """Weight of up-down where the person's own directions are known."""
-LONGEST = 9.0
+MAX_BURST = 9.0
 """No burst of anybody's is longer [s]."""
 
 
@@ -167,8 +167,8 @@ def fitted(tuning: Tuning, own: Mapping[Axis, PersonalAxis]) -> Tuning:
         ways=ways,
         settling=max(tuning.settling, 1.6 * slow),
         leak=max(tuning.leak, 0.5 * slow),
-        longest=max(tuning.longest, min(7.5 * slow, LONGEST)),
-        stop_within=max(tuning.stop_within, min(7.5 * slow, LONGEST)),
+        longest=max(tuning.longest, min(7.5 * slow, MAX_BURST)),
+        stop_within=max(tuning.stop_within, min(7.5 * slow, MAX_BURST)),
         quiet=max(tuning.quiet, min(0.65 * slow, 0.7)),
         begins=min(tuning.begins, 0.6 * min(way.threshold for way in ways)),
     )
@@ -183,7 +183,7 @@ def _fitted(way: Way, own: PersonalAxis | None) -> Way:
         way=own.way,
         threshold=threshold,
         gap=min(max(1.75 * own.gap, 0.6), 1.7),
-        weight=SWUNG if way.weight > 1.0 else 1.0,
+        weight=SWUNG_WEIGHT if way.weight > 1.0 else 1.0,
         outrun=way.outrun + 0.2,
         share=max(way.share, CLOSE),
         straight=max(way.straight, TRUE),
@@ -191,7 +191,7 @@ def _fitted(way: Way, own: PersonalAxis | None) -> Way:
         hard=HARD * way.threshold,
         own=True,
     )
-    if threshold >= GENTLE * way.threshold and own.gap <= UNHURRIED:
+    if threshold >= GENTLE_SHARE * way.threshold and own.gap <= SLOW_HALF_CYCLE:
         return found
     # what is gentle or slow is like much else that a phone is moved by: it has to be the purer for it
     return replace(
@@ -201,7 +201,7 @@ def _fitted(way: Way, own: PersonalAxis | None) -> Way:
         share=max(way.share, 0.62),
         straight=max(way.straight, 0.84),
         above=way.above + 0.6,
-        speed=BROAD if own.gap > UNHURRIED else way.speed,
+        speed=MIN_SLOW_PACE if own.gap > SLOW_HALF_CYCLE else way.speed,
         outrun=way.outrun + 1.0,
     )
 

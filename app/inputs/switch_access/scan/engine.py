@@ -18,9 +18,9 @@ from app.inputs.switch_access.scan.target import Glass, Mark, Target
 
 __all__ = ["Desk", "Engine", "Selection"]
 
-LOOKS = 0.25
+UPDATE_PERIOD = 0.25
 """Between two looks at what is on the glass while something is marked [s]."""
-SETTLES = 0.5
+SETTLING_TIME = 0.5
 """What has begun to mean something else takes no press for so long [s]: that press meant what it did before."""
 
 Sound = Literal["step", "back", "in", "act", "none"]
@@ -123,7 +123,7 @@ class Engine:
         self.contacts.update(now)
         if not self.awake:
             return
-        if now - self._seen >= LOOKS:
+        if now - self._seen >= UPDATE_PERIOD:
             self._refresh()
         if self.scan.update(now, wait=self.contacts.is_closed("B")):
             self._step("step" if self.awake else "none")
@@ -229,7 +229,12 @@ class Engine:
         before = self._stood
         self._refresh()
         after = self._shown
-        if before is None or after is None or not _same(before, after) or began - self._meant[2] < SETTLES:
+        if (
+            before is None
+            or after is None
+            or not _same(before, after)
+            or began - self._meant[2] < SETTLING_TIME
+        ):
             self._desk.stepped("none", after)
             return
         target = self.scan.select(self._now)

@@ -15,21 +15,21 @@ from typing import NamedTuple
 
 from app.inputs.switch_access.scan.target import Target
 
-__all__ = ["MOST", "PRIOR", "Group", "Planner", "cost", "leaves", "plan"]
+__all__ = ["MAX_CHILDREN", "PRIOR_COUNT", "Group", "Planner", "cost", "leaves", "plan"]
 
-MOST = 4
+MAX_CHILDREN = 4
 """Children of a group, at most."""
-BEAM = 10
+BEAM_WIDTH = 10
 """Unfinished trees that are kept while the cheapest is looked for; with 300 none cheaper is found for 16 actions."""
-HOT = 16
+MAX_ALONE = 16
 """So many may stand alone beside the groups of the glass."""
-LEARNED = 3.0
+MIN_LEARNED = 3.0
 """Done so often, something stands alone."""
-PRIOR = 10.0
+PRIOR_COUNT = 10.0
 """What is likely before anything was learned counts as so many times done, over all together."""
-PLACES = 64
+MAX_TREES = 64
 """Trees that are kept; the one that was not looked at for longest goes."""
-LIKELY = {
+PRIOR_WEIGHTS = {
     "yes": 10.0,
     "no": 6.0,
     "pause": 8.0,
@@ -89,12 +89,14 @@ def cost(group: Group) -> dict[str, int]:
 def plan(targets: Sequence[Target], used: Mapping[str, float] | None = None) -> Group:
     """The tree for these; `used` says how often each name was done before, and `intent:NAME` how often an intent was."""
     nodes = _weighed(targets, used or {})
-    hot = sorted((node for node in nodes if _is_hot(node, used or {})), key=lambda node: -node.weight)[:HOT]
+    hot = sorted((node for node in nodes if _is_hot(node, used or {})), key=lambda node: -node.weight)[
+        :MAX_ALONE
+    ]
     alone = {id(node.child) for node in hot}
     cold = _contained([node for node in nodes if id(node.child) not in alone], 0)
     if not hot:
         return _root(_folded(cold))
-    rest = cold if len(cold) <= MOST else [*_folded(cold)]
+    rest = cold if len(cold) <= MAX_CHILDREN else [*_folded(cold)]
     return _root(_cheapest([*hot, *rest]))
 
 
@@ -103,11 +105,11 @@ def _root(nodes: Sequence[_Node]) -> Group:
 
 
 def _weighed(targets: Sequence[Target], used: Mapping[str, float]) -> list[_Node]:
-    """Smoothed by what is likely, which `PRIOR` presses say in all."""
-    likely = [max(one.weight, 1e-6) * LIKELY.get(one.intent, 1.0) for one in targets]
+    """Smoothed by what is likely, which `PRIOR_COUNT` presses say in all."""
+    likely = [max(one.weight, 1e-6) * PRIOR_WEIGHTS.get(one.intent, 1.0) for one in targets]
     whole = sum(likely) or 1.0
     return [
-        _Node(one, before * PRIOR / whole + _times(one, used), place)
+        _Node(one, before * PRIOR_COUNT / whole + _times(one, used), place)
         for place, (one, before) in enumerate(zip(targets, likely, strict=True))
     ]
 
@@ -121,7 +123,7 @@ def _is_hot(node: _Node, used: Mapping[str, float]) -> bool:
     target = node.child
     if not isinstance(target, Target) or target.fixed:
         return False
-    return _times(target, used) >= LEARNED or target.weight * LIKELY.get(target.intent, 1.0) > 1.0
+    return _times(target, used) >= MIN_LEARNED or target.weight * PRIOR_WEIGHTS.get(target.intent, 1.0) > 1.0
 
 
 def _contained(nodes: Sequence[_Node], depth: int) -> list[_Node]:
@@ -154,8 +156,8 @@ def _grouped(nodes: Sequence[_Node], words: str = "") -> _Node:
 
 
 def _folded(nodes: Sequence[_Node]) -> list[_Node]:
-    """At most `MOST`, each of neighbours."""
-    if len(nodes) <= MOST:
+    """At most `MAX_CHILDREN`, each of neighbours."""
+    if len(nodes) <= MAX_CHILDREN:
         return list(nodes)
     parts, start = [], 0
     for size in _shares(len(nodes)):
@@ -166,9 +168,9 @@ def _folded(nodes: Sequence[_Node]) -> list[_Node]:
 
 def _shares(count: int) -> tuple[int, ...]:
     """How many of `count` each child of a level is to have: few so that presses are fewest, many evenly, as is easier to learn."""
-    if count <= 2 * MOST:
+    if count <= 2 * MAX_CHILDREN:
         return _split(count, 1, count)[1]
-    return tuple((count + MOST - 1 - child) // MOST for child in range(MOST))
+    return tuple((count + MAX_CHILDREN - 1 - child) // MAX_CHILDREN for child in range(MAX_CHILDREN))
 
 
 @lru_cache(maxsize=8192)
@@ -176,7 +178,7 @@ def _split(count: int, child: int, whole: int) -> tuple[float, tuple[int, ...]]:
     """Least sum of presses of `count` equal ones on child number `child` and those behind it, and how they are shared out."""
     if count == 0:
         return 0.0, ()
-    if child > MOST:
+    if child > MAX_CHILDREN:
         return float("inf"), ()
     best: tuple[float, tuple[int, ...]] = float("inf"), ()
     for size in range(1, min(count, whole - 1) + 1):
@@ -202,7 +204,7 @@ Leaf = tuple[int, tuple[int, ...]]
 def _cheapest(nodes: Sequence[_Node]) -> list[_Node]:
     """The children of the tree for these in which the mean of the presses is least, as far as a narrow search finds it."""
     ordered = sorted(nodes, key=lambda node: (-node.weight, node.place))
-    if len(ordered) <= MOST:
+    if len(ordered) <= MAX_CHILDREN:
         return ordered
     weights = tuple(node.weight for node in ordered)
     shapes = _shapes(weights)
@@ -213,10 +215,10 @@ def _shapes(weights: tuple[float, ...]) -> list[Leaf]:
     """A leaf for each of `weights`, which fall: grown leaf by leaf, of the trees with equally many only the best are kept."""
     count = len(weights)
     grown: list[dict[tuple[int, ...], list[Leaf]]] = [{} for _ in range(count + 1)]
-    for arity in range(2, MOST + 1):
+    for arity in range(2, MAX_CHILDREN + 1):
         _keep(grown, [(place, (place,)) for place in range(1, arity + 1)])
     for size in range(2, count):
-        for costs in sorted(grown[size], key=lambda costs: _worth(costs, weights))[:BEAM]:
+        for costs in sorted(grown[size], key=lambda costs: _worth(costs, weights))[:BEAM_WIDTH]:
             for tree in _grow(grown[size][costs]):
                 _keep(grown, tree)
     return grown[count][min(grown[count], key=lambda costs: _worth(costs, weights))]
@@ -228,13 +230,13 @@ def _keep(grown: list[dict[tuple[int, ...], list[Leaf]]], tree: list[Leaf]) -> N
 
 
 def _grow(tree: list[Leaf]) -> Iterator[list[Leaf]]:
-    """Each tree in which one leaf has become a group of two to `MOST`; of leaves that cost the same only the first."""
+    """Each tree in which one leaf has become a group of two to `MAX_CHILDREN`; of leaves that cost the same only the first."""
     tried = set()
     for at, (costs, path) in enumerate(tree):
         if costs in tried:
             continue
         tried.add(costs)
-        for arity in range(2, MOST + 1):
+        for arity in range(2, MAX_CHILDREN + 1):
             fresh = [(costs + place, (*path, place)) for place in range(1, arity + 1)]
             yield [*tree[:at], *tree[at + 1 :], *fresh]
 
@@ -282,7 +284,7 @@ class Planner:
             known = {one.name: one for one in (*bare, *(gone if len(gone) * 2 <= len(now) else ()))}
             group = plan(list(known.values()), self._counts(place))
         self._kept[place] = group, known
-        while len(self._kept) > PLACES:
+        while len(self._kept) > MAX_TREES:
             self._kept.popitem(last=False)
         return Group(tuple(_present(group, now)))
 

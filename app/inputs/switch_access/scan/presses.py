@@ -18,13 +18,13 @@ __all__ = ["Contacts", "Event", "Timing"]
 
 Switch = Literal["A", "B"]
 What = Literal["down", "up", "held", "stop", "stuck", "free", "unsure"]
-FRAME = 0.1
+MAX_FRAME = 0.1
 """A frame counts for no more of a hold [s]: a switch that came up while it was drawn is only heard of after it."""
-RESETS = 0.15
+RESET_TIME = 0.15
 """A system that takes the focus away may tell that all keys came up so shortly before it [s]."""
-REPEATS = 1.0
+REPEAT_TIME = 1.0
 """What was down when the focus went and comes down within so long of its return [s] is still held: the system repeats it."""
-BEYOND = 0.3
+MIN_EXTRA_HOLD = 0.3
 """STOP and going back need a hold that is at least so much longer than what is accepted as a press at all [s]."""
 
 ENDS_FIRST: tuple[Switch, ...] = ("B", "A")
@@ -51,12 +51,12 @@ class Timing:
     @property
     def hold_back(self) -> float:
         """A is held so long to go back [s]: no sooner than a press of it counts at all."""
-        return max(self.back, self.acceptance + BEYOND)
+        return max(self.back, self.acceptance + MIN_EXTRA_HOLD)
 
     @property
     def hold_stop(self) -> float:
         """B is held so long to stop [s]."""
-        return max(self.stop, self.acceptance + BEYOND)
+        return max(self.stop, self.acceptance + MIN_EXTRA_HOLD)
 
 
 class Event(NamedTuple):
@@ -156,14 +156,14 @@ class Contacts:
         for switch, contact in self._contacts.items():
             self._held_over |= contact.sources
             self._contacts[switch] = _Contact(taken=contact.taken)
-        self._held_over |= {source for source, at in self._seen.items() if not at < before - RESETS}
+        self._held_over |= {source for source, at in self._seen.items() if not at < before - RESET_TIME}
         self._seen.clear()
         self._repeats_until = math.inf
 
     def found(self, now: float) -> None:
         """Keys are told again."""
         if self._held_over:
-            self._repeats_until = now + REPEATS
+            self._repeats_until = now + REPEAT_TIME
 
     def update(self, now: float) -> None:
         """What only time tells: accepted, held, let go, stuck."""
@@ -173,7 +173,7 @@ class Contacts:
     def _sure(self, now: float) -> float:
         """What is heard now has happened by then at the earliest, or shortly after [s]."""
         before = self._frames[0]
-        return now if math.isnan(before) else min(now, before + FRAME)
+        return now if math.isnan(before) else min(now, before + MAX_FRAME)
 
     def _is_held_over(self, source: Hashable, now: float) -> bool:
         if now >= self._repeats_until:

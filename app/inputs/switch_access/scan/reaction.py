@@ -1,4 +1,4 @@
-"""How fast somebody presses, and how long the mark should stay for that hand.
+"""A test of how fast somebody presses, and the pace of the mark that suits that hand.
 
 test = Reaction(random.Random())
 test.start(now); test.update(now); test.press(now)      # until test.phase is "done"
@@ -14,17 +14,17 @@ from typing import Literal
 
 from app.inputs.switch_access.scan.settings import RANGES
 
-__all__ = ["SHARE", "Reaction"]
+__all__ = ["PRESS_SHARE", "Reaction"]
 
-SHARE = 0.65
+PRESS_SHARE = 0.65
 """Interval = mean time of a press / 0.65, which is about the mean and two deviations: Simpson, Koester, LoPresti 2007."""
 TRIALS, PRACTICE = 6, 2
 """So many presses count, after so many that do not."""
-WAITS = (1.0, 2.8)
+WAIT_RANGE = (1.0, 2.8)
 """Before the sign comes, at random [s]."""
 FASTEST, SLOWEST = 0.1, 4.0
 """A press sooner after the sign was meant for no sign; without one for longer it is missed [s]."""
-PAUSE = 0.8
+PAUSE_TIME = 0.8
 """Between a press and the next wait [s]."""
 
 
@@ -62,7 +62,7 @@ class Reaction:
         return (
             math.nan
             if math.isnan(self.mean)
-            else min(high, max(low, math.ceil(self.mean / SHARE * 10 - 1e-9) / 10))
+            else min(high, max(low, math.ceil(self.mean / PRESS_SHARE * 10 - 1e-9) / 10))
         )
 
     def start(self, now: float) -> None:
@@ -81,7 +81,7 @@ class Reaction:
         if self.phase == "wait":
             self.phase, self._shown, self._due = "go", now, now + SLOWEST
         elif self.phase == "go":
-            self.phase, self._due = "missed", now + PAUSE
+            self.phase, self._due = "missed", now + PAUSE_TIME
         else:
             self._wait(now)
         return True
@@ -89,11 +89,11 @@ class Reaction:
     def press(self, now: float) -> None:
         """The switch went down at `now`."""
         if self.phase == "wait" or (self.phase == "go" and now - self._shown < FASTEST):
-            self.phase, self._due = "early", now + PAUSE
+            self.phase, self._due = "early", now + PAUSE_TIME
         elif self.phase == "go":
             self.times.append(now - self._shown)
             over = len(self.times) >= self.of
-            self.phase, self._due = ("done", math.inf) if over else ("taken", now + PAUSE)
+            self.phase, self._due = ("done", math.inf) if over else ("taken", now + PAUSE_TIME)
 
     def _wait(self, now: float) -> None:
-        self.phase, self._due = "wait", now + self._rng.uniform(*WAITS)
+        self.phase, self._due = "wait", now + self._rng.uniform(*WAIT_RANGE)

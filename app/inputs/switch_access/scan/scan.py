@@ -1,4 +1,4 @@
-"""Which one stands out: a mark that steps over a tree of groups, by presses or by time, and what a press of B then does.
+"""The mark: it steps over a tree of groups, by presses or by time, and a press of B acts on it.
 
 scan = Scan(Pace())
 scan.show(tree, now)        # what there is; again whenever that changes
@@ -21,9 +21,9 @@ __all__ = ["Pace", "Scan"]
 
 BACK = "Back"
 """What the way out of a group is called."""
-NAMED = 2
+MAX_NAMED = 2
 """So many are named; of more the first and the last."""
-LETTERS = 22
+MAX_LETTERS = 22
 """Of each name, at most."""
 
 
@@ -262,7 +262,7 @@ def _words(child: Group | Target) -> str:
 def _from_to(named: list[str]) -> str:
     """The names that a group is known by: all of a few, else where it begins and where it ends."""
     named = list(dict.fromkeys(named))
-    if len(named) <= NAMED:
+    if len(named) <= MAX_NAMED:
         return " and ".join((", ".join(named[:-1]), named[-1])) if len(named) > 1 else "".join(named)
     return f"{named[0]} to {named[-1]}"
 
@@ -270,7 +270,7 @@ def _from_to(named: list[str]) -> str:
 def _short(words: str) -> str:
     """What it says before it goes into detail."""
     head = words.partition(":")[0].strip() or words
-    return head if len(head) <= LETTERS else f"{head[: LETTERS - 1].rstrip()}…"
+    return head if len(head) <= MAX_LETTERS else f"{head[: MAX_LETTERS - 1].rstrip()}…"
 
 
 def _everywhere(group: Group, path: tuple[int, ...]) -> Iterator[tuple[tuple[int, ...], int, Group | Target]]:

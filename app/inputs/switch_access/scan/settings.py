@@ -1,4 +1,4 @@
-"""How somebody's switches are set up, as the handheld remembers it under `switches`; what is out of range is put to the default."""
+"""Settings of switch access, as the handheld remembers them under `switches`; a value out of range becomes the default."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ RANGES: dict[str, tuple[float, float]] = {
     "acceptance": (0.0, 1.0),
 }
 """Least and most of each figure: seconds, and `loops` a number."""
-MOST_KEYS = 6
+MAX_KEYS = 6
 """Keys and buttons that one switch may have."""
 WORDS = {"spacebar": "Space", "numpadenter": "Number pad Enter"}
 """What keys are called here that Kivy calls otherwise."""
@@ -162,7 +162,7 @@ def _checked(name: str, value: object) -> Any:
 
 
 def _keys(value: object) -> tuple[Key, ...] | None:
-    if not isinstance(value, list | tuple) or not len(value) <= MOST_KEYS:
+    if not isinstance(value, list | tuple) or not len(value) <= MAX_KEYS:
         return None
     found = [_key(one) for one in value]
     return tuple(one for one in found if one is not None) if None not in found else None
@@ -181,4 +181,4 @@ def _allowed(name: str) -> str:
     if name in RANGES:
         low, high = RANGES[name]
         return f"{low:g} to {high:g}"
-    return f"at most {MOST_KEYS} keys" if name in ("a", "b") else "true or false"
+    return f"at most {MAX_KEYS} keys" if name in ("a", "b") else "true or false"

@@ -1,4 +1,4 @@
-"""Everything that can be done on the glass, done by two switches or by one: a mark steps over it, a switch does what is marked.
+"""Targets of the scan, the mark on them, and the window as the scan sees it.
 
     targets ─ plan (a tree of groups, the frequent cheap) ─ scan (which one is marked) ─ ring
     presses (keys, pads, switch boxes ─ clean presses of A and B) ─┘        STOP goes past all of it

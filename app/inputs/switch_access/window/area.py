@@ -16,12 +16,12 @@ __all__ = ["Area"]
 
 COARSE, FINE = 48.0, 8.0
 """One step of the cross [dp]."""
-SMALL = 12
+MIN_COARSE_STEPS = 12
 """So many coarse steps at least lead across what is small."""
-EDGE = 6.0
+EDGE_MARGIN = 6.0
 """The cross stays so far from the edge [dp]."""
 STEPS = {"up": (0, 1), "down": (0, -1), "left": (-1, 0), "right": (1, 0)}
-LONGER = 0.2
+EXTRA_HOLD = 0.2
 """A hold lasts longer than it must, for slow frames [s]."""
 
 
@@ -110,7 +110,7 @@ class Area:
         elif name == "touch":
             finger.tap(self._widget, self._place(self.cross.at))
         elif name == "hold":
-            self._lift = finger.hold(self._widget, HOLD_DURATION + LONGER, self._place(self.cross.at))
+            self._lift = finger.hold(self._widget, HOLD_DURATION + EXTRA_HOLD, self._place(self.cross.at))
         elif name == "carry":
             self._carry()
         elif name in ("zoom_in", "zoom_out"):
@@ -147,7 +147,7 @@ class Area:
 
     def _step(self, across: int, up: int) -> None:
         left, low, right, top = self._free()
-        least = min(right - left, top - low) / SMALL
+        least = min(right - left, top - low) / MIN_COARSE_STEPS
         step = dp(FINE) if self._fine else dp(COARSE)
         if not self.moves:
             step = min(step, max(least / (4 if self._fine else 1), 1.0))
@@ -170,7 +170,7 @@ class Area:
     def _free(self) -> tuple[float, float, float, float]:
         """Where the cross may be: on the widget, within the glass, clear of the keys [px]."""
         left, low, right, top = in_window(self._widget)
-        edge = dp(EDGE)
+        edge = dp(EDGE_MARGIN)
         left, low = max(left, 0) + edge, max(low, 0) + edge
         right, top = min(right, self._root.width) - edge, min(top, self._root.height) - edge
         if self._pad is not None:

@@ -1,4 +1,4 @@
-"""What on the glass takes a finger now, read off the tree of widgets: in sight or to be scrolled to, enabled, not covered."""
+"""Search of the widget tree for what takes a finger now: in sight or to be scrolled to, enabled, not covered."""
 
 from __future__ import annotations
 

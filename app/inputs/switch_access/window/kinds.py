@@ -1,4 +1,4 @@
-"""What a finger can do to each kind of thing on the glass: press it once, or something that opens a pad of steps."""
+"""Kinds of widgets by what a finger can do to them: press once, or something that opens a pad of steps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a thing on the glass is called: in words for the operator, and by a name that is the same in every session."""
+"""Names of targets: in words for the operator, and one that is the same in every session."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ KINDS = {
 """Class of what says nothing that would name it."""
 OWNERS = ("RobotCard",)
 """Containers whose title says whose button it is."""
-LONGEST = 60
+MAX_LETTERS = 60
 """Letters of what is said of one thing."""
 
 
@@ -152,4 +152,4 @@ def _kind(widget: Any) -> str:
 
 def _cut(text: str) -> str:
     line = " ".join(text.replace("\u200a", "").split())
-    return line if len(line) <= LONGEST else f"{line[: LONGEST - 1].rstrip()}…"
+    return line if len(line) <= MAX_LETTERS else f"{line[: MAX_LETTERS - 1].rstrip()}…"

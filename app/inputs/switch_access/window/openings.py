@@ -1,4 +1,4 @@
-"""What opens when something is chosen that takes more than a press: a pad of steps beside it, or a keyboard.
+"""Pads and keyboards that open for a target that takes more than a press.
 
 Every step reaches the thing as a finger would (`finger`), and is over when it returns. What drives is pushed for a moment
 only; a press goes on with it, and whatever else is marked ends it.
@@ -22,13 +22,13 @@ from widgets.controls.stop.stop_button import LONG_HOLD_DURATION
 from widgets.inputs.scan_keyboard import ScanKeyboard
 from widgets.inputs.scan_pad import PadKey, ScanPad
 
-__all__ = ["MOMENT", "Openings"]
+__all__ = ["PUSH_TIME", "Openings"]
 
-MOMENT = 1.0
+PUSH_TIME = 1.0
 """One press drives for so long [s]; then the stick is at rest again."""
-PATIENT = 6.0
+MAX_HOLD_FACTOR = 6.0
 """A hold by a switch may last so many times as long as it must: where frames are slow they count for less than they took."""
-SLOW = 0.4
+SLOW_SHARE = 0.4
 """Of the whole way, where a stick is pushed gently."""
 FADER_STEPS = 10
 DONE = PadKey("done", "Done", "check")
@@ -183,10 +183,10 @@ class Openings:
             return
         if self._ending is not None:
             self._ending.cancel()
-        share = SLOW if self._slow else 1.0
+        share = SLOW_SHARE if self._slow else 1.0
         forward, left = LEANS[name]
         if not stick.disabled and stick.lean(forward * share, left * share):
-            self._ending = Clock.create_trigger(lambda _: self.rest(), MOMENT)
+            self._ending = Clock.create_trigger(lambda _: self.rest(), PUSH_TIME)
             self._ending()
 
     def _sure(self, kind: str, widget: Any) -> None:
@@ -199,7 +199,7 @@ class Openings:
             return
         latched = getattr(widget, "phase", "stopped") == "stopped"
         self._lift = finger.hold(
-            widget, (HOLD_DURATION if latched else LONG_HOLD_DURATION) * PATIENT, until="on_held_long"
+            widget, (HOLD_DURATION if latched else LONG_HOLD_DURATION) * MAX_HOLD_FACTOR, until="on_held_long"
         )
 
 

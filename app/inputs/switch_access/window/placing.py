@@ -1,4 +1,4 @@
-"""Where a pad has room: beside what it works, never over STOP."""
+"""Placement of a pad: beside its target, never over STOP."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from app.inputs.switch_access.window.finding import Box
 
 __all__ = ["beside"]
 
-EDGE = 8.0
+EDGE_MARGIN = 8.0
 """From the edge of the glass, and from what is kept free [px]."""
 
 
@@ -18,13 +18,18 @@ def beside(size: tuple[float, float], room: Box, keep: Sequence[Box]) -> tuple[f
     Where there is no such place it covers as little of them as it can.
     """
     width, height = size
-    left, low, right, top = room[0] + EDGE, room[1] + EDGE, room[2] - EDGE - width, room[3] - EDGE - height
+    left, low, right, top = (
+        room[0] + EDGE_MARGIN,
+        room[1] + EDGE_MARGIN,
+        room[2] - EDGE_MARGIN - width,
+        room[3] - EDGE_MARGIN - height,
+    )
     middle = (left + right) / 2
     across = {left, middle, right}
     up = {low, (low + top) / 2, top}
     for box in keep:
-        across |= {box[0] - EDGE - width, box[2] + EDGE}
-        up |= {box[1] - EDGE - height, box[3] + EDGE}
+        across |= {box[0] - EDGE_MARGIN - width, box[2] + EDGE_MARGIN}
+        up |= {box[1] - EDGE_MARGIN - height, box[3] + EDGE_MARGIN}
     places = [
         (x, y) for x in across if left <= x <= max(left, right) for y in up if low <= y <= max(low, top)
     ]

@@ -30,9 +30,9 @@ OPENS = ("field", "map", "area", "stick", "fader", "handle", "slide")
 """Kinds that take more than a press."""
 BARE = ("step", "handle", "fader")
 """Kinds that say nothing of themselves, but beside them something may be said."""
-URGENT = 8.0
+URGENT_WEIGHT = 8.0
 """How much likelier than all else is what waits for an answer."""
-PAGE = 0.8
+PAGE_SHARE = 0.8
 """Of what is in sight is scrolled on by one step."""
 LEAVES = {"cancel", "close", "back", "not now", "no", "leave"}
 """What the button says that closes a question; one that has it needs no other way out."""
@@ -40,7 +40,7 @@ PRESSED = ("press", "hold", "step", "field", "fader", "slide")
 """Kinds that words of the mark should not lie on; a map or a stick has room."""
 PADDING = 24
 """Kept free round what is scrolled to [px]."""
-MOST_WORDS = 200
+MAX_WORDS = 200
 
 
 class WindowTargets:
@@ -118,8 +118,8 @@ class WindowTargets:
         session = self._app.session
         if session is not None:
             told: PlaceArray | None = session.feeds.latest("/places")
-            yield from (place.name for place in (told.places if told is not None else [])[:MOST_WORDS])
-            yield from (mission.name for mission in session.missions.kept[:MOST_WORDS])
+            yield from (place.name for place in (told.places if told is not None else [])[:MAX_WORDS])
+            yield from (mission.name for mission in session.missions.kept[:MAX_WORDS])
         yield from (entry.name for entry in entries)
 
     # what they do
@@ -143,7 +143,7 @@ class WindowTargets:
             repeatable=kind == "step" or (pad and widget.repeats),
             group=_pad_group(widget) if pad else one.group,
             fixed=pad,
-            weight=URGENT if one.group[:1] in (("Asked",), ("Question",)) else 1.0,
+            weight=URGENT_WEIGHT if one.group[:1] in (("Asked",), ("Question",)) else 1.0,
             intent=intent,
             key=widget,
         )
@@ -290,10 +290,10 @@ def _scroll_on(view: ScrollView) -> None:
     if inner is None:
         return
     if view.do_scroll_y and inner.height > view.height:
-        by = PAGE * view.height / (inner.height - view.height)
+        by = PAGE_SHARE * view.height / (inner.height - view.height)
         view.scroll_y = 1.0 if view.scroll_y <= 0.001 else max(view.scroll_y - by, 0.0)
     elif inner.width > view.width:
-        by = PAGE * view.width / (inner.width - view.width)
+        by = PAGE_SHARE * view.width / (inner.width - view.width)
         view.scroll_x = 0.0 if view.scroll_x >= 0.999 else min(view.scroll_x + by, 1.0)
 
 

@@ -13,13 +13,13 @@ __all__ = ["denoised"]
 
 WINDOW, STEP = 512, 128
 """Looked at together, and from one to the next: 32 ms and 8 ms [samples]."""
-QUIET = 0.25
+QUIET_SHARE = 0.25
 """So many of the windows, the most quiet ones, are taken for noise alone: there is silence before and after words."""
-SMOOTH = 5
+SMOOTHED_BINS = 5
 """The noise is smoothed over so many frequencies: a quarter of a second knows it no better."""
-FOLLOWS = 0.96
+RATIO_KEPT = 0.96
 """How much the ratio of speech to noise keeps from one window to the next (decision directed: Ephraim, Malah 1984): less makes music of the noise."""
-LEAST = 0.15
+MIN_GAIN = 0.15
 """So much stays of everything: what is silenced altogether sounds like no voice at all."""
 
 
@@ -43,12 +43,12 @@ def denoised(samples: NDArray[np.float32]) -> NDArray[np.float32]:
 def _gains(powers: NDArray[np.float64]) -> NDArray[np.float64]:
     """Of each window and frequency."""
     loudness = np.log(powers + 1e-12).mean(axis=1)
-    quiet = np.argsort(loudness)[: max(4, int(QUIET * len(powers)))]
-    wide = np.pad(powers[quiet].mean(axis=0), SMOOTH // 2, "edge")
-    noise = np.convolve(wide, np.ones(SMOOTH) / SMOOTH, "valid") + 1e-12
+    quiet = np.argsort(loudness)[: max(4, int(QUIET_SHARE * len(powers)))]
+    wide = np.pad(powers[quiet].mean(axis=0), SMOOTHED_BINS // 2, "edge")
+    noise = np.convolve(wide, np.ones(SMOOTHED_BINS) / SMOOTHED_BINS, "valid") + 1e-12
     gains, kept = np.empty_like(powers), np.zeros(powers.shape[1])
     for number, ratio in enumerate(powers / noise):
-        speech = FOLLOWS * kept + (1 - FOLLOWS) * np.maximum(ratio - 1.0, 0.0)
+        speech = RATIO_KEPT * kept + (1 - RATIO_KEPT) * np.maximum(ratio - 1.0, 0.0)
         gains[number] = gain = speech / (1.0 + speech)
         kept = np.square(gain) * ratio
-    return np.maximum(gains, LEAST)
+    return np.maximum(gains, MIN_GAIN)

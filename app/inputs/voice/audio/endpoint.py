@@ -1,4 +1,4 @@
-"""Where words begin and end in what a microphone hears, by loudness over the noise."""
+"""End points of speech: where words begin and end, by loudness over the noise."""
 
 from __future__ import annotations
 
@@ -11,29 +11,29 @@ from numpy.typing import NDArray
 
 from app.inputs.voice.audio.noise import RATE, decibels
 
-__all__ = ["HOP", "LONGEST", "Endpointer", "Segment"]
+__all__ = ["HOP_SAMPLES", "MAX_WORDS", "Endpointer", "Segment"]
 
-HOP = 320
+HOP_SAMPLES = 320
 """Samples that are judged together: 20 ms."""
-STARTS = 9.0
+START_LEVEL = 9.0
 """So far over the noise words begin [dB]."""
-ENDS = 5.0
+END_LEVEL = 5.0
 """So far over it they still go on [dB]."""
-QUIETEST = -58.0
+MIN_LEVEL = -58.0
 """Below this nobody speaks into this microphone [dB over full scale]."""
-SURE = 3
+MIN_LOUD_HOPS = 3
 """Of the last five hops so many must be loud for words to begin."""
-BEFORE = 0.4
+LEAD_TIME = 0.4
 """Taken along of what was before: an `s` is more quiet than the rest of its word [s]."""
-PAUSE = 0.42
+PAUSE_TIME = 0.42
 """Words are over after so long a silence: the gap of a `t` or `p` is under 0.15 s, that between two words under 0.3 s [s]."""
-SHORTEST = 0.12
+MIN_WORDS = 0.12
 """Shorter is a click [s]."""
-LONGEST = 4.0
+MAX_WORDS = 4.0
 """Longer is no command: it is cut there, and all until the next silence is the same talk [s]."""
 FALLS, RISES = 0.2, 0.006
 """How quickly the noise floor follows what is more quiet and what is louder, of the difference, each hop."""
-USED_TO = 4.0
+NOISE_TIME = 4.0
 """What goes on for longer than this without a pause is noise [s]."""
 
 
@@ -53,10 +53,10 @@ class Segment:
 class Endpointer:
     """Fed with samples as they come; tells when words began, keeps them, and gives them when they are over."""
 
-    def __init__(self, pause: float = PAUSE) -> None:
+    def __init__(self, pause: float = PAUSE_TIME) -> None:
         """`pause` is the silence after which words are over [s]."""
         self._pause = pause
-        self._before: deque[NDArray[np.float32]] = deque(maxlen=int(BEFORE * RATE / HOP))
+        self._before: deque[NDArray[np.float32]] = deque(maxlen=int(LEAD_TIME * RATE / HOP_SAMPLES))
         self._loud: deque[bool] = deque(maxlen=5)
         self._rest: NDArray[np.float32] = np.zeros(0, np.float32)
         self._kept: list[NDArray[np.float32]] = []
@@ -80,11 +80,11 @@ class Endpointer:
     def feed(self, samples: NDArray[np.float32], at: float) -> list[Segment]:
         """The next samples, -1 to 1, of which the last one was heard at `at` [s]; gives the words that are over."""
         heard = np.concatenate((self._rest, samples)) if len(self._rest) else samples
-        whole = len(heard) // HOP * HOP
+        whole = len(heard) // HOP_SAMPLES * HOP_SAMPLES
         found = []
-        for start in range(0, whole, HOP):
-            end = at - (len(heard) - start - HOP) / RATE
-            segment = self._hop(heard[start : start + HOP], end)
+        for start in range(0, whole, HOP_SAMPLES):
+            end = at - (len(heard) - start - HOP_SAMPLES) / RATE
+            segment = self._hop(heard[start : start + HOP_SAMPLES], end)
             if segment is not None:
                 found.append(segment)
         self._rest = heard[whole:]
@@ -104,19 +104,19 @@ class Endpointer:
         over = level - self._learn(level)
         if not self.speaking:
             self._before.append(hop)
-            self._loud.append(over > STARTS and level > QUIETEST)
-            if sum(self._loud) >= SURE:
+            self._loud.append(over > START_LEVEL and level > MIN_LEVEL)
+            if sum(self._loud) >= MIN_LOUD_HOPS:
                 self._kept, self._spoken = list(self._before), sum(self._loud)
-                self._began = end - len(self._loud) * HOP / RATE
+                self._began = end - len(self._loud) * HOP_SAMPLES / RATE
                 self._last = end
             return None
         if self._kept:
             self._kept.append(hop)
-        if over > ENDS and level > QUIETEST:
+        if over > END_LEVEL and level > MIN_LEVEL:
             self._last, self._spoken = end, self._spoken + 1
         if end - self._last >= self._pause:
             return self._over()
-        if self._kept and end - self._began > LONGEST:
+        if self._kept and end - self._began > MAX_WORDS:
             segment = Segment(np.concatenate(self._kept), self._began, end, whole=False)
             self._kept, self._overlong = [], True
             return segment
@@ -126,7 +126,7 @@ class Endpointer:
         kept, self._kept, self._overlong = self._kept, [], False
         self._before.clear()
         self._loud.clear()
-        if not kept or self._spoken * HOP / RATE < SHORTEST:
+        if not kept or self._spoken * HOP_SAMPLES / RATE < MIN_WORDS:
             return None
         return Segment(np.concatenate(kept), self._began, self._last)
 
@@ -134,7 +134,7 @@ class Endpointer:
         """The floor follows quickly down and slowly up; what goes on for seconds is noise, however loud."""
         if math.isnan(self.floor):
             self.floor = min(level, -40.0)
-        lasting = self._overlong and self._spoken * HOP / RATE > USED_TO
+        lasting = self._overlong and self._spoken * HOP_SAMPLES / RATE > NOISE_TIME
         rate = FALLS if level < self.floor else RISES * (8 if lasting else 1)
         if level < self.floor or not self._kept:
             self.floor += rate * (level - self.floor)

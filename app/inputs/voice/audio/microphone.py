@@ -20,11 +20,11 @@ __all__ = ["AudioSource", "Microphone", "audio_library"]
 log = logging.getLogger(__name__)
 
 BLOCK_MS = 50
-QUEUED = 100
+MAX_QUEUE = 100
 """Blocks kept for a recogniser that does not keep up: 5 s; older ones are dropped."""
-SILENT = 2.0
+SILENCE_TIMEOUT = 2.0
 """A microphone that gives nothing for so long was pulled out [s]."""
-SILENCE = ("Discard all samples", "NULL Capture")
+SILENT_DEVICES = ("Discard all samples", "NULL Capture")
 """How devices that make nothing but silence begin to be called."""
 NONE = "There is no microphone. Plug one in, or command by touch, switches or keys."
 REFUSED = "The microphone cannot be opened: {}. Another program may hold it, or the system forbids it: the next press to talk tries again."
@@ -56,7 +56,7 @@ class Microphone:
         """`audio` takes the place of the module miniaudio."""
         self._now, self._audio = now, audio
         self._device: Any = None
-        self._blocks: queue.Queue[tuple[bytes, float]] = queue.Queue(QUEUED)
+        self._blocks: queue.Queue[tuple[bytes, float]] = queue.Queue(MAX_QUEUE)
         self._heard = 0.0
         self.dropped = 0
         """Blocks that nobody had time for."""
@@ -93,7 +93,7 @@ class Microphone:
         try:
             raw, at = self._blocks.get(timeout=timeout)
         except queue.Empty:
-            if self._device is not None and self._now() - self._heard > SILENT:
+            if self._device is not None and self._now() - self._heard > SILENCE_TIMEOUT:
                 self.stop()
                 raise VoiceTrouble(GONE) from None
             return None
@@ -141,6 +141,8 @@ def audio_library() -> Any:
 def _nothing_there(audio: Any) -> bool:
     """No device but those that only make silence: ALSA names one where it has no other."""
     try:
-        return all(str(one.get("name", "")).startswith(SILENCE) for one in audio.Devices().get_captures())
+        return all(
+            str(one.get("name", "")).startswith(SILENT_DEVICES) for one in audio.Devices().get_captures()
+        )
     except audio.MiniaudioError:
         return True

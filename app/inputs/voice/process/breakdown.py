@@ -10,30 +10,30 @@ from __future__ import annotations
 import math
 
 __all__ = [
-    "ASKS",
-    "BEAT",
-    "LOADS",
-    "PATIENCE",
-    "PATIENCE_LOADING",
-    "WINDOW",
+    "ASK_TIMEOUT",
+    "CHECK_PERIOD",
+    "LOAD_TIMEOUT",
+    "HANG_TIMEOUT",
+    "LOADING_HANG_TIMEOUT",
+    "RESTART_WINDOW",
     "Breakdowns",
     "LifeSigns",
     "reason",
 ]
 
-BEAT = 1.0
+CHECK_PERIOD = 1.0
 """Signs are looked for so often [s]."""
-ASKS = 2.0
+ASK_TIMEOUT = 2.0
 """Whoever gave none for so long is asked whether it is there [s]; while it listens its level comes ten times a second."""
-PATIENCE = 12.0
+HANG_TIMEOUT = 12.0
 """One that gives none for so long hangs [s]: a machine that swaps, or a Bluetooth microphone that opens, takes up to 10 s."""
-PATIENCE_LOADING = 30.0
+LOADING_HANG_TIMEOUT = 30.0
 """While it loads [s]: from a slow card the interpreter and its libraries alone take ten or more, and can answer nothing then."""
-LOADS = 180.0
+LOAD_TIMEOUT = 180.0
 """One that answers but is not ready after so long hangs in its load [s]."""
-WINDOW = 600.0
+RESTART_WINDOW = 600.0
 """It is started again once within so long [s]."""
-TOLD = 120
+MAX_REASON = 120
 """The reason has at most so many characters."""
 
 
@@ -56,26 +56,28 @@ class LifeSigns:
 
     def beat(self, now: float) -> None:
         """Time goes on."""
-        passed, self._at = min(max(0.0, now - self._at), 2 * BEAT), now
+        passed, self._at = min(max(0.0, now - self._at), 2 * CHECK_PERIOD), now
         self.silent += passed
         self._loads = self._loads + passed if self.loading else 0.0
 
     @property
     def hangs(self) -> bool:
         """It will give no sign any more."""
-        return self._loads >= LOADS or self.silent >= (PATIENCE_LOADING if self.loading else PATIENCE)
+        return self._loads >= LOAD_TIMEOUT or self.silent >= (
+            LOADING_HANG_TIMEOUT if self.loading else HANG_TIMEOUT
+        )
 
     def asks(self) -> bool:
         """It has to be asked now; once for each silence."""
-        asks = self.silent >= ASKS and not self._asked
+        asks = self.silent >= ASK_TIMEOUT and not self._asked
         self._asked = self._asked or asks
         return asks
 
     @property
     def why(self) -> str:
         """What is told as the reason."""
-        if self._loads >= LOADS:
-            return f"it was not ready after {LOADS:.0f} s"
+        if self._loads >= LOAD_TIMEOUT:
+            return f"it was not ready after {LOAD_TIMEOUT:.0f} s"
         return f"it gave no sign for {self.silent:.0f} s"
 
 
@@ -88,12 +90,12 @@ class Breakdowns:
 
     def sentence(self, word: str, why: str, now: float) -> tuple[bool, str]:
         """It `crashed` or `hung` just now [s]: whether it may be started again, and what is said; `why` may be empty."""
-        again, self._last = now - self._last >= WINDOW, now
+        again, self._last = now - self._last >= RESTART_WINDOW, now
         because = f": {why.rstrip('.')}." if why else "."
         if again:
             return True, f"Voice recognition {word} and is started again{because}"
         return False, (
-            f"Voice recognition {word}, the second time within {WINDOW / 60:.0f} min, and is off{because} "
+            f"Voice recognition {word}, the second time within {RESTART_WINDOW / 60:.0f} min, and is off{because} "
             "Switch it on again, or command by touch."
         )
 
@@ -101,4 +103,4 @@ class Breakdowns:
 def reason(text: str) -> str:
     """A line of somebody else's as part of a sentence: one line, bounded; empty where there is nothing to read."""
     line = " ".join("".join(one if one.isprintable() else " " for one in text).split())
-    return line if len(line) <= TOLD else line[: TOLD - 1] + "…"
+    return line if len(line) <= MAX_REASON else line[: MAX_REASON - 1] + "…"

@@ -18,7 +18,7 @@ from typing import TextIO
 from app.inputs.voice.audio.microphone import AudioSource, Microphone
 from app.inputs.voice.audio.sound_files import FileAudioSource, read
 from app.inputs.voice.interfaces.speech_recognizer import Event, State, VoiceTrouble
-from app.inputs.voice.process.running import NOTED
+from app.inputs.voice.process.running import NOTE_PREFIX
 from app.inputs.voice.process.service import Service, judge_of
 from app.inputs.voice.process.wire import THERE, event_line, read_grammar
 
@@ -80,7 +80,7 @@ def own_line() -> TextIO:
 def _alone() -> None:
     """End without the interpreter's own end: that waits for the thread which reads the orders, or breaks over it and hides why."""
     code = 1
-    logging.basicConfig(format=f"{NOTED}%(message)s")
+    logging.basicConfig(format=f"{NOTE_PREFIX}%(message)s")
     try:
         code = main(sys.argv[1:], sys.stdin, own_line())
     except BaseException:  # noqa: BLE001 - the last line of it is what the app tells as the reason

@@ -11,20 +11,20 @@ import subprocess
 import threading
 import time
 
-__all__ = ["ENDS", "end", "end_aside", "wait_for_ends"]
+__all__ = ["END_TIMEOUT", "end", "end_aside", "wait_for_ends"]
 
-ENDS = 2.0
+END_TIMEOUT = 2.0
 """A process that does not end by itself in so long is ended, and a thread that waits for one is left after twice as long [s]."""
 _ending: set[threading.Thread] = set()
 
 
 def end(process: subprocess.Popen[str]) -> None:
-    """It ends with its standard input, and by force if it hangs; takes up to `ENDS`."""
+    """It ends with its standard input, and by force if it hangs; takes up to `END_TIMEOUT`."""
     if process.stdin is not None:
         with contextlib.suppress(OSError):
             process.stdin.close()
     try:
-        process.wait(ENDS)
+        process.wait(END_TIMEOUT)
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()
@@ -46,12 +46,12 @@ def _end_both(process: subprocess.Popen[str] | None, reader: threading.Thread | 
         if process is not None:
             end(process)
         if reader is not None:
-            reader.join(2 * ENDS)
+            reader.join(2 * END_TIMEOUT)
     finally:
         _ending.discard(threading.current_thread())
 
 
-def wait_for_ends(timeout: float = 2 * ENDS) -> None:
+def wait_for_ends(timeout: float = 2 * END_TIMEOUT) -> None:
     """Until all that was ended aside is gone, at most so long [s]."""
     until = time.monotonic() + timeout
     for job in tuple(_ending):

@@ -18,17 +18,17 @@ from collections.abc import Mapping, Sequence
 from app.inputs.voice.process import ending
 from app.inputs.voice.process.breakdown import reason
 
-__all__ = ["NOTED", "Running"]
+__all__ = ["NOTE_PREFIX", "Running"]
 
 log = logging.getLogger(__name__)
 
-NOTED = "voice: "
+NOTE_PREFIX = "voice: "
 """Lines of its standard error that begin so are of our own and go to the log."""
-NOTES = 20
+MAX_NOTES = 20
 """So many of them at most."""
-QUEUED = 256
+MAX_QUEUE = 256
 """Lines that wait to be taken; it has to wait with more."""
-LONGEST = 1 << 16
+MAX_LINE = 1 << 16
 """A line is cut here [characters]."""
 
 
@@ -48,7 +48,7 @@ class Running:
             env=environment,
         )
         self._orders: queue.SimpleQueue[str | None] = queue.SimpleQueue()
-        self._lines: queue.Queue[str | None] = queue.Queue(QUEUED)
+        self._lines: queue.Queue[str | None] = queue.Queue(MAX_QUEUE)
         self._over = threading.Event()
         self._last = ""
         self._threads = [
@@ -91,16 +91,16 @@ class Running:
         if hangs:
             self._process.kill()
         try:
-            self._process.wait(ending.ENDS)
+            self._process.wait(ending.END_TIMEOUT)
         except subprocess.TimeoutExpired:
             self._process.kill()
             try:
-                self._process.wait(ending.ENDS)
+                self._process.wait(ending.END_TIMEOUT)
             except subprocess.TimeoutExpired:
                 log.warning("the voice process %d cannot be ended and is left", self.pid)
                 return
         for thread in self._threads:
-            thread.join(ending.ENDS)
+            thread.join(ending.END_TIMEOUT)
 
     @property
     def last_words(self) -> str:
@@ -128,7 +128,7 @@ class Running:
         pipe = self._process.stdout
         if pipe is None:
             return
-        while line := pipe.readline(LONGEST):
+        while line := pipe.readline(MAX_LINE):
             self._put(line)
         self._put(None)
         pipe.close()
@@ -145,10 +145,10 @@ class Running:
         pipe, notes = self._process.stderr, 0
         if pipe is None:
             return
-        while line := pipe.readline(LONGEST):
-            if not line.startswith(NOTED):
+        while line := pipe.readline(MAX_LINE):
+            if not line.startswith(NOTE_PREFIX):
                 self._last = reason(line) or self._last
-            elif notes < NOTES:
+            elif notes < MAX_NOTES:
                 notes += 1
                 log.warning("%s", reason(line))
         pipe.close()

@@ -1,4 +1,4 @@
-"""What runs while voice is on: takes orders, opens and closes the ears, feeds what they hear to a judge, and tells events."""
+"""The service that runs while voice is on: takes orders, opens the microphone, feeds a judge, sends events."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from app.inputs.voice.audio.noise import RATE
 from app.inputs.voice.interfaces.speech_recognizer import Grammar, Hear, State, VoiceTrouble
 from app.inputs.voice.recognition.hearing import Judge, SpeechPipeline
 
-__all__ = ["JUDGES", "LINGERS", "MUTED", "Service", "judge_of"]
+__all__ = ["JUDGES", "LINGER_TIME", "MUTED", "Service", "judge_of"]
 
-LINGERS = 0.25
+LINGER_TIME = 0.25
 """The ears stay open for so long after they were told to close: a thumb is up before the last sound is out [s]."""
-READS = 0.1
+READ_TIMEOUT = 0.1
 """An order waits at most so long while the ears are open [s]."""
-FLAT, FLAT_AT_END = 3.0, 0.5
+MUTED_TIMEOUT, MUTED_TIMEOUT_AT_END = 3.0, 0.5
 """A microphone that has given not one sound for so long since it was opened is muted; when it is closed again, after so long [s]. One that
 was heard is not: some give nothing at all between the words."""
 MUTED = "The microphone gives nothing but silence: it is muted, or the system does not let this app hear it."
@@ -151,12 +151,12 @@ class Service:
         if on:
             self._until = float("inf")
         elif self._until == float("inf"):
-            self._until = self._now() + LINGERS
+            self._until = self._now() + LINGER_TIME
 
     def _hear(self, hearing: SpeechPipeline) -> bool:
         sentence = ""
         try:
-            heard = self._ears.read(READS)
+            heard = self._ears.read(READ_TIMEOUT)
             if heard is not None:
                 self._silent(heard[0])
                 hearing.feed(*heard)
@@ -166,14 +166,14 @@ class Service:
             self._until = -1.0
             self._ears.stop()
             hearing.finish(self._now())
-            self._tell(State("ready", sentence or (MUTED if self._flat >= FLAT_AT_END else "")))
+            self._tell(State("ready", sentence or (MUTED if self._flat >= MUTED_TIMEOUT_AT_END else "")))
         return True
 
     def _silent(self, samples: NDArray[np.float32]) -> None:
         """How long there was nothing but silence since the ears were opened; NaN once there was a sound."""
         before = self._flat
         self._flat = before + len(samples) / RATE if not len(samples) or np.ptp(samples) == 0.0 else math.nan
-        if before < FLAT <= self._flat:
+        if before < MUTED_TIMEOUT <= self._flat:
             self._tell(State("muted", MUTED))
-        elif before >= FLAT and math.isnan(self._flat):
+        elif before >= MUTED_TIMEOUT and math.isnan(self._flat):
             self._tell(State("listening"))

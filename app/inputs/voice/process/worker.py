@@ -29,7 +29,7 @@ from app.inputs.voice.interfaces.speech_recognizer import (
     State,
     VoiceTrouble,
 )
-from app.inputs.voice.process.breakdown import BEAT, Breakdowns, LifeSigns, reason
+from app.inputs.voice.process.breakdown import CHECK_PERIOD, Breakdowns, LifeSigns, reason
 from app.inputs.voice.process.ending import end_aside
 from app.inputs.voice.process.running import Running
 from app.inputs.voice.process.service import Service, judge_of
@@ -282,7 +282,7 @@ class InProcess:
     ) -> bool:
         """Until the process ends or hangs; whether it had said that it fails."""
         failed = False
-        while (line := process.line(BEAT)) is not None and not over.is_set():
+        while (line := process.line(CHECK_PERIOD)) is not None and not over.is_set():
             if line:
                 signs.heard(self._now())
             signs.beat(self._now())

@@ -32,7 +32,7 @@ CONVOLVED, MULTIPLIED = "onnx::Conv_", "onnx::MatMul_"
 """What lost its name when the network was written has a number behind this; the order is left."""
 KINDS = ("<f4", "<f2")
 ALIGNED = 16
-QUIETEST = 1e-10
+MIN_POWER = 1e-10
 """No band has less power, so that its logarithm stays finite."""
 
 
@@ -185,7 +185,7 @@ class Conformer:
         frames = np.lib.stride_tricks.sliding_window_view(around, WINDOW)[::HOP][: len(wave) // HOP + 1]
         parts = np.square(np.ascontiguousarray(frames) @ self._spectrum)
         powers = (parts[:, : WINDOW // 2 + 1] + parts[:, WINDOW // 2 + 1 :]) @ self._bands
-        rounded: Floats = np.log(np.maximum(powers, QUIETEST)).astype(np.float16).astype(np.float32)
+        rounded: Floats = np.log(np.maximum(powers, MIN_POWER)).astype(np.float16).astype(np.float32)
         return rounded
 
     def _convolved(self, bands: Floats) -> Floats:

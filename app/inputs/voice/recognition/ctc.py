@@ -1,4 +1,4 @@
-"""Which command was said, from a neural phoneme recogniser's opinion of every 20 ms: the package `hama`, whose model is in its wheel.
+"""Scores of commands by a neural phoneme recogniser's opinion of every 20 ms: the package `hama`, whose model is in its wheel.
 
 The model says for each frame how probable each sound is. How well a command explains the frames is the CTC forward algorithm
 (Graves, Fernández, Gomez, Schmidhuber 2006) over its sounds, for all commands and all background words at once. A

@@ -17,11 +17,11 @@ from app.inputs.voice.recognition.spotter import Spotted, Spotter
 
 __all__ = ["SpeechPipeline", "Judge", "Phonemes"]
 
-METERED = 0.1
+METER_PERIOD = 0.1
 """The meter is told so often [s]."""
-UNSURE = (0.02, 0.9)
+UNSURE_RANGE = (0.02, 0.9)
 """It is asked again, by other looks at the words, between these confidences."""
-SAME = 0.35
+SAME_STOP_TIME = 0.35
 """STOP that ends within this of one that was spotted is the same [s]."""
 
 
@@ -49,7 +49,7 @@ class Phonemes:
         """By the whole utterance; where that is close to call, by further looks at it (`app.inputs.voice.recognition.rechecks`)."""
         views = [self._model.log_probs(samples)]
         found = self._scorer.judge(views, heeded)
-        if found is None or not UNSURE[0] < found.confidence < UNSURE[1] or self._urgent(found):
+        if found is None or not UNSURE_RANGE[0] < found.confidence < UNSURE_RANGE[1] or self._urgent(found):
             return found
         for other in looks(samples):
             views.append(self._model.log_probs(other))
@@ -76,7 +76,7 @@ class SpeechPipeline:
         self._meter, self._points = NoiseMeter(), Endpointer()
         self._every = frozenset(grammar.phrases)
         self._heeded: frozenset[str] | None = None
-        self._metered = -METERED
+        self._metered = -METER_PERIOD
         self._told_loud = False
         self._spotted: Spotted | None = None
 
@@ -110,7 +110,7 @@ class SpeechPipeline:
         self._tell(Level(float("-inf"), self._meter.noise, self._meter.snr))
 
     def _show(self, at: float) -> None:
-        if at - self._metered >= METERED - 1e-3:
+        if at - self._metered >= METER_PERIOD - 1e-3:
             self._metered = at
             self._tell(self._meter.level(speaking=self._points.speaking))
         if self._meter.too_loud != self._told_loud:
@@ -143,7 +143,7 @@ class SpeechPipeline:
 
     def _understand(self, segment: Segment) -> None:
         spotted, self._spotted = self._spotted, None
-        again = spotted is not None and spotted.ended >= segment.began - SAME
+        again = spotted is not None and spotted.ended >= segment.began - SAME_STOP_TIME
         if not segment.whole:
             if not again:
                 self._tell(Rejected("That was too long for a command.", ended=segment.ended))

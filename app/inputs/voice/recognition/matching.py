@@ -1,4 +1,4 @@
-"""Which command a recogniser meant that gives words and knows no grammar: by the distance of their sounds.
+"""Commands matched to words of a recogniser that knows no grammar, by the distance of their sounds.
 
 found = match(["go hum", "go home"], grammar)     # the n-best list of Android's recogniser, best first
 """
@@ -15,17 +15,17 @@ from app.inputs.voice.recognition.lexicon import PHONES, WORDS, background
 
 __all__ = ["Match", "match", "said_within", "sounds"]
 
-ENOUGH = 0.75
+MIN_LIKENESS = 0.75
 """So alike, 0 to 1, must the sounds be."""
-ONE_WORD = 0.9
+MIN_ONE_WORD_LIKENESS = 0.9
 """The same for a phrase of one word, of which none may be another sound: `star` is no `start`, and `shop` no `stop`."""
 SAME_KIND = 0.3
 """What it costs to take a sound for one that is written alike in some accent; 1 is a sound too many, too few or another."""
 LATER = 0.01
 """Each place further down the list of what may have been said counts so much less."""
-MOST = 20
+MAX_GUESSES = 20
 """Of the list so many are looked at."""
-LONGEST = 80
+MAX_LETTERS = 80
 """Letters of one of them."""
 PAIRS = {
     "th": "θ", "sh": "ʃ", "ch": "t͡ʃ", "ph": "f", "ck": "k", "ng": "ŋ", "ee": "i", "ea": "i", "oo": "u", "ou": "aʊ",
@@ -54,15 +54,15 @@ class Match:
 def match(heard: Sequence[str], grammar: Grammar, heeded: Collection[str] | None = None) -> list[Match]:
     """Commands that one of `heard` sounds like, the likeliest first, each once; of `heeded` alone where that is given."""
     best: dict[str, Match] = {}
-    for place, words in enumerate(list(heard)[:MOST]):
-        said = sounds(words[:LONGEST], grammar.language)
+    for place, words in enumerate(list(heard)[:MAX_GUESSES]):
+        said = sounds(words[:MAX_LETTERS], grammar.language)
         for command, phrases in grammar.phrases.items():
             if heeded is not None and command not in heeded:
                 continue
             for phrase in phrases:
                 wanted = sounds(phrase, grammar.language)
                 alike = 1.0 - _distance(said, wanted) / max(1, len(wanted))
-                enough = ENOUGH if " " in phrase else ONE_WORD
+                enough = MIN_LIKENESS if " " in phrase else MIN_ONE_WORD_LIKENESS
                 found = Match(command, phrase, alike - place * LATER, words)
                 if alike >= enough and (command not in best or best[command].alike < found.alike):
                     best[command] = found
@@ -71,7 +71,7 @@ def match(heard: Sequence[str], grammar: Grammar, heeded: Collection[str] | None
 
 def said_within(words: str, grammar: Grammar, command: str) -> str:
     """The phrase for `command` that is said word by word somewhere in `words`; empty for none."""
-    spoken = f" {' '.join(_plain(words[-LONGEST:]).split())} "
+    spoken = f" {' '.join(_plain(words[-MAX_LETTERS:]).split())} "
     return next((one for one in grammar.phrases.get(command, ()) if f" {_plain(one)} " in spoken), "")
 
 

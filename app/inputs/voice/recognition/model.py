@@ -24,9 +24,9 @@ Floats: TypeAlias = NDArray[np.float32]
 Way: TypeAlias = Callable[[Floats], Floats]
 
 WEIGHTS = "asr_waveform.hama"
-SHORTEST = 400
+MIN_SAMPLES = 400
 """Less is filled up with silence: one window of the spectrum [samples]."""
-ALIKE = 0.01
+MAX_DIFFERENCE = 0.01
 """Two ways that differ by less compute the same [probability]."""
 THREADS = "scipy_openblas_set_num_threads64_", "scipy_openblas_set_num_threads", "openblas_set_num_threads"
 """How numpy's library calls what sets its number of threads."""
@@ -57,8 +57,8 @@ class HamaModel:
     def log_probs(self, samples: Floats) -> NDArray[np.float64]:
         """Log probability of each sign in each frame of 20 ms."""
         wave = np.clip(samples, -1.0, 1.0).astype(np.float32)
-        if len(wave) < SHORTEST:
-            wave = np.pad(wave, (0, SHORTEST - len(wave)))
+        if len(wave) < MIN_SAMPLES:
+            wave = np.pad(wave, (0, MIN_SAMPLES - len(wave)))
         return self._hear(wave).astype(np.float64)
 
 
@@ -117,7 +117,7 @@ def _tried(make: Callable[[], Way], wave: Floats, signs: int) -> tuple[_Tried | 
 
 
 def _alike(said: Floats, truth: Floats) -> bool:
-    return said.shape == truth.shape and bool(np.abs(np.exp(said) - np.exp(truth)).max() < ALIKE)
+    return said.shape == truth.shape and bool(np.abs(np.exp(said) - np.exp(truth)).max() < MAX_DIFFERENCE)
 
 
 def _ours() -> Way:

@@ -16,15 +16,15 @@ from app.inputs.voice.recognition.lexicon import background, pronunciations
 
 __all__ = ["Spotted", "Spotter"]
 
-WINDOW = 1.0
+SEARCH_WINDOW = 1.0
 """What is looked at: the longest STOP that people say, with a little before [s]."""
-LOOKS = (0.06, 0.14, 0.24)
+SEARCH_DELAYS = (0.06, 0.14, 0.24)
 """Looked at again so long after the voice has sunk: at the closing of a `p`, and at its release [s]."""
-EVERY = 0.4
+SEARCH_PERIOD = 0.4
 """While the voice goes on without sinking it is looked at so often [s]."""
-EARLIEST = 0.24
+MIN_STOP_TIME = 0.24
 """Nobody says STOP faster [s]."""
-FITS = -1.0
+MIN_FIT = -1.0
 """Log likelihood a sound, against the free decoding."""
 OVER, OVER_END = 3.0, 2.0
 """Another command or a word that begins like STOP may explain the same sounds better by so much, and it is still STOP; one that
@@ -76,12 +76,12 @@ class Spotter:
         if self._sequences is None or not self._due(segment, now):
             return None
         self._looked = now
-        spotted = self.find(segment.samples[-int(WINDOW * RATE) :], now)
+        spotted = self.find(segment.samples[-int(SEARCH_WINDOW * RATE) :], now)
         return spotted and replace(spotted, ended=min(spotted.ended, segment.ended))
 
     def find(self, samples: NDArray[np.float32], now: float) -> Spotted | None:
         """The same in any samples, the last of which was heard at `now`."""
-        if self._sequences is None or len(samples) < EARLIEST * RATE:
+        if self._sequences is None or len(samples) < MIN_STOP_TIME * RATE:
             return None
         frames = frames_of(self._model.log_probs(samples), self._model.tokens)
         fits, when = self._sequences.anywhere(frames)
@@ -89,7 +89,7 @@ class Spotter:
         lengths = np.array([len(sounds) for _, _, sounds in self._ways])
         best = int(np.argmax(ours / lengths))
         fit = float(ours[best] / lengths[best])
-        if fit < FITS or (len(rivals) and ours[best] < (rivals - self._over).max()):
+        if fit < MIN_FIT or (len(rivals) and ours[best] < (rivals - self._over).max()):
             return None
         command, phrase, _ = self._ways[best]
         return Spotted(command, phrase, fit, now - (len(frames) - 1 - int(when[best])) * FRAME)
@@ -98,9 +98,9 @@ class Spotter:
         if segment.began != self._begun:
             self._begun, self._looked, self._done = segment.began, segment.began, set()
         quiet = now - segment.ended
-        if quiet < LOOKS[0]:
+        if quiet < SEARCH_DELAYS[0]:
             self._done = set()
-            return now - self._looked >= EVERY
-        due = {look for look in LOOKS if quiet >= look} - self._done
+            return now - self._looked >= SEARCH_PERIOD
+        due = {look for look in SEARCH_DELAYS if quiet >= look} - self._done
         self._done |= due
         return bool(due)

@@ -1,4 +1,4 @@
-"""What speaks on a desktop: a voice in a process of its own, which is given a line to say and tells when it began and ended.
+"""Text to speech on a desktop: a voice in a process of its own, which is given a line and reports when it began and ended.
 
 speaker = speaker_of("natural"); speaker.start(tell); speaker.say("Go home?", 1.0); speaker.stop()
 """

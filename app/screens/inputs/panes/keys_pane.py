@@ -1,4 +1,4 @@
-"""Where the keyboard is set up: what drives, what Space is, and which key means what."""
+"""The pane of the keyboard: what drives, what Space does, and which key does what."""
 
 from __future__ import annotations
 

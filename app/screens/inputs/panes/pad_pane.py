@@ -1,4 +1,4 @@
-"""Where a gamepad is set up: a picture of it as it is now, what its sticks push, what its buttons mean. Kept by its name."""
+"""The pane of a gamepad: a live picture, what its sticks push, what its buttons do. Kept by its name."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from widgets.parts.rows import group_label
 
 __all__ = ["PadPane"]
 
-LIVE = 1.0
+LIVE_TIMEOUT = 1.0
 """A pushed gamepad that has measured nothing new for longer is said to be silent [s]."""
 HINT = "Press a button to find it in the list. Here it does nothing else, but STOP stays STOP."
 REST = {"left": (0.0, 0.0), "right": (0.0, 0.0)}
@@ -151,7 +151,9 @@ class PadPane(BoxLayout):
         age = pads.age(state.number)
         still = self._profile.lean(state) == REST
         silent = (
-            "" if age < LIVE or still else f" Nothing new for {age:.0f} s{', on its cable' if wired else ''}."
+            ""
+            if age < LIVE_TIMEOUT or still
+            else f" Nothing new for {age:.0f} s{', on its cable' if wired else ''}."
         )
         drives = "" if self._inputs.mapped.pads_on else " Off: only its STOP counts."
         return f"{state.name}.{drives}{silent}"

@@ -1,4 +1,4 @@
-"""What each method may do: one method at a time, with a switch for everything that it can say."""
+"""The pane of permits: one method at a time, with a switch for everything that it can ask for."""
 
 from __future__ import annotations
 

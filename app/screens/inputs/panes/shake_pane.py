@@ -1,4 +1,4 @@
-"""Where shaking is set up: what was understood, what each direction means, and the lesson."""
+"""The pane of shakes: what was understood, what each direction does, and the lesson."""
 
 from __future__ import annotations
 

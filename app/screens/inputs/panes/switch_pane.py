@@ -1,4 +1,4 @@
-"""Where switches are set up: one or two, which keys they are, how they move the mark, and a test that finds the pace."""
+"""The pane of switches: one or two, their keys, how they move the mark, and a test that finds the pace."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from kivy.uix.boxlayout import BoxLayout
 
 from app.inputs.switch_access.scan.presses import Event
 from app.inputs.switch_access.scan.reaction import Reaction
-from app.inputs.switch_access.scan.settings import DEFAULTS, MOST_KEYS, RANGES, Key, Options
+from app.inputs.switch_access.scan.settings import DEFAULTS, MAX_KEYS, RANGES, Key, Options
 from app.inputs.switch_access.switches import SwitchAccess
 from app.screens.inputs.parts.pane_app import PaneApp
 from app.screens.inputs.parts.setting_row import number_row, switch_row
@@ -159,8 +159,8 @@ class SwitchPane(BoxLayout):
         mine = [*(one for one in getattr(options, name) if one != key), key]
         other = "b" if name == "a" else "a"
         rest = tuple(one for one in getattr(options, other) if one != key)
-        if len(mine) > MOST_KEYS:
-            self._refused = f"A switch has at most {MOST_KEYS} keys: take some away first."
+        if len(mine) > MAX_KEYS:
+            self._refused = f"A switch has at most {MAX_KEYS} keys: take some away first."
         else:
             self._set(**{name: tuple(mine), other: rest})
         self.tick()

@@ -1,4 +1,4 @@
-"""How tilting is set up: the circle to try it on, what the sensor delivers, and where neutral, dead zone and full command are."""
+"""The pane of the tilt: a circle to try it on, what the sensor delivers, and neutral, dead zone and full command."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where voice is set up: how it hears, a try without consequences, when it listens, whether and how it talks, and what may be said."""
+"""The pane of voice: a meter, a try without consequences, what understands, when it listens, and how it talks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a key or a button can mean, to choose one from."""
+"""A list of what a key or a button can do, to choose one from."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the response log says: success, response times, false activations; and what is kept, exported and erased."""
+"""Charts of the response log: success, response times, false activations; and export and erasure."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ __all__ = ["LogView", "facts", "look_of"]
 LOOKS = {"button": ("touch_app", "Buttons"), "map": ("map", "Map")}
 UNTIL = [("sent", "Until sent"), ("ack", "Until answered"), ("effect", "Until done")]
 READING = "Reading …"
-AGAIN = 2.0
+READ_PERIOD = 2.0
 """What comes while it is looked at is read no more often [s]."""
 
 
@@ -157,7 +157,7 @@ class LogView(Column):
 
     def tick(self) -> None:
         """Bring the switches up to date, and what has come since it was read."""
-        if not self._busy and self._log.lines != self._known and self._now() - self._since >= AGAIN:
+        if not self._busy and self._log.lines != self._known and self._now() - self._since >= READ_PERIOD:
             self._ask_for_lines()
         self.zips.tick()
         self.keeps.active, self.agrees.active = self._log.on, self._log.snippets

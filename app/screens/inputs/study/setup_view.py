@@ -1,4 +1,4 @@
-"""What a study asks for, before it begins: who, which methods, in which posture, how often."""
+"""The form before a study begins: who, which methods, in which posture, how often."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was exported and lies on this handheld: how much, where, out to another app, or away."""
+"""Exported zips on this handheld: how many, where, handed to another app, or deleted."""
 
 from __future__ import annotations
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from app.inputs.gamepad.gamepad import REARM, SILENT, Gamepads, KivyPads, PadEvent
+from app.inputs.gamepad.gamepad import REARM_TIMEOUT, SILENCE_TIMEOUT, Gamepads, KivyPads, PadEvent
 from app.inputs.gamepad.pad_map import Profile
 from app.inputs.gamepad.sdl import PadState
 
@@ -113,7 +113,7 @@ def test_silent_while_pushed_it_drives_nothing_within_the_limit_and_says_so_once
     died = desk.time
     desk.pass_time(0.9, trembles=False)
     last = max(at for at, lean in desk.leans if lean is not None)
-    assert last - died <= SILENT
+    assert last - died <= SILENCE_TIMEOUT
     assert desk.pads.standing == "silent"
     assert desk.news[1:] == [PadEvent("silent", "Pad")]
 
@@ -129,7 +129,7 @@ def test_heard_again_soon_it_drives_on_since_the_hand_is_there(desk: Desk) -> No
 def test_heard_again_after_long_it_must_be_let_go_first(desk: Desk) -> None:
     desk.push(1.0)
     desk.pass_time(0.5)
-    desk.pass_time(REARM + 0.2, trembles=False)
+    desk.pass_time(REARM_TIMEOUT + 0.2, trembles=False)
     desk.pass_time(0.5)
     assert desk.lean is None
     desk.push(0.0)
@@ -206,7 +206,7 @@ def test_where_sdl_cannot_be_asked_kivys_events_tell_of_the_stick_and_silence_en
     told.axis(3, 1, -32768)
     desk.pads.update(told.pads())
     assert left_of(desk.pads.lean()) == (1.0, 0.0)
-    desk.time += SILENT + BEAT
+    desk.time += SILENCE_TIMEOUT + BEAT
     desk.pads.update(told.pads())
     assert desk.pads.lean() is None
 
@@ -236,5 +236,5 @@ def test_one_stick_let_go_the_other_one_drives_on(desk: Desk) -> None:
     desk.there[1] = replace(REST, right=(-1.0, 0.0))
     desk.pass_time(BEAT)
     assert desk.pads.lean() == {"left": (0.0, 0.0), "right": (-1.0, 0.0)}
-    desk.pass_time(SILENT + 2 * BEAT, trembles=False)
+    desk.pass_time(SILENCE_TIMEOUT + 2 * BEAT, trembles=False)
     assert desk.pads.lean() is None, "it is silent"

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from app.inputs.base.button_presses import Press
-from app.inputs.keys.key_drive import GAP, LEAST, LONGEST, KeyDrive
+from app.inputs.keys.key_drive import MAX_HOLD, MIN_PUSH, REPEAT_TIMEOUT, KeyDrive
 from app.inputs.keys.key_table import KeyTable
 
 BEAT = 0.03
@@ -51,7 +51,7 @@ def desk() -> Desk:
 def test_a_held_key_drives_farther_and_farther_and_let_go_not_at_all(desk: Desk) -> None:
     press = desk.press("w")
     desk.pass_time(BEAT)
-    assert desk.left == (LEAST, 0.0)
+    assert desk.left == (MIN_PUSH, 0.0)
     desk.pass_time(1.0)
     assert desk.left == (1.0, 0.0)
     desk.keys.released(press)
@@ -129,7 +129,7 @@ def test_repeats_that_stay_away_end_it_and_one_that_comes_again_goes_on(desk: De
     died = desk.time
     while desk.lean is not None:
         desk.pass_time(BEAT)
-    assert desk.time - died <= GAP + 2 * BEAT
+    assert desk.time - died <= REPEAT_TIMEOUT + 2 * BEAT
     desk.pass_time(2 * BEAT, repeats="w")
     assert desk.lean is not None
 
@@ -162,7 +162,7 @@ def test_a_key_that_the_system_has_down_no_longer_is_let_go_though_nobody_told(d
 
 def test_something_that_lies_on_a_key_drives_for_so_long_and_that_is_said(desk: Desk) -> None:
     desk.press("w")
-    desk.pass_time(LONGEST + 1.0, repeats="w")
+    desk.pass_time(MAX_HOLD + 1.0, repeats="w")
     assert desk.lean is None
     assert desk.said == ["W is held for 30 s: the robot rests."]
 

@@ -8,7 +8,7 @@ from collections.abc import Collection
 import pytest
 
 from app.device.motion import GRAVITY, Axes, Hear, Kind, MotionError, NoMotion, SimulatedMotion
-from app.inputs.motion.motion_sensing import QUEUE, MotionSensing
+from app.inputs.motion.motion_sensing import MAX_QUEUE, MotionSensing
 
 
 class Phone:
@@ -67,7 +67,7 @@ def test_without_a_look_no_more_wait_than_the_queue_holds(phone: Phone) -> None:
     for n in range(1000):
         phone.source.put("acceleration", n * 1e-4, (0.0, 0.0, n * 0.001))
     phone.sensing.update(0.1)
-    assert len(phone.got) == QUEUE
+    assert len(phone.got) == MAX_QUEUE
     assert phone.got[-1][1][2] == pytest.approx(0.999), "the newest are kept"
 
 

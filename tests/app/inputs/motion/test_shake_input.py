@@ -99,7 +99,7 @@ def test_what_was_measured_goes_along_for_the_log(hand: Hand) -> None:
 def test_the_hand_feels_it_and_stop_longer(hand: Hand) -> None:
     hand.shakes("lr")
     hand.shakes("ud")
-    assert hand.felt == [module.FELT_STOP, module.FELT]
+    assert hand.felt == [module.STOP_VIBRATION_TIME, module.VIBRATION_TIME]
 
 
 def test_off_the_sensor_is_off_and_nothing_is_understood(hand: Hand) -> None:
@@ -179,7 +179,7 @@ def test_the_lesson_is_kept_and_nothing_is_understood_meanwhile(hand: Hand) -> N
         hand.does(Recording("", "", 60.0, np.concatenate([still, take.samples[:180]])))
     assert hand.shaking.lesson is not None
     assert hand.shaking.lesson.over
-    assert hand.felt == [module.FELT] * 3
+    assert hand.felt == [module.VIBRATION_TIME] * 3
     hand.shaking.end_lesson()
     assert not hand.source.running
     assert set(hand.shaking.own) == set(AXES)

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from app.core.command_origin import Origin
-from app.inputs.voice.talkback import LOST, MOST, SLEEPS, STALE, Talkback, aloud
+from app.inputs.voice.talkback import MAX_AGE, MAX_WAITING, SENTENCE_TIMEOUT, SLEEP_TIMEOUT, Talkback, aloud
 from app.intents.intents import Heard, Verdict
 from app.link.channels import EVENT, OUTCOME
 from app.link.commands import Outcome
@@ -168,14 +168,14 @@ def test_no_more_wait_than_can_be_listened_to(desk: Desk) -> None:
     for _ in range(20):
         desk.mouth.ends()
         desk.wait(0.1)
-    assert desk.mouth.said == ["Number 0.", *(f"Number {n}." for n in range(20 - MOST, 20))]
+    assert desk.mouth.said == ["Number 0.", *(f"Number {n}." for n in range(20 - MAX_WAITING, 20))]
 
 
 def test_what_has_waited_too_long_is_not_said_any_more_but_an_alarm(desk: Desk) -> None:
     desk.talking.say("One.", "alarm")
     desk.talking.say("Two.", "answer")
     desk.talking.say("Three.", "alarm")
-    desk.wait(STALE + 0.1)
+    desk.wait(MAX_AGE + 0.1)
     desk.mouth.ends()
     desk.wait(0.1)
     desk.mouth.ends()
@@ -197,7 +197,7 @@ def test_what_was_broken_off_does_not_end_what_came_after_it(desk: Desk) -> None
 
 def test_a_voice_that_loses_a_sentence_does_not_leave_the_microphone_deaf(desk: Desk) -> None:
     desk.talking.say("One.", "answer")
-    desk.wait(LOST + 0.1)
+    desk.wait(SENTENCE_TIMEOUT + 0.1)
     assert not desk.talking.speaking
 
 
@@ -209,7 +209,7 @@ def test_a_minute_of_silence_puts_the_voice_away(desk: Desk) -> None:
     desk.talking.say("One.", "answer")
     desk.mouth.ends()
     desk.wait(0.1)
-    desk.wait(SLEEPS + 0.1)
+    desk.wait(SLEEP_TIMEOUT + 0.1)
     assert desk.mouth.tell is None
     assert not desk.talking.busy
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.intents.intents import CANCEL_FOR, Heard
+from app.intents.intents import CANCEL_TIME, Heard
 from app.screens.inputs.pane_table import PANES, panes
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
@@ -101,5 +101,5 @@ def test_what_waits_is_cancelled_by_a_finger_and_a_refusal_is_said(glass: Glass,
     glass.until(lambda: card.parent is not None, "nothing waits")
     cancel = next(button for button in card.walk(restrict=True) if getattr(button, "text", "") == "Cancel")
     glass.tap(cancel)
-    glass.stage.run_for(CANCEL_FOR + 0.2)
+    glass.stage.run_for(CANCEL_TIME + 0.2)
     assert app.session.control == "free"

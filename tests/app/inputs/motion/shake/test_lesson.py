@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.inputs.motion.shake import AXES, USUAL, Lesson, PersonalAxis, Recogniser, fitted, own_from, own_to
-from app.inputs.motion.shake.lesson import MOVING, Measured, measure
+from app.inputs.motion.shake.lesson import MOVING_TIME, Measured, measure
 from bench.support import motion
 from bench.support.motion import Recording
 
@@ -123,7 +123,7 @@ def test_nor_of_steps_that_are_not_much_quicker_than_he_is(peak: float) -> None:
 
 def test_a_thin_ellipse_is_round_though_it_is_long(monkeypatch: pytest.MonkeyPatch) -> None:
     """Its length alone has most of the movement."""
-    at = np.arange(int(60 * MOVING)) / 60.0
+    at = np.arange(int(60 * MOVING_TIME)) / 60.0
 
     def measured(wide: float) -> Measured:
         swing = np.stack(
@@ -135,7 +135,7 @@ def test_a_thin_ellipse_is_round_though_it_is_long(monkeypatch: pytest.MonkeyPat
 
     assert measured(0.15).sentence == ""
     assert "went round" in measured(0.45).sentence
-    monkeypatch.setattr("app.inputs.motion.shake.lesson.STRAIGHT", 0.84)
+    monkeypatch.setattr("app.inputs.motion.shake.lesson.MIN_STRAIGHTNESS", 0.84)
     assert "went round" in measured(0.4).sentence
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from app.inputs.switch_access.scan.plan import MOST, Group, Planner, cost, leaves, plan
+from app.inputs.switch_access.scan.plan import MAX_CHILDREN, Group, Planner, cost, leaves, plan
 from app.inputs.switch_access.scan.target import Target
 
 FALLING = {f"t{number}": 1000 * 0.8**number for number in range(16)}
@@ -40,7 +40,7 @@ def test_everything_is_reached_by_groups_of_at_most_four(count: int, used: dict[
     there = targets(count)
     tree = plan(there, used)
     assert sorted(one.name for one in leaves(tree)) == sorted(one.name for one in there)
-    assert all(len(group.children) <= MOST for group in groups(tree))
+    assert all(len(group.children) <= MAX_CHILDREN for group in groups(tree))
     assert all(len(group.children) > 1 for group in groups(tree) if group is not tree)
 
 

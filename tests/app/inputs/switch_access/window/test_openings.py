@@ -10,7 +10,7 @@ import pytest
 from kivy.uix.floatlayout import FloatLayout
 
 from app.inputs.switch_access.window.finding import in_window
-from app.inputs.switch_access.window.openings import MOMENT, Openings
+from app.inputs.switch_access.window.openings import PUSH_TIME, Openings
 from tests.headless import Stage
 from widgets import GridMap, Joystick, LiftLever, SlideToConfirm, StopButton
 from widgets.parts.kit import TextField
@@ -62,11 +62,11 @@ def test_a_stick_drives_for_a_moment_at_each_press_and_is_at_rest_then(
     openings.open("stick", stick, "Stick")
     press(openings, stage, "ahead")
     assert 0 < stick.forward < 1, "gently at first"
-    stage.run_for(MOMENT * 0.6)
+    stage.run_for(PUSH_TIME * 0.6)
     press(openings, stage, "ahead")
-    stage.run_for(MOMENT * 0.6)
+    stage.run_for(PUSH_TIME * 0.6)
     assert stick.forward > 0, "the second press goes on with it"
-    stage.run_for(MOMENT * 0.6)
+    stage.run_for(PUSH_TIME * 0.6)
     assert (stick.forward, stick.left, said[-1]) == (0.0, 0.0, 0.0)
 
 

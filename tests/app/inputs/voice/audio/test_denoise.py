@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.inputs.voice.audio.denoise import LEAST, WINDOW, denoised
+from app.inputs.voice.audio.denoise import MIN_GAIN, WINDOW, denoised
 from app.inputs.voice.audio.noise import RATE, decibels
 from tests.app.inputs.voice.sounds import quiet, voice
 
@@ -33,7 +33,7 @@ def test_words_are_nearer_to_themselves_than_with_their_noise():
 def test_something_stays_of_everything():
     said, noise = word(0.05)
     left = decibels(denoised(said + noise)[1000:3000]) - decibels(noise[1000:3000])
-    assert left == pytest.approx(20 * np.log10(LEAST), abs=2.5)
+    assert left == pytest.approx(20 * np.log10(MIN_GAIN), abs=2.5)
 
 
 def test_it_is_as_long_as_before_and_not_shifted():

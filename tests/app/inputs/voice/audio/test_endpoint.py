@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.inputs.voice.audio.endpoint import LONGEST, PAUSE, Endpointer
+from app.inputs.voice.audio.endpoint import MAX_WORDS, PAUSE_TIME, Endpointer
 from app.inputs.voice.audio.sound_files import chunks
 from tests.app.inputs.voice.sounds import quiet, voice
 
@@ -27,13 +27,15 @@ def test_a_little_of_what_was_before_is_kept():
 
 def test_the_gap_of_a_closed_mouth_does_not_end_a_word():
     assert (
-        len(words(np.concatenate((quiet(1.0), voice(0.3), quiet(PAUSE - 0.15), voice(0.3), quiet(1.0))))) == 1
+        len(words(np.concatenate((quiet(1.0), voice(0.3), quiet(PAUSE_TIME - 0.15), voice(0.3), quiet(1.0)))))
+        == 1
     )
 
 
 def test_a_longer_one_does():
     assert (
-        len(words(np.concatenate((quiet(1.0), voice(0.3), quiet(PAUSE + 0.2), voice(0.3), quiet(1.0))))) == 2
+        len(words(np.concatenate((quiet(1.0), voice(0.3), quiet(PAUSE_TIME + 0.2), voice(0.3), quiet(1.0)))))
+        == 2
     )
 
 
@@ -47,7 +49,7 @@ def test_silence_and_faint_noise_are_no_words():
 
 
 def test_talk_that_does_not_end_is_cut_once():
-    found = words(np.concatenate((quiet(1.0), voice(LONGEST + 3.0), quiet(1.0))))
+    found = words(np.concatenate((quiet(1.0), voice(MAX_WORDS + 3.0), quiet(1.0))))
     assert [segment.whole for segment in found] == [False]
 
 

@@ -4,7 +4,7 @@ import types
 
 import pytest
 
-from app.inputs.voice.audio.microphone import QUEUED, SILENT, Microphone
+from app.inputs.voice.audio.microphone import MAX_QUEUE, SILENCE_TIMEOUT, Microphone
 from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
 
 
@@ -98,7 +98,7 @@ def test_one_that_is_pulled_out_is_said_and_closed():
     microphone = Microphone(clock, audio=sound)
     microphone.start()
     assert microphone.read(0.0) is None
-    clock.now += SILENT + 0.1
+    clock.now += SILENCE_TIMEOUT + 0.1
     with pytest.raises(VoiceTrouble, match="gives nothing any more"):
         microphone.read(0.0)
     assert sound.made[0].closed
@@ -108,7 +108,7 @@ def test_what_nobody_has_time_for_is_dropped_the_oldest_first_and_told(caplog):
     sound = audio()
     microphone = Microphone(audio=sound)
     microphone.start()
-    for number in range(QUEUED + 3):
+    for number in range(MAX_QUEUE + 3):
         sound.made[0].pump.send(bytes((number, 0)))
     assert microphone.dropped == 3
     assert microphone.read(0.0)[0][0] == pytest.approx(3 / 32768)

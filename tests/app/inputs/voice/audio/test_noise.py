@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from app.inputs.voice.audio.noise import LASTING, NoiseMeter, decibels
+from app.inputs.voice.audio.noise import SWITCH_TIME, NoiseMeter, decibels
 from app.inputs.voice.audio.sound_files import chunks
 from tests.app.inputs.voice.sounds import quiet, voice
 
@@ -38,7 +38,7 @@ def test_words_stand_over_the_noise_by_their_ratio():
 
 def test_loud_noise_that_lasts_is_too_loud_and_quiet_that_lasts_is_not():
     assert not heard(quiet(1.0)).too_loud
-    assert not heard(quiet(2.0), quiet(LASTING - 0.5, 0.2)).too_loud
+    assert not heard(quiet(2.0), quiet(SWITCH_TIME - 0.5, 0.2)).too_loud
     assert heard(quiet(9.0, 0.2)).too_loud
     assert not heard(quiet(9.0, 0.2), quiet(9.0)).too_loud
 
@@ -48,7 +48,7 @@ def test_what_was_found_before_the_ears_were_closed_counts_again_once_it_is_hear
     for meter, noise, loud in ((still_loud, 0.2, True), (quiet_now, 1e-3, False)):
         meter.rest()
         assert (meter.too_loud, meter.outdated) == (True, True)
-        for part, at in chunks(quiet(LASTING + 0.2, noise), 20.0):
+        for part, at in chunks(quiet(SWITCH_TIME + 0.2, noise), 20.0):
             meter.feed(part, at)
         assert (meter.too_loud, meter.outdated) == (loud, False)
 

@@ -7,8 +7,8 @@ import sys
 
 import pytest
 
-from app.inputs.voice.process.breakdown import TOLD
-from app.inputs.voice.process.running import NOTED, NOTES, Running
+from app.inputs.voice.process.breakdown import MAX_REASON
+from app.inputs.voice.process.running import MAX_NOTES, NOTE_PREFIX, Running
 
 LONG = 1 << 20
 
@@ -61,7 +61,7 @@ def test_last_words_without_an_end_are_cut(run):
     process = run(f"import sys; sys.stderr.write('x' * {LONG}); sys.exit(3)")
     told(process)
     process.end()
-    assert len(process.last_words) <= TOLD
+    assert len(process.last_words) <= MAX_REASON
 
 
 def test_one_that_says_nothing_is_known_by_what_it_ended_with(run):
@@ -80,11 +80,11 @@ def test_what_killed_it_is_told(run):
 
 
 def test_its_own_notes_go_to_the_log_and_are_no_last_words(run, caplog):
-    process = run(f"import sys; [print('{NOTED}note', n, file=sys.stderr) for n in range(999)]")
+    process = run(f"import sys; [print('{NOTE_PREFIX}note', n, file=sys.stderr) for n in range(999)]")
     told(process)
     process.end()
-    assert (process.last_words, len(caplog.messages)) == ("", NOTES)
-    assert caplog.messages[0] == f"{NOTED}note 0"
+    assert (process.last_words, len(caplog.messages)) == ("", MAX_NOTES)
+    assert caplog.messages[0] == f"{NOTE_PREFIX}note 0"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no signals")
@@ -98,7 +98,7 @@ def test_one_that_stands_still_takes_no_orders_and_holds_nobody_up(run):
 
 
 def test_lines_that_nobody_takes_hold_up_no_end(run, monkeypatch):
-    monkeypatch.setattr("app.inputs.voice.process.ending.ENDS", 5.0)
+    monkeypatch.setattr("app.inputs.voice.process.ending.END_TIMEOUT", 5.0)
     process = run("while True: print('more')")
     assert process.line(10.0) == "more\n"
     process.end(hangs=True)

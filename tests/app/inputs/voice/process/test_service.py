@@ -7,7 +7,7 @@ import pytest
 
 from app.inputs.voice.audio.sound_files import FileAudioSource
 from app.inputs.voice.interfaces.speech_recognizer import Grammar, Result, State, VoiceTrouble
-from app.inputs.voice.process.service import FLAT, LINGERS, MUTED, Service
+from app.inputs.voice.process.service import LINGER_TIME, MUTED, MUTED_TIMEOUT, Service
 from tests.app.inputs.voice.recognition.test_hearing import GRAMMAR, Judge
 from tests.app.inputs.voice.sounds import quiet, voice
 
@@ -86,7 +86,7 @@ def test_what_is_said_while_the_button_is_down_is_understood_after_it_is_up():
     thread.start()
     service.listen(on=True)
     service.listen(on=False)
-    assert heard.wait(5 + LINGERS)
+    assert heard.wait(5 + LINGER_TIME)
     service.stop()
     thread.join(5)
     assert [event.command for event in told if isinstance(event, Result)] == ["pause"]
@@ -124,13 +124,13 @@ def test_a_microphone_that_gave_no_sound_at_all_is_said_when_the_button_is_up():
 
 
 def test_hands_free_it_is_said_once_while_the_ears_stay_open():
-    silence = np.zeros(int((FLAT + 4) * 16000), np.float32)
+    silence = np.zeros(int((MUTED_TIMEOUT + 4) * 16000), np.float32)
     assert turned(silence)[-2:] == [("muted", MUTED), ("ready", MUTED)]
     assert turned(silence).count(("muted", MUTED)) == 1
 
 
 def test_a_muted_microphone_that_is_heard_after_all_listens_again():
-    samples = np.concatenate((np.zeros(int((FLAT + 1) * 16000), np.float32), voice(0.3)))
+    samples = np.concatenate((np.zeros(int((MUTED_TIMEOUT + 1) * 16000), np.float32), voice(0.3)))
     assert turned(samples)[-3:] == [("muted", MUTED), ("listening", ""), ("ready", "")]
 
 

@@ -200,7 +200,7 @@ def test_a_recording_that_is_not_there_or_is_none_is_said(tmp_path):
 
 
 def test_one_that_hangs_holds_nobody_up_and_is_ended_all_the_same(told, monkeypatch):
-    monkeypatch.setattr("app.inputs.voice.process.ending.ENDS", 0.3)
+    monkeypatch.setattr("app.inputs.voice.process.ending.END_TIMEOUT", 0.3)
     deaf = "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); print(flush=True); time.sleep(60)"
     voice = InProcess("phonemes", command=[sys.executable, "-c", deaf])
     voice.missing = lambda: ""

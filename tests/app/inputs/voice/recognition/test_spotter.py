@@ -5,7 +5,7 @@ import pytest
 from app.inputs.voice.audio.endpoint import Segment
 from app.inputs.voice.interfaces.speech_recognizer import Grammar
 from app.inputs.voice.recognition.lexicon import COMMANDS
-from app.inputs.voice.recognition.spotter import EVERY, LOOKS, Spotter
+from app.inputs.voice.recognition.spotter import SEARCH_DELAYS, SEARCH_PERIOD, Spotter
 from tests.app.inputs.voice.sounds import Written, voice
 
 GRAMMAR = Grammar(COMMANDS)
@@ -51,11 +51,11 @@ def test_the_model_runs_when_the_voice_sinks_and_rarely_while_it_goes_on():
     while now < 6.0:
         now += 0.05
         spot.search(Segment(voice(now - 5.0 + 0.3), 5.0, now), now)
-    assert model.asked <= 1.0 / EVERY + 1
+    assert model.asked <= 1.0 / SEARCH_PERIOD + 1
     asked = model.asked
     for number in range(10):
-        spot.search(Segment(voice(1.3), 5.0, now), now + LOOKS[0] + number * 0.05)
-    assert model.asked - asked == len(LOOKS)
+        spot.search(Segment(voice(1.3), 5.0, now), now + SEARCH_DELAYS[0] + number * 0.05)
+    assert model.asked - asked == len(SEARCH_DELAYS)
 
 
 def test_a_grammar_without_urgent_intents_is_never_looked_at():
