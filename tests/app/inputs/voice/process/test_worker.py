@@ -427,7 +427,7 @@ def test_the_reason_is_in_the_log(monkeypatch, caplog):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no signals")
 def test_one_that_the_system_stopped_is_found_and_replaced(told, monkeypatch):
-    monkeypatch.setattr("app.inputs.voice.process.worker.BEAT", 0.01)
+    monkeypatch.setattr("app.inputs.voice.process.worker.CHECK_PERIOD", 0.01)
     program = """
 import json, os, signal, sys
 sys.stdin.readline()
