@@ -194,7 +194,7 @@ class PilothouseApp(App):
         """The glass is taken away: rest, and let go of the robot; the patrol goes on without us."""
         self.inputs.rest()
         self.methods.pause()
-        self.fleet.look(None)
+        self.fleet.update(None)
         self.visit.suspend()
         self.records.stop()
         self.collector.pause()
@@ -223,13 +223,13 @@ class PilothouseApp(App):
         self._looks += 1
         if self._looks % TICK_EVERY == 0:  # in the same frame: one of its own would be drawn for it
             self._tick()
-        self.collector.look()
+        self.collector.step()
 
     def _deliver(self, channel: str, post: Post) -> None:
         if self.robot_list.on_post(channel, post):
             return
         if channel.startswith(SIMULATED):
-            self.simulating.hear(*post.value)
+            self.simulating.on_report(*post.value)
             return
         self.visit.deliver(channel, post)
         if channel == "/robot/info" and self.session is not None:
@@ -275,7 +275,7 @@ class PilothouseApp(App):
         """The link is about to be closed: STOP ALL goes on over links of its own."""
         if shell is not None:
             self.collector.expect(shell)
-        self.fleet.look(None)
+        self.fleet.update(None)
 
     def _left(self) -> None:
         self.corner.tick()

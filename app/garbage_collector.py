@@ -75,7 +75,7 @@ class Collector:
         self._due, self._left = True, weakref.ref(left)
         self._looks = self._wait = 0
 
-    def look(self) -> None:
+    def step(self) -> None:
         """Collect if there may be enough; to be called between frames, from the clock and from no binding."""
         blocks = sys.getallocatedblocks()  # 0.01 to 0.05 ms
         if self._due or self._again() or blocks - self._blocks >= OLD:

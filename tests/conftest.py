@@ -59,7 +59,7 @@ def pytest_collection_finish(session: pytest.Session) -> None:
 def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
     """Collect between the tests, when nothing holds what a test made any more."""
     result = yield
-    item.config.stash[COLLECTOR].look()
+    item.config.stash[COLLECTOR].step()
     return result
 
 

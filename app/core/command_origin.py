@@ -99,7 +99,7 @@ class Origins:
         """A key was pressed that means something only to a field or a button on the glass."""
         self._touch = Origin("keyboard", began=now, ended=now)
 
-    def look(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """With each heartbeat: who touched the glass long ago does nothing any more."""
         if self._touch is not None and not self._down and now - self._touch.ended > LASTS:
             self._touch = None

@@ -153,7 +153,7 @@ class Methods:
 
     def update(self, now: float) -> None:
         """With each heartbeat of the user interface, every 30 ms; `now` is our clock [s]."""
-        origins.look(now)
+        origins.update(now)
         self._app.intents.update(now)
         if self._app.shell is not None:
             self._app.shell.wishes.update(now)

@@ -146,7 +146,7 @@ class ControlMixer:
         self._amend = amend or send
         self._said: dict[Hashable, Parts] = {}
 
-    def take(self, control: Hashable, parts: Parts) -> None:
+    def set_parts(self, control: Hashable, parts: Parts) -> None:
         """A control says something else than before; all of it together is sent. What is not finite counts as rest of that control."""
         self._keep(control, parts)
         self._send(self.order)

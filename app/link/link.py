@@ -203,11 +203,11 @@ class Link:
         self._sender.slot.latch(False)
         self._network.call(self.commands.void_stop)
 
-    def look(self, topic: str, type_name: str) -> None:
+    def inspect(self, topic: str, type_name: str) -> None:
         """Listen to one topic and tell what is `SEEN` of it; the one before ends."""
         self._spawn(partial(self._peek.open, topic=topic, type_name=type_name))
 
-    def look_away(self) -> None:
+    def end_inspection(self) -> None:
         """Listen to that topic no longer."""
         self._network.call(self._peek.close)
 

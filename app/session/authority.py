@@ -128,9 +128,9 @@ class Authority:
         elif self.asking:
             self.take_back()
         else:
-            self.take()
+            self.acquire()
 
-    def take(self) -> None:
+    def acquire(self) -> None:
         """Take control, or ask who has it; it is taken again after a reconnect."""
         session = self._session
         self.wanted = True

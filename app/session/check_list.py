@@ -47,7 +47,7 @@ class CheckListState:
         """A finger folded or unfolded it."""
         self._chosen = unfold
 
-    def look(self) -> None:
+    def update(self) -> None:
         """Fold it when the robot first moves and when all has become good; called as time passes."""
         moves, ready = self._moved or self._moves(), self.ready
         if moves != self._moved or (ready and not self._was_ready):

@@ -48,7 +48,7 @@ class EventIntake:
     def on_event(self, post: Post) -> None:
         """An event came."""
         event = own_event(post.value, self._client_id, self._gave_stop(post.value))
-        if self._logbook.take(event):
+        if self._logbook.add(event):
             post = replace(post, value=event)
             if not self.shown:
                 self.early.append(post)

@@ -116,7 +116,7 @@ class LayoutActions:
             "reset": self._ask_to_reset,
         }
 
-    def look(self) -> list[Action]:
+    def current(self) -> list[Action]:
         """Each as it stands now; those are left out that this robot has nothing for."""
         looks = (
             self._task(what, text, icon) if what.startswith("task.") else self._looks[what](text, icon)
@@ -127,7 +127,7 @@ class LayoutActions:
 
     def slides(self) -> list[Action]:
         """Each as a slide has it, which never ends what it began: a task that is paused goes on by it, one that runs needs none."""
-        return [self._slide(action) if action.meaning == "end" else action for action in self.look()]
+        return [self._slide(action) if action.meaning == "end" else action for action in self.current()]
 
     def _slide(self, action: Action) -> Action:
         task = action.name.removeprefix("task.")
@@ -154,7 +154,7 @@ class LayoutActions:
 
     def act(self, what: str) -> None:
         """Do what a press on it means now; nothing where `look` says that it cannot be asked for."""
-        if not any(action.name == what and action.able for action in self.look()):
+        if not any(action.name == what and action.able for action in self.current()):
             return
         if what.startswith("task."):
             self._ask_for(what.removeprefix("task."))

@@ -130,7 +130,7 @@ class Logbook:
 
     # what comes in
 
-    def take(self, event: Event) -> bool:
+    def add(self, event: Event) -> bool:
         """Keep an event; False when that is no news."""
         key = event.boot, event.id
         before = self._events.get(key)
@@ -142,13 +142,13 @@ class Logbook:
             self._asked.discard(key)
         while len(self._events) > MAX_EVENTS:
             del self._events[next(iter(self._events))]
-        self._tell()
+        self._notify()
         return True
 
     def miss(self, missed: Missed) -> None:
         """So much was missed; the events themselves have come. An earlier absence does not count any more."""
         self._away, self._told = missed, False
-        self._tell()
+        self._notify()
 
     def know(self, known: KnownEvents) -> None:
         """Remember how far the log is known, over the app's end."""
@@ -163,12 +163,12 @@ class Logbook:
         if outcome.name == "acknowledge" and outcome.phase in ("refused", "no_reply"):
             boot = self._known.boot
             self._asked -= {(boot, number) for number in outcome.fields["ids"]}
-            self._tell()
+            self._notify()
 
     def dropped(self) -> None:
         """The link is another one now: what was under way has no answer."""
         self._asked.clear()
-        self._tell()
+        self._notify()
 
     # what a finger does
 
@@ -180,14 +180,14 @@ class Logbook:
         self._asked |= {(one.boot, one.id) for one in wanted}
         for start in range(0, len(numbers), MAX_ACKNOWLEDGED):
             self._send("acknowledge", ids=Int32Array(numbers[start : start + MAX_ACKNOWLEDGED]))
-        self._tell()
+        self._notify()
 
-    def look(self) -> None:
-        """What was missed has been looked at."""
+    def clear_missed(self) -> None:
+        """The operator has looked at the events that were missed."""
         if self._away is not None:
             self._away, self._told = None, True
-            self._tell()
+            self._notify()
 
-    def _tell(self) -> None:
+    def _notify(self) -> None:
         for listener in list(self.listeners):
             listener()

@@ -244,7 +244,7 @@ class Session:
 
     def take_control(self) -> None:
         """Take control, or ask who has it; it is taken again after a reconnect."""
-        self.authority.take()
+        self.authority.acquire()
 
     def rest(self) -> None:
         """The robot is told to rest before anything that is asked of it afterwards; the stick must be pushed anew."""

@@ -143,12 +143,12 @@ class TopicListing:
         kind = self.offer.topics[name]
         self.opened, self.problem, self.kind = name, "", None
         self._feed = None
-        self._session.link.look(name, kind)
+        self._session.link.inspect(name, kind)
 
     def close(self) -> None:
         """Look away: it is listened to no longer."""
         if self.opened:
-            self._session.link.look_away()
+            self._session.link.end_inspection()
         self.opened, self.problem, self.kind, self._feed = "", "", None, None
 
     @property
@@ -161,7 +161,7 @@ class TopicListing:
         """The newest of the open topic; None before the first."""
         return self._feed.message if self._feed is not None else None
 
-    def hear(self, channel: str, post: Post) -> bool:
+    def on_post(self, channel: str, post: Post) -> bool:
         """Take in what came; True when it belongs to the open topic."""
         if channel == LINK and self._feed is not None:
             self._feed.subscribed_anew()

@@ -212,9 +212,9 @@ class Fleet:
             self._add(entry)
         others = [robot for robot in self._robots.values() if robot.url != self._linked]
         self._press(others, 0.0 if connected is None else HEAD_START)
-        self.look(connected)
+        self.update(connected)
 
-    def look(self, connected: Connected | None) -> None:
+    def update(self, connected: Connected | None) -> None:
         """Bring `rows` up to date. A robot that is connected no longer is stopped by a lane of its own from now on.
 
         One that has no STOP and was connected meanwhile is held by its link instead, which alone can let it go.
@@ -249,7 +249,7 @@ class Fleet:
         until = self._now() + ANSWER_TIMEOUT
         while any(row.phase == "sent" for row in self.rows) and self._now() < until:
             time.sleep(0.01)
-            self.look(None)
+            self.update(None)
         self.let_go()
         if self._network is not None:
             with suppress(TimeoutError, concurrent.futures.TimeoutError):

@@ -48,7 +48,7 @@ def test_with_it_the_widget_stays_until_the_rule_is_through(collector: Collector
     lasting.name = "after"
     assert gone().followed[0] == "after"
     collector.expect(gone())
-    collector.look()
+    collector.step()
     assert gone() is None
 
 
@@ -60,14 +60,14 @@ def test_nothing_is_collected_before_it_looks(collector: Collector) -> None:
 
 def test_what_few_objects_made_waits(collector: Collector) -> None:
     gone = dropped()
-    collector.look()
+    collector.step()
     assert gone() is not None
 
 
 def test_when_many_objects_were_made_the_young_are_collected(collector: Collector) -> None:
     gone = dropped()
     kept = [[] for _ in range(garbage.YOUNG)]
-    collector.look()
+    collector.step()
     assert gone() is None
     assert kept
 
@@ -83,10 +83,10 @@ def test_the_old_are_left_until_much_has_grown_old_with_them(collector: Collecto
     cycle, gone = old()
     del cycle
     kept = [[] for _ in range(garbage.OLD // 2)]
-    collector.look()
+    collector.step()
     assert gone() is not None
     kept += [[] for _ in range(garbage.OLD)]
-    collector.look()
+    collector.step()
     assert gone() is None
 
 
@@ -96,7 +96,7 @@ def test_where_much_is_made_and_goes_again_the_old_are_left(collector: Collector
     for _ in range(10):
         for _ in range(garbage.OLD // 4):
             Cycle()
-        collector.look()
+        collector.step()
     assert gone() is not None
 
 
@@ -105,10 +105,10 @@ def test_much_that_was_thrown_away_goes_with_the_next_look(collector: Collector)
     collector.expect(cycle)
     del cycle
     assert gone() is not None
-    collector.look()
+    collector.step()
     assert gone() is None
     gone = dropped()
-    collector.look()
+    collector.step()
     assert gone() is not None
 
 
@@ -116,10 +116,10 @@ def test_what_something_still_holds_for_a_while_is_waited_for(collector: Collect
     cycle, gone = old()
     collector.expect(cycle)
     for _ in range(100):
-        collector.look()
+        collector.step()
     del cycle
     for _ in range(128):
-        collector.look()
+        collector.step()
     assert gone() is None
 
 
@@ -131,7 +131,7 @@ def test_what_never_goes_is_not_looked_for_for_ever(
     collector.expect(cycle)
     monkeypatch.setattr(gc, "collect", lambda *of: found.append(of) or 0)
     for _ in range(10_000):
-        collector.look()
+        collector.step()
     assert len([of for of in found if not of]) == 1 + garbage.MAX_RECHECKS
 
 

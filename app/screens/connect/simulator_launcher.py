@@ -103,7 +103,7 @@ class SimulatorLauncher:
         self._app.connect.say("")
         self.current.start()
 
-    def hear(self, what: str, text: str) -> None:
+    def on_report(self, what: str, text: str) -> None:
         """Take in what a thread told."""
         if what == "offered":
             self._take(text)
@@ -140,7 +140,7 @@ class SimulatorLauncher:
         try:
             self._offered = SimulatorOptions.read(text)
         except ValueError:
-            self.hear("not offered", "What the simulator offers is not to be understood.")
+            self.on_report("not offered", "What the simulator offers is not to be understood.")
             return
         self._inquiry = None
         if self.dialog is not None:

@@ -62,7 +62,7 @@ class ActionButtons(GridLayout):
 
     def tick(self) -> None:
         """Bring up to date which there are and what each does now."""
-        found = {action.name: action for action in self._actions.look() if action.name in self.buttons}
+        found = {action.name: action for action in self._actions.current() if action.name in self.buttons}
         for name, action in found.items():
             button = self.buttons[name]
             button.text, button.icon, button.disabled = self._words(action), action.icon, not action.able

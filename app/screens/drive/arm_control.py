@@ -38,7 +38,7 @@ class ArmControl:
         if self.made is None:
             self.made = panel = ArmPanel(state="never")
             panel.bind(
-                on_command=lambda _, order: self._send(order), on_in_vain=lambda _: self._in_vain.tell()
+                on_command=lambda _, order: self._send(order), on_in_vain=lambda _: self._in_vain.notify()
             )
             self._dashboard.bind(panel, TOPIC, fresh=False)
             message = self._session.feeds.latest(TOPIC)
@@ -50,7 +50,7 @@ class ArmControl:
         self._asked = order
         self._session.command("arm", order=order)
 
-    def hear(self, outcome: Outcome) -> None:
+    def on_outcome(self, outcome: Outcome) -> None:
         """Tell the panel what became of the newest order; why one was refused is said over the screen."""
         if outcome.name == "arm" and self.made is not None and outcome.fields.get("order") is self._asked:
             self.made.answer(outcome.phase)

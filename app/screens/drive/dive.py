@@ -143,7 +143,7 @@ class DiveScreen(Driving):
     def tick(self) -> None:
         """Bring up to date what time changes."""
         super().tick()
-        actions = [action for action in self.does.look() if action.name in self._listed]
+        actions = [action for action in self.does.current() if action.name in self._listed]
         if self.hands.arm.carried:
             said = "open" if self._arm_open else ""
             actions.append(Offered(ARM, "Arm", "precision_manufacturing", said=said))

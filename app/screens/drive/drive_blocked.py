@@ -58,7 +58,7 @@ class DriveBlocked:
         self._said = ""
         """What lies over the screen, as far as is known here."""
 
-    def tell(self) -> None:
+    def notify(self) -> None:
         """The stick was pushed in vain."""
         session, shell, text = self._session, self._app.shell, why_not(self._session)
         if not text or shell is None or any(one.text == text for one in self._toasts()):

@@ -97,7 +97,7 @@ class DriveControls(EventDispatcher):
             circle = self.tilt.circle
             if made is None:
                 circle.bind(on_command=lambda stick, said: self._pushed(stick, said, control))
-                circle.bind(on_in_vain=lambda _: self._in_vain.tell())
+                circle.bind(on_in_vain=lambda _: self._in_vain.notify())
             if not any(stick is circle for stick, _ in self._sticks):
                 self._sticks.append((circle, control))
             return {TILT: circle}
@@ -141,7 +141,7 @@ class DriveControls(EventDispatcher):
         for topic in one.topics:
             self._dashboard.bind(widget, topic, fresh=False)
         if hasattr(widget, "on_in_vain"):
-            widget.bind(on_in_vain=lambda _: self._in_vain.tell())
+            widget.bind(on_in_vain=lambda _: self._in_vain.notify())
         if isinstance(widget, Stick):
             self._sticks.append((widget, one))
             self._caption(widget, one)
@@ -153,7 +153,7 @@ class DriveControls(EventDispatcher):
     # what the fingers do
 
     def _pushed(self, stick: Stick, said: Drive, one: Control) -> None:
-        self.piloting.take(stick, self._meant(stick, said, one))
+        self.piloting.set_parts(stick, self._meant(stick, said, one))
 
     def _meant(self, stick: Stick, said: Any, one: Control) -> Parts:
         if one.widget in SAYS:
@@ -184,14 +184,14 @@ class DriveControls(EventDispatcher):
         arm = [self.arm.panel] if self.chosen == ARM else []
         return [*(widget for widget in self._asking.widgets if self.shown(widget)), *arm]
 
-    def hear(self, channel: str, post: Post) -> None:
+    def on_post(self, channel: str, post: Post) -> None:
         """A message came: what the robot may, and what became of what was asked for."""
         if channel in ("/robot/info", "/limits"):
             self.take_limits()
         elif channel == CAPABILITIES:
             self._retake()
         elif channel == OUTCOME:
-            self.arm.hear(post.value)
+            self.arm.on_outcome(post.value)
             self._asking.on_outcome(post.value)
 
     def shown(self, widget: Widget) -> bool:

@@ -131,10 +131,10 @@ class Driving(RobotScreen):
         self.cover = cover
         self._cover_up()
 
-    def hear(self, channel: str, post: Post) -> None:
+    def on_post(self, channel: str, post: Post) -> None:
         """A message came."""
         self.dashboard.deliver(channel, post.value)
-        self.hands.hear(channel, post)
+        self.hands.on_post(channel, post)
         if channel == CAPABILITIES:
             self.instruments.name_sources(self.session.robot.capabilities)
         if channel in ("/robot/info", CAPABILITIES):

@@ -110,7 +110,7 @@ class InputsScreen(RobotScreen):
     def clear(self, cover: Rect | None) -> None:
         """Make room for what is said over the screen; the lists scroll, so that nothing is lost below it."""
 
-    def hear(self, channel: str, post: Post) -> None:
+    def on_post(self, channel: str, post: Post) -> None:
         """A message came: to the pane on the glass, where it listens."""
         if self._entered is not None and hasattr(self._entered, "hear"):
             self._entered.hear(channel, post)

@@ -248,7 +248,7 @@ class MissionScreen(RobotScreen):
         self.sheet = 1 - self.sheet
         return True
 
-    def hear(self, channel: str, post: Post) -> None:
+    def on_post(self, channel: str, post: Post) -> None:
         """A message came."""
         self.dashboard.deliver(channel, post.value)
         if channel == EVENT:

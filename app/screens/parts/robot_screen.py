@@ -30,7 +30,7 @@ class RobotScreen(FloatLayout):
     def clear(self, cover: Rect | None) -> None:
         """Make room for what is said over the screen; None where nothing is."""
 
-    def hear(self, channel: str, post: Post) -> None:
+    def on_post(self, channel: str, post: Post) -> None:
         """Something came from the robot or its link."""
 
     def enter(self) -> None:

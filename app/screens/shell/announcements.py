@@ -70,7 +70,7 @@ class Announcements:
     def _on_event(self, event: Event) -> None:
         self._speaker.unsay(event.kind)
         news = self._session.logbook.is_news(event, self._session.link.robot_time())
-        if event.level == "alarm" and news and not self._reset.take(event):
+        if event.level == "alarm" and news and not self._reset.on_alarm(event):
             self._speaker.say(event.text, "danger", about=event.kind)
 
     def _show_tag(self, tag: str) -> None:

@@ -27,11 +27,11 @@ class CheckCard(CheckList):
 
     def show(self, msg: Checklist) -> None:
         """Take over the list, folded at once where all on it has become good."""
-        self._session.checks.look()
+        self._session.checks.update()
         self.open = self._session.checks.open
         super().show(msg)
 
     def tick(self) -> None:
         """Bring up to date what time changes."""
-        self._session.checks.look()
+        self._session.checks.update()
         self.open = self._session.checks.open

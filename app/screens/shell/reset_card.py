@@ -32,7 +32,7 @@ class ResetPrompt:
             self.card.ask()
             self.tick()
 
-    def take(self, event: Event) -> bool:
+    def on_alarm(self, event: Event) -> bool:
         """Offer it after an alarm about the robot itself; False when that is none, or cannot be helped so."""
         if event.kind != "robot" or event.level != "alarm" or not self.possible:
             return False

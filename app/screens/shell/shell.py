@@ -245,7 +245,7 @@ class Shell(FloatLayout):
         for follower in self._followers:
             follower(channel, post)
         for screen in self.screens.values():
-            screen.hear(channel, post)
+            screen.on_post(channel, post)
         if channel in STANDING:
             self._look()
         if channel in (OUTCOME, "/control/status"):
@@ -267,7 +267,7 @@ class Shell(FloatLayout):
     def replay(self, post: Post) -> None:
         """An event that came before this frame was there."""
         for screen in self.screens.values():
-            screen.hear(EVENT, post)
+            screen.on_post(EVENT, post)
 
     def say(self, text: str, level: str = "info", about: str = "", stay: float = BRIEF_DURATION) -> None:
         """One sentence over the screen for `stay` [s]; `about` is the command or the kind of event it tells of."""

@@ -86,7 +86,7 @@ class StopCorner:
     def tick(self) -> None:
         """Look who is known and what became of STOP."""
         fleet, button = self._fleet, self.button
-        fleet.look(self._app.session)
+        fleet.update(self._app.session)
         button.robots = known(self._app.robots.entries(), self._app.session)
         button.active = fleet.active
         button.stopped, button.total = fleet.stopped, fleet.total

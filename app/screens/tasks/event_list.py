@@ -57,7 +57,7 @@ class EventList(BoxLayout):
         if self._shown:
             self._shown = False
             self._looked = {(event.boot, event.id) for event in self._book.open}
-            self._book.look()
+            self._book.clear_missed()
 
     def tick(self) -> None:
         """Bring up to date what time changes, and what came."""

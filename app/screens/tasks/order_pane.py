@@ -122,7 +122,7 @@ class OrderPane(BoxLayout):
         self._pages.bind(on_choose=lambda _, page: setattr(self, "page", page))
         self.when.bind(on_command=lambda _, task: self._timed(task))
         self.form.bind(
-            on_command=lambda *_: self.tell(),
+            on_command=lambda *_: self.update_sentence(),
             on_react=lambda _, reaction: session.mission.set_motion(on_intruder=reaction),
             picking=self._lay,
         )
@@ -137,7 +137,7 @@ class OrderPane(BoxLayout):
         self.chooser.chosen = task
         self.page = "what"
         self._lay()
-        self.tell()
+        self.update_sentence()
 
     def now(self) -> None:
         """An order of now."""
@@ -153,7 +153,7 @@ class OrderPane(BoxLayout):
         self.when.show(self.scheduled)
         self.begin(self.scheduled.order.task)
         self.form.show(self.scheduled.order)
-        self.tell()
+        self.update_sentence()
 
     def made(self) -> ScheduledTask:
         """The scheduled task as it stands, switched on."""
@@ -161,7 +161,7 @@ class OrderPane(BoxLayout):
 
     def _timed(self, task: ScheduledTask) -> None:
         self.scheduled = task
-        self.tell()
+        self.update_sentence()
 
     @property
     def unsent(self) -> bool:
@@ -198,9 +198,9 @@ class OrderPane(BoxLayout):
         if draft is not self._shown:
             self._shown = draft
             self.form.show(draft.message())
-        self.tell()
+        self.update_sentence()
 
-    def tell(self) -> None:
+    def update_sentence(self) -> None:
         """Say what will happen."""
         self.form.follows = self._session.feeds.latest("/following") is not None
         sentence, complete = self.form.sentence, self.form.complete

@@ -118,7 +118,7 @@ class TasksScreen(RobotScreen):
         for name, place in (("listed", "list"), ("detail", "detail")):
             put(self.ids[name], above(self._places[place], cover, self._dp))
 
-    def hear(self, channel: str, post: Post) -> None:
+    def on_post(self, channel: str, post: Post) -> None:
         """A message came."""
         self.dashboard.deliver(channel, post.value)
         if channel == OUTCOME:

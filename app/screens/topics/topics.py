@@ -364,9 +364,9 @@ class TopicsScreen(RobotScreen):
             put(widget, above(self._places[place], self._cover, Metrics.density))
         put(self.ids.strip, self._places["strip"])
 
-    def hear(self, channel: str, post: Post) -> None:
+    def on_post(self, channel: str, post: Post) -> None:
         """A message came."""
-        if self.topics.hear(channel, post):
+        if self.topics.on_post(channel, post):
             self._show_message()
 
     def enter(self) -> None:

@@ -29,8 +29,8 @@ class Thumbs(Hands):
         piloting = ControlMixer(
             self.slot.want, lambda: ("twist", "tilt"), lambda: reach, ("climb", "turn", "roll", "pitch")
         )
-        self.stick.bind(on_command=lambda stick, _: piloting.take(stick, Parts(climb=stick.forward)))
-        self.circle.bind(on_command=lambda circle, said: piloting.take(circle, Parts.of(said)))
+        self.stick.bind(on_command=lambda stick, _: piloting.set_parts(stick, Parts(climb=stick.forward)))
+        self.circle.bind(on_command=lambda circle, said: piloting.set_parts(circle, Parts.of(said)))
 
     def touch(self, x: float, y: float) -> Any:
         touch = self.stage.touch(x, 200)

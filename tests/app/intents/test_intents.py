@@ -298,12 +298,12 @@ def test_without_a_word_about_it_a_command_comes_from_the_finger_that_came_down_
 def test_what_is_done_long_after_a_touch_was_asked_for_by_nobody(untouched: None) -> None:
     assert origins.current() is NOBODY
     origins.touched(7.0)
-    origins.look(30.0)
+    origins.update(30.0)
     assert origins.current().began == 7.0, "the finger is still down"
     origins.lifted(30.0)
-    origins.look(30.9)
+    origins.update(30.9)
     assert origins.current().method == "button"
-    origins.look(31.1)
+    origins.update(31.1)
     assert origins.current() is NOBODY
 
 
@@ -311,7 +311,7 @@ def test_a_finger_that_holds_a_stick_goes_on_when_another_one_is_lifted(untouche
     origins.touched(7.0)
     origins.touched(8.0)
     origins.lifted(8.1)
-    origins.look(20.0)
+    origins.update(20.0)
     assert origins.current().method == "button"
 
 

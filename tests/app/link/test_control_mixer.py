@@ -98,10 +98,10 @@ def says_of(said: Drive) -> tuple[str, ...]:
 def test_every_change_of_any_control_is_sent_with_what_the_others_say() -> None:
     sent: list[Drive] = []
     piloting = ControlMixer(sent.append, lambda: ("twist", "tilt"), lambda: REACH, DRONE)
-    piloting.take("stick", Parts(climb=0.5))
-    piloting.take("circle", Parts(pitch=0.2))
-    piloting.take("stick", Parts())
-    piloting.take("circle", Parts())
+    piloting.set_parts("stick", Parts(climb=0.5))
+    piloting.set_parts("circle", Parts(pitch=0.2))
+    piloting.set_parts("stick", Parts())
+    piloting.set_parts("circle", Parts())
     assert sent[0] == Twist(Vector3(0.0, 0.0, 0.5))
     assert (sent[1].pitch, sent[1].twist.linear.z) == (0.2, 0.5)
     assert (sent[2].pitch, sent[2].twist.linear.z) == (0.2, 0.0)
@@ -111,18 +111,18 @@ def test_every_change_of_any_control_is_sent_with_what_the_others_say() -> None:
 def test_a_control_that_says_what_is_no_number_counts_as_let_go() -> None:
     sent: list[Drive] = []
     piloting = ControlMixer(sent.append, tuple)
-    piloting.take("stick", Parts(ahead=0.5))
-    piloting.take("stick", Parts(ahead=math.nan, turn=1.0))
+    piloting.set_parts("stick", Parts(ahead=0.5))
+    piloting.set_parts("stick", Parts(ahead=math.nan, turn=1.0))
     assert sent[-1] == Twist()
 
 
 def test_what_a_push_means_anew_is_sent_at_once_and_for_nothing_that_is_let_go() -> None:
     sent: list[Drive] = []
     piloting = ControlMixer(sent.append, tuple)
-    piloting.take("stick", Parts(ahead=2.0))
+    piloting.set_parts("stick", Parts(ahead=2.0))
     piloting.retake({"stick": Parts(ahead=0.5), "lever": Parts(turn=1.0)})
     assert sent == [Twist.planar(2.0, 0.0), Twist.planar(0.5, 0.0)]
-    piloting.take("stick", Parts())
+    piloting.set_parts("stick", Parts())
     piloting.retake({"stick": Parts(ahead=1.0)})
     assert sent[-1] == Twist(), "a control that is let go drives nothing, whatever it would mean"
     assert len(sent) == 3

@@ -19,12 +19,12 @@ class Robot:
     def tell(self, *states: str) -> None:
         told = Checklist(checks=[Check(str(index), state) for index, state in enumerate(states)])
         self.feeds.put("/checklist", Post(told, 0.0, 1))
-        self.checks.look()
+        self.checks.update()
 
     def drive(self, x: float = 0.0, turn: float = 0.0) -> None:
         twist = Twist(Vector3(x), Vector3(0.0, 0.0, turn))
         self.feeds.put("/odom", Post(Odometry(twist=TwistWithCovariance(twist)), 0.0, 1))
-        self.checks.look()
+        self.checks.update()
 
 
 @pytest.fixture
@@ -53,14 +53,14 @@ def test_it_folds_when_the_robot_first_moves_and_stays_so(robot, motion):
 def test_a_task_is_a_motion(robot):
     robot.tell("bad")
     robot.running = True
-    robot.checks.look()
+    robot.checks.update()
     assert not robot.checks.open
 
 
 def test_a_finger_folds_and_unfolds_it_at_any_time(robot):
     robot.tell("bad")
     robot.checks.choose(False)
-    robot.checks.look()
+    robot.checks.update()
     assert not robot.checks.open
     robot.drive(x=0.3)
     robot.checks.choose(True)

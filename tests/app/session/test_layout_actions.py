@@ -65,11 +65,11 @@ class Asked:
         self.session.deliver(topic, Post(message, 100.0, 1))
 
     def __getitem__(self, name: str) -> Any:
-        return next(action for action in self.actions.look() if action.name == name)
+        return next(action for action in self.actions.current() if action.name == name)
 
     @property
     def names(self) -> list[str]:
-        return [action.name for action in self.actions.look()]
+        return [action.name for action in self.actions.current()]
 
 
 @pytest.fixture

@@ -49,18 +49,18 @@ def book(settings: Settings, asked: Asked) -> Logbook:
 
 
 def test_an_event_is_kept_once_and_changes_when_somebody_has_seen_to_it(book: Logbook) -> None:
-    assert book.take(event(1, "alarm"))
-    assert not book.take(event(1, "alarm"))
+    assert book.add(event(1, "alarm"))
+    assert not book.add(event(1, "alarm"))
     assert book.alarms == 1
-    assert book.take(event(1, "alarm", acknowledged_by="Anna"))
-    assert not book.take(event(1, "alarm", acknowledged_by="Anna"))
-    assert not book.take(event(1, "alarm"))
+    assert book.add(event(1, "alarm", acknowledged_by="Anna"))
+    assert not book.add(event(1, "alarm", acknowledged_by="Anna"))
+    assert not book.add(event(1, "alarm"))
     assert (book.alarms, [one.acknowledged_by for one in book.events]) == (0, ["Anna"])
 
 
 def test_only_warnings_and_alarms_wait_for_somebody(book: Logbook) -> None:
     for number, level in enumerate(("info", "ok", "warn", "alarm"), 1):
-        book.take(event(number, level))
+        book.add(event(number, level))
     assert [one.id for one in book.open] == [3, 4]
     assert book.alarms == 1
 
@@ -69,19 +69,19 @@ def test_one_that_is_acknowledged_is_asked_for_once_until_there_is_an_answer(
     book: Logbook, asked: Asked
 ) -> None:
     alarm = event(1, "alarm")
-    book.take(alarm)
+    book.add(alarm)
     book.acknowledge([alarm])
     book.acknowledge([alarm])
     assert asked == [[1]]
     assert book.is_asked(alarm)
-    book.take(event(1, "alarm", acknowledged_by="me"))
+    book.add(event(1, "alarm", acknowledged_by="me"))
     assert not book.is_asked(alarm)
 
 
 def test_one_that_somebody_else_saw_to_a_moment_before_is_not_asked_for(book: Logbook, asked: Asked) -> None:
-    book.take(event(1, "alarm"))
+    book.add(event(1, "alarm"))
     seen = event(1, "alarm", acknowledged_by="Anna")
-    book.take(seen)
+    book.add(seen)
     book.acknowledge([seen])
     assert asked == []
 
@@ -89,7 +89,7 @@ def test_one_that_somebody_else_saw_to_a_moment_before_is_not_asked_for(book: Lo
 @pytest.mark.parametrize("phase", ["refused", "no_reply"])
 def test_without_success_it_can_be_asked_for_again(book: Logbook, asked: Asked, phase: str) -> None:
     alarm = event(1, "alarm")
-    book.take(alarm)
+    book.add(alarm)
     book.acknowledge([alarm])
     book.answered(Outcome("acknowledge", "c1", phase, fields={"ids": asked[0]}))
     assert not book.is_asked(alarm)
@@ -99,7 +99,7 @@ def test_without_success_it_can_be_asked_for_again(book: Logbook, asked: Asked, 
 
 def test_a_link_that_is_given_up_leaves_nothing_waiting(book: Logbook) -> None:
     alarm = event(1, "alarm")
-    book.take(alarm)
+    book.add(alarm)
     book.acknowledge([alarm])
     book.dropped()
     assert not book.is_asked(alarm)
@@ -107,24 +107,24 @@ def test_a_link_that_is_given_up_leaves_nothing_waiting(book: Logbook) -> None:
 
 def test_very_many_are_acknowledged_in_parts_that_the_robot_takes(book: Logbook, asked: Asked) -> None:
     for number in range(1, MAX_ACKNOWLEDGED + 8):
-        book.take(event(number, "warn"))
+        book.add(event(number, "warn"))
     book.acknowledge(book.open)
     assert [len(part) for part in asked] == [MAX_ACKNOWLEDGED, 7]
 
 
 def test_what_was_missed_is_marked_until_it_was_looked_at(book: Logbook) -> None:
     for number in (1, 2, 3):
-        book.take(event(number))
+        book.add(event(number))
     book.miss(Missed("a", 1, 3, gone=True))
     assert [one.id for one in book.missed] == [2, 3]
     assert book.gone
-    book.look()
+    book.clear_missed()
     assert (book.missed, book.gone) == ([], False)
 
 
 def test_what_came_live_was_not_missed(book: Logbook) -> None:
     for number in range(1, 6):
-        book.take(event(number))
+        book.add(event(number))
     book.miss(Missed("a", 1, 5, live=frozenset({3, 5})))
     assert [one.id for one in book.missed] == [2, 4]
     assert book.words == "2 while you were away"
@@ -133,24 +133,24 @@ def test_what_came_live_was_not_missed(book: Logbook) -> None:
 def test_what_was_missed_is_said_once_and_what_waits_in_it_is_counted(book: Logbook) -> None:
     assert (book.news(), book.words) == ("", "")
     for number, level in enumerate(("info", "alarm", "info"), 1):
-        book.take(event(number, level))
+        book.add(event(number, level))
     book.miss(Missed("a", 1, 3))
     assert book.news() == "2 events while you were away, 1 to be seen to."
     assert (book.news(), book.words) == ("", "2 while you were away")
-    book.take(event(4))
+    book.add(event(4))
     book.miss(Missed("a", 3, 4, gone=True))
     assert book.news() == "1 event while you were away; the robot keeps no more of them.", (
         "of the last absence"
     )
     assert book.words == "1 and more while you were away"
-    book.look()
+    book.clear_missed()
     assert book.news() == ""
 
 
 def test_of_a_log_that_is_no_more_nothing_can_be_seen_to(book: Logbook, asked: Asked) -> None:
-    book.take(event(1, "alarm"))
+    book.add(event(1, "alarm"))
     book.know(KnownEvents("b", 4))
-    book.take(event(4, "alarm", "b"))
+    book.add(event(4, "alarm", "b"))
     assert [(one.boot, one.id) for one in book.open] == [("b", 4)]
     book.acknowledge(book.events)
     assert asked == [[4]]
@@ -181,7 +181,7 @@ def test_strange_settings_are_none(settings: Settings, strange: object) -> None:
 
 def test_the_newest_are_kept(book: Logbook) -> None:
     for number in range(1, MAX_EVENTS + 3):
-        book.take(event(number))
+        book.add(event(number))
     assert (len(book.events), book.events[0].id) == (MAX_EVENTS, 3)
 
 

@@ -39,8 +39,8 @@ class Robot:
         self.feeds = Feeds(self.now)
         self.feeds.link(True)
         self.link = SimpleNamespace(
-            look=lambda *what: self.asked.append(("look", *what)),
-            look_away=lambda: self.asked.append(("look away",)),
+            inspect=lambda *what: self.asked.append(("look", *what)),
+            end_inspection=lambda: self.asked.append(("look away",)),
             ask_offer=lambda: self.asked.append(("offer",)),
         )
         self.topics = TopicListing(self)  # type: ignore[arg-type]
@@ -49,7 +49,7 @@ class Robot:
         return self.time
 
     def say(self, seen: Seen, count: int = 1) -> bool:
-        return self.topics.hear(SEEN, Post(seen, self.time, count))
+        return self.topics.on_post(SEEN, Post(seen, self.time, count))
 
 
 def test_the_list_tells_names_types_and_uses_in_their_order() -> None:
@@ -143,10 +143,10 @@ def test_a_type_that_cannot_be_shown_and_a_topic_that_went_away_are_said() -> No
     robot.topics.open("/gripper")
     robot.say(Seen("/gripper", problem="acme_msgs/Gripper cannot be shown."))
     assert robot.topics.notice == "acme_msgs/Gripper cannot be shown."
-    robot.topics.hear(LINK, Post(None, robot.time, 1))
+    robot.topics.on_post(LINK, Post(None, robot.time, 1))
     assert robot.asked[-1] == ("look", "/gripper", "acme_msgs/Gripper"), "tried again with the connection"
     robot.robot.capabilities = Capabilities.of({"/imu": "sensor_msgs/Imu"}, frozenset())
-    robot.topics.hear(CAPABILITIES, Post(robot.robot.capabilities, robot.time, 1))
+    robot.topics.on_post(CAPABILITIES, Post(robot.robot.capabilities, robot.time, 1))
     assert robot.topics.notice == "The robot no longer offers /gripper."
 
 
@@ -183,7 +183,7 @@ def test_what_was_said_once_may_come_twice_to_who_subscribes_and_again_after_a_l
     for pause in (0.0, 0.4, 30.0, 0.4):
         robot.time += pause
         if pause > 1.0:
-            robot.topics.hear(LINK, Post(None, robot.time, 1))
+            robot.topics.on_post(LINK, Post(None, robot.time, 1))
         robot.say(Seen("/gripper", Twist()), count=2)
     robot.time += 60.0
     assert (robot.topics.state, robot.topics.once) == ("live", 60.0)
@@ -197,7 +197,7 @@ def test_a_stream_that_a_lost_link_ended_stays_old_until_it_comes_again() -> Non
         robot.time += 0.1
         robot.say(Seen("/gripper", Twist()))
     robot.time += 20.0
-    robot.topics.hear(LINK, Post(None, robot.time, 1))
+    robot.topics.on_post(LINK, Post(None, robot.time, 1))
     assert (robot.topics.state, robot.topics.age) == ("stale", pytest.approx(20.0))
 
 

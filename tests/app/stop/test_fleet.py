@@ -113,7 +113,7 @@ def heard(url: str, name: str = "", silent: float = 0.2) -> Entry:
 
 
 def phases(fleet: Fleet, connected: Any = None) -> dict[str, str]:
-    fleet.look(connected)
+    fleet.update(connected)
     return {row.name: row.phase for row in fleet.rows}
 
 
@@ -155,13 +155,13 @@ def test_it_counts_who_says_that_it_is_stopped(fleet: Fleet, lanes: Lanes) -> No
     until(lambda: len(lanes.open) == 2, "no lanes")
     lanes.reports = {B: Report("stopped"), C: Report("no_answer", "No robot answers.")}
     link.robot_stop.phase = "stopped"
-    fleet.look(link)
+    fleet.update(link)
     assert (fleet.stopped, fleet.total, fleet.sending) == (2, 3, True)
     lanes.reports[C] = Report("stopped")
-    fleet.look(link)
+    fleet.update(link)
     assert (fleet.stopped, fleet.sending) == (3, False)
     lanes.reports[C] = Report("stopped", foreign=True)
-    fleet.look(link)
+    fleet.update(link)
     assert fleet.sending, "a robot without a STOP is held for as long as zero speed is sent"
 
 
@@ -179,10 +179,10 @@ def test_saved_robots_are_tried_too_and_it_says_how_long_they_were_not_heard(
     lanes.reports[B] = Report("no_answer", "No reply.")
     fleet.press([replace(heard(B, "Boat", silent), saved=True)])
     until(lambda: B in lanes.open, "no lane")
-    fleet.look(None)
+    fleet.update(None)
     assert fleet.rows[0].sentence == sentence
     lanes.reports[B] = Report("stopped", "", reached=True)
-    fleet.look(None)
+    fleet.update(None)
     assert fleet.rows[0].sentence == "", "it was heard now"
 
 
@@ -230,11 +230,11 @@ def test_one_robot_under_two_addresses_is_stopped_at_both_and_counted_once(
         B: Report("stopped", identity=one),
         C: Report("stopped", identity=other),
     }
-    fleet.look(None)
+    fleet.update(None)
     assert (fleet.stopped, fleet.total) == (2, 2)
     assert [row.also for row in fleet.rows] == [1, 0]
     lanes.reports[A] = Report("no_answer", identity=("Boat", "minnow", Time(6, 0)))
-    fleet.look(None)
+    fleet.update(None)
     assert fleet.total == 2, "what was one robot once is one"
 
 
@@ -245,7 +245,7 @@ def test_the_connected_robot_is_not_counted_again_under_another_address(fleet: F
     until(lambda: A in lanes.open, "no lane")
     lanes.reports[A] = Report("stopped", identity=("Linked", "patrol", Time(7, 1)))
     link.robot_stop.phase = "stopped"
-    fleet.look(link)
+    fleet.update(link)
     assert (fleet.stopped, fleet.total) == (1, 1)
 
 
@@ -254,7 +254,7 @@ def test_what_moves_at_one_address_is_not_stopped_because_another_says_so(fleet:
     lanes.reports = {A: Report("stopped", identity=same), B: Report("moves", identity=same)}
     fleet.press([heard(A), heard(B)])
     until(lambda: len(lanes.open) == 2, "no lanes")
-    fleet.look(None)
+    fleet.update(None)
     assert (fleet.stopped, fleet.total) == (0, 1)
 
 
@@ -269,7 +269,7 @@ def test_one_robot_that_says_hello_from_two_addresses_is_counted_once(fleet: Fle
     assert fleet.since([*entries, heard(C)]) == 1
     fleet.press(entries, link)
     until(lambda: set(lanes.open) == {A, B}, "not tried at every address")
-    fleet.look(link)
+    fleet.update(link)
     assert fleet.total == 1
 
 
@@ -280,7 +280,7 @@ def test_it_says_of_the_connected_robot_what_its_session_says(fleet: Fleet) -> N
         "moves",
         "STOP is pressed, and it does not come to rest.",
     )
-    fleet.look(link)
+    fleet.update(link)
     assert (fleet.rows[0].phase, fleet.rows[0].sentence) == (link.robot_stop.phase, link.robot_stop.sentence)
 
 
@@ -309,9 +309,9 @@ def test_a_lane_that_the_network_thread_takes_away_meanwhile_was_there_or_not(fl
 def test_who_leaves_a_robot_whose_stop_is_under_way_goes_on_stopping_it(fleet: Fleet, lanes: Lanes) -> None:
     link = Link(A)
     fleet.press([], link)
-    fleet.look(link)
+    fleet.update(link)
     assert not lanes.open
-    fleet.look(None)
+    fleet.update(None)
     until(lambda: A in lanes.open, "nobody stops it any more")
 
 
@@ -319,7 +319,7 @@ def test_one_whose_stop_was_released_is_not_stopped_anew_by_leaving_it(fleet: Fl
     link = Link(A)
     fleet.press([heard(B)], link)
     link.robot_stop.phase = "stopped"
-    fleet.look(link)
+    fleet.update(link)
     link.robot_stop.phase = "ready"
     assert phases(fleet, link)["Linked"] == "released"
     assert phases(fleet, None)["Linked"] == "released"
@@ -340,7 +340,7 @@ def test_a_robot_without_a_stop_goes_over_to_its_link_where_it_can_be_released(
     fleet.press([heard(A), heard(B)])
     until(lambda: len(lanes.open) == 2, "no lanes")
     link = Link(A, foreign=True)
-    fleet.look(link)
+    fleet.update(link)
     until(lambda: set(lanes.open) == {B}, "its lane still says zero")
     assert link.stops == 1
     link.robot_stop.phase = "ready"
@@ -370,7 +370,7 @@ def fakes(count: int) -> Iterator[list[FakeRobot]]:
 def test_robots_on_the_network_are_stopped_by_who_drives_none_of_them(real: Fleet) -> None:
     with fakes(2) as robots:
         real.press(heard(robot.url) for robot in robots)
-        until(lambda: (real.look(None), real.stopped == 2)[1], "not stopped")  # type: ignore[func-returns-value]
+        until(lambda: (real.update(None), real.stopped == 2)[1], "not stopped")  # type: ignore[func-returns-value]
         assert [robot.services() for robot in robots] == [["/stop"], ["/stop"]]
         assert [robot.control.stopped for robot in robots] == [True, True]
         assert all(robot.asked[0][1].client_name == "tablet" for robot in robots)
@@ -380,16 +380,16 @@ def test_one_that_is_switched_on_later_is_stopped_then(real: Fleet) -> None:
     with fakes(2) as (here, later):
         later.stop()
         real.press([heard(here.url), heard(later.url)])
-        until(lambda: (real.look(None), real.stopped == 1)[1], "not stopped")  # type: ignore[func-returns-value]
+        until(lambda: (real.update(None), real.stopped == 1)[1], "not stopped")  # type: ignore[func-returns-value]
         later.start()
-        until(lambda: (real.look(None), real.stopped == 2)[1], "not stopped")  # type: ignore[func-returns-value]
+        until(lambda: (real.update(None), real.stopped == 2)[1], "not stopped")  # type: ignore[func-returns-value]
         assert later.control.stopped
 
 
 def test_one_that_is_not_ours_gets_zero_speed_until_it_is_let_go(real: Fleet) -> None:
     with strange_robot() as strange:
         real.press([heard(strange.url)])
-        until(lambda: (real.look(None), real.stopped == 1)[1], "not stopped")  # type: ignore[func-returns-value]
+        until(lambda: (real.update(None), real.stopped == 1)[1], "not stopped")  # type: ignore[func-returns-value]
         assert real.rows[0].foreign
         assert real.sending
         assert "No STOP of its own" in real.rows[0].sentence
@@ -435,7 +435,7 @@ def test_fifty_addresses_of_which_one_lives_hold_up_neither_the_glass_nor_that_o
         entries = [heard(f"{dead}/{n}") for n in range(47)]
         entries += [heard(silent), heard("ws://no-such-robot.invalid:9090"), heard(robot.url)]
         real.press(entries)
-        until(lambda: (real.look(None), real.stopped == 1)[1], "not stopped")  # type: ignore[func-returns-value]
+        until(lambda: (real.update(None), real.stopped == 1)[1], "not stopped")  # type: ignore[func-returns-value]
         assert (real.stopped, real.total) == (1, 50)
         assert {row.phase for row in real.rows[:48]} == {"sent"}, "the living had to wait for the dead"
         real.let_go()

@@ -120,7 +120,7 @@ def test_what_is_taken_off_goes_and_what_is_read_is_said(driving: Glass, robot: 
     offer = session.robot.capabilities
     bare = Capabilities(offer.topics, offer.services - {"/arm/move"}, True, offer.names, offer.drive)
     session.robot.capabilities = bare
-    screen.hear(CAPABILITIES, type("Said", (), {"value": bare})())
+    screen.on_post(CAPABILITIES, type("Said", (), {"value": bare})())
     driving.stage.frames(2)
     assert (panel.parent, screen.switch.parent, screen.hands.chosen) == (None, None, "")
     assert screen.stick is not None

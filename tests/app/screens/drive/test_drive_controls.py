@@ -57,7 +57,7 @@ def meet(driving: Glass, robot: FakeRobot) -> Callable[[RobotInfo], Any]:
 def hear(screen: Any, channel: str, message: Any) -> None:
     post = Post(message, screen.session.now(), 1)
     screen.session.feeds.put(channel, post)
-    screen.hear(channel, post)
+    screen.on_post(channel, post)
 
 
 def test_the_slider_acts_at_once_on_a_stick_that_is_held(meet: Callable[..., Any]) -> None:
@@ -90,7 +90,7 @@ def test_the_mission_screen_calls_what_was_started_by_its_own_name(meet: Callabl
     mission = screen.app.screens["mission"]
     order = TaskOrder(task="follow_heading", heading=0.0)
     outcome = Outcome("start", "1", "accepted", latency=0.3, fields={"order": order})
-    mission.hear(OUTCOME, Post(outcome, screen.session.now(), 1))
+    mission.on_post(OUTCOME, Post(outcome, screen.session.now(), 1))
     assert mission.panel.tasks.sentence == "Accepted: start heading 090° (300 ms)"
 
 

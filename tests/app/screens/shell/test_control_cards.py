@@ -84,7 +84,7 @@ def test_who_has_control_now_is_not_said_any_more_once_it_is_free_or_the_link_is
         if end == "free":
             tell(robot, driver="", driver_id="")
             driving.until(lambda: not driving.banners(), driving.banners())
-            driving.app.session.authority.take()
+            driving.app.session.authority.acquire()
             driving.until(lambda: driving.app.session.control == "mine", "no control")
     robot.stop()
     driving.until(lambda: not driving.app.session.connected, "still connected")

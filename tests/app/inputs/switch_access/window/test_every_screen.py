@@ -148,7 +148,7 @@ def test_whatever_takes_a_finger_is_reached_by_switches(
     form: str, driving: Glass, robot: FakeRobot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # it would look through all of it 69 times
-    monkeypatch.setattr("app.garbage_collector.Collector.look", lambda _: None)
+    monkeypatch.setattr("app.garbage_collector.Collector.step", lambda _: None)
     before = Window.size
     # the one that draws nowhere would be made anew with the size it had
     monkeypatch.setattr(Window, "create_window", lambda *_: None)
