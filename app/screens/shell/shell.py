@@ -13,6 +13,7 @@ from kivy.uix.floatlayout import FloatLayout
 from app.inputs.methods import Methods
 from app.intents.intents import Intents
 from app.layout import arrange
+from app.layout.arrange import Rect, StopPlace
 from app.link.channels import CAPABILITIES, EVENT, LINK, OUTCOME
 from app.link.feeds import Post
 from app.screens.parts.placing import put
@@ -38,6 +39,8 @@ __all__ = ["Shell"]
 STANDING = ("/control/status", "/task/status", "/robot/info", LINK, CAPABILITIES)
 """Channels that tell how the robot stands."""
 
+NO_CONTROL = "This robot has no control handling: any pushed stick drives it."
+
 Builder.load_string("""
 <Shell>:
     canvas.before:
@@ -50,6 +53,12 @@ Builder.load_string("""
         id: body
         size_hint: None, None
 """)
+
+
+def stop_place(place: Rect) -> StopPlace:
+    """The place of STOP [px], with that of STOP ALL where the screen gave one."""
+    alone = StopPlace(place.x, place.y, place.width, place.height)
+    return place if isinstance(place, StopPlace) else alone
 
 
 class Recording(Protocol):
@@ -137,10 +146,7 @@ class Shell(FloatLayout):
         self.ids.update({**self.bar.ids, **self.nav.ids})
         self.ids.update({"bar": self.bar, "nav": self.nav, "stop": self.stop, "notices": self.notices})
 
-    def _rail(self) -> list[Any]:
-        return list(self.nav.buttons)
-
-    rail = AliasProperty(_rail)
+    rail = AliasProperty(lambda shell: list(shell.nav.buttons))
     """Buttons of the navigation, in their order."""
 
     def close(self) -> None:
@@ -228,9 +234,7 @@ class Shell(FloatLayout):
             room = places["body"]
             put(screen, room)
             body = arrange.Body(room.x, room.y, room.width, room.height, self.shares_stop)
-            stop = screen.arrange(body, self.form, dp)
-            alone = arrange.StopPlace(stop.x, stop.y, stop.width, stop.height)
-            self.stop_place = stop if isinstance(stop, arrange.StopPlace) else alone
+            self.stop_place = stop_place(screen.arrange(body, self.form, dp))
             put(self.stop, self.stop_place)
         self._place_notices()
 
@@ -314,9 +318,7 @@ class Shell(FloatLayout):
     def toggle_control(self) -> None:
         """Take control or ask for it, give it up, or take back that it is asked for; a robot without any says so."""
         if self.session.control == "none":
-            self.say(
-                "This robot has no control handling: any pushed stick drives it.", "info", about="control"
-            )
+            self.say(NO_CONTROL, "info", about="control")
             return
         self.session.authority.toggle()
 
