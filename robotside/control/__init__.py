@@ -1,1 +1,1 @@
-"""Whether a command may move the robot: authority, expiry, speed cap, STOP and safe states."""
+"""Judgement of commands before they move the robot: authority, expiry, speed cap, STOP and safe states."""

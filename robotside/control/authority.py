@@ -1,4 +1,4 @@
-"""Who has control, who asks for it, and when it goes over. Watching needs none.
+"""Control of one robot: its holder, requests for it, and handover. Watching needs none.
 
 Pure: every call is told the time. Times are seconds of the operators' clock.
 """
@@ -88,7 +88,7 @@ class Authority:
 
     @property
     def asker(self) -> Asker | None:
-        """Who asks for it; None when nobody does, and always while it is free."""
+        """The operator who asks for control; None without one, and always while it is free."""
         return self._asker
 
     def introduce(self, client: Operator, client_id: str, name: str) -> None:
@@ -240,7 +240,7 @@ class Authority:
         return ""
 
     def _pass_on(self) -> None:
-        """Control leaves its driver: to who asks for it, or to nobody."""
+        """Control leaves its driver: to the one who asks for it, else it is free."""
         asker, self._asker = self._asker, None
         self._driver = Driver(asker.client_id, asker.name, asker.client) if asker else None
 

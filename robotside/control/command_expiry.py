@@ -1,4 +1,4 @@
-"""Which drive commands are too late to count, and which never were in time.
+"""Expiry of drive commands: those that came late or out of order do not count.
 
 Pure: every call is told the time. Times are seconds of the operators' clock.
 """
@@ -55,7 +55,7 @@ class CommandExpiry:
     def fault(self, client: Operator, now: float, stamp: float | None, *, rest: bool) -> Problem:
         """Why a drive command that has just come does not count, as one sentence; empty when it does.
 
-        `stamp` is when it was given [s]; None and NaN when nobody said: then it is as old as it can be at most. `rest`
+        `stamp` is when it was given [s]; None and NaN when that is not known: then it counts as old as it can be at most. `rest`
         is for a command of zero, which without a stamp is as right late as in time.
         """
         if stamp is None or math.isnan(stamp):

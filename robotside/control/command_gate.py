@@ -1,4 +1,4 @@
-"""Whether a command may move the robot, and for how long: authority, age, limits, the STOP latch and the watchdog.
+"""The gate for drive commands: authority, age, the STOP latch, the speed cap and the watchdog.
 
 Pure: every call is told the time. Times are seconds of the operators' clock, the one that `/rosapi/get_time` tells.
 """
@@ -38,7 +38,7 @@ class Ruling:
     order: Order | None
     """To pass to the robot at once; None when it must not be."""
     said: Problem = ""
-    """Why not, as one sentence; empty when nobody needs to know."""
+    """Why not, as one sentence; empty when no one needs to know."""
 
 
 class CommandGate(Authority):
@@ -68,7 +68,7 @@ class CommandGate(Authority):
         self.stopped_by = ""
         """Who pressed STOP; empty when it is not pressed."""
         self.stopped_by_id = ""
-        """The id of who pressed it, as of `id`; empty when it is not pressed and for whoever has none."""
+        """The id of who pressed it, as of `id`; empty when it is not pressed and for an operator without one."""
         self.stop_given = -math.inf
         """When the latest STOP was given [s, operators' clock]; what was given before it cannot release it."""
         self.dropped = 0
@@ -120,7 +120,7 @@ class CommandGate(Authority):
         auto: bool = False,
         trouble: Problem = "",
     ) -> Ruling:
-        """Judge a drive command that has just come; `stamp` is when it was given [s], None when nobody said.
+        """Judge a drive command that has just come; `stamp` is when it was given [s], None when that is not known.
 
         While the robot drives itself (`auto`), a command of zero means a stick at rest and changes nothing. `trouble` says
         why the robot cannot be driven at all, empty when it can. A stick that was pushed in vain, or for longer than a

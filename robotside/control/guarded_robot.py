@@ -1,4 +1,4 @@
-"""The robot's port behind STOP and limits: whoever asks, nothing moves while STOP is pressed, nor farther than it may."""
+"""The robot's port behind STOP and limits: nothing moves while STOP is pressed, nor farther than it may."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ class GuardedRobot:
 
     @property
     def heights(self) -> tuple[float, float]:
-        """The lowest and the highest at which it can be, above the map's origin [m]; infinite where nobody knows."""
+        """The lowest and the highest at which it can be, above the map's origin [m]; infinite where that is not known."""
         return self._robot.heights if isinstance(self._robot, Levelled) else (-math.inf, math.inf)
 
     @property

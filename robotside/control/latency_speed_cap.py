@@ -1,4 +1,4 @@
-"""How fast a robot may be driven over a link: the slower the answers come, the slower it goes.
+"""The speed cap that follows the driver's link: the slower the answers come, the slower the robot goes.
 
 Pure: every call is told the time, in seconds of one clock.
 """
@@ -50,7 +50,7 @@ class LatencySpeedCap:
         return 1.0 if self.share >= 1.0 else math.floor(self.share / SHARE_STEP + 1e-9) * SHARE_STEP
 
     def update(self, rtt: float, now: float) -> None:
-        """The driver's round trip is `rtt` [s] now; NaN when it is not known or nobody drives."""
+        """The driver's round trip is `rtt` [s] now; NaN when it is not known or no one drives."""
         self.limit(share(rtt), now)
 
     def limit(self, allowed: float, now: float) -> None:

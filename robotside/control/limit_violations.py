@@ -1,4 +1,4 @@
-"""What was asked for by hand beyond what the robot may do: it is cut, and everyone is told what was asked and what is allowed.
+"""Reports of drive commands beyond the robot's limits, with what was asked for and what is allowed.
 
 A slow link, a fence or a height slows an order too; what is told here is only what the driver asked too much of.
 """
@@ -57,7 +57,7 @@ def _said(value: float) -> float:
 
 
 def _number(value: float) -> str:
-    """Short whatever it is: a float may have 300 digits."""
+    """A short number: a float may have 300 digits."""
     return f"{value:.3g}"
 
 

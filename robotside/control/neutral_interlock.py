@@ -1,4 +1,4 @@
-"""Whose stick counts: one that was held while the robot was stopped otherwise has to come to rest before it moves it again.
+"""The neutral interlock: a stick that was held while the robot was stopped otherwise must come to rest before it counts again.
 
 Pure: every call is told the time. Times are seconds of the operators' clock.
 """

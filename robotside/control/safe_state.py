@@ -1,4 +1,4 @@
-"""What a robot does when nobody drives it any more, per kind: the link or the driver is lost, and it must not be left to itself.
+"""Safe states per kind of robot, taken when the link or the driver is lost.
 
 Pure: what the robot measures and the time are passed in; what comes out goes to the robot's port. A robot side that
 dies cannot do any of this: there the robot's own drive has to.
@@ -105,7 +105,7 @@ class SafeState:
         return self._action in ("brake", "brake_straight") and self._usual_then == "stay"
 
     def enter(self, now: float, measured: MeasuredState) -> None:
-        """Nobody drives it from `now` on [s]; what it holds is what is `measured` now. Again changes nothing."""
+        """No one drives the robot from `now` on [s]; it holds what is `measured` now. Calling it again changes nothing."""
         if self._begun is None:
             self._begun, self._held = now, measured
 
@@ -120,7 +120,7 @@ class SafeState:
         self._then = {"hover": "land", "hold_depth": "surface"}.get(self._action, "stay")
 
     def step(self, now: float, measured: MeasuredState, *, lost: bool) -> Act:
-        """What to do at `now` [s]; `lost` while nobody is there who could drive it."""
+        """What to do at `now` [s]; `lost` while there is no one who could drive it."""
         if self._begun is None:
             return BRAKE
         self._lost = (now if self._lost is None else self._lost) if lost else None

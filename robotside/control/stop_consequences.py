@@ -1,4 +1,4 @@
-"""What STOP leaves a robot doing that nothing drives any more: what flies does not fall, what swims does not stay below, what floats drifts."""
+"""Consequences of STOP per kind: a drone hovers, a diver floats up, a boat drifts."""
 
 from __future__ import annotations
 

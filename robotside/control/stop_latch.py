@@ -19,7 +19,7 @@ class StopLatch:
         records.watch("facts", self._on_change)
 
     def note(self, by: str) -> None:
-        """STOP is pressed, `by` somebody; nobody when it is released."""
+        """Keep that STOP is pressed `by` an operator; an empty name when it is released."""
         if by != self._records.stopped_by:
             self._records.note_stop(by, self._tried)
 

@@ -128,7 +128,7 @@ class Teleop:
     def drive(self, client: Operator, order: Order, stamp: float | None) -> Problem:
         """Obey a drive command, a twist or a manoeuvre, or say why not; empty when there is nothing to say.
 
-        `stamp` is when it was given [s, operators' clock], None when nobody said.
+        `stamp` is when it was given [s, operators' clock], None when that is not known.
         """
         engine = self._engine
         fault = self._strange(order)
@@ -162,7 +162,7 @@ class Teleop:
         return left
 
     def _grounded(self, order: Order) -> Problem:
-        """Why `order` starts no rotors: that takes a task, which nobody gives by brushing against a stick; empty when it need not."""
+        """Why `order` starts no rotors: that takes a task, which cannot be given by brushing against a stick; empty when it need not."""
         info, measured = self._robot.info, self._measured()
         twist = order if isinstance(order, Twist) else order.twist
         stands = measured.landed and not measured.overturned  # of that it is told why nothing moves it
@@ -172,7 +172,7 @@ class Teleop:
         return Notice(Code.DRIVE_ON_GROUND, said, robot=info.name)
 
     def _strange(self, order: Order) -> Problem:
-        """Why nobody can drive this robot by such an order, as one sentence; empty when somebody can."""
+        """Why this robot cannot be driven by such an order, as one sentence; empty when it can."""
         if not isinstance(order, Manoeuvre):
             return ""
         info = self._robot.info
@@ -187,13 +187,13 @@ class Teleop:
         return ""
 
     def put_back(self) -> None:
-        """The robot was put elsewhere, at rest: whatever held or drove it is over, and no stick counts before it was let go."""
+        """The robot was put elsewhere, at rest: what held or drove it is over, and a stick counts once it was let go."""
         self._controls.halt()
         self._safe.leave()
         self._ran = self._returned = False
 
     def rest(self, now: float) -> None:
-        """Nobody drives any more: take the safe state, `now` [s, robot clock]."""
+        """No one drives any more: take the safe state, `now` [s, robot clock]."""
         self._enter(now)
         self._do(self._safe.step(now, self._measured(), lost=self._controls.driver is None))
 
@@ -274,7 +274,7 @@ class Teleop:
             self._safe.leave()
             return
         if ran and not self._controls.driving and not self._safe.brakes:
-            self._enter(now)  # a task ended: whoever watched it may be gone
+            self._enter(now)  # a task ended: who watched it may be gone
             if self._returned:
                 self._safe.cannot_return()  # it has been home
         if self._safe.active:

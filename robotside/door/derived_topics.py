@@ -1,4 +1,4 @@
-"""What comes in one message for all is also told one by one, for clients that know nothing of ours.
+"""Topics derived from arrays: one per sonar and per motor, for clients that do not know our messages.
 
 A ring of sonars as `/sonar/0`, `/sonar/1`, … and each motor's temperature as `/temperature/NAME`; only what somebody wants.
 """
@@ -53,7 +53,7 @@ class DerivedTopics:
         )
 
     def want(self, topic: str, wanted: bool) -> None:
-        """Somebody wants `topic` from now on, or nobody does any more; others' topics are of no account."""
+        """`topic` is wanted from now on, or no longer; topics that are not derived are ignored."""
         if wanted:
             self._wanted.add(topic)
         else:
@@ -84,7 +84,7 @@ class DerivedTopics:
                 self._bus.publish(topic, Temperature(msg.header, float(temperature)))
 
     def _falls(self, topic: str, now: float) -> bool:
-        """It is time for another one; in the mean they come at the rate whatever that of the motors is."""
+        """It is time for another one; on average they come at the rate, at any rate of the motors."""
         due, period = self._due.get(topic, -math.inf), 1 / TEMPERATURE_RATE
         if due - period <= now < due - _EARLY:
             return False

@@ -1,4 +1,4 @@
-"""Which of the table's topics this robot has: those of what it is equipped with, and those that a robot side makes for any."""
+"""The topics of the table that a robot has: those of its equipment, and those that the robot side makes for any."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which topics of a robot that is not ours stand for which of ours: as `bridge.core.topic_choice` chooses."""
+"""The match of a foreign robot's topics with ours, as `bridge.core.topic_choice` chooses."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What clients can ask of a station, by name."""
+"""The services of a station, with their preconditions and the ledger of what was done once."""

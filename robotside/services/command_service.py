@@ -1,4 +1,4 @@
-"""Makes services of what can be done: done once, not when too old, and answered only when what it changed is on the disk."""
+"""Services as commands: done once, not when too old, and answered when the change is on the disk."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ class CommandService:
     def _answer(
         self, key: _Key, answer: CommandResponse, job: Job
     ) -> CommandResponse | Awaitable[CommandResponse]:
-        """Answer at once if nobody has to wait; a command that is sent again waits with the first one."""
+        """Answer at once if nothing has to be waited for; a command that is sent again waits with the first one."""
         job = self._unwritten.get(key, job)
         if job.done:
             return self._judged(key, answer, job)

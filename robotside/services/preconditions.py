@@ -1,4 +1,4 @@
-"""What has to be so before an order is carried out: whoever asks for it may, and the robot can."""
+"""Preconditions of a command: the operator may give it, and the robot can do it."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Preconditions:
             raise Refusal(problem)
 
     def may_change(self, client: Operator) -> None:
-        """Nobody else has control."""
+        """No one else has control."""
         problem = self._station.controls.objection(client)
         if problem:
             raise Refusal(problem)

@@ -44,7 +44,7 @@ class _StopOrders:
         self._station, self._permits = station, Preconditions(station)
 
     def stop(self, client: Operator, asked: CommandRequest) -> str:
-        """Latch STOP; it is not done while the robot cannot be reached, so that whoever pressed it goes on asking."""
+        """Latch STOP; it is not done while the robot cannot be reached, so that who pressed it goes on asking."""
         controls = self._station.controls
         given = math.inf if math.isnan(asked.stamp) else asked.stamp
         return press_stop(self._station, controls.name(client), controls.id(client), given)

@@ -1,4 +1,4 @@
-"""Tasks as ROS actions: a client sets one going, hears how far it is and is told what became of it."""
+"""Tasks as ROS actions: a client starts one and receives its progress and its result."""
 
 from __future__ import annotations
 

@@ -76,7 +76,7 @@ class TaskOrders:
         return " ".join(part for part in (_started(task), station.agenda.parked) if part)
 
     def run(self, client: Operator, asked: RunTaskGoal) -> str:
-        """Start a task that is the only one, whatever it is."""
+        """Start a task of any kind that is the only one."""
         if not asked.instead:
             self._permits.idle()
         return self.start(client, asked)
@@ -98,7 +98,7 @@ class TaskOrders:
         return _started(task)
 
     def go_home(self, client: Operator, _: CommandRequest) -> str:
-        """Go to the stored home, whatever it is doing; the queue waits then."""
+        """Go to the stored home, also from another task; the queue waits then."""
         station = self._station
         self._permits.may_move(client)
         home = station.autonomy.task_factory.task(TaskOrder(task="go_home"), station.controls.name(client))

@@ -37,7 +37,7 @@ class Fitness:
 
     @property
     def unfit(self) -> Problem:
-        """Why the robot can do nothing by itself, whatever it is asked."""
+        """Why the robot can do nothing by itself, for any task."""
         silence = self._autonomy.silence(self._now())
         if self.mapless or not silence:
             return self.mapless

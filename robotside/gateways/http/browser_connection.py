@@ -14,7 +14,7 @@ MAX_CONNECTIONS = 64
 """Connections open at a time; for one more the oldest that asks nothing is closed, else that one."""
 
 MAX_CONNECTION_TIME = 30.0
-"""How long a connection may stay, whatever it asks [s]; a stream as long as it is read."""
+"""How long a connection may stay, for any request [s]; a stream as long as it is read."""
 
 STUCK_TIMEOUT = 10.0
 """A stream of which nothing was read for this long, and at most twice as long, is ended [s]."""
@@ -89,7 +89,7 @@ class BrowserConnection(H11Protocol):
 
 
 def _keep_little(transport: asyncio.Transport) -> None:
-    """Have whoever writes wait until all went into the kernel, and the kernel take little."""
+    """Have a writer wait until all went into the kernel, and the kernel take little."""
     transport.set_write_buffer_limits(0)
     with contextlib.suppress(OSError):
         transport.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _UNSENT)

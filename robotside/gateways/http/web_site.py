@@ -1,4 +1,4 @@
-"""What a browser or curl gets on the HTTP port: a page about the robot, its health, and its camera."""
+"""The web site for browsers and curl: a page about the robot, STOP, its health, and its camera."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def site(door: StationDoor, bridge_url: Callable[[], str], streams: CameraStream
 
 
 def _stop(door: StationDoor, request: Request) -> tuple[str, int]:
-    """Press STOP for whoever asks; one sentence and the status."""
+    """Press STOP for any client; one sentence and the status."""
     name = plain(request.query_params.get("name", ""), MAX_NAME_LENGTH)
     who = name or f"a browser at {request.client.host if request.client else 'an unknown address'}"
     answer = door.stop(who)

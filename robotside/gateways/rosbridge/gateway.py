@@ -31,7 +31,7 @@ class RosbridgeGateway:
     ) -> None:
         """Port 0 takes a free one. `real_time` makes of the robot's time real time [s], by which frames are stamped.
 
-        Handhelds tell a picture's age by that whatever the robot's clock does.
+        Handhelds tell a picture's age by that, at any speed of the robot's clock.
         """
         self._door, self._host, self._real_time = door, host, real_time
         self.port = port

@@ -19,7 +19,7 @@ LEVELS = ((1.0, 45), (0.5, 50), (0.375, 35))
 """Levels 1 to 3 of a camera's own socket: part of the original's columns, JPEG quality. In bytes, about a half each."""
 
 DEFAULT_QUALITY = 80
-"""JPEG quality where nobody asks for one."""
+"""JPEG quality where none is asked for."""
 
 MAX_WAITING = 4
 """Pictures of those who watch that may wait for the worker; a further one takes the place of the oldest."""
@@ -44,7 +44,7 @@ class _Wish:
     quality: int
     result: asyncio.Future[bytes]
     patient: bool = False
-    """Whoever wants it asks once and waits."""
+    """The asker asks once and waits."""
 
 
 class PictureScaler:
@@ -71,7 +71,7 @@ class PictureScaler:
     ) -> asyncio.Future[bytes]:
         """`jpeg` with at most `width` columns [px], or that part of them when below 1, at `quality`, 1 to 95.
 
-        Whoever wants the same of the same object shares it. Fails with BridgeError for what is no JPEG file, and with
+        Askers that want the same of the same object share it. Fails with BridgeError for what is no JPEG file, and with
         Superseded when too much newer work came before it was begun, which a `patient` asker's is never.
         """
         key = (id(jpeg), width, DEFAULT_QUALITY if quality is None else quality)
@@ -116,7 +116,7 @@ class PictureScaler:
             work = loop.run_in_executor(self._worker, smaller, wish.jpeg, wish.width, wish.quality)
             try:
                 made = await work
-            except Exception as fault:  # noqa: BLE001 - whoever waits for the picture is told, whatever it is
+            except Exception as fault:  # noqa: BLE001 - who waits for the picture gets the fault, of any kind
                 wish.result.set_exception(fault)
             else:
                 wish.result.set_result(made)
@@ -145,6 +145,6 @@ def smaller(jpeg: bytes, width: float | None, quality: int) -> bytes:
 
 
 def _look(result: asyncio.Future[bytes]) -> None:
-    """A fault that nobody waits for any more needs no complaint."""
+    """A fault that is no longer waited for needs no complaint."""
     if not result.cancelled():
         result.exception()
