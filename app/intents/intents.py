@@ -222,7 +222,7 @@ class Intents:
             if self.pending is waited:
                 self.pending = None
             if waited is not None:
-                self._told(waited.heard, Verdict("cancelled", "Something else was asked for."))
+                self._told(waited.heard, Verdict("cancelled", "Something else was requested."))
         return self._told(heard, verdict)
 
     def choose(self, heard: Heard, act: Callable[[], object]) -> Verdict:

@@ -40,7 +40,7 @@ class Missed:
     after: int
     """The last number that was known."""
     until: int
-    """The last number that was asked for."""
+    """The last number that was requested."""
     gone: bool = False
     """The robot does not keep the oldest of them any more."""
     live: frozenset[int] = frozenset()
@@ -158,7 +158,7 @@ class EventStream:
         self._open.clear()
 
     def _take(self, event: Event) -> None:
-        """One that was asked for."""
+        """One that was requested."""
         if event.id <= self._last:
             self._say_again(event)
             return

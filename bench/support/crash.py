@@ -45,7 +45,7 @@ class Ledger:
     mission: int = 0
     """Laps of the newest mission whose storing was acknowledged; those asked for count upward."""
     asked_mission: int = 0
-    """Laps of the newest mission that was asked for."""
+    """Laps of the newest mission that was requested."""
     events: dict[int, str] = field(default_factory=dict)
     """Text by number of every event that was heard."""
     acknowledged: set[int] = field(default_factory=set)

@@ -36,7 +36,7 @@ class Code(StrEnum):
     STOP_KEPT = "stop_kept", "A restart would no longer undo that STOP is pressed or released.", "state"
     STOP_IS_PRESSED = "stop_is_pressed", "STOP has to be released first."
     STOP_UNSURE = "stop_unsure", "STOP is pressed and may not have reached the robot."
-    STOP_PRESSED_SINCE = "stop_pressed_since", "STOP was pressed after its release was asked for."
+    STOP_PRESSED_SINCE = "stop_pressed_since", "STOP was pressed after its release was requested."
 
     # control
 
@@ -86,10 +86,10 @@ class Code(StrEnum):
     MAP_UNUSABLE = "map_unusable", "The map cannot be used."
     POSITION_PLACED = "position_placed", "The actor placed the robot on the map.", "name", "x", "y"
     POSITION_INVALID = "position_invalid", "The pose to place the robot at is not all numbers."
-    POSITION_UNKNOWN = "position_unknown", "The robot does not know yet where it is."
+    POSITION_UNKNOWN = "position_unknown", "The robot's position is unknown."
     POSITION_LOST = (
         "position_lost",
-        "There is no fix or compass: the robot supposes to be near the map's origin.",
+        "No fix or compass: the robot assumes the map's origin.",
     )
     POSITION_UNSURE = "position_unsure", "The robot is not sure where it is."
     POSITION_SURE = "position_sure", "The robot is sure again where it is."
@@ -126,7 +126,7 @@ class Code(StrEnum):
     TASK_ROBOT_LOST = "task_robot_lost", "The robot cannot be reached; the task is paused."
     TASK_CANCELED = "task_canceled", "The actor ended the task.", "name"
     TASK_DISCARDED = "task_discarded", "The actor discarded the task that a restart cut.", "name"
-    TASK_ASKER_GONE = "task_asker_gone", "The actor, who asked for it, is gone; the task ended.", "name"
+    TASK_ASKER_GONE = "task_asker_gone", "The actor, who started it, is gone; the task ended.", "name"
     TASK_RESET = "task_reset", "The actor put the robot back; the task ended.", "name"
     TASK_ROBOT_ENDS = "task_robot_ends", "The robot's program ends, and the task with it."
     TASK_FAULT = "task_fault", "A fault of the robot's program ended the task.", "fault"
@@ -229,7 +229,7 @@ class Code(StrEnum):
         "before",
         "limit",
     )
-    RECORDS_FULL = "records_full", "No more of them can be kept.", "max"
+    RECORDS_FULL = "records_full", "No more of them can be stored.", "max"
     RECORDS_DAMAGED = "records_damaged", "Something is wrong with what was kept."
     RECORDS_UNWRITTEN = "records_unwritten", "The database cannot be written, or does not answer."
     RECORDS_WRITTEN = "records_written", "The database can be written again."

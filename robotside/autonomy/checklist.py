@@ -55,15 +55,15 @@ def _sensors(looked: CheckInputs) -> Check:
     if looked.trouble:
         return Check("sensors", "bad", looked.trouble)
     if looked.silent:
-        return Check("sensors", "bad", f"Nothing comes from: {', '.join(looked.silent)}.")
+        return Check("sensors", "bad", f"No data from: {', '.join(looked.silent)}.")
     return Check("sensors", "ok", "All sensors are alive.")
 
 
 def _position(looked: CheckInputs) -> Check:
     if not looked.placed:
-        return Check("position", "unknown", "The robot does not know yet where it is; place it on the map.")
+        return Check("position", "unknown", "The robot's position is unknown; place the robot on the map.")
     if not looked.sure:
-        said = "The laser does not see what the map says; place the robot on the map."
+        said = "The laser does not match the map; place the robot on the map."
         return Check("position", "bad", said)
     return Check("position", "ok", "The robot knows where it is.")
 

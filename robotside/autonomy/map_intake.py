@@ -49,7 +49,7 @@ class MapIntake:
             try:
                 self._set(Grid.from_msg(msg))
             except MemoryError:
-                problem = f"The map is of no use: {len(msg.data)} cells are too many for this computer."
+                problem = f"The map cannot be used: {len(msg.data)} cells are too many for this computer."
         if problem:
             self._say("localisation", Notice(Code.MAP_UNUSABLE, problem), "warn")
 

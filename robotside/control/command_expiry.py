@@ -61,7 +61,7 @@ class CommandExpiry:
         if stamp is None or math.isnan(stamp):
             return "" if rest else _untold(now - client.answered)
         if not client.asked_time:
-            said = "its stamp is of a clock that was never compared with the robot's"
+            said = "its clock was never compared with the robot's"
             said = f"A drive command was dropped: {said}; ask /rosapi/get_time first."
             return Notice(Code.DRIVE_CLOCK_UNKNOWN, said)
         if stamp - now > MAX_CLOCK_LEAD:

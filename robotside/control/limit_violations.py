@@ -28,7 +28,7 @@ def excess(order: Order, info: RobotInfo) -> Problem:
     """What of `order` is more than the robot may do, with what is allowed, as one sentence; empty when nothing is."""
     for says, asked, most, unit in _asked(order, info):
         if abs(asked) > most * ROUNDING_TOLERANCE:
-            said = f"{info.name} {says} at most {_number(most)}{unit}; {_number(abs(asked))}{unit} was asked for."
+            said = f"{info.name} {says} at most {_number(most)}{unit}; {_number(abs(asked))}{unit} was requested."
             return Notice(Code.DRIVE_EXCESSIVE, said, robot=info.name, asked=abs(asked), allowed=most)
     return ""
 

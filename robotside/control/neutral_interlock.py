@@ -20,7 +20,7 @@ STANDSTILL_TIME = 0.7
 
 LET_GO_SENTENCE = Notice(
     Code.DRIVE_NOT_RELEASED,
-    "The robot was stopped while the stick was held: let the stick go once, then push it again.",
+    "Stopped while the stick was held. Release the stick, then push it again.",
 )
 
 

@@ -41,12 +41,12 @@ class StopLatch:
                 ("pressed", "release it") if self._records.stopped_by else ("released", "press it")
             )
             said = f"a restart of the robot's computer would {outcome}. {self._records.trouble}".strip()
-            said = f"That STOP is {state} could not be kept: {said}"
+            said = f"That STOP is {state} could not be saved: {said}"
             self._say("stop", Notice(Code.STOP_UNKEPT, said, state=state), "alarm")
 
     def _on_change(self) -> None:
         if self._unkept and self._records.stop_kept:
             self._unkept = False
             state = "pressed" if self._records.stopped_by else "released"
-            said = f"That STOP is {state} is kept now."
+            said = f"STOP is {state}, and this is saved now."
             self._say("stop", Notice(Code.STOP_KEPT, said, state=state), "ok")

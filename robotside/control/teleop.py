@@ -114,7 +114,7 @@ class Teleop:
         lost = controls.update(clock)
         if lost:
             said, who = (
-                f"{lost} was not heard for {CONTROL_TIMEOUT:.0f} s and lost control.",
+                f"{lost} lost control: no contact for {CONTROL_TIMEOUT:.0f} s.",
                 controls.fell_id,
             )
             lapsed = Notice(Code.CONTROL_LAPSED, said, actor_id=who, name=lost, seconds=CONTROL_TIMEOUT)

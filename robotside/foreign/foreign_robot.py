@@ -47,7 +47,7 @@ ASSUMED_INFO = RobotInfo(kind="wheels", model="ros", max_speed=0.5, max_yaw_rate
 SILENCE_TIME = 0.2
 """A silence must be seen for this long [s]: when this machine was busy, what came is only read late."""
 
-SILENT_SENTENCE = "The robot cannot be reached: nothing has come from it for a second."
+SILENT_SENTENCE = "The robot cannot be reached: it has sent nothing for a second."
 
 
 class Link(Protocol):

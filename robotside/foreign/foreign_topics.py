@@ -39,12 +39,12 @@ _PARTS = (
     _Part(
         "/odom",
         Odometry,
-        "There is no odometry: the speed is not known and it drives by hand only.",
+        "There is no odometry: unknown speed, driving by hand only.",
     ),
-    _Part("/scan", LaserScan, "There is no laser: it drives by hand only."),
-    _Part("/map", OccupancyGrid, "There is no map: it drives by hand only."),
+    _Part("/scan", LaserScan, "There is no laser: driving by hand only."),
+    _Part("/map", OccupancyGrid, "There is no map: driving by hand only."),
     _Part(CAMERA, CompressedImage, "There is no camera."),
-    _Part("/battery_state", BatteryState, "There is no word of the battery."),
+    _Part("/battery_state", BatteryState, "There is no battery report."),
     _Part("/imu/data", Imu),
     _Part("/fix", NavSatFix),
     _Part("/joint_states", JointState),
@@ -56,8 +56,8 @@ _PARTS = (
     _Part(CONTROL, ControlStatus),
 )
 
-_NO_COMMAND = f"No topic takes drive commands: they are sent on {DRIVE}, where a drive may listen later."
-_NOT_TOLD = "It does not tell its topics: the usual names are supposed."
+_NO_COMMAND = f"No topic accepts drive commands; they are sent on {DRIVE}."
+_NOT_TOLD = "It does not list its topics: the usual names are assumed."
 
 
 @dataclass(frozen=True)
@@ -90,12 +90,12 @@ def match(offered: Mapping[str, str]) -> Found:
         if name:
             topics[part.ours] = name, part.type
         if name and name not in (part.ours, *USUAL.get(part.ours, ())):
-            remarks.append(f"{name} is taken for {part.ours}, by its type.")
+            remarks.append(f"{name} is used as {part.ours}, by its type.")
         elif not name and part.without:
             remarks.append(part.without)
     told = command(types)
     if told is None:
         return Found(topics, remarks=(*remarks, _NO_COMMAND))
     if told.topic != DRIVE:
-        remarks.append(f"It is driven on {told.topic}.")
+        remarks.append(f"Drive commands go to {told.topic}.")
     return Found(topics, told.topic, told.stamped, tuple(remarks))

@@ -39,7 +39,7 @@ UNSURE_SHARE = 0.25
 """A robot that is not sure of its place goes at this part of its speed while it has a fence."""
 NOT_PLACED = Notice(
     Code.FENCE_UNPLACED,
-    "The robot does not know where it is, so it cannot keep to its fence; place it on the map.",
+    "Position unknown: the robot cannot keep to its fence. Place it on the map.",
 )
 
 
@@ -155,6 +155,6 @@ def _unsure(measured: MeasuredState) -> Problem:
     off = SIGMAS * measured.spread
     if measured.sure and not off > MAX_UNCERTAINTY:
         return ""
-    how = f"to {off:.1f} m only" if off > MAX_UNCERTAINTY else "for sure"
-    said = f"The robot does not know {how} where it is, so its fence is not certain: it goes slowly; place it on the map."
+    how = f" to {off:.1f} m" if off > MAX_UNCERTAINTY else ""
+    said = f"Position unsure{how}: the robot goes slowly because of its fence. Place it on the map."
     return Notice(Code.FENCE_UNSURE, said)

@@ -62,7 +62,7 @@ SONAR_RINGS = 4
 
 _NO_IDEA = Notice(
     Code.POSITION_LOST,
-    "There is no fix or compass: the robot supposes to be near the map's origin. Place it on the map.",
+    "No fix or compass: the robot assumes the map's origin. Place it on the map.",
 )
 
 MAX_PUSH = 0.3
@@ -70,22 +70,22 @@ MAX_PUSH = 0.3
 
 _PUSHES = Notice(
     Code.POSITION_UNSURE,
-    "Position unsure: the wheels turn and the bumper is pressed, so that their way is not counted. Drive away from it.",
+    "Position unsure: the wheels turn against an obstacle. Drive away from it.",
 )
 
 _UNHEARD = Notice(
     Code.POSITION_UNSURE,
-    "Position unsure: the sonars do not hear what the map says. Place the robot on the map.",
+    "Position unsure: the sonars do not match the map. Place the robot on the map.",
 )
 
 _UNFITTING = Notice(
     Code.POSITION_UNSURE,
-    "Position unsure: the laser does not see what the map says. Place the robot on the map.",
+    "Position unsure: the laser does not match the map. Place the robot on the map.",
 )
 
 _NO_LASER = Notice(
     Code.POSITION_BY_WHEELS,
-    "There is no laser: the position is reckoned, and may drift. Place the robot on the map when it is off.",
+    "No laser: the position may drift. Place the robot on the map when it is off.",
 )
 
 

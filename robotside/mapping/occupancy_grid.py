@@ -64,16 +64,16 @@ class Grid:
         info, turned, corner = msg.info, msg.info.origin.orientation, msg.info.origin.position
         if not RESOLUTION_RANGE[0] <= info.resolution <= RESOLUTION_RANGE[1]:
             allowed = f"{RESOLUTION_RANGE[0]} to {RESOLUTION_RANGE[1]:g} m are allowed"
-            return f"The map is of no use: its cells are {info.resolution:.4g} m wide; {allowed}."
+            return f"The map cannot be used: its cells are {info.resolution:.4g} m wide; {allowed}."
         if not all(abs(place) <= MAX_ORIGIN for place in (corner.x, corner.y)):
             where = f"({number(corner.x)}, {number(corner.y)})"
-            return f"The map is of no use: it begins at {where}, which is over {MAX_ORIGIN:.0e} m away."
+            return f"The map cannot be used: it begins at {where}, which is over {MAX_ORIGIN:.0e} m away."
         if not 4 <= info.width * info.height == len(msg.data) or min(info.width, info.height) < 2:
             return (
-                f"The map is of no use: it says {info.width} x {info.height} cells and has {len(msg.data)}."
+                f"The map cannot be used: it says {info.width} x {info.height} cells and has {len(msg.data)}."
             )
         if not abs(turned.yaw) <= 1e-3:  # NaN too
-            return f"The map is of no use: it is turned by {turned.yaw:.3f} rad against its own frame."
+            return f"The map cannot be used: it is turned by {turned.yaw:.3f} rad against its own frame."
         return ""
 
     @cached_property

@@ -149,5 +149,5 @@ class Ledger:
 def within(number: int, most: int, what: str) -> None:
     """NotRecorded when there are more than `most` of `what`."""
     if number > most:
-        said = f"At most {most} {what} can be kept; delete one first."
+        said = f"At most {most} {what} can be stored; delete one first."
         raise NotRecorded(Notice(Code.RECORDS_FULL, said, max=most))

@@ -46,7 +46,7 @@ class OrderQueue:
         ledger, now = self._ledger, self.current
         if revision is not None and revision != now.revision:
             said = f"The queue was changed meanwhile: this is revision {revision}, the robot's is {now.revision}."
-            changed = f"{said} Look at it and try again."
+            changed = f"{said} View it and try again."
             raise NotRecorded(Notice(Code.QUEUE_CHANGED, changed, revision=now.revision))
         within(len(orders), MAX_QUEUED, "waiting tasks")
         ids = [order.id for order in orders if order.id]

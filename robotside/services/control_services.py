@@ -30,8 +30,8 @@ Order = Callable[[Operator, CommandRequest], str | CommandResponse]
 _SAID = {
     (FOLLOW_LINK, "on"): "The speed follows the link.",
     (FOLLOW_LINK, "off"): "The speed does not follow the link any more.",
-    (LOST_LINK_STOPS_TASK, "on"): "A task is paused when the link to who has control is lost.",
-    (LOST_LINK_STOPS_TASK, "off"): "A task goes on when the link to who has control is lost.",
+    (LOST_LINK_STOPS_TASK, "on"): "A task is paused when the driver's link is lost.",
+    (LOST_LINK_STOPS_TASK, "off"): "A task goes on when the driver's link is lost.",
 }
 
 
@@ -86,7 +86,7 @@ class _ControlOrders:
                 self._tasks.resume(client, asked)
                 return "The robot drives itself."
             if not agenda.manual.end():
-                said = "There is no task to go on with; start one."
+                said = "There is no task to resume; start one."
                 raise Refusal(Notice(Code.TASK_NONE_LEFT, said))
             return "The robot may start scheduled and queued tasks by itself."
         fresh = agenda.stay_manual(station.controls.name(client), station.controls.id(client))

@@ -102,5 +102,5 @@ def _goal(order: ArmOrder) -> str:
         return "The arm goes to these angles."
     if not math.isnan(order.gripper):
         return f"The gripper goes to {1000 * order.gripper:.0f} mm."
-    said = "Say where the arm shall go: a pose, a point, angles, or an opening of its gripper."
+    said = "Give the arm a goal: a pose, a point, angles, or a gripper opening."
     raise Refusal(Notice(Code.ARM_GOAL_MISSING, said))

@@ -75,8 +75,8 @@ class _MissionOrders:
         if not self._station.autonomy.patrols_mission:
             return ""
         if mission.waypoints:
-            return "; the patrol that is under way takes them over at its next point"
-        return "; the patrol that is under way keeps its own"
+            return "; the running patrol takes them over at its next point"
+        return "; the running patrol keeps its own"
 
     def _store(self, mission: Mission) -> None:
         _check_words(mission)
@@ -94,7 +94,7 @@ class _MissionOrders:
         """Give the stored mission."""
         mission = self._station.records.missions.stored
         stored = mission.stamp.seconds > 0
-        return GetMissionResponse(True, "" if stored else "No mission was stored yet.", mission)
+        return GetMissionResponse(True, "" if stored else "No mission is stored yet.", mission)
 
 
 def _named(mission: Mission) -> Mission:

@@ -79,7 +79,7 @@ class _RecordsOrders:
         if problem:
             raise Refusal(problem)
         place = self._records.places.set(place)
-        said = f"{place.name} is kept."
+        said = f"{place.name} is saved."
         return SetPlaceResponse(True, said, id=place.id)
 
     def delete_place(self, client: Operator, asked: DeletePlaceRequest) -> str:

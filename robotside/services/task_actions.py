@@ -91,7 +91,7 @@ class _Goals:
             (client_id, name), there = who, self._station.controls.knows(client)
             code, said = Code.TASK_CANCELED, f"Canceled by {name}."
             if not there:
-                code, said = Code.TASK_ASKER_GONE, f"Canceled: {name}, who asked for it, is gone."
+                code, said = Code.TASK_ASKER_GONE, f"Canceled: {name}, who started it, is gone."
             engine.cancel(Notice(code, said, actor_id=client_id, name=name))
 
 

@@ -12,7 +12,7 @@ from robotside.limits.limits import LimitKeeper
 
 __all__ = ["NO_MAP", "Fitness"]
 
-NO_MAP = Notice(Code.MAP_MISSING, "There is no map of where the robot is: it can be driven by hand only.")
+NO_MAP = Notice(Code.MAP_MISSING, "There is no map: the robot can be driven by hand only.")
 
 
 class Fitness:
@@ -48,7 +48,7 @@ class Fitness:
         """Why the robot cannot set out from where it is."""
         pose = self._autonomy.pose_estimator.pose
         if pose is None:
-            said = "The robot does not know yet where it is; place it on the map."
+            said = "The robot's position is unknown; place the robot on the map."
             return Notice(Code.POSITION_UNKNOWN, said)
         return self._keeper.outside(pose)
 

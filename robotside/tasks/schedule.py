@@ -60,7 +60,7 @@ class ScheduledStart(NamedTuple):
 def fault(task: ScheduledTask) -> Problem:
     """The fault in the times of `task`, as one sentence; empty for none."""
     if bool(task.at) == bool(task.every):
-        said = "A scheduled task needs either a time of day, at, or a period, every; not both and not none."
+        said = "A scheduled task needs either a time of day (at) or a period (every)."
         return Notice(Code.SCHEDULE_TIME_MISSING, said)
     if task.at:
         if not _AT.fullmatch(task.at):

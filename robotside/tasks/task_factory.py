@@ -226,7 +226,7 @@ class TaskFactory:
             raise Refusal(Notice(Code.SPEED_INVALID, said, speed=order.speed, max=most))
         span = self._span(order)
         if not math.isnan(order.throttle) and not (-1 <= order.throttle <= 1 and order.throttle):
-            said = f"The throttle must be a part from -1 to 1 and not 0, not {order.throttle:g}."
+            said = f"The throttle must be from -1 to 1 and not 0, not {order.throttle:g}."
             raise Refusal(Notice(Code.THROTTLE_INVALID, said, throttle=order.throttle))
         tree = FollowHeading(
             order.heading, order.speed, span, self._navigator, self._situation, throttle=order.throttle

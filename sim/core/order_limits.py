@@ -71,7 +71,7 @@ def _excess(order: Manoeuvre, speed: float, info: RobotInfo) -> str:
         ("leans", max(order.roll, order.pitch, key=abs), info.max_tilt or math.inf, " rad"),
     ):
         if abs(asked) > limit * _ROUNDING:
-            return f"{info.name} {says} at most {limit:.3g}{unit}; {abs(asked):.3g}{unit} was asked for."
+            return f"{info.name} {says} at most {limit:.3g}{unit}; {abs(asked):.3g}{unit} was requested."
     return ""
 
 
@@ -81,7 +81,7 @@ def _beyond(order: Manoeuvre, info: RobotInfo, heights: tuple[float, float]) -> 
     if order.kind not in _TO_HEIGHTS or not (order.height < lowest or order.height > highest):
         return ""
     way, limit = ("higher", highest) if order.height > highest else ("lower", lowest)
-    return f"{info.name} goes no {way} than {limit:.3g} m; {order.height:.3g} m was asked for."
+    return f"{info.name} goes no {way} than {limit:.3g} m; {order.height:.3g} m was requested."
 
 
 def _within(value: float, limit: float) -> float:

@@ -38,7 +38,7 @@ Picture = NDArray[np.uint8]
 
 
 class TinyRenderer:
-    """Draws `world`; a picture is ready a little after it was asked for."""
+    """Draws `world`; a picture is ready a little after it was requested."""
 
     def __init__(self, world: World) -> None:
         """Start the process and wait until it can draw."""

@@ -96,5 +96,5 @@ async def test_a_task_ends_with_the_program_that_asked_for_it(tmp_path, library)
             await client.do("goal", **TASK, args={"task": "patrol", "client_name": "script"})
             await client.event("feedback")
         await states.until(lambda seen: "CANCELED" in seen)
-        assert serves.station.autonomy.engine.status.reason == "Canceled: script, who asked for it, is gone."
+        assert serves.station.autonomy.engine.status.reason == "Canceled: script, who started it, is gone."
         assert serves.station.robot._robot.at_rest

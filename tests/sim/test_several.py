@@ -139,12 +139,12 @@ def test_a_twist_beyond_the_limits_is_cut_and_that_is_said_once():
     for _ in range(5):
         robot.drive(Twist.planar(3.0, 0.0))
     said = events(robot.read(2.0))
-    assert said == ["Scout-1 goes at most 1 m/s; 3 m/s was asked for."]
+    assert said == ["Scout-1 goes at most 1 m/s; 3 m/s was requested."]
     assert robot.simulation.vehicle.state().velocity[0] == pytest.approx(1.0, rel=1e-2)
     robot.drive(Twist.planar(0.5, 0.0))
     robot.drive(Twist.planar(0.5, 9.0))
     robot.drive(Twist.planar(0.5, 9.0))
-    assert events(robot.read(2.2)) == ["Scout-1 turns at most 2 rad/s; 9 rad/s was asked for."]
+    assert events(robot.read(2.2)) == ["Scout-1 turns at most 2 rad/s; 9 rad/s was requested."]
     assert robot.simulation.vehicle.order.twist == Twist.planar(0.5, 2.0)
     robot.close()
 
@@ -161,7 +161,7 @@ def test_a_twist_beyond_the_limits_is_cut_and_that_is_said_once():
 def test_whatever_is_too_much_is_cut_with_what_was_asked_and_what_is_allowed(order, said):
     info = RobotInfo(name="Commander-1", max_speed=3.0, max_yaw_rate=1.0, max_steering=0.52)
     _, told = cut(order, info)
-    assert told == f"Commander-1 {said} was asked for."
+    assert told == f"Commander-1 {said} was requested."
 
 
 @pytest.mark.parametrize(
@@ -170,31 +170,31 @@ def test_whatever_is_too_much_is_cut_with_what_was_asked_and_what_is_allowed(ord
         (
             ARDRONE,
             Manoeuvre(kind="twist", twist=Twist(Vector3(0.0, 0.0, 3.9))),
-            "Ardrone-1 climbs and sinks at most 1 m/s; 3.9 m/s was asked for.",
+            "Ardrone-1 climbs and sinks at most 1 m/s; 3.9 m/s was requested.",
             lambda order: order.twist.linear.z == 1.0,
         ),
         (
             ARDRONE,
             Manoeuvre(kind="tilt", pitch=-1.4),
-            "Ardrone-1 leans at most 0.35 rad; 1.4 rad was asked for.",
+            "Ardrone-1 leans at most 0.35 rad; 1.4 rad was requested.",
             lambda order: order.pitch == -0.35,
         ),
         (
             AQUA,
             Manoeuvre(kind="tilt", roll=1.4, twist=Twist(Vector3(0.0, 0.0, -0.2))),
-            "Aqua-1 leans at most 0.8 rad; 1.4 rad was asked for.",
+            "Aqua-1 leans at most 0.8 rad; 1.4 rad was requested.",
             lambda order: (order.roll, order.twist.linear.z) == (0.8, -0.2),
         ),
         (
             MINNOW,
             Manoeuvre(kind="steer", throttle=5.0, steering=3.0),
-            "Minnow-1 takes a throttle of at most 1; 5 was asked for.",
+            "Minnow-1 takes a throttle of at most 1; 5 was requested.",
             lambda order: (order.throttle, order.steering) == (1.0, 0.61),
         ),
         (
             COMMANDER,
             Manoeuvre(kind="steer", speed=1.0, steering=-2.0),
-            "Commander-1 steers at most 0.52 rad; 2 rad was asked for.",
+            "Commander-1 steers at most 0.52 rad; 2 rad was requested.",
             lambda order: (order.speed, order.steering) == (1.0, -0.52),
         ),
         (

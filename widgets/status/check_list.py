@@ -265,8 +265,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
     """One to be done, several bad, all good, each folded and unfolded; before the first list there is nothing to see."""
     bad = (
         Check("battery", "bad", "The battery is below 20%; charge it first."),
-        Check("sensors", "bad", "Nothing comes from: /scan, /imu/data."),
-        Check("position", "unknown", "The robot does not know yet where it is; place it on the map."),
+        Check("sensors", "bad", "No data from: /scan, /imu/data."),
+        Check("position", "unknown", "The robot's position is unknown; place the robot on the map."),
         UNTESTED,
         GOOD[4],
     )

@@ -131,7 +131,7 @@ class TaskButtons(Control, Column):
     """Has room for short words only."""
 
     command = StringProperty("")
-    """The last command that was asked for."""
+    """The last command that was requested."""
     outcome = OptionProperty("none", options=list(OUTCOMES))
     """What became of it: `none`, `sent`, `accepted`, `refused` or `no_reply`."""
     why = StringProperty("")

@@ -31,7 +31,7 @@ class SqliteStore(Store):
             self._files.lock()
         except OSError as error:
             why = (error.strerror or str(error)).lower()
-            said = f"Nothing can be kept in {str(directory)!r}: {why}; --state names another directory."
+            said = f"Nothing can be stored in {str(directory)!r}: {why}; --state names another directory."
             raise CannotOpen(said) from error
         except InUse:
             said = (

@@ -80,7 +80,7 @@ class AskAt(Behaviour):
     def _refusal(self, question: Question) -> Notice:
         goal = self._course.goal
         if not question.tag:
-            said = f"No card answers at {goal.spoken}, since none is known for it; a tap does."
+            said = f"No card is known for {goal.spoken}; confirm by a tap."
             return Notice(Code.CARD_UNKNOWN, said, place=goal.place)
-        said = f"The card at the reader is not the one that answers at {goal.spoken}."
+        said = f"This is not the right card for {goal.spoken}."
         return Notice(Code.CARD_WRONG, said, place=goal.place)

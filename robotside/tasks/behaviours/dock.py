@@ -98,7 +98,7 @@ class Dock(Behaviour):
             return Status.RUNNING
         left = CHARGE_TIMEOUT - (now.worked - self._began)
         if left <= 0:
-            said = f"No charge was seen at {name} within {CHARGE_TIMEOUT:.0f} s; the robot stands there."
+            said = f"No charge at {name} within {CHARGE_TIMEOUT:.0f} s; the robot stands there."
             self._navigator.reason = Notice(Code.DOCK_DEAD, said, place=name, seconds=CHARGE_TIMEOUT)
             return Status.FAILURE
         at_end = now.touched or here.x > MAX_BEYOND

@@ -60,7 +60,7 @@ class _Lead(DriveTo):
         return Status.RUNNING
 
     def _doing(self, goal: Goal) -> str:
-        waits = ", without waiting: no sensor shows who follows" if self._blind else ""
+        waits = ", without waiting: no sensor detects followers" if self._blind else ""
         return f"Leading the way to {goal.spoken}{waits}."
 
     def _alone(self) -> bool:
@@ -68,7 +68,7 @@ class _Lead(DriveTo):
         now = self._situation
         if now.follows is None or now.now - now.follows_heard > SENSOR_TIMEOUT:
             if not self._blind:
-                said = "No sensor shows who follows; the robot goes on without waiting."
+                said = "No sensor detects followers; the robot goes on without waiting."
                 self._say("task", Notice(Code.FOLLOWER_UNKNOWN, said), "warn")
             self._blind, self._alone_since = True, math.nan
             return False

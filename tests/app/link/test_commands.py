@@ -172,7 +172,7 @@ def test_no_place_takes_the_turn_of_another() -> None:
 
 
 def test_an_answer_that_says_more_is_handed_on() -> None:
-    robot = Robot(SetPlaceResponse(success=True, message="Lab is kept.", id=12))
+    robot = Robot(SetPlaceResponse(success=True, message="Lab is saved.", id=12))
     outcome = run(robot, lambda commands: commands.send("place", place=Place(name="Lab")))
     assert outcome.answer.id == 12
 

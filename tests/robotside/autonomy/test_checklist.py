@@ -25,19 +25,19 @@ def test_when_all_is_well_every_line_is_green() -> None:
     [
         ({"battery": 0.1}, "battery", "bad", "The battery is below 15%; charge it first."),
         ({"battery": math.nan}, "battery", "unknown", "The battery has not reported its charge yet."),
-        ({"silent": ["laser", "IMU"]}, "sensors", "bad", "Nothing comes from: laser, IMU."),
+        ({"silent": ["laser", "IMU"]}, "sensors", "bad", "No data from: laser, IMU."),
         ({"trouble": "The robot is gone."}, "sensors", "bad", "The robot is gone."),
         (
             {"placed": False},
             "position",
             "unknown",
-            "The robot does not know yet where it is; place it on the map.",
+            "The robot's position is unknown; place the robot on the map.",
         ),
         (
             {"sure": False},
             "position",
             "bad",
-            "The laser does not see what the map says; place the robot on the map.",
+            "The laser does not match the map; place the robot on the map.",
         ),
         ({"stop_tested": False}, "stop", "unknown", "STOP was not tested since the start; press it once."),
         ({"offset": math.nan}, "clock", "unknown", "No handheld has sent its clock yet."),

@@ -100,23 +100,23 @@ def test_another_map_counts_when_the_task_is_over_and_the_position_stays(lost_ma
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ({"width": 7}, "The map is of no use: it says 7 x 140 cells and has 30800."),
+        ({"width": 7}, "The map cannot be used: it says 7 x 140 cells and has 30800."),
         *(
             (
                 {"resolution": edge},
-                f"The map is of no use: its cells are {edge:.4g} m wide; 0.001 to 10 m are allowed.",
+                f"The map cannot be used: its cells are {edge:.4g} m wide; 0.001 to 10 m are allowed.",
             )
             for edge in (0.0, 1e-9, 1e300, math.nan, math.inf, -0.1)
         ),
         (
             {"origin": Pose(Point(1e300, 0.0))},
-            "The map is of no use: it begins at (1e+300, 0.0), which is over 1e+08 m away.",
+            "The map cannot be used: it begins at (1e+300, 0.0), which is over 1e+08 m away.",
         ),
         (
             {"origin": Pose(Point(0.0, math.nan))},
-            "The map is of no use: it begins at (0.0, nan), which is over 1e+08 m away.",
+            "The map cannot be used: it begins at (0.0, nan), which is over 1e+08 m away.",
         ),
-        ({"width": 0, "height": 0}, "The map is of no use: it says 0 x 0 cells and has 30800."),
+        ({"width": 0, "height": 0}, "The map cannot be used: it says 0 x 0 cells and has 30800."),
     ],
 )
 def test_a_map_of_no_use_is_said_and_left_out(lost_map: Scene, change: dict[str, object], said: str) -> None:
@@ -138,7 +138,7 @@ def test_a_robot_whose_first_map_is_of_no_use_is_driven_by_hand(tmp_path: Path) 
     robot.map = lambda resolution=0.1: endless  # type: ignore[method-assign]
     scene = Scene(robot, tmp_path)
     (said,) = (event.text for event in scene.station.events.since(0, "b1"))
-    assert said.startswith("The map is of no use: its cells are 1e-09 m wide")
+    assert said.startswith("The map cannot be used: its cells are 1e-09 m wide")
     scene.drive(AHEAD)
     assert robot.commands[-1] == AHEAD
     assert scene.station.fitness.unfit == NO_MAP
@@ -155,7 +155,7 @@ def test_a_map_that_does_not_fit_into_the_memory_is_left_out(
     assert isinstance(lost_map.robot, Talking)
     lost_map.robot.more = [("/map", lost_map.robot.map())]
     lost_map.run(1.0)
-    said = "The map is of no use: 30800 cells are too many for this computer."
+    said = "The map cannot be used: 30800 cells are too many for this computer."
     assert lost_map.events("localisation")[-1] == said
     assert lost_map.station.fitness.unfit == NO_MAP
 

@@ -24,26 +24,26 @@ DRONE = RobotInfo(
 @pytest.mark.parametrize(
     ("order", "info", "said"),
     [
-        (Twist.planar(5.0, 0.0), TRUCK, "Truck-1 goes at most 2.5 m/s; 5 m/s was asked for."),
-        (Twist.planar(-5.0, 0.0), TRUCK, "Truck-1 goes at most 2.5 m/s; 5 m/s was asked for."),
-        (Twist.planar(1e308, 9.0), TRUCK, "Truck-1 goes at most 2.5 m/s; 1e+308 m/s was asked for."),
-        (Twist.planar(0.0, -9.0), TRUCK, "Truck-1 turns at most 1 rad/s; 9 rad/s was asked for."),
-        (Manoeuvre(kind="steer", speed=99.0), TRUCK, "Truck-1 goes at most 2.5 m/s; 99 m/s was asked for."),
+        (Twist.planar(5.0, 0.0), TRUCK, "Truck-1 goes at most 2.5 m/s; 5 m/s was requested."),
+        (Twist.planar(-5.0, 0.0), TRUCK, "Truck-1 goes at most 2.5 m/s; 5 m/s was requested."),
+        (Twist.planar(1e308, 9.0), TRUCK, "Truck-1 goes at most 2.5 m/s; 1e+308 m/s was requested."),
+        (Twist.planar(0.0, -9.0), TRUCK, "Truck-1 turns at most 1 rad/s; 9 rad/s was requested."),
+        (Manoeuvre(kind="steer", speed=99.0), TRUCK, "Truck-1 goes at most 2.5 m/s; 99 m/s was requested."),
         (
             Manoeuvre(kind="steer", speed=1.0, steering=-3.0),
             TRUCK,
-            "Truck-1 steers at most 0.5 rad; 3 rad was asked for.",
+            "Truck-1 steers at most 0.5 rad; 3 rad was requested.",
         ),
         (
             Manoeuvre(kind="steer", throttle=50.0),
             TRUCK,
-            "Truck-1 takes a throttle of at most 1; 50 was asked for.",
+            "Truck-1 takes a throttle of at most 1; 50 was requested.",
         ),
-        (Manoeuvre(kind="tilt", roll=1.2), DRONE, "Drone-1 leans at most 0.35 rad; 1.2 rad was asked for."),
+        (Manoeuvre(kind="tilt", roll=1.2), DRONE, "Drone-1 leans at most 0.35 rad; 1.2 rad was requested."),
         (
             Manoeuvre(kind="tilt", twist=Twist(Vector3(0.0, 0.0, 7.0))),
             DRONE,
-            "Drone-1 climbs and sinks at most 1 m/s; 7 m/s was asked for.",
+            "Drone-1 climbs and sinks at most 1 m/s; 7 m/s was requested.",
         ),
     ],
 )
@@ -68,7 +68,7 @@ def test_controls_at_their_stops_say_nothing(order: Order, info: RobotInfo) -> N
 
 
 def test_everyone_is_told_every_few_seconds_while_it_goes_on(scene: Scene) -> None:
-    said = "goes at most 0.7 m/s; 5 m/s was asked for."
+    said = "goes at most 0.7 m/s; 5 m/s was requested."
     scene.drive(Twist.planar(5.0, 0.0))
     assert scene.robot.twist == Twist.planar(0.7, 0.0)
     assert [text.endswith(said) for text in scene.events("command")] == [True]
@@ -91,7 +91,7 @@ def test_what_a_configuration_allows_counts(tmp_path: Path) -> None:
     scene = Scene(FakeRobot(), tmp_path, config=Config(limits=LimitSettings(max_speed=0.2)))
     scene.run(4.0)
     scene.drive(Twist.planar(0.6, 0.0))
-    assert scene.events("command")[-1].endswith("goes at most 0.2 m/s; 0.6 m/s was asked for.")
+    assert scene.events("command")[-1].endswith("goes at most 0.2 m/s; 0.6 m/s was requested.")
     scene.station.close()
 
 

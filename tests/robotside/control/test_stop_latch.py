@@ -33,7 +33,9 @@ def hear(slow: Slow) -> list[str]:
     return heard
 
 
-UNKEPT = f"That STOP is pressed could not be kept: a restart of the robot's computer would release it. {FULL}"
+UNKEPT = (
+    f"That STOP is pressed could not be saved: a restart of the robot's computer would release it. {FULL}"
+)
 
 
 def test_a_stop_that_is_not_kept_is_pressed_and_says_so_until_it_is(slow: Slow) -> None:
@@ -47,7 +49,7 @@ def test_a_stop_that_is_not_kept_is_pressed_and_says_so_until_it_is(slow: Slow) 
     assert press(slow) == f"Stopped. A restart of the robot's computer would release it. {FULL}"
     slow.records.try_again()
     slow.write()
-    assert heard[2:] == ["That STOP is pressed is kept now."]
+    assert heard[2:] == ["STOP is pressed, and this is saved now."]
     assert press(slow) == "Stopped."
     slow.restart()
     assert slow.station.controls.stopped_by == "Anna"
@@ -67,7 +69,7 @@ def test_a_release_that_is_not_kept_says_that_stop_will_be_pressed_again(slow: S
     slow.ask("/stop/release", CommandRequest(client_name="Anna"))
     slow.write(FULL)
     said = (
-        f"That STOP is released could not be kept: a restart of the robot's computer would press it. {FULL}"
+        f"That STOP is released could not be saved: a restart of the robot's computer would press it. {FULL}"
     )
     assert heard == ["STOP released by Anna.", said]
 

@@ -90,7 +90,7 @@ def test_a_task_goes_on_when_control_is_handed_over(scene: Scene) -> None:
 
 def test_the_mode_is_a_command_with_an_answer(scene: Scene) -> None:
     assert scene.refused("/mode/set", SetModeRequest(mode="AUTO")) == (
-        "There is no task to go on with; start one."
+        "There is no task to resume; start one."
     )
     assert scene.refused("/mode/set", SetModeRequest(mode="FAST")) == (
         "The mode is MANUAL or AUTO, not 'FAST'."

@@ -40,7 +40,7 @@ from tests.robotside.foreign.test_foreign_link import until
 
 ROOT = Path(__file__).parents[3]
 REST = (0.0, 0.0)
-NOWHERE = "The robot does not know yet where it is; place it on the map."
+NOWHERE = "The robot's position is unknown; place the robot on the map."
 
 
 class Handheld:

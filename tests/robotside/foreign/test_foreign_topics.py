@@ -22,7 +22,7 @@ def test_usual_names_need_no_word() -> None:
     found = match(TURTLEBOT)
     assert found.topics["/odom"] == ("/odom", Odometry)
     assert (found.command, found.stamped) == ("/cmd_vel", False)
-    assert found.remarks == (f"/camera/rgb/image_raw/compressed is taken for {CAMERA}, by its type.",)
+    assert found.remarks == (f"/camera/rgb/image_raw/compressed is used as {CAMERA}, by its type.",)
 
 
 def test_small_sensors_are_passed_on_where_a_robot_has_them() -> None:
@@ -37,10 +37,10 @@ def test_a_bare_robot_says_what_it_has_not() -> None:
     found = match({"/odom": "nav_msgs/Odometry", "/cmd_vel": "geometry_msgs/Twist"})
     assert set(found.topics) == {"/odom"}
     assert list(found.remarks) == [
-        "There is no laser: it drives by hand only.",
-        "There is no map: it drives by hand only.",
+        "There is no laser: driving by hand only.",
+        "There is no map: driving by hand only.",
         "There is no camera.",
-        "There is no word of the battery.",
+        "There is no battery report.",
     ]
 
 
@@ -66,7 +66,7 @@ def test_ros_2_spells_its_types_otherwise() -> None:
     found = match({"/odom": "nav_msgs/msg/Odometry", "/robot/cmd_vel": "geometry_msgs/msg/TwistStamped"})
     assert "/odom" in found.topics
     assert (found.command, found.stamped) == ("/robot/cmd_vel", True)
-    assert "It is driven on /robot/cmd_vel." in found.remarks
+    assert "Drive commands go to /robot/cmd_vel." in found.remarks
 
 
 def test_stamped_and_plain_commands_on_the_usual_name() -> None:
@@ -78,13 +78,13 @@ def test_stamped_and_plain_commands_on_the_usual_name() -> None:
 def test_not_every_twist_is_a_command() -> None:
     found = match({"/measured_speed": "geometry_msgs/Twist"})
     assert found.command == "/cmd_vel"
-    assert "No topic takes drive commands" in found.remarks[-1]
+    assert "No topic accepts drive commands" in found.remarks[-1]
 
 
 def test_a_robot_that_does_not_tell_is_supposed_to_be_usual() -> None:
     found = usual()
     assert found.topics["/scan"][0] == "/scan"
-    assert found.remarks == ("It does not tell its topics: the usual names are supposed.",)
+    assert found.remarks == ("It does not list its topics: the usual names are assumed.",)
 
 
 def test_who_drives_is_asked_only_of_a_robot_side_of_ours_that_tells_its_topics() -> None:

@@ -256,7 +256,7 @@ async def test_a_database_that_is_locked_at_the_start_is_a_sentence(tmp_path: Pa
 
 async def test_a_directory_that_is_a_file_is_a_sentence(tmp_path: Path) -> None:
     (tmp_path / "state").write_text("")
-    with pytest.raises(CannotOpen, match="Nothing can be kept in '.*': file exists; --state names another"):
+    with pytest.raises(CannotOpen, match="Nothing can be stored in '.*': file exists; --state names another"):
         await opened(tmp_path / "state")
 
 

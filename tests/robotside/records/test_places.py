@@ -67,5 +67,5 @@ def test_there_is_no_deleting_what_is_not_there(records: Records) -> None:
 def test_places_are_bounded(records: Records, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("robotside.records.places.MAX_PLACES", 1)
     records.places.set(OFFICE)
-    with pytest.raises(NotRecorded, match="At most 1 places can be kept; delete one first."):
+    with pytest.raises(NotRecorded, match="At most 1 places can be stored; delete one first."):
         records.places.set(Place(name="Lab"))

@@ -50,7 +50,7 @@ async def test_an_answer_and_what_is_shown_wait_for_the_disk(slow: Slow) -> None
     answer = await soon(slow.ask("/places/set", place()))
     assert slow.last("/places").places == []
     slow.write()
-    assert await answer == SetPlaceResponse(True, "Office 12 is kept.", id=1)
+    assert await answer == SetPlaceResponse(True, "Office 12 is saved.", id=1)
     shown = slow.last("/places")
     assert isinstance(shown, PlaceArray)
     assert [each.name for each in shown.places] == ["Office 12"]
@@ -82,9 +82,9 @@ async def test_a_command_that_is_sent_again_waits_with_the_first_one_and_is_done
     first = await soon(slow.ask("/places/set", place(command_id="c1")))
     second = await soon(slow.ask("/places/set", place(command_id="c1")))
     slow.write()
-    assert await first == await second == SetPlaceResponse(True, "Office 12 is kept.", id=1)
+    assert await first == await second == SetPlaceResponse(True, "Office 12 is saved.", id=1)
     assert slow.ask("/places/set", place(command_id="c1")) == SetPlaceResponse(
-        True, "Office 12 is kept.", id=1
+        True, "Office 12 is saved.", id=1
     )
 
 
@@ -178,7 +178,7 @@ async def test_a_command_that_is_sent_again_after_a_crash_is_not_done_again(slow
     await answer  # it is on the disk, and the answer got lost
     slow.restart()
     assert slow.ask("/places/set", place(command_id="c1")) == SetPlaceResponse(
-        True, "Office 12 is kept.", id=1
+        True, "Office 12 is saved.", id=1
     )
     assert len(slow.records.places.all()) == 1
     other = slow.ask("/places/set", place(command_id="c2"))

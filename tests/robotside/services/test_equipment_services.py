@@ -88,7 +88,7 @@ def test_the_arm_goes_where_it_is_told_and_says_why_it_does_not(hand: Make) -> N
     assert arm(run, 2.0).pose == "home"
     assert move(run, ArmOrder(point=Point(2.0, 0.0, 0.4))) == "The arm does not reach (2.00, 0.00, 0.40)."
     assert "knows no pose 'dance'" in move(run, ArmOrder(pose="dance"))
-    assert move(run, ArmOrder()).startswith("Say where the arm shall go")
+    assert move(run, ArmOrder()).startswith("Give the arm a goal")
     assert move(run, ArmOrder(gripper=0.02)) == "The gripper goes to 20 mm."
 
 

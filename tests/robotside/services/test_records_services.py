@@ -38,7 +38,7 @@ def places(scene: Scene) -> list[Place]:
 def test_a_place_is_kept_shown_changed_and_forgotten(scene: Scene) -> None:
     assert places(scene) == []
     answer: Any = scene.ask("/places/set", office())
-    assert (answer.success, answer.message, answer.id) == (True, "Office 12 is kept.", 1)
+    assert (answer.success, answer.message, answer.id) == (True, "Office 12 is saved.", 1)
     scene.ask("/places/set", office(id=1, x=5.0))
     assert [place.x for place in places(scene)] == [5.0]
     assert scene.ask("/places/delete", DeletePlaceRequest(id=1)).message == "Office 12 is forgotten."

@@ -133,7 +133,7 @@ async def test_a_client_hears_how_far_its_task_is_and_takes_it_back(tmp_path: Pa
     robot = FakeRobot()
     async with serving(tmp_path, robot) as serves, connected(serves) as client:
         station, told = serves.station, Record()
-        with pytest.raises(Refused, match="does not know yet where it is"):
+        with pytest.raises(Refused, match="'s position is unknown"):
             await client.goal("/task/run", RunTaskGoal()).result(5.0)
         station.autonomy.place(ORIGIN)
         station.missions.store(Mission(waypoints=SQUARE))
@@ -157,7 +157,7 @@ async def test_a_goal_ends_with_its_client(tmp_path: Path) -> None:
             client.goal("/task/run", RunTaskGoal(client_name="script"))
             await over.until(lambda states: "RUNNING" in states)
         await over.until(lambda states: "CANCELED" in states)
-        assert station.autonomy.engine.status.reason == "Canceled: script, who asked for it, is gone."
+        assert station.autonomy.engine.status.reason == "Canceled: script, who started it, is gone."
         assert robot.at_rest
 
 

@@ -200,13 +200,13 @@ def test_a_mission_that_is_set_while_it_is_patrolled_is_taken_over_and_said(hous
     until(house, lambda status: status.visited == 1)
     mission = Mission(waypoints=[SQUARE[0], Waypoint(2.0, -2.0)], laps=1)
     said = house.ask("/mission/set", SetMissionRequest(mission=mission)).message
-    assert said == "Stored 2 points; the patrol that is under way takes them over at its next point."
+    assert said == "Stored 2 points; the running patrol takes them over at its next point."
     assert house.run_task().state == "SUCCEEDED"
     assert "The patrol goes on with the new mission of 2 points." in house.events("task")
     assert house.task.waypoints == 2
     house.start()
     assert house.ask("/mission/set", SetMissionRequest(mission=Mission())).message == (
-        "Stored 0 points; the patrol that is under way keeps its own."
+        "Stored 0 points; the running patrol keeps its own."
     )
 
 

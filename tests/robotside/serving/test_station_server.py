@@ -220,7 +220,7 @@ def test_a_state_directory_that_cannot_be_made_is_one_sentence_and_lets_go_of_th
     state.parent.write_text("no directory")
     monkeypatch.setattr("robotside.__main__._robots", lambda *_: ([robot], "hall"))
     assert main(["serve", "--state", str(state)]) == 2
-    said = f"Nothing can be kept in '{state}': not a directory; --state names another directory."
+    said = f"Nothing can be stored in '{state}': not a directory; --state names another directory."
     assert capsys.readouterr().err == f"robotside: {said}\n"
     assert robot.closed
 

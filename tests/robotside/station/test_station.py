@@ -62,7 +62,7 @@ def test_control_is_free_again_when_its_driver_falls_silent(scene: Scene) -> Non
     assert scene.control.driver == ""
     assert scene.events("control") == [
         "Anna has control.",
-        "Anna was not heard for 2 s and lost control.",
+        "Anna lost control: no contact for 2 s.",
         "Control is free.",
     ]
 

@@ -32,7 +32,7 @@ def drone():
 @pytest.mark.parametrize("kind", ["take_off", "hover", "course"])
 def test_what_is_too_high_is_cut_to_the_ceiling_and_that_is_said(drone, kind):
     drone.manoeuvre(Manoeuvre(kind=kind, height=900.0))
-    assert said(drone) == ["Ardrone-1 goes no higher than 30.1 m; 900 m was asked for."]
+    assert said(drone) == ["Ardrone-1 goes no higher than 30.1 m; 900 m was requested."]
     followed, _ = cut(Manoeuvre(kind=kind, height=900.0), drone.info, drone.heights)
     assert followed.height == pytest.approx(30.05)
 
@@ -42,7 +42,7 @@ def test_what_is_too_deep_is_cut_to_what_the_swimmer_is_built_for_and_that_is_sa
     robot.manoeuvre(Manoeuvre(kind="hover", height=-50.0))
     told = said(robot)
     robot.close()
-    assert told == ["Aqua-1 goes no lower than -11.9 m; -50 m was asked for."]
+    assert told == ["Aqua-1 goes no lower than -11.9 m; -50 m was requested."]
 
 
 @pytest.mark.parametrize("kind", ["take_off", "hover", "course"])
@@ -58,7 +58,7 @@ def test_told_to_hover_on_the_ground_it_hovers_just_above_it(drone):
     drone.manoeuvre(Manoeuvre(kind="take_off", height=1.0))
     until(drone, 4.0)
     drone.manoeuvre(Manoeuvre(kind="hover", height=0.0))
-    assert said(drone) == ["Ardrone-1 goes no lower than 0.15 m; 0 m was asked for."]
+    assert said(drone) == ["Ardrone-1 goes no lower than 0.15 m; 0 m was requested."]
     until(drone, 6.0)
     vehicle = drone.simulation.vehicle
     assert (vehicle.grounded, vehicle.pilot.phase) == (False, "flying")

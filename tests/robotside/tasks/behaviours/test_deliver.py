@@ -70,7 +70,7 @@ def test_the_card_of_the_addressee_answers_and_another_one_is_told_of_once(
         stage.tick(tree)
     assert (course.visited == 2) is answers
     said = "Delivered at Lab, confirmed by the card."
-    refusal = "The card at the reader is not the one that answers at Lab."
+    refusal = "This is not the right card for Lab."
     assert stage.said.count(said if answers else refusal) == 1
 
 
@@ -91,7 +91,7 @@ def test_a_place_without_a_card_says_that_only_a_tap_answers() -> None:
     until_asked(stage, tree)
     stage.situation.tag = "card"
     stage.tick(tree)
-    assert stage.said[-1] == "No card answers at Office 12, since none is known for it; a tap does."
+    assert stage.said[-1] == "No card is known for Office 12; confirm by a tap."
 
 
 def test_a_delivery_fails_at_rest_where_there_is_no_way() -> None:

@@ -49,7 +49,7 @@ def test_without_a_charge_in_time_it_stands_and_says_so() -> None:
     began = stage.situation.now
     assert stage.tick(tree, 60.0) is Status.FAILURE
     assert stage.situation.now - began == pytest.approx(CHARGE_TIMEOUT, abs=0.2)
-    assert stage.navigator.reason == "No charge was seen at Dock within 20 s; the robot stands there."
+    assert stage.navigator.reason == "No charge at Dock within 20 s; the robot stands there."
     assert stage.robot.at_rest
     assert stage.robot.pose[1] < DOCK.y + MAX_BEYOND + 0.05
 

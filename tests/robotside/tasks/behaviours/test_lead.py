@@ -68,7 +68,7 @@ def test_without_a_sensor_it_says_so_once_and_goes_on() -> None:
     stage = Stage()
     _, tree = lead(TOUR, "", stage.navigator, stage.situation, stage.say)
     assert go(stage, tree, 60.0, follows=None) is Status.SUCCESS
-    said = "No sensor shows who follows; the robot goes on without waiting."
+    said = "No sensor detects followers; the robot goes on without waiting."
     assert stage.said.count(said) == 1
 
 
@@ -77,7 +77,7 @@ def test_its_sentence_says_for_the_whole_way_that_it_does_not_wait() -> None:
     _, tree = lead(TOUR, "", stage.navigator, stage.situation, stage.say)
     go(stage, tree, 0.5, follows=None)
     said = stage.situation.doing.text
-    assert said == "Leading the way to Reception, without waiting: no sensor shows who follows."
+    assert said == "Leading the way to Reception, without waiting: no sensor detects followers."
     go(stage, tree, 0.2, follows=True)
     assert stage.situation.doing.text == "Leading the way to Reception."
 
