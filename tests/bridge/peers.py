@@ -13,7 +13,7 @@ import cbor2
 from websockets.asyncio.client import ClientConnection, connect
 
 from bridge.server.server import BridgeServer
-from tests.bridge.wires import PATIENCE, Wire, url
+from tests.bridge.wires import TIMEOUT, Wire, url
 
 __all__ = ["Peer", "bare", "peer"]
 
@@ -28,7 +28,7 @@ class Peer:
         await self.ws.send(json.dumps(op))
 
     async def hear(self) -> Any:
-        async with asyncio.timeout(PATIENCE):
+        async with asyncio.timeout(TIMEOUT):
             raw = await self.ws.recv()
         return cbor2.loads(raw) if isinstance(raw, bytes) else json.loads(raw)
 

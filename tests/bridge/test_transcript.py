@@ -16,7 +16,7 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import Imu, LaserScan
 from tests.bridge.transcripts.session import session
-from tests.bridge.wires import PATIENCE
+from tests.bridge.wires import TIMEOUT
 
 TRANSCRIPT = Path(__file__).parent / "transcripts" / "ros2_jazzy.jsonl"
 RANGES = [0.5 + 0.125 * beam for beam in range(30)]
@@ -61,7 +61,7 @@ class Replay:
                 await self._say(line)
 
     async def _expect(self, line):
-        async with asyncio.timeout(PATIENCE):
+        async with asyncio.timeout(TIMEOUT):
             text = await self.heard[line["link"]].get()
         assert meaning(text) == meaning(line["text"])
         if isinstance(meaning(text), dict) and "id" in text:

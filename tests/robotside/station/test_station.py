@@ -157,7 +157,7 @@ def test_what_operators_are_told_carries_their_clock_at_any_speed_of_the_robots(
     assert pose.header.stamp.seconds == pytest.approx(scene.now, abs=0.06)
 
 
-@pytest.mark.parametrize("part", ["check", "take"])
+@pytest.mark.parametrize("part", ["update", "on_message"])
 def test_a_fault_in_the_robots_mind_ends_the_task_at_rest_and_the_robot_lives_on(
     scene: Scene, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture, part: str
 ) -> None:
