@@ -108,7 +108,7 @@ def test_a_place_that_is_not_sure_is_said_and_makes_it_slow_where_there_is_a_fen
     lost = MeasuredState(Pose2(0.0, 0.0, 0.0), sure=False)
     done, why = LimitKeeper(FENCED, WHEELS).clamp(twist(0.6), lost)
     assert done.linear.x == pytest.approx(0.25 * WHEELS.max_speed)
-    assert why.startswith("The robot does not know for sure where it is, so its fence is not certain")
+    assert why.startswith("Position unsure: the robot goes slowly")
     assert LimitKeeper(LimitSettings(), WHEELS).clamp(twist(0.6), lost) == (twist(0.6), "")
     vague = MeasuredState(Pose2(0.0, 0.0, 0.0), spread=MAX_UNCERTAINTY)
     assert "to 4.0 m only" in LimitKeeper(FENCED, WHEELS).clamp(twist(0.6), vague).why
