@@ -111,7 +111,7 @@ def test_a_place_that_is_not_sure_is_said_and_makes_it_slow_where_there_is_a_fen
     assert why.startswith("Position unsure: the robot goes slowly")
     assert LimitKeeper(LimitSettings(), WHEELS).clamp(twist(0.6), lost) == (twist(0.6), "")
     vague = MeasuredState(Pose2(0.0, 0.0, 0.0), spread=MAX_UNCERTAINTY)
-    assert "to 4.0 m only" in LimitKeeper(FENCED, WHEELS).clamp(twist(0.6), vague).why
+    assert "unsure to 4.0 m:" in LimitKeeper(FENCED, WHEELS).clamp(twist(0.6), vague).why
 
 
 def test_the_faster_a_swimmer_is_carried_on_the_earlier_it_brakes() -> None:
