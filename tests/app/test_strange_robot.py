@@ -164,7 +164,7 @@ def test_a_topic_of_a_type_that_nobody_knew_is_learned_and_let_go(
     operator: Operator, strange: Strange
 ) -> None:
     topics = TopicListing(operator.session)
-    operator.session.listeners.append(topics.hear)
+    operator.session.listeners.append(topics.on_post)
     topics.open("/gripper")
     assert topics.notice == "Learning acme_msgs/Gripper …"
     operator.until(lambda: topics.message is not None)
@@ -179,7 +179,7 @@ def test_a_topic_of_a_type_that_nobody_knew_is_learned_and_let_go(
 
 def test_a_type_that_cannot_be_learned_is_said(operator: Operator) -> None:
     topics = TopicListing(operator.session)
-    operator.session.listeners.append(topics.hear)
+    operator.session.listeners.append(topics.on_post)
     offer = operator.session.robot.capabilities
     object.__setattr__(offer, "topics", {**offer.topics, "/odd": "odd_msgs/Odd"})
     topics.open("/odd")

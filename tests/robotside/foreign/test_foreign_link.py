@@ -277,6 +277,8 @@ async def test_a_robot_side_drives_patrols_and_stops_through_another_and_rests_w
         there, said = far.pose, len(far.commands)
         await until(lambda: None in far.commands[said:] or Twist() in far.commands[said:])
         assert (far.pose, engine.paused) == (there, True)
+        # its laser is heard again a moment after the wire
+        await until(lambda: not (robot.trouble or serves.station.fitness.unfit))
         assert await order(client, "/task/resume") == "Resumed."
         await until(lambda: not engine.active)
         assert engine.status.state == "SUCCEEDED"

@@ -119,7 +119,7 @@ def test_a_question_about_history_that_makes_no_sense_is_refused(scene: Scene) -
 
 
 def test_an_app_asks_for_no_more_at_once_than_the_robot_takes(scene: Scene) -> None:
-    assert scene.ask("/history/get", GetHistoryRequest(limit=tasking.MAX_ACKNOWLEDGED)).success
+    assert scene.ask("/history/get", GetHistoryRequest(limit=tasking.RUNS_LIMIT)).success
     numbers = Int32Array(list(range(1, logbook.MAX_ACKNOWLEDGED + 1)))
     assert not scene.refused("/events/acknowledge", AcknowledgeEventsRequest(ids=numbers)).startswith(
         "At most "
