@@ -132,9 +132,9 @@ def test_nothing_changes_between_two_starts() -> None:
     [
         (
             ScheduledTask(at="10:00", every=60.0),
-            "A scheduled task needs either a time of day, at, or a period",
+            "A scheduled task needs either a time of day (at) or a period",
         ),
-        (ScheduledTask(), "A scheduled task needs either a time of day, at, or a period"),
+        (ScheduledTask(), "A scheduled task needs either a time of day (at) or a period"),
         (ScheduledTask(at="24:00"), "The time of day must be written as 00:00 to 23:59, not '24:00'."),
         (ScheduledTask(at="9:00"), "The time of day must be written as 00:00 to 23:59, not '9:00'."),
         (ScheduledTask(at="10:00", days=[False] * 7), "A scheduled task needs at least one day of the week."),
