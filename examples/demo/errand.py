@@ -88,7 +88,7 @@ def deliver(scene: Scene) -> Wait:
         yield from glass.press("Deliver", kind="TaskTile")
         for name in ("Gate", DOCK):
             yield from _choose(scene, name)
-        yield from glass.write("What to tell", MESSAGE)
+        yield from glass.write("Message for the person", MESSAGE)
         told = glass.shows("Fetches at Gate, brings it to")
         check("a sentence says what will happen", told, told)
         yield from glass.pause(0.3)

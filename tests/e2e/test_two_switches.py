@@ -24,7 +24,7 @@ def test_a_patrol_is_planned_started_paused_stopped_and_released_by_two_keys(
     robot: RobotProcess, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # nothing here looks at the camera's picture, and it takes most of the time where no graphics card draws it
-    monkeypatch.setattr("app.session.picture_feed.Pictures.watch", lambda *_: None)
+    monkeypatch.setattr("app.session.picture_feed.PictureFeed.watch", lambda *_: None)
     (tmp_path / "settings.json").write_text(json.dumps({"robots": [{"url": robot.url}]}))
     with handheld(tmp_path, discover=False) as glass:
         app, keys = glass.app, TwoSwitches(glass)
