@@ -41,7 +41,7 @@ DESKTOP_ONLY = (
 )
 """What the phone does not have."""
 
-OPTIONAL = {"PIL", "hama", "hibari", "miniaudio", "pocketsphinx"}
+OPTIONAL = {"hama", "hibari", "miniaudio", "pocketsphinx"}
 """Those of them that the handheld uses where they are installed, and runs without elsewhere."""
 
 NO_RECIPE = {

@@ -233,10 +233,6 @@ FOR_EXTRAS = {"bridge/core/fence.py": ("handheld", "robot")}
 """A module that only the folders of these extras import, and that needs what they install."""
 
 
-OPTIONAL = {"bridge/protocol/png.py": "PIL"}
-"""A module that goes on without a library where that is not installed."""
-
-
 def installed_by(*extras):
     optional = PROJECT["project"]["optional-dependencies"]
     names = PROJECT["project"]["dependencies"] + [name for extra in extras for name in optional[extra]]
@@ -274,7 +270,6 @@ def test_every_import_is_installed_by_the_folders_own_extra(folder):
         if path.name != "__main__.py" or folder != "robotside"
         if "generate" not in path.parts or folder != "bridge"
         if path.relative_to(ROOT).as_posix() not in FOR_EXTRAS
-        if OPTIONAL.get(path.relative_to(ROOT).as_posix()) != module.split(".")[0]
     }
     foreign = (
         wanted

@@ -45,7 +45,7 @@ from bridge.protocol.ops import (
     Unsubscribe,
 )
 from bridge.protocol.pending import Calls, Goals
-from bridge.protocol.png import pixels, to_png
+from bridge.protocol.png import MAX_FILTERED_BYTES, pixels, to_png
 from bridge.protocol.server_session import MAX_CALLS, MAX_SERVER_FRAME, ServerSession
 from bridge.protocol.wire import (
     MAX_ARGUMENT_BYTES,
@@ -86,6 +86,7 @@ __all__ = [
     "LEVELS",
     "MISSING",
     "MAX_CALLS",
+    "MAX_FILTERED_BYTES",
     "OPS",
     "Op",
     "Png",

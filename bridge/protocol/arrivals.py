@@ -6,7 +6,7 @@ from bridge.core.errors import ProtocolError
 from bridge.protocol.fragments import Fragments
 from bridge.protocol.names import wrong
 from bridge.protocol.ops import BinaryPublish, Fragment, Op, Png
-from bridge.protocol.png import pixels
+from bridge.protocol.png import MAX_FILTERED_BYTES, pixels
 from bridge.protocol.wire import parse, parse_binary, parse_each
 
 __all__ = ["Arrival", "Arrivals"]
@@ -25,13 +25,16 @@ class Arrivals:
         *,
         most: int = 4,
         lifetime: float = 10.0,
+        filtered: int = MAX_FILTERED_BYTES,
         most_values: int | None = None,
     ) -> None:
         """`most` texts may be unfinished at a time, each for `lifetime` [s] after its last fragment.
 
-        `most_values` bounds the values in a frame of CBOR, which take long to read; None for no limit.
+        What takes long to read is bounded too: `filtered` are the bytes in filtered rows of a frame's pictures, `most_values`
+        the values in a frame of CBOR, None for any.
         """
         self._limit = limit_bytes
+        self._filtered = filtered
         self._most_values = most_values
         self._lost: list[ProtocolError] = []
         self._fragments = Fragments(limit_bytes, most, lifetime, given_up=self._lost.append)
@@ -52,7 +55,7 @@ class Arrivals:
                 return [op]
             found = [op]
         self._fragments.expire(now)
-        return _Unpacking(self._limit, self._fragments, self._lost, now).unpacked(found)
+        return _Unpacking(self._limit, self._filtered, self._fragments, self._lost, now).unpacked(found)
 
     def expire(self, now: float) -> list[ProtocolError]:
         """The errors of the texts that are given up at `now` [s], unfinished for too long; to be called every second
@@ -65,8 +68,11 @@ class Arrivals:
 class _Unpacking:
     """One frame being unpacked. A picture may be in fragments, and nothing else within another."""
 
-    def __init__(self, limit: int, fragments: Fragments, lost: list[ProtocolError], now: float) -> None:
+    def __init__(
+        self, limit: int, filtered: int, fragments: Fragments, lost: list[ProtocolError], now: float
+    ) -> None:
         self._left = limit
+        self._filtered = filtered
         self._fragments = fragments
         self._lost = lost
         self._now = now
@@ -96,8 +102,9 @@ class _Unpacking:
     def _picture(self, op: Png, within: type[Op] | None) -> list[Arrival]:
         if within is Png:
             raise wrong(op, "A png cannot stand in a png.")
-        text = pixels(op, self._left)
+        text, filtered = pixels(op, self._left, self._filtered)
         self._left -= len(text)
+        self._filtered -= filtered
         return self.unpacked(parse_each(text), Png)
 
 

@@ -41,6 +41,8 @@ __all__ = ["MAX_CLIENT_FRAME", "ClientSession", "Given", "Provided", "Served", "
 AnyOp = TypeVar("AnyOp", bound=Op)
 MAX_CLIENT_FRAME = 33_554_432
 """The largest frame that a client takes, as for a big map, and the most that may wait in fragments [byte]."""
+_MAX_FILTERED_BYTES = 1_048_576
+"""Bytes in filtered rows of pictures that a client reads of a frame: it gets what it asked for."""
 _MAX_VALUES = 250_000
 """Most values in one binary frame to a client, a number array counted as one: a path of some thousand poses."""
 MAX_CALLS = 1000
@@ -278,7 +280,7 @@ class ClientSession:
                 yield self._spelled(subscription.op)
 
     def _nothing_yet(self) -> Arrivals:
-        return Arrivals(self._limit, most_values=_MAX_VALUES)
+        return Arrivals(self._limit, filtered=_MAX_FILTERED_BYTES, most_values=_MAX_VALUES)
 
     def _spelled(self, op: AnyOp) -> AnyOp:
         """The operation with its type as the server spells types."""

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import base64
+import io
 import json
 
 import cbor2
 import pytest
+from PIL import Image
 
 from bridge.core.errors import ProtocolError
 from bridge.protocol import (
     Arrivals,
     BinaryPublish,
+    Png,
     Publish,
     Unadvertise,
     Unsubscribe,
@@ -118,6 +122,16 @@ def test_the_pictures_of_one_frame_unpack_to_the_limit_together():
     bomb = dump(to_png(b'{"op":"unsubscribe","topic":"/a"}' + b"\n" * 40_000))
     good = [each for each in Arrivals(LIMIT).receive(bomb * 5, 0.0) if each == A]
     assert len(good) == 2
+
+
+def test_the_filtered_rows_of_all_pictures_of_one_frame_are_counted_together():
+    picture = Image.frombytes("RGB", (100, 100), encode(A).ljust(30_000, b"\n"))
+    file = io.BytesIO()
+    picture.save(file, "png")
+    filtered = encode(Png(data=base64.b64encode(file.getvalue()).decode()))
+    found = Arrivals(LIMIT, filtered=50_000).receive(filtered * 3, 0.0)
+    assert [each == A for each in found] == [True, False, False]
+    assert "filtered rows" in str(found[-1])
 
 
 @pytest.mark.parametrize(

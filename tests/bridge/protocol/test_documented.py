@@ -13,6 +13,7 @@ from bridge.core.compat import Compat
 from bridge.protocol import (
     MAX_ARGUMENT_BYTES,
     MAX_CLIENT_FRAME,
+    MAX_FILTERED_BYTES,
     MAX_SERVER_FRAME,
     OPS,
     Op,
@@ -68,6 +69,7 @@ def test_every_service_of_rosapi_is_told_of():
     [
         ("frames and unfinished fragments of {} MiB", MAX_SERVER_FRAME >> 20),
         ("a frame to a client may have {}", MAX_CLIENT_FRAME >> 20),
+        ("{} kB of filtered rows", MAX_FILTERED_BYTES >> 10),
         ("{} MiB of arguments", MAX_ARGUMENT_BYTES >> 20),
         ("takes longer than {} ms", int(server_connection.TURN_TIME * 1000)),
         ("takes longer than {} ms", int(serving.TURN_TIME * 1000)),
