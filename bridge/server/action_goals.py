@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 from collections.abc import Callable
 
 import msgspec
@@ -34,6 +35,8 @@ from bridge.server.flow.priority_lanes import Lane, Stream
 from bridge.server.flow.send_queue import SendQueue
 
 __all__ = ["ActionGoals"]
+
+log = logging.getLogger(__name__)
 
 
 class ActionGoals:
@@ -112,6 +115,9 @@ class ActionGoals:
             self._end(op, _done(op, to_json(result), GoalStatus.STATUS_SUCCEEDED))
         except BridgeError as error:
             self._end(op, _failed(op, str(error)))
+        except Exception:
+            log.exception("%s from %s failed", op.action, self._operator.address)
+            self._end(op, _failed(op, f"The robot failed at {op.action}; its log says why."))
 
     def _send_feedback(self, op: SendActionGoal, values: Raw) -> None:
         feedback = self._feedback.get(op.id)

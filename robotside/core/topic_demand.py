@@ -15,9 +15,16 @@ class Demand:
         self._askers: dict[str, set[Hashable]] = {}
 
     def set(self, topic: str, asker: Hashable, wanted: bool) -> None:
-        """`asker` wants `topic` from now on, or no longer; saying it twice changes nothing."""
+        """`asker` wants `topic` from now on, or no longer; saying it twice changes nothing.
+
+        A robot that fails to make the topic leaves it unwanted, so that the next asker has it asked for again.
+        """
         askers = self._askers.setdefault(topic, set())
         before = bool(askers)
         (askers.add if wanted else askers.discard)(asker)
         if bool(askers) != before:
-            self._want(topic, bool(askers))
+            try:
+                self._want(topic, bool(askers))
+            except Exception:
+                askers.discard(asker)
+                raise

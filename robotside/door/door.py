@@ -98,12 +98,14 @@ class Door:
 
     def leave(self, asker: Hashable) -> None:
         """An operator or another asker is gone: end its subscriptions and, if it drove, the driving."""
-        for token in list(self._subscriptions.get(asker, ())):
-            self._unsubscribe(asker, token)
-        if isinstance(asker, Operator) and asker in self._operators:
-            self._operators.discard(asker)
-            self._calls.forget(asker.id)
-            self._on_gone(asker)
+        try:
+            if isinstance(asker, Operator) and asker in self._operators:
+                self._operators.discard(asker)
+                self._calls.forget(asker.id)
+                self._on_gone(asker)  # first of all: a robot that it drove stops
+        finally:
+            for token in list(self._subscriptions.get(asker, ())):
+                self._unsubscribe(asker, token)
 
     def subscribe(
         self, asker: Hashable, topic: str, callback: Callback, *, wanted: bool = True
@@ -116,15 +118,19 @@ class Door:
         entry = self.topics.get(topic)
         if entry is None and topic not in self._pictures:
             raise Refused(f"This robot has no topic {shown(topic)}.")
-        token = object()
+        token, callback = object(), _guarded(callback)
         if topic in self._listeners:
             self._listeners[topic][token] = callback
             stop: Callable[[], object] = partial(self._listeners[topic].pop, token)
         else:
             stop = self._bus.subscribe(topic, callback, replay=entry is not None and entry.latched)
         self._subscriptions.setdefault(asker, {})[token] = topic, stop
-        if wanted:
-            self._demand.set(topic, token, True)
+        try:
+            if wanted:
+                self._demand.set(topic, token, True)
+        except Exception:
+            self._unsubscribe(asker, token)
+            raise
         return partial(self._unsubscribe, asker, token)
 
     def _unsubscribe(self, asker: Hashable, token: object) -> None:
@@ -135,8 +141,8 @@ class Door:
         topic, stop = own.pop(token)
         if not own:
             del self._subscriptions[asker]
-        self._demand.set(topic, token, False)
         stop()
+        self._demand.set(topic, token, False)
 
     def check_listens(self, topic: str) -> None:
         """Raises Refused when no message of a client is taken on `topic`."""
@@ -210,3 +216,19 @@ def _refused(name: str, operator: Operator, error: Exception) -> BridgeError:
         return error
     log.error("%s from %s failed", name, operator.address, exc_info=error)
     return Refused(f"The robot failed at {name}; its log says why.")
+
+
+def _guarded(callback: Callback) -> Callback:
+    """The callback of a gateway, whose faults reach neither the robot nor other gateways; the first one is logged."""
+    failed = False
+
+    def call(topic: str, msg: Msg) -> None:
+        nonlocal failed
+        try:
+            callback(topic, msg)
+        except Exception:
+            if not failed:
+                log.exception("A gateway failed at a message on %s", topic)
+            failed = True
+
+    return call

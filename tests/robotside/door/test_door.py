@@ -257,3 +257,47 @@ def test_the_door_of_a_station_knows_no_transport() -> None:
         "robotside.gateways",
     )
     assert [name for name in names if name.startswith(transports)] == []
+
+
+def failing(*_: object) -> None:
+    raise OSError("the port is gone")
+
+
+def test_a_driver_who_leaves_is_gone_even_where_the_robot_fails_to_end_its_topics() -> None:
+    gone: list[object] = []
+    wants: list[Callable[[], None]] = [lambda: None, failing]
+    door = Door(on_gone=gone.append, on_demand=lambda *_: wants.pop(0)())
+    operator = door.join("a")
+    door.subscribe(operator, "/odom", lambda *_: None)
+    with pytest.raises(OSError, match="the port is gone"):
+        door.leave(operator)
+    assert gone == [operator]
+
+
+def test_a_gateway_that_fails_at_a_message_costs_the_robot_and_others_nothing(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    bus, heard = Bus(), Heard()
+    door = Door(bus=bus)
+    door.subscribe("one", "/odom", failing)
+    door.subscribe("other", "/odom", lambda topic, msg: heard.append((topic, msg)))
+    door.subscribe("one", "/cmd_vel", failing)
+    for _ in range(3):
+        bus.publish("/odom", Odometry())
+    door.publish(door.join("a"), "/cmd_vel", Twist(), None)
+    assert heard == [("/odom", Odometry())] * 3
+    assert [record.message for record in caplog.records] == [
+        "A gateway failed at a message on /odom",
+        "A gateway failed at a message on /cmd_vel",
+    ]
+
+
+def test_a_topic_that_the_robot_fails_to_make_is_asked_for_again_and_comes_once() -> None:
+    bus, heard = Bus(), Heard()
+    wants: list[Callable[[], None]] = [failing, lambda: None]
+    door = Door(bus=bus, on_demand=lambda *_: wants.pop(0)())
+    with pytest.raises(OSError, match="the port is gone"):
+        door.subscribe("one", "/odom", lambda topic, msg: heard.append((topic, msg)))
+    door.subscribe("one", "/odom", lambda topic, msg: heard.append((topic, msg)))
+    bus.publish("/odom", Odometry())
+    assert (heard, wants) == ([("/odom", Odometry())], [])
