@@ -1,6 +1,6 @@
 """Rooms of each package, drawn from the imports: the tables and maps of docs/architecture.md.
 
-`python scripts/room_map.py` writes them anew. Order and sentences of the tables are kept: a row's place says which floor its
+`python scripts/room_map.py` writes them anew. The order of the rows is kept, sentences come from each room: a row's place says which floor its
 room is on, and imports go to lower floors only. tests/test_architecture.py holds the page and every import to that.
 """
 

@@ -1,8 +1,8 @@
-"""The one way to look at what was kept: whatever a settings file holds is either what it should be, or said and as usual again.
+"""The one way to look at what was kept: whatever a settings file holds is either what it should be, or said and reset to default.
 
     kept = Kept(settings.get("talk"), "talking")
     on, rate = kept.flag("on", usual=False), kept.number("rate", 0.5, 2.0, usual=1.0)
-    kept.sentence       # "In the settings of talking rate is from 0.5 to 2, not 'fast': as usual again."
+    kept.sentence       # "In the settings of talking rate is from 0.5 to 2, not 'fast': reset to default."
 
 JSON may hold anything in any place: lists where names are looked up, whole numbers that no float can hold, NaN.
 """

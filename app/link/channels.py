@@ -18,7 +18,7 @@ EVENT, MISSED, LINK, OUTCOME = "event", "missed", "link", "outcome"
 KNOWN = "known"
 """Newest wins: how far the robot's events are `KnownEvents`; it comes after them."""
 CAPABILITIES, SEEN = "offer", "seen"
-"""The robot's `Offer` when it is known and when it changed, and what is `Seen` of the topic looked at."""
+"""The robot's `Capabilities` when it is known and when it changed, and what is `Seen` of the topic looked at."""
 
 
 class LinkPosts:

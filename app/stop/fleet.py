@@ -46,7 +46,7 @@ class Row:
     name: str
     """What people call it, else its address."""
     phase: str
-    """As of `stopping.Verdict`."""
+    """As of `stop_state.Verdict`."""
     sentence: str = ""
     foreign: bool = False
     """It has no STOP of its own: zero speed is sent for as long as STOP ALL is held."""

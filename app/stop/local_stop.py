@@ -68,7 +68,7 @@ class LocalStop:
 
     @property
     def phase(self) -> str:
-        """As of `stopping.Verdict`, with odometry for what the robot says: `ready`, `sent`, `stopped` or `no_answer`."""
+        """As of `stop_state.Verdict`, with odometry for what the robot says: `ready`, `sent`, `stopped` or `no_answer`."""
         if not self.latched:
             return "ready"
         rests = self._confirmed

@@ -42,7 +42,7 @@ class Report:
     """What is known of one robot's STOP."""
 
     phase: str
-    """As of `stopping.Verdict`."""
+    """As of `stop_state.Verdict`."""
     sentence: str = ""
     """The same for the operator; empty where the phase says it all."""
     name: str = ""

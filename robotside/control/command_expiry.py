@@ -20,7 +20,7 @@ VALID_TIME = 0.3
 HOLD_TIME = 0.25
 """As long after it was given a drive command is in force, and what moves may come [s].
 
-The next look after it comes within a tick (robotside.serving), and a busy computer may take some 30 ms more to look. At
+The next look after it comes within a tick (robotside.serving.fleet_server), and a busy computer may take some 30 ms more to look. At
 20 Hz it bridges a way of 0.2 s: where the speed has fallen to a crawl anyway.
 """
 

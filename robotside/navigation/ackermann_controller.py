@@ -84,7 +84,7 @@ def bend_of(info: RobotInfo) -> float:
 
 
 class AckermannController(GroundBound):
-    """`controller.Going` of a robot that turns only by driving, and drives backwards too."""
+    """`path_controller.PathController` of a robot that turns only by driving, and drives backwards too."""
 
     stands = True
     keeps_courses = False

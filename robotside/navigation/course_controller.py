@@ -33,7 +33,7 @@ YAW_TOLERANCE = 0.1
 
 
 class CourseController(SinglePath):
-    """`controller.Going` of a robot that keeps courses."""
+    """`path_controller.PathController` of a robot that keeps courses."""
 
     stands = False
     keeps_courses = True

@@ -26,7 +26,7 @@ MIN_SIDE_GAP, MIN_BACK_ROOM = 0.04, 0.4
 
 
 class DifferentialController(SinglePath, GroundBound):
-    """`controller.Going` of a robot that turns where it stands."""
+    """`path_controller.PathController` of a robot that turns where it stands."""
 
     stands = False
     keeps_courses = False

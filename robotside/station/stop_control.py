@@ -12,7 +12,7 @@ from robotside.autonomy.readiness import Readiness
 from robotside.control.command_gate import CommandGate
 from robotside.control.guarded_robot import GuardedRobot
 from robotside.control.stop_consequences import still_moves
-from robotside.control.stop_latch import StopLatch
+from robotside.control.stop_record import StopRecord
 from robotside.core.notice import Notice
 from robotside.motion.measured import MeasuredState
 from robotside.records import Records
@@ -45,7 +45,7 @@ class StopControl:
         self._info, self._controls, self._robot, self._engine = info, controls, robot, engine
         self._records, self._readiness = records, readiness
         self._say, self._clock, self._measured, self._is_at_rest = say, clock, measured, is_at_rest
-        self._latch = StopLatch(records, say)
+        self._latch = StopRecord(records, say)
         self._port_fault = ""
         self._ending = False
 

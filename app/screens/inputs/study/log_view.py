@@ -73,7 +73,7 @@ class LogView(Column):
     source = StringProperty("use")
     """`use` or `study`."""
     until = StringProperty("sent")
-    """To what response times go, as of `responses_stats.seconds`."""
+    """To what response times go, as of `response_statistics.seconds`."""
 
     def __init__(
         self,

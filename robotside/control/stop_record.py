@@ -1,4 +1,4 @@
-"""STOP as the disk has it: kept over restarts, and said when it is not."""
+"""The record of STOP on the disk, which keeps it over restarts; an alarm when it cannot be kept."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from robotside.core.notice import Notice
 from robotside.records import Records
 from robotside.records.events import Say
 
-__all__ = ["StopLatch"]
+__all__ = ["StopRecord"]
 
 
-class StopLatch:
+class StopRecord:
     """Notes who pressed STOP; tried again until it is on the disk."""
 
     def __init__(self, records: Records, say: Say) -> None:
