@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import Any, Protocol
 
+from app.session.recordings import Recordings
+from app.session.session import Session
+
 __all__ = ["ExecutorApp", "ScreenApp", "StopInput"]
 
 
@@ -16,11 +19,11 @@ class StopInput(Protocol):
 
 
 class ScreenApp(Protocol):
-    """A session is known by what is asked of it, and screens are Kivy's: both are `Any` here."""
+    """The robot and its screens; the frame of the screens is Kivy's and stands above this room, so it is `Any`."""
 
     @property
-    def session(self) -> Any:
-        """What is known of the connected robot; None without one."""
+    def session(self) -> Session | None:
+        """The connection to the robot; None without one."""
         ...
 
     @property
@@ -43,7 +46,7 @@ class ExecutorApp(ScreenApp, Protocol):
         ...
 
     @property
-    def records(self) -> Any:
+    def records(self) -> Recordings:
         """Recordings and snapshots."""
         ...
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import Any
+from typing import cast
 
 from app.intents.executor_app import ExecutorApp
 from app.intents.intents import INTENTS
 from app.intents.open_question import OpenQuestion
 from app.intents.speed_steps import SpeedSteps
 from app.intents.task_intents import TaskIntents
+from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import LightState, TaskOrder
 from widgets.core.task_words import TASKS, title
 
@@ -121,8 +122,8 @@ class IntentExecutor:
     # what there is
 
     @property
-    def _session(self) -> Any:
-        return self._app.session
+    def _session(self) -> Session:
+        return cast(Session, self._app.session)
 
     @property
     def _lit(self) -> bool:
@@ -132,7 +133,7 @@ class IntentExecutor:
     # STOP
 
     def _why_not_stop(self) -> str:
-        known = self._session is not None or bool(self._app.corner.button.robots)
+        known = self._app.session is not None or bool(self._app.corner.button.robots)
         return "" if known else "No robot is known that could be stopped."
 
     # what it carries, and who steers

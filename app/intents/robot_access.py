@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import cast
 
 from app.intents.executor_app import ScreenApp
+from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import TaskStatus
 
 __all__ = ["HELD", "RobotAccess"]
@@ -20,8 +21,8 @@ class RobotAccess:
         self._app = app
 
     @property
-    def _session(self) -> Any:
-        return self._app.session
+    def _session(self) -> Session:
+        return cast(Session, self._app.session)
 
     @property
     def status(self) -> TaskStatus | None:
