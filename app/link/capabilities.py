@@ -103,7 +103,7 @@ class Capabilities:
         if self.ours:
             return ""
         if not self.rosapi:
-            return "This robot does not tell what it offers (it runs no rosapi): the usual names are tried."
+            return "This robot lists no services (it runs no rosapi): trying the usual names."
         told = "This robot has no Pilothouse services: no tasks, and STOP sends zero speed."
         return f"{told} Its place is by odometry." if self.pose_by_odometry else told
 

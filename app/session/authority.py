@@ -227,15 +227,11 @@ class Authority:
         if before.requested_by_id and status.driver_id == before.requested_by_id:
             self.wanted = False
             return f"{status.driver} has control now.", "info"
-        why = (
-            "while the link was away"
-            if self._away
-            else f"the robot heard nothing for {CONTROL_TIMEOUT:.0f}\u00a0s"
-        )
-        free = "It is asked for again" if self.wanted else "It is free"
-        now = f"{status.driver} has it now" if status.driver else free
+        why = "while the link was away" if self._away else f"no contact for {CONTROL_TIMEOUT:.0f}\u00a0s"
+        free = "Requesting it again…" if self.wanted else "It is free."
+        now = f"{status.driver} has it now." if status.driver else free
         self._lapsed = why if self.wanted else ""
-        return f"Your control lapsed: {why}. {now}.", "warn"
+        return f"Control lost: {why}. {now}", "warn"
 
 
 def _parties(status: ControlStatus) -> tuple[str, str]:

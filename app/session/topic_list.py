@@ -120,7 +120,7 @@ class TopicListing:
                 "Asking the robot for its topics …" if self._session.connected else "There is no connection."
             )
         if not offer.rosapi:
-            return "This robot does not tell its topics: it runs no rosapi."
+            return "This robot lists no topics: it runs no rosapi."
         if not offer.topics:
             return "This robot has no topics."
         if not self.lines():

@@ -112,7 +112,7 @@ class Code(StrEnum):
     TASK_RESUMED = "task_resumed", "A paused task goes on.", "task"
     TASK_DONE = "task_done", "A task is done.", "task"
     TASK_FAILED = "task_failed", "A task failed.", "task"
-    TASK_REPLACED = "task_replaced", "Another task was asked for instead.", "task", "instead"
+    TASK_REPLACED = "task_replaced", "Another task was requested instead.", "task", "instead"
     TASK_INTERRUPTED = "task_interrupted", "A restart cut a task.", "task"
     TASK_STOPPED = "task_stopped", "The actor's STOP paused the task.", "name"
     TASK_PAUSED = "task_paused", "The actor paused the task.", "name"

@@ -56,7 +56,7 @@ class _StopOrders:
         if not controls.stopped:
             return "STOP was not pressed."
         if asked.stamp < controls.stop_given:
-            said = "STOP was pressed after that was asked for: it stays."
+            said = "STOP was pressed after this request: it stays."
             raise Refusal(Notice(Code.STOP_PRESSED_SINCE, said))
         self._station.stop.release(controls.name(client), controls.id(client))
         return "STOP is released."

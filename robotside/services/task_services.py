@@ -70,7 +70,7 @@ class TaskOrders:
         task = station.autonomy.task_factory.task(order, station.controls.name(client))
         permits.charged(task)
         if self._engine.active:
-            station.agenda.hold("another task was asked for instead")
+            station.agenda.hold("another task was requested instead")
         self._begin()
         self._engine.start(task, station.now)
         return " ".join(part for part in (_started(task), station.agenda.parked) if part)

@@ -141,7 +141,7 @@ class Engine:
         A task that is taken up after a restart keeps its `task_id`, after `driven` [m].
         """
         if not task_id:
-            said = f"{self.title} ended: {task.spoken} was asked for instead."
+            said = f"{self.title} ended: {task.spoken} was requested instead."
             self.cancel(Notice(Code.TASK_REPLACED, said, task=self.status.task, instead=task.name))
         self.task, self._begun_at = task, self._odometer - driven
         self._next_progress = self._ticked = now

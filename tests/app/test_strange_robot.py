@@ -226,9 +226,7 @@ def test_a_robot_without_rosapi_is_tried_by_the_usual_names(
     drives(operator, strange)
     operator.session.stop()
     operator.until(lambda: operator.session.robot_stop.phase == "stopped")
-    assert (
-        TopicListing(operator.session).sentence == "This robot does not tell its topics: it runs no rosapi."
-    )
+    assert TopicListing(operator.session).sentence == "This robot lists no topics: it runs no rosapi."
 
 
 def test_a_robot_that_takes_stamped_commands_is_driven_by_them(tmp_path: Path) -> None:

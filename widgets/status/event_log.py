@@ -224,7 +224,7 @@ ORDERS = [
     _sample(3, 154, "alarm", "stop", "STOP pressed by tablet-B.", Code.STOP_PRESSED),
     _sample(4, 156, "ok", "stop", "STOP released by tablet-B.", Code.STOP_RELEASED),
     _sample(5, 158, "info", "task", "Going home.", Code.TASK_STARTED, task="go_home"),
-    _sample(6, 160, "info", "task", "Patrol ended: go home was asked for instead.", Code.TASK_REPLACED),
+    _sample(6, 160, "info", "task", "Patrol ended: go home was requested instead.", Code.TASK_REPLACED),
 ]
 """Events of the samples, oldest first."""
 

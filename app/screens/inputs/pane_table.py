@@ -32,7 +32,7 @@ PANES: dict[str, Pane] = {
     "switches": Pane(*METHOD_SIGNS["switches"], "app.screens.inputs.panes.switch_pane:SwitchPane"),
     "gamepad": Pane(*METHOD_SIGNS["gamepad"], "app.screens.inputs.panes.pad_pane:PadPane"),
     "keyboard": Pane(*METHOD_SIGNS["keyboard"], "app.screens.inputs.panes.keys_pane:KeysPane"),
-    "table": Pane("tune", "What each may do", "app.screens.inputs.panes.permit_table:TablePane"),
+    "table": Pane("tune", "Permissions", "app.screens.inputs.panes.permit_table:TablePane"),
     "study": Pane("timeline", "Log and study", "app.screens.inputs.study.study_pane:StudyPane"),
 }
 """By its name, which is that of the method where it sets up one."""

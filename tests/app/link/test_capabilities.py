@@ -132,7 +132,7 @@ def test_a_robot_without_rosapi_is_tried_by_the_usual_names(no: Exception) -> No
     assert not offer.rosapi
     assert not offer.ours
     assert (offer.source("/scan"), offer.drive) == ("/scan", "/cmd_vel")
-    assert "does not tell what it offers" in offer.sentence
+    assert "lists no services" in offer.sentence
 
 
 def test_a_robot_that_tells_its_topics_alone_has_no_services() -> None:

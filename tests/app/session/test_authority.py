@@ -169,7 +169,7 @@ def test_control_that_lapsed_while_the_link_was_away_is_said(watch: Watch) -> No
     watch.link_becomes(DROPPED)
     watch.link_becomes(BACK)
     watch.told(BOBS)
-    assert watch.news == [("Your control lapsed: while the link was away. Bob has it now.", "warn")]
+    assert watch.news == [("Control lost: while the link was away. Bob has it now.", "warn")]
 
 
 def test_control_that_lapsed_is_said_and_asked_for_again(watch: Watch) -> None:
@@ -177,9 +177,7 @@ def test_control_that_lapsed_is_said_and_asked_for_again(watch: Watch) -> None:
     watch.told(MINE)
     watch.told(FREE)
     assert watch.asked == ["acquire"]
-    assert watch.news == [
-        ("Your control lapsed: the robot heard nothing for 2\u00a0s. It is asked for again.", "warn")
-    ]
+    assert watch.news == [("Control lost: no contact for 2\u00a0s. Requesting it again…", "warn")]
 
 
 def test_control_that_lapsed_and_came_back_is_said_in_its_place(watch: Watch) -> None:
@@ -194,7 +192,7 @@ def test_control_that_lapsed_and_came_back_is_said_in_its_place(watch: Watch) ->
     ]
     watch.told(BOBS)
     watch.told(MINE)
-    assert watch.news[-1][0].startswith("Your control lapsed"), "had again is not said twice"
+    assert watch.news[-1][0].startswith("Control lost"), "had again is not said twice"
 
 
 @pytest.mark.parametrize("then", ["FREE", "CAROL", "ASKED"])

@@ -91,7 +91,7 @@ def test_each_way_of_having_nothing_has_its_sentence() -> None:
     robot.connected = False
     assert robot.topics.sentence == "There is no connection."
     robot.robot.capabilities = Capabilities({}, frozenset(), rosapi=False)
-    assert robot.topics.sentence == "This robot does not tell its topics: it runs no rosapi."
+    assert robot.topics.sentence == "This robot lists no topics: it runs no rosapi."
     assert robot.topics.summary == ""
     robot.robot.capabilities = Capabilities({}, frozenset())
     assert robot.topics.sentence == "This robot has no topics."

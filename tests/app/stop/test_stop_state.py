@@ -28,7 +28,7 @@ WHY = "No robot answers."
         (StopFacts(asked_at=99.9, refusal=CUT), Verdict("no_answer", CUT)),
         (
             StopFacts(asked_at=98.0, taken_at=98.1, latched=False),
-            Verdict("no_answer", "It took STOP and does not say that it rests."),
+            Verdict("no_answer", "STOP received; the robot has not reported that it rests."),
         ),
         (StopFacts(latched=True, at_rest=True, by="Anna"), Verdict("stopped", "Pressed by Anna.")),
         (

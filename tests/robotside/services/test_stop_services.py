@@ -81,7 +81,7 @@ def test_a_release_that_was_asked_for_before_the_latest_stop_leaves_it(scene: Sc
     scene.run(1.0)
     scene.ask("/stop", CommandRequest(stamp=scene.now, client_name="Bert"), bert)
     said = scene.refused("/stop/release", late)
-    assert said == "STOP was pressed after that was asked for: it stays."
+    assert said == "STOP was pressed after this request: it stays."
     assert scene.control.stopped
     scene.run(1.0)
     assert scene.ask("/stop/release", CommandRequest(stamp=scene.now, client_name="Anna")).success

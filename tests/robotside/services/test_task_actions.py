@@ -114,7 +114,7 @@ async def test_a_task_that_others_end_is_told_with_its_reason(scene: Scene, orde
     goal = await Goal(scene).begun()
     scene.run(1.0)
     scene.ask(order)
-    said = {"/task/cancel": "Canceled by", "/task/go_home": "Patrol ended: way home was asked for instead."}
+    said = {"/task/cancel": "Canceled by", "/task/go_home": "Patrol ended: way home was requested instead."}
     assert (await goal.refused()).startswith(said[order])
 
 

@@ -103,7 +103,7 @@ def test_another_task_discards_it_and_that_is_said(scene: Scene, tmp_path: Path)
     again.run(0.1)
     runs = again.ask("/history/get", GetHistoryRequest(limit=5)).runs  # type: ignore[attr-defined]
     assert [(run.order.task, run.state) for run in runs] == [("go_home", "RUNNING"), ("patrol", "CANCELED")]
-    assert "The task before the restart ended: way home was asked for instead." in again.events("task")
+    assert "The task before the restart ended: way home was requested instead." in again.events("task")
 
 
 def test_stop_keeps_it_from_being_resumed(scene: Scene, tmp_path: Path) -> None:

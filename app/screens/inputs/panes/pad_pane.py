@@ -234,7 +234,7 @@ class PadPane(BoxLayout):
         profile = self._profile
         choosing = self.meanings if what == "button" else self.sources
         if what == "button":
-            choosing.ask(button_words(which), "What shall it mean?", profile.meaning(which))
+            choosing.ask(button_words(which), "Choose a command", profile.meaning(which))
         else:
             choosing.ask(WAYS[which], "What shall push it?", profile.axes.get(which, "none"))
         self.clear_widgets()

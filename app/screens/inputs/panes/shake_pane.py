@@ -192,7 +192,7 @@ class ShakePane(BoxLayout):
         if axis not in self.lists:
             choices = self.lists[axis] = MeaningList({name: _words(name) for name in CHOICES[axis]})
             choices.bind(on_choose=lambda _, name: self._chosen(name), on_close=lambda _: self.back())
-        self.lists[axis].ask(WORDS[axis], "What shall it mean?", self.shaking.meaning[axis])
+        self.lists[axis].ask(WORDS[axis], "Choose a command", self.shaking.meaning[axis])
         self._page(self.lists[axis])
 
     def _chosen(self, name: str) -> None:

@@ -77,7 +77,7 @@ class VoicePane(BoxLayout):
 
     def _fill_answers(self) -> None:
         add = self._column.add_widget
-        add(group_label("What it answers"))
+        add(group_label("Voice"))
         row, self.talks = switch_row(
             "volume_up", "Talk back", "Answers, alarms, what the robot confirmed.", self._talk
         )
@@ -113,7 +113,7 @@ class VoicePane(BoxLayout):
         self.model.bind(on_text_validate=lambda _: self._enter_model(), focus=self._on_model_focus)
         self._models = Column(spacing="6dp")
         if not is_android():
-            self._column.add_widget(group_label("What understands"))
+            self._column.add_widget(group_label("Recogniser"))
             self._column.add_widget(self.recognizers)
             self._column.add_widget(self._models)
 
