@@ -283,6 +283,17 @@ async def test_what_goes_wrong_is_told_as_the_result(start, reason, caplog):
     assert ("ZeroDivisionError" in caplog.text) == (start is fail)
 
 
+async def test_a_result_that_cannot_be_written_ends_the_goal_all_the_same():
+    async def start(session, goal, tell):
+        return CommandResponse(success=True, message=object())
+
+    async with server(actions=[action(start)]) as robot, peer(robot) as caller:
+        await caller.say(op="send_action_goal", id="g", action="/tell")
+        result = await caller.hear()
+        assert result["result"] is False
+        assert result["values"].startswith("pilothouse_msgs/CommandResponse cannot be sent: ")
+
+
 async def test_a_goal_that_does_not_fit_is_refused_with_the_field():
     async with server(actions=[action(endless)]) as robot, peer(robot) as caller:
         await caller.say(op="send_action_goal", id="g", action="/tell", args={"valid_for": "long"})
