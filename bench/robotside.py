@@ -22,7 +22,6 @@ from bench.support.planning import DEEP, LAKE, SHALLOW, lake, longest, trap
 from bench.support.station import ROUND, Serving, patrol, serving
 from bridge.core.camera_frames import Frame
 from bridge.core.network_thread import NetworkThread
-from bridge.core.robot_catalogue import Operator
 from bridge.msgs.pilothouse_msgs import Mission, SetMissionRequest, StartTaskRequest, TaskProgress
 from robotside.door.station_door import StationDoor
 from robotside.records import Records
@@ -176,8 +175,8 @@ def run(station: Station, clock: Clock, seconds: float) -> None:
 
 def begin(station: Station) -> None:
     """Start patrolling `ROUND`, as a client would."""
-    session = Operator("1", "bench", 0.0)
     door = StationDoor(station)
+    session = door.join("bench")
     for name, request in (
         ("/mission/set", SetMissionRequest(mission=Mission(waypoints=ROUND))),
         ("/task/start", StartTaskRequest()),

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bridge.core.identity import Identity, Role
+from bridge.core.robot_catalogue import Operator
 from bridge.msgs import Msg
 from bridge.msgs.arrays import Float32Array, Int8Array
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, Quaternion, Twist, TwistWithCovariance
@@ -50,13 +52,14 @@ class Pillar:
     radius: float = 0.12
 
 
-class FakeClient:
-    """A connected client."""
+MANAGER = Identity("", "", Role.MANAGE)
 
-    def __init__(self, name: str = "a", now: float = 0.0) -> None:
-        self.id = name
-        self.address = "192.0.2.1:5000"
-        self.last_heard = now
+
+class FakeClient(Operator):
+    """A connected client that may do everything."""
+
+    def __init__(self, name: str = "a", now: float = 0.0, identity: Identity = MANAGER) -> None:
+        super().__init__(name, "192.0.2.1:5000", now, identity=identity)
         self.rtt = 0.0
         self.asked_time = True
         self.answered = math.inf

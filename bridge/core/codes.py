@@ -38,6 +38,11 @@ class Code(StrEnum):
     STOP_UNSURE = "stop_unsure", "STOP is pressed and may not have reached the robot."
     STOP_PRESSED_SINCE = "stop_pressed_since", "STOP was pressed after its release was requested."
 
+    # trust
+
+    TRUST_UNKNOWN = "trust_unknown", "The robot does not know who asks.", "operation"
+    TRUST_ROLE = "trust_role", "The role of who asks is too small.", "operation", "role", "needed"
+
     # control
 
     CONTROL_TAKEN = "control_taken", "The actor has control.", "name"

@@ -7,6 +7,7 @@ from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import Any
 
+from bridge.core.identity import STRANGER, Identity, Role
 from bridge.msgs import Msg
 
 __all__ = ["Action", "Service", "Operator"]
@@ -14,10 +15,23 @@ __all__ = ["Action", "Service", "Operator"]
 MsgClass = type[Msg]
 
 
+def _ignore() -> None:
+    """Nothing is to be ended."""
+
+
 class Operator:
     """A client that may command the robot, over one connection of any gateway."""
 
-    def __init__(self, id: str, address: str, opened: float) -> None:
+    def __init__(
+        self,
+        id: str,
+        address: str,
+        opened: float,
+        *,
+        identity: Identity = STRANGER,
+        way: str = "",
+        secure: bool = False,
+    ) -> None:
         self.id = id
         """Unique in this run of the robot side."""
         self.address = address
@@ -32,6 +46,18 @@ class Operator:
         """Earliest time [s], operators' clock, at which the message that comes next can have been sent."""
         self.asked_time = False
         """Whether it asked for the operators' clock, by `/rosapi/get_time`, so that its stamps have a meaning."""
+        self.identity = identity
+        """Who it proved to be."""
+        self.way = way
+        """The gateway by which it came, as in `rosbridge`; empty when it was not said."""
+        self.secure = secure
+        """Nobody else reads or changes what it sends and is sent: it came by TLS."""
+        self.on_expelled: Callable[[], None] = _ignore
+        """Ends its connection, since it may nothing any more; set by its gateway."""
+
+    def role(self, now: float) -> Role:
+        """What it may do at `now` [s, operators' clock]."""
+        return self.identity.role if now < self.identity.ends else Role.NONE
 
     def __repr__(self) -> str:
         return f"Operator({self.id!r}, {self.address!r})"

@@ -36,8 +36,24 @@ class RobotDoor(Protocol):
     def action(self, name: str) -> Action:
         """The action of that name; raises Refused when there is none."""
 
-    def join(self, address: str) -> Operator:
-        """A client came from `address`; the operator that it is from now on, with an id of its own."""
+    def join(
+        self, address: str, *, way: str = "", secure: bool = False, token: str = "", trusted: bool = True
+    ) -> Operator:
+        """A client came from `address`, `HOST:PORT`; the operator that it is from now on, with an id of its own.
+
+        It came by the gateway `way`, over TLS when `secure`, and showed `token`, empty for none. One that is not `trusted`
+        never counts as a program of this machine: a web page may have opened it. Raises Refused for a wrong token.
+        """
+
+    def authenticate(self, operator: Operator, token: str) -> None:
+        """`operator` shows its token after it has joined; raises Refused for a wrong one."""
+
+    def check(self, operator: Operator, verb: str, name: str) -> None:
+        """Raises Refused when the role of `operator` is too small.
+
+        `verb` is one of subscribe, publish, call, run, camera, advertise, page and rosapi; `name` is the topic, service,
+        action, camera or page. `publish`, `call` and `run` check this themselves.
+        """
 
     def leave(self, asker: Hashable) -> None:
         """An operator or another asker is gone: end its subscriptions and, if it drove, the driving."""

@@ -244,7 +244,9 @@ class SetLevel(Op, frozen=True, tag="set_level"):
 
 
 class Auth(Op, frozen=True, tag="auth"):
-    """Credentials for a ROS 1 server that asks for them; accepted and ignored."""
+    """Credentials. A robot of ours takes a `token`; what ROS 1 servers ask for instead is accepted and ignored."""
+
+    token: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -84,6 +84,7 @@ class ActionGoals:
         name = absolute(op.action)
         told = msgspec.structs.replace(op, args=MISSING)  # which would keep all of its frame until it is over
         if name in self._client_services.actions:
+            self._door.check(self._operator, "relay", name)
             return self._client_services.hand_goal(
                 self._client,
                 name,
@@ -92,6 +93,7 @@ class ActionGoals:
                 lambda end: self._on_result(told, end),
             )
         action = self._door.action(name)
+        self._door.check(self._operator, "run", name)
         goal = arguments(op.args, action.goal)
         op = told
         task = asyncio.create_task(self._carry_out(op, action, goal))

@@ -10,7 +10,7 @@ from typing import Any
 
 from msgspec import UNSET
 
-from bridge.core.errors import ProtocolError
+from bridge.core.errors import ProtocolError, Refused
 from bridge.core.robot_catalogue import Operator
 from bridge.protocol import (
     ActionFeedback,
@@ -29,11 +29,13 @@ from bridge.protocol import (
     ServerSession,
     ServiceResponse,
     SetLevel,
+    Status,
     Subscribe,
     Unadvertise,
     UnadvertiseAction,
     UnadvertiseService,
     Unsubscribe,
+    absolute,
     complaint,
 )
 from bridge.server.action_goals import ActionGoals
@@ -82,18 +84,46 @@ class RosbridgeSession:
             Advertise: self._topics.advertise,
             Unadvertise: self._topics.unadvertise,
             CallService: self._services.call,
-            AdvertiseService: lambda op: offered.advertise_service(self, op),
+            AdvertiseService: self._advertise_service,
             UnadvertiseService: lambda op: offered.unadvertise_service(self, op),
             ServiceResponse: self.protocol.on_response,
-            AdvertiseAction: lambda op: offered.advertise_action(self, op),
+            AdvertiseAction: self._advertise_action,
             UnadvertiseAction: lambda op: offered.unadvertise_action(self, op),
             SendActionGoal: self._goals.begin,
             CancelActionGoal: self._goals.cancel,
             ActionFeedback: self.protocol.on_feedback,
             ActionResult: self.protocol.on_result,
             SetLevel: self.protocol.set_level,
-            Auth: lambda _: None,
+            Auth: self._authenticate,
         }
+
+    def _advertise_service(self, op: AdvertiseService) -> None:
+        self._check_advertise(op.service)
+        self._context.client_services.advertise_service(self, op)
+
+    def _advertise_action(self, op: AdvertiseAction) -> None:
+        self._check_advertise(op.action)
+        self._context.client_services.advertise_action(self, op)
+
+    def _check_advertise(self, name: str) -> None:
+        try:
+            self._context.door.check(self.operator, "advertise", absolute(name))
+        except Refused as refusal:
+            raise ProtocolError(str(refusal)) from refusal
+
+    def _authenticate(self, op: Auth) -> None:
+        """Learn who the client is by its token; a `status` tells it the outcome, whatever remarks it wants."""
+        if not op.token:
+            return
+        level, said = "info", ""
+        try:
+            self._context.door.authenticate(self.operator, op.token)
+        except Refused as refusal:
+            level, said = "error", str(refusal)
+        else:
+            identity = self.operator.identity
+            said = f"You are {identity.name}, with the role {identity.role.word}."
+        self.send(Status(id=op.id, level=level, msg=said))
 
     def on_message(self, message: str | bytes) -> bool:
         """Handle one message of the client; False when that takes longer than its turn, and `resume` must follow.

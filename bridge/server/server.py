@@ -225,7 +225,8 @@ class BridgeServer:
             self._open.discard(ws)
 
     async def _serve_client(self, ws: CallbackConnection, batch: WriteBatch) -> None:
-        operator = self._door.join(_address(ws))
+        operator = self._door.join(_address(ws), way="rosbridge")
+        operator.on_expelled = ws.abort
         client = RosbridgeSession(ws, batch, operator, self._context)
         ws.batch = batch
         self._clients[operator] = client

@@ -42,12 +42,15 @@ class ServiceOperations:
         """Have a call answered, now or later; what fails is sent as the response."""
         name, id = service_and_id(op)
         try:
+            if name.startswith("/rosapi/"):
+                self._context.door.check(self._operator, "rosapi", name)
             known = self._context.rosapi.answer(name, op.args)
             if known is not None:
                 self._operator.asked_time = self._operator.asked_time or name == TIME_SERVICE
                 self._respond(op, name, id, known)
                 return
             if name in self._context.client_services.services:
+                self._context.door.check(self._operator, "relay", name)
                 self._context.client_services.call(self._client, name, id, op)
                 return
             request = arguments(op.args, self._context.door.service(name).request)

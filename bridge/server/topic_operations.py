@@ -81,6 +81,7 @@ class TopicOperations:
     def subscribe(self, op: Subscribe) -> None:
         """Subscribe the client; ProtocolError when the topic has another type or is not known."""
         topic, switchboard = absolute(op.topic), self._switchboard
+        self._check("subscribe", topic)
         switchboard.check(topic, op.type)
         switchboard.check_fields(topic, op.reduce.fields if op.reduce else None)
         self._protocol.subscribe(op)
@@ -111,6 +112,7 @@ class TopicOperations:
     def advertise(self, op: Advertise) -> None:
         """The client is going to publish; ProtocolError for a topic that the robot itself publishes."""
         topic, switchboard = absolute(op.topic), self._switchboard
+        self._check("advertise", topic)
         switchboard.check(topic, op.type)
         own = switchboard.topics.get(topic)
         if own is not None and own.to != "robot":
@@ -150,7 +152,17 @@ class TopicOperations:
                 self._context.door.check_listens(channel.name)
             except Refused as refusal:
                 raise ProtocolError(str(refusal)) from refusal
+            self._check("publish", channel.name)
+        else:
+            self._check("relay", channel.name)
         return channel
+
+    def _check(self, verb: str, topic: str) -> None:
+        """ProtocolError with the door's sentence when the role of the client is too small."""
+        try:
+            self._context.door.check(self._operator, verb, topic)
+        except Refused as refusal:
+            raise ProtocolError(str(refusal)) from refusal
 
     def _pass_on(
         self, channel: Channel, msg: Msg | Raw | Unread, stamp: float | None, *, latch: bool

@@ -10,6 +10,7 @@ from typing import Any
 
 from bridge.codec import shown
 from bridge.core.errors import BridgeError, Refused
+from bridge.core.identity import STRANGER
 from bridge.core.robot_catalogue import Action, Operator, Service
 from bridge.core.robot_door import Callback
 from bridge.core.topics import TOPICS, Topic
@@ -17,6 +18,7 @@ from bridge.msgs import Msg
 from robotside.core.bus import Bus
 from robotside.core.topic_demand import Demand
 from robotside.door.calls_in_progress import CallsInProgress
+from robotside.door.gate import OPEN, Gate, check_role
 
 __all__ = ["URGENT", "Door"]
 
@@ -44,6 +46,7 @@ class Door:
         topics: Iterable[Topic] = TOPICS,
         pictures: Iterable[str] = (),
         bus: Bus | None = None,
+        gate: Gate = OPEN,
         now: Callable[[], float] = float,
         on_message: Callable[[Any, str, Any, float | None], None] = _ignore,
         on_demand: Callable[[str, bool], None] = _ignore,
@@ -53,6 +56,7 @@ class Door:
 
         `on_message(operator, topic, msg, stamp)` takes what operators publish, `on_demand(topic, wanted)` is called when
         the first asker comes who wants a topic and when the last one left, `on_gone(operator)` when an operator left.
+        `gate` knows who may do what; without one everybody may do everything.
         """
         self.services = {service.name: service for service in services}
         """By absolute name."""
@@ -65,6 +69,7 @@ class Door:
         """The operators' clock [s]."""
         self._on_message, self._on_gone = on_message, on_gone
         self._bus = bus or Bus()
+        self._gate = gate
         self._demand = Demand(on_demand)
         self._numbers = itertools.count(1)
         self._operators: set[Operator] = set()
@@ -90,11 +95,47 @@ class Door:
             raise Refused(f"This robot has no action {shown(name)}.")
         return known
 
-    def join(self, address: str) -> Operator:
-        """A client came from `address`; the operator that it is from now on, with an id that no other has."""
-        operator = Operator(str(next(self._numbers)), address, self.now())
+    def join(
+        self, address: str, *, way: str = "", secure: bool = False, token: str = "", trusted: bool = True
+    ) -> Operator:
+        """A client came from `address`, `HOST:PORT`; the operator that it is from now on, with an id that no other has.
+
+        It came by the gateway `way`, over TLS when `secure`, and showed `token`, empty for none. One that is not `trusted`
+        never counts as a program of this machine: a web page may have opened it. Raises Refused for a wrong token.
+        """
+        known = self._gate.identify(token, address) if token else None
+        identity = known or self._gate.admit(address, secure=secure, trusted=trusted)
+        number = str(next(self._numbers))
+        operator = Operator(number, address, self.now(), identity=identity, way=way, secure=secure)
         self._operators.add(operator)
         return operator
+
+    def authenticate(self, operator: Operator, token: str) -> None:
+        """`operator` shows its token after it has joined; raises Refused for a wrong one.
+
+        Who is somebody else from now on has nothing of who it was: control that it had is free.
+        """
+        identity = self._gate.identify(token, operator.address)
+        if operator in self._operators and identity != operator.identity:
+            self._on_gone(operator)
+            operator.identity = identity
+
+    def expel(self, ids: Iterable[str]) -> None:
+        """The people with these ids may nothing any more: what they drive stops, and their connections end."""
+        gone = frozenset(ids) - {""}
+        for operator in [each for each in self._operators if each.identity.id in gone]:
+            operator.identity = STRANGER
+            try:
+                self._on_gone(operator)
+            finally:
+                operator.on_expelled()
+
+    def check(self, operator: Operator, verb: str, name: str) -> None:
+        """Raises Refused when the role of `operator` is too small; `publish`, `call` and `run` check it themselves.
+
+        `verb` and `name` are as in `robotside.trust.permissions`.
+        """
+        check_role(self._gate, operator, self.now(), verb, name)
 
     def leave(self, asker: Hashable) -> None:
         """An operator or another asker is gone: end its subscriptions and, if it drove, the driving."""
@@ -154,12 +195,13 @@ class Door:
         """Give a message of `operator` to the robot and to the subscribers of `topic`.
 
         `stamp` is when the operator meant it [s, operators' clock], None when that is not known. Raises Refused as
-        `check_listens` does.
+        `check_listens` does, and when its role is too small.
         """
         listeners = self._listeners.get(topic)
         if listeners is None:
             self.check_listens(topic)
             return
+        self.check(operator, "publish", topic)
         try:
             self._on_message(operator, topic, msg, stamp)
         except Exception:
@@ -180,6 +222,7 @@ class Door:
         the sentence for the caller, now or when awaited.
         """
         known = self.service(service)
+        self.check(operator, "call", service)
         if service not in URGENT:
             self._calls.check_room(operator.id)
         try:
@@ -204,6 +247,7 @@ class Door:
     ) -> Msg:
         """Carry a goal out and give its result; cancelled, the goal is taken back. Raises Refused."""
         known = self.action(action)
+        self.check(operator, "run", action)
         try:
             return await known.start(operator, goal, on_feedback)
         except Exception as error:

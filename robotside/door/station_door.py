@@ -11,6 +11,7 @@ from robotside.core.notice import coded
 from robotside.core.refusal import Refusal
 from robotside.door.derived_topics import DerivedTopics
 from robotside.door.door import Door
+from robotside.door.gate import OPEN, Gate
 from robotside.door.offered_topics import OfferedTopics
 from robotside.services.catalogue import catalogue
 from robotside.services.command_messages import listener
@@ -38,8 +39,8 @@ class Health(NamedTuple):
 class StationDoor(Door):
     """The door of one station; every gateway stands behind the same one."""
 
-    def __init__(self, station: Station) -> None:
-        """Derived topics are those of the motors that the robot has told of by now."""
+    def __init__(self, station: Station, gate: Gate = OPEN) -> None:
+        """`gate` knows who may do what. Derived topics are those of the motors that the robot has told of by now."""
         self._station = station
         self._derived = DerivedTopics(station.bus)
         services, actions = catalogue(station)
@@ -49,6 +50,7 @@ class StationDoor(Door):
             topics=(*TOPICS, *self._derived.topics),
             pictures=camera_topics(station.info.cameras).values(),
             bus=station.bus,
+            gate=gate,
             now=station.clock,
             on_message=listener(station),
             on_demand=self._want,

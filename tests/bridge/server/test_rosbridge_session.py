@@ -8,7 +8,6 @@ import json
 import pytest
 
 from bridge.core.compat import Compat
-from bridge.core.robot_catalogue import Operator
 from bridge.core.topics import TOPICS
 from bridge.msgs.nav_msgs import Odometry
 from bridge.protocol import ServerSession, split
@@ -38,7 +37,7 @@ class House:
     def __init__(self, *services, on_message=None):
         self.clock, self.soon, self.heard = Clock(), [], Record()
         offered = services or (service("/stop"), service("/slow", never))
-        door = Door(services=offered, on_message=on_message or self.heard)
+        self.door = door = Door(services=offered, on_message=on_message or self.heard)
         client_services = ClientServices(door.services, {})
         self.switchboard = Switchboard(TOPICS, lambda *_: None)
         self.context = ServerContext(
@@ -54,7 +53,7 @@ class House:
     def join(self):
         writer = FrameWriter()
         batch = WriteBatch(lambda call: self.soon.append(call))  # noqa: PLW0108 -- `soon` is another list after each step
-        client = RosbridgeSession(writer, batch, Operator("1", "somebody", 0.0), self.context)
+        client = RosbridgeSession(writer, batch, self.door.join("somebody"), self.context)
         client._clock = self.clock
         return client, writer
 

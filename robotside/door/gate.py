@@ -1,0 +1,63 @@
+"""The gate of a robot's door: who a client is, and the role that an operation needs."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from bridge.core.codes import Code
+from bridge.core.errors import Refused
+from bridge.core.identity import Identity, Role
+from bridge.core.robot_catalogue import Operator
+from robotside.core.notice import Notice
+from robotside.trust.permissions import needed_role
+
+__all__ = ["OPEN", "Gate", "check_role"]
+
+
+class Gate(Protocol):
+    """Knows the people of a robot."""
+
+    def admit(self, address: str, *, secure: bool, trusted: bool) -> Identity:
+        """Who a client from `address`, `HOST:PORT`, is that shows no token.
+
+        `secure` is whether it came by TLS; one that is not `trusted` may be a web page and never counts as a program of
+        this machine.
+        """
+
+    def identify(self, token: str, address: str) -> Identity:
+        """Whose token it is; raises Refused, with one sentence for every reason."""
+
+    def needed(self, verb: str, name: str) -> Role:
+        """The role that an operation needs, as of `robotside.trust.permissions`."""
+
+
+class _Open:
+    """Lets everybody in: for a robot that only this process reaches."""
+
+    def admit(self, address: str, *, secure: bool, trusted: bool) -> Identity:
+        return Identity("", "", Role.MANAGE)
+
+    def identify(self, token: str, address: str) -> Identity:
+        raise Refused("This robot knows no keys.")
+
+    def needed(self, verb: str, name: str) -> Role:
+        return needed_role(verb, name)
+
+
+OPEN: Gate = _Open()
+"""The gate of a robot that only this process reaches."""
+
+
+def check_role(gate: Gate, operator: Operator, now: float, verb: str, name: str) -> None:
+    """Raises Refused when the role of `operator` at `now` [s, operators' clock] is too small for an operation."""
+    role = operator.role(now)
+    needed = gate.needed(verb, name)
+    if role >= needed:
+        return
+    if role is Role.NONE:
+        said = f"{name} is for those whom this robot knows: pair with it first, or show a token."
+        raise Refused(Notice(Code.TRUST_UNKNOWN, said, operation=f"{verb} {name}"))
+    said = f"{name} needs the role {needed.word}; you have {role.word}."
+    raise Refused(
+        Notice(Code.TRUST_ROLE, said, operation=f"{verb} {name}", role=role.word, needed=needed.word)
+    )

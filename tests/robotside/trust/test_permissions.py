@@ -1,0 +1,33 @@
+"""The table of permissions covers every operation of a station, and names no operation that there is not."""
+
+from __future__ import annotations
+
+import pytest
+
+from bridge.core.identity import Role
+from robotside.trust.permissions import ANY, PERMISSIONS
+from tests.robotside.scene import Scene
+
+
+@pytest.fixture
+def operations(scene: Scene) -> set[str]:
+    door = scene.door
+    return {f"call {name}" for name in door.services} | {f"run {name}" for name in door.actions}
+
+
+def test_every_service_and_action_of_a_station_has_its_line(operations: set[str]) -> None:
+    assert operations - PERMISSIONS.keys() == set()
+
+
+EQUIPMENT = {"call /arm/move", "call /lights/set", "call /robot/reset"}
+"""Services of robots that carry more than the one of these tests."""
+
+
+def test_every_line_of_a_service_or_action_is_one_of_a_station(operations: set[str]) -> None:
+    named = {each for each in PERMISSIONS if each.split()[0] in ("call", "run") and not each.endswith(ANY)}
+    assert named - operations == EQUIPMENT
+
+
+def test_without_a_role_there_is_stop_and_nothing_that_shows_or_moves_the_robot() -> None:
+    free = {each for each, role in PERMISSIONS.items() if role is Role.NONE}
+    assert free == {"subscribe /robot/info", "rosapi /rosapi/get_time", "call /stop", "page /stop", "page /"}
