@@ -6,6 +6,7 @@ import re
 
 from msgspec import UNSET
 
+from bridge.codec import shown
 from bridge.core.errors import ProtocolError
 from bridge.protocol.ops import CallService, Id, Op
 
@@ -35,10 +36,16 @@ def absolute(name: str) -> str:
 
 
 def checked_name(name: str, op: Op, field: str) -> str:
-    """`name` made absolute; ProtocolError when it is empty or too long to be kept."""
-    if 0 < len(name) <= MAX_NAME_LENGTH:
-        return absolute(name)
-    raise wrong(op, f"{field} must have 1 to {MAX_NAME_LENGTH} characters, not {len(name)}.")
+    """`name` made absolute; ProtocolError when it is empty, too long to be kept, or has an empty part.
+
+    ROS names have no empty part: `/stop/` and `//stop` would look like `/stop` to people and differ from it for programs.
+    """
+    if not 0 < len(name) <= MAX_NAME_LENGTH:
+        raise wrong(op, f"{field} must have 1 to {MAX_NAME_LENGTH} characters, not {len(name)}.")
+    full = absolute(name)
+    if "//" in full or full.endswith("/"):
+        raise wrong(op, f"{field} must be a name without empty parts, as /stop, not {shown(name)}.")
+    return full
 
 
 def checked_id(op: Op) -> Id:

@@ -80,3 +80,11 @@ def test_an_id_that_cannot_be_kept_is_refused_and_not_repeated():
 
 def test_an_error_about_an_operation_without_an_id_has_none():
     assert wrong(Subscribe(topic="/a"), "No.").id is None
+
+
+@pytest.mark.parametrize("name", ["/stop/", "stop/", "//stop", "/control//acquire", "/"])
+def test_a_name_that_only_looks_like_another_is_refused(name):
+    """People read `/stop/` as `/stop`, and a robot compares names as they are."""
+    with pytest.raises(ProtocolError, match="without empty parts") as caught:
+        checked_name(name, Subscribe(topic=name), "topic")
+    assert name.strip("/") in str(caught.value)

@@ -333,3 +333,24 @@ async def test_who_reads_gets_all_its_refusals_when_who_should_answer_is_gone(mo
         answers = [await caller.hear() for _ in range(600)]
     assert [answer["id"] for answer in answers] == list(range(600))
     assert {answer["values"] for answer in answers} == {'The client that answers "/add" is gone.'}
+
+
+@pytest.mark.parametrize(
+    "op",
+    [
+        {"op": "advertise_service", "service": "/stop/", "type": "x/Y"},
+        {"op": "advertise_service", "service": "//stop", "type": "x/Y"},
+        {"op": "advertise_action", "action": "/task//run", "type": "x/Y"},
+        {"op": "advertise", "topic": "/cmd_vel/", "type": "geometry_msgs/Twist"},
+        {"op": "advertise", "topic": "/odom//pose", "type": "geometry_msgs/Pose"},
+    ],
+)
+async def test_nobody_offers_what_only_looks_like_the_robots_own(op):
+    async with server() as robot, peer(robot) as provider, peer(robot) as caller:
+        await provider.say(op="set_level", level="error")
+        await provider.say(**op)
+        remark = await provider.hear()
+        assert (remark["op"], remark["level"]) == ("status", "error")
+        assert "without empty parts" in remark["msg"]
+        services = (await caller.call("/rosapi/services"))["values"]["services"]
+        assert not [name for name in services if name.endswith("/") or "//" in name]
