@@ -94,6 +94,10 @@ DEFAULTS = {
     "pilothouse_msgs/AckermannState": {"turning_radius": "math.inf"},
     "pilothouse_msgs/Following": {"distance": "math.nan"},
     "pilothouse_msgs/LineSensor": {"spacing": "math.nan"},
+    "pilothouse_msgs/Person": dict.fromkeys(("ends", "last_seen"), "math.nan"),
+    "pilothouse_msgs/PairScanResponse": {"ends": "math.nan"},
+    "pilothouse_msgs/PairFinishResponse": {"ends": "math.nan"},
+    "pilothouse_msgs/GetMeResponse": {"ends": "math.nan"},
     "pilothouse_msgs/RunTaskGoal": {"stamp": "math.nan"},
     "pilothouse_msgs/RunTaskFeedback": dict.fromkeys(
         ("progress", "distance_to_next", "time_left"), "math.nan"

@@ -39,12 +39,20 @@ __all__ = [
     "GetEventsResponse",
     "GetHistoryRequest",
     "GetHistoryResponse",
+    "GetMeRequest",
+    "GetMeResponse",
     "GetMissionRequest",
     "GetMissionResponse",
     "GetMissionsRequest",
     "GetMissionsResponse",
+    "GetPeopleRequest",
+    "GetPeopleResponse",
     "Intruder",
     "IntruderArray",
+    "InviteGuestRequest",
+    "InviteGuestResponse",
+    "InvitePersonRequest",
+    "InvitePersonResponse",
     "KeptMission",
     "LightState",
     "Limits",
@@ -59,11 +67,20 @@ __all__ = [
     "MoveArmRequest",
     "MoveArmResponse",
     "PLACE_KINDS",
+    "PairBeginRequest",
+    "PairBeginResponse",
+    "PairFinishRequest",
+    "PairFinishResponse",
+    "PairScanRequest",
+    "PairScanResponse",
+    "Person",
     "Place",
     "PlaceArray",
     "REACTIONS",
     "RecallMissionRequest",
     "RecallMissionResponse",
+    "RemovePersonRequest",
+    "RemovePersonResponse",
     "RobotInfo",
     "RudderState",
     "RunTaskFeedback",
@@ -649,6 +666,33 @@ class GetHistoryResponse(CommandResponse, frozen=True, gc=False):
     """Newest first."""
 
 
+class GetMeRequest(Msg, frozen=True, gc=False):
+    """Returns who the robot takes the caller for."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMeRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ()
+
+
+class GetMeResponse(Msg, frozen=True, gc=False):
+    """What `GetMe` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMeResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "string", "string", "float64", "bool", "bool")
+    UNITS: ClassVar[dict[str, str]] = {"ends": "s"}
+    id: str = ""
+    """Public id; empty for who proved nothing."""
+    name: str = ""
+    """Name for people; empty when it is not known."""
+    role: str = ""
+    """none, watch, drive or manage."""
+    ends: float = math.nan
+    """When the role ends [s], operators' clock; NaN when it does not."""
+    proven: bool = False
+    """It proved by a key who it is."""
+    secure: bool = False
+    """It came by TLS."""
+
+
 class GetMissionRequest(Msg, frozen=True, gc=False):
     """Returns the stored mission."""
 
@@ -764,6 +808,55 @@ class GetMissionsResponse(CommandResponse, frozen=True, gc=False):
     """The same missions in detail."""
 
 
+class GetPeopleRequest(Msg, frozen=True, gc=False):
+    """Returns everybody whom the robot knows."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetPeopleRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ()
+
+
+class Person(Msg, frozen=True, gc=False):
+    """A person that the robot knows: a paired handheld, a program with a token, or a guest."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Person"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "string",
+        "string",
+        "string",
+        "float64",
+        "float64",
+        "float64",
+        "bool",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"created": "s", "ends": "s", "last_seen": "s"}
+    id: str = ""
+    """Public id, never a secret."""
+    name: str = ""
+    """Name for people; several may have the same one."""
+    role: str = ""
+    """watch, drive or manage."""
+    kind: str = ""
+    """handheld, token or guest."""
+    created: float = 0.0
+    """When it became known [s], operators' clock."""
+    ends: float = math.nan
+    """When its role ends [s], operators' clock; NaN when it does not."""
+    last_seen: float = math.nan
+    """When it last proved who it is [s], operators' clock; NaN for never."""
+    connected: bool = False
+    """It is connected now."""
+
+
+class GetPeopleResponse(Msg, frozen=True, gc=False):
+    """What `GetPeople` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetPeopleResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("pilothouse_msgs/Person[]",)
+    people: list[Person] = []
+    """Oldest first."""
+
+
 class Intruder(Msg, frozen=True, gc=False):
     """An object that does not belong there."""
 
@@ -791,6 +884,55 @@ class IntruderArray(Msg, frozen=True, gc=False):
     """Frame map."""
     intruders: list[Intruder] = []
     """In the order of their ids."""
+
+
+class InviteGuestRequest(Msg, frozen=True, gc=False):
+    """Opens pairing for one guest, whose role ends by itself."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/InviteGuestRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"duration": "s"}
+    role: str = ""
+    """watch or drive; empty for watch."""
+    duration: float = 3600.0
+    """How long the role lasts from now on [s], 60 to 86400."""
+
+
+class InviteGuestResponse(Msg, frozen=True, gc=False):
+    """What `InviteGuest` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/InviteGuestResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "string", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"ends": "s"}
+    link: str = ""
+    """Link for the QR code."""
+    code: str = ""
+    """Eight digits for people."""
+    ends: float = 0.0
+    """When the role ends [s], operators' clock."""
+
+
+class InvitePersonRequest(Msg, frozen=True, gc=False):
+    """Opens pairing for ten minutes and one handheld."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/InvitePersonRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string",)
+    role: str = ""
+    """Role of who pairs: watch, drive or manage; empty for drive."""
+
+
+class InvitePersonResponse(Msg, frozen=True, gc=False):
+    """What `InvitePerson` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/InvitePersonResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "string", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"open_until": "s"}
+    link: str = ""
+    """Link for the QR code."""
+    code: str = ""
+    """Six digits for people."""
+    open_until: float = 0.0
+    """When it ends [s], operators' clock."""
 
 
 class LightState(Msg, frozen=True, gc=False):
@@ -960,6 +1102,86 @@ class MoveArmResponse(CommandResponse, frozen=True, gc=False):
     ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
 
 
+class PairBeginRequest(Msg, frozen=True, gc=False):
+    """Begins to pair with a code: the two messages of SPAKE2, the handheld is its side A. Only over TLS."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/PairBeginRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "string")
+    tag: str = ""
+    """First two digits of a guest's code of eight; empty for the code of six."""
+    message: str = ""
+    """The handheld's message, in hex."""
+
+
+class PairBeginResponse(Msg, frozen=True, gc=False):
+    """What `PairBegin` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/PairBeginResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string",)
+    message: str = ""
+    """The robot's message, in hex."""
+
+
+class PairFinishRequest(Msg, frozen=True, gc=False):
+    """Ends what PairBegin began on the same connection. The handheld proves first that it has the code."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/PairFinishRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "string")
+    confirmation: str = ""
+    """HMAC of the handheld, in hex."""
+    name: str = ""
+    """Name of the handheld for people, as in tablet-B."""
+
+
+class PairFinishResponse(Msg, frozen=True, gc=False):
+    """What `PairFinish` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/PairFinishResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "string", "string", "string", "float64", "string")
+    UNITS: ClassVar[dict[str, str]] = {"ends": "s"}
+    confirmation: str = ""
+    """HMAC of the robot, in hex; a wrong one means that another has answered."""
+    id: str = ""
+    """Public id of the handheld from now on."""
+    token: str = ""
+    """Its key: shown to the robot at each connection, never to anybody else."""
+    role: str = ""
+    """watch, drive or manage."""
+    ends: float = math.nan
+    """When the role ends [s], operators' clock; NaN when it does not."""
+    robot: str = ""
+    """Name of the robot."""
+
+
+class PairScanRequest(Msg, frozen=True, gc=False):
+    """Pairs with the secret of a QR code. Only over TLS, with the certificate that the code names."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/PairScanRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "string")
+    secret: str = ""
+    """Of the link."""
+    name: str = ""
+    """Name of the handheld for people, as in tablet-B."""
+
+
+class PairScanResponse(Msg, frozen=True, gc=False):
+    """What `PairScan` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/PairScanResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "string", "string", "float64", "string")
+    UNITS: ClassVar[dict[str, str]] = {"ends": "s"}
+    id: str = ""
+    """Public id of the handheld from now on."""
+    token: str = ""
+    """Its key: shown to the robot at each connection, never to anybody else."""
+    role: str = ""
+    """watch, drive or manage."""
+    ends: float = math.nan
+    """When the role ends [s], operators' clock; NaN when it does not."""
+    robot: str = ""
+    """Name of the robot."""
+
+
 class Place(Msg, frozen=True, gc=False):
     """A named pose, so that people can say Office 12 in place of coordinates."""
 
@@ -1022,6 +1244,24 @@ class RecallMissionResponse(CommandResponse, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/RecallMissionResponse"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
+class RemovePersonRequest(Msg, frozen=True, gc=False):
+    """Forgets a person: its key opens nothing any more, its connections end, and what it drives stops."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RemovePersonRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string",)
+    id: str = ""
+    """Its public id."""
+
+
+class RemovePersonResponse(Msg, frozen=True, gc=False):
+    """What `RemovePerson` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RemovePersonResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string",)
+    name: str = ""
+    """Name of who was removed."""
 
 
 class RobotInfo(Msg, frozen=True, gc=False):
