@@ -124,7 +124,7 @@ class PilothouseApp(App):
         self.client_id = client_identity(self.settings)
         self.client_name = str(self.settings.get("client_name") or device_name())
         self.connect = ConnectScreen(app=self, can_simulate=self.simulating.possible)
-        self.robot_list = RobotDirectory(self, self.settings, self.client_id, self.now)
+        self.robot_list = RobotDirectory(self, self.settings, self.client_name, self.now)
         root = Root()
         self.pages = Pages(root, self.connect, InputsPage(app=self), self._first_screen)
         self.acting = IntentExecutor(self)

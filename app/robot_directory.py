@@ -11,6 +11,7 @@ from app.discovery.known_robots import KnownRobots, check_address
 from app.link.feeds import Post
 from app.screens.connect.connect import ConnectScreen
 from app.screens.parts.dialogs import AddressDialog
+from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import RobotInfo
 
 __all__ = ["RobotDirectory"]
@@ -22,6 +23,10 @@ class Host(Protocol):
     root: Any
     connect: ConnectScreen
 
+    @property
+    def session(self) -> Session | None:
+        """The session with the robot; None while none is wanted."""
+
     def open(self, url: str) -> None:
         """Connect to a robot."""
 
@@ -29,18 +34,19 @@ class Host(Protocol):
 class RobotDirectory:
     """Everything here happens in the UI thread."""
 
-    def __init__(self, app: Host, settings: Settings, client_id: str, now: Callable[[], float]) -> None:
-        """`client_id` is who this handheld is; `now` is our clock [s]."""
-        self._app, self._settings, self._client_id = app, settings, client_id
-        self.robots = KnownRobots(now, settings.get("robots") or ())
+    def __init__(self, app: Host, settings: Settings, client_name: str, now: Callable[[], float]) -> None:
+        """`client_name` is what this handheld is called; `now` is our clock [s]."""
+        self._app, self._settings, self._client_name = app, settings, client_name
+        self.robots = KnownRobots(now, settings.get("robots") or (), connected=self._connected)
         """Every robot that is heard or saved."""
         self._unproven = ""
         """The address that was typed last, until something answers there."""
 
     def on_post(self, channel: str, post: Post) -> bool:
         """Take in a HELLO or a measured latency; False for any other channel."""
-        if channel.startswith(HELLO):
-            self.robots.heard(post.value, post.received)
+        if channel == HELLO:
+            for one in post.value.take():
+                self.robots.heard(one.hello, one.received, one.source)
         elif channel.startswith(LATENCY):
             self.robots.measured(*post.value)
         else:
@@ -55,7 +61,7 @@ class RobotDirectory:
     def show(self, nearby: BeaconListener) -> None:
         """Bring the cards up to date, and have `nearby` measure the robots on them."""
         entries = self.robots.entries()
-        self._app.connect.show_entries(entries, self._client_id)
+        self._app.connect.show_entries(entries, self._client_name)
         nearby.measure(entries)
 
     def ask_address(self) -> None:
@@ -81,7 +87,11 @@ class RobotDirectory:
         """Take a saved address off the list."""
         self.robots.remove(url)
         self._save()
-        self._app.connect.show_entries(self.robots.entries(), self._client_id)
+        self._app.connect.show_entries(self.robots.entries(), self._client_name)
+
+    def _connected(self) -> tuple[str, ...]:
+        session = self._app.session
+        return () if session is None else (session.robot.url,)
 
     def _save(self) -> None:
         self._settings.set("robots", self.robots.save())

@@ -7,23 +7,23 @@ import concurrent.futures
 import logging
 import math
 import socket
-from collections.abc import Callable, Iterable, Iterator
-from urllib.parse import urlsplit
+from collections.abc import Callable, Iterable
 
 from app.device import sees_broadcasts
+from app.discovery.hello_inbox import HeardHello, HelloInbox
 from app.discovery.known_robots import Entry
+from app.discovery.probes import ADDRESS_PERIOD, ProbeSchedule
 from app.link.feeds import Mailbox
 from bridge.core.network_thread import NetworkThread
-from bridge.discovery.beacon import Hello, Listener
+from bridge.discovery.beacon import Listener
+from bridge.discovery.hello import Hello
 
 __all__ = ["HELLO", "LATENCY", "BeaconListener"]
 
 log = logging.getLogger(__name__)
 
-HELLO, LATENCY = "hello ", "latency "
-"""Channels of the mailbox, each followed by the robot's url: a `Hello`; `(url, seconds)`."""
-MEASURE_PERIOD = 3.0
-"""Between two measurements of one robot [s]."""
+HELLO, LATENCY = "hello", "latency "
+"""Channels of the mailbox: the `HelloInbox` in which some wait; followed by the robot's url, `(url, seconds)`."""
 MEASURE_TIMEOUT = 1.0
 """How long one measurement may take [s]."""
 
@@ -34,8 +34,7 @@ class BeaconListener:
     def __init__(self, mailbox: Mailbox, network: NetworkThread, *, now: Callable[[], float]) -> None:
         """`now` is our clock [s]."""
         self._mailbox, self._network, self._now = mailbox, network, now
-        self._targets: dict[str, tuple[str, int]] = {}
-        self._http: dict[str, str] = {}
+        self._inbox, self._probes = HelloInbox(), ProbeSchedule()
         self._running: concurrent.futures.Future[None] | None = None
 
     def start(self) -> None:
@@ -50,15 +49,10 @@ class BeaconListener:
             self._running = None
 
     def measure(self, entries: Iterable[Entry]) -> None:
-        """Go on measuring these robots, where it is known how."""
-        wanted = {entry.url for entry in entries if entry.state == "live"}
-        self._targets = {url: place for url, place in self._places() if url in wanted}
-
-    def _places(self) -> Iterator[tuple[str, tuple[str, int]]]:
-        for url, http in list(self._http.items()):
-            parts = urlsplit(http)
-            if parts.hostname and parts.port:
-                yield url, (parts.hostname, parts.port)
+        """These robots are listed: go on hearing them and, where it is known how, measuring."""
+        listed = list(entries)
+        self._inbox.expect(entry.url for entry in listed)
+        self._probes.wants(listed)
 
     async def _run(self) -> None:
         listener = Listener(self._hear)
@@ -66,18 +60,17 @@ class BeaconListener:
             with sees_broadcasts():
                 await listener.start()
                 while True:
-                    await asyncio.gather(
-                        *(self._measure(url, *place) for url, place in self._targets.items())
-                    )
-                    await asyncio.sleep(MEASURE_PERIOD)
+                    await asyncio.gather(*(self._measure(*one) for one in self._probes.due(self._now())))
+                    await asyncio.sleep(ADDRESS_PERIOD)
         except OSError as error:
             log.warning("cannot listen for robots: %s", error)
         finally:
             await listener.close()
 
-    def _hear(self, hello: Hello, address: object) -> None:
-        self._http[hello.url] = hello.http
-        self._mailbox.post(f"{HELLO}{hello.url}", hello, self._now())
+    def _hear(self, hello: Hello, address: tuple[str, int]) -> None:
+        now = self._now()
+        self._inbox.put(HeardHello(hello, address[0], now))
+        self._mailbox.post(HELLO, self._inbox, now)
 
     async def _measure(self, url: str, host: str, port: int) -> None:
         """The time that a connection to its web server takes is one round trip."""

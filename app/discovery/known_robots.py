@@ -1,21 +1,32 @@
-"""The robots that can be connected to: those that say HELLO, and the addresses that were entered by hand."""
+"""The robots that can be connected to: those that say HELLO, and the addresses that were entered by hand.
+
+Anybody can say HELLO, in any name and as often as he likes. So the list is bounded: a newcomer never takes the place of a
+robot that is connected, saved or paired, nor of one that keeps saying HELLO.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+import unicodedata
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 from urllib.parse import urlsplit
 
-from bridge.discovery.beacon import Hello
+from bridge.discovery.hello import Hello, is_loopback, port_of
 
-__all__ = ["Entry", "KnownRobots", "check_address"]
+__all__ = ["MAX_HEARD", "MAX_PER_KEY", "MAX_PER_SOURCE", "Entry", "KnownRobots", "check_address"]
 
 SILENCE_LIMIT = 3.0
 """A robot silent for longer is lost [s]; it says HELLO twice a second."""
 FORGET_DELAY = 60.0
 """A robot silent for longer, and not saved, is listed no more [s]."""
+MAX_HEARD = 100
+"""So many robots that say HELLO are listed at most; those that are connected, saved or paired come on top."""
+MAX_PER_SOURCE = 50
+"""So many of them from one address at most: one machine cannot fill the list."""
+MAX_PER_KEY = 3
+"""So many addresses that claim the key of one paired robot are kept as it; a key in a HELLO proves nothing."""
 PORT = 9090
 """Where a robot listens when the address does not say it."""
 
@@ -45,9 +56,12 @@ def check_address(text: str) -> str:
 
 def address(url: str) -> str:
     """Host of a robot, with the port where it is not the usual one."""
-    parts = urlsplit(url)
-    host = parts.hostname or url
-    return host if parts.port in (None, PORT) else f"{host}:{parts.port}"
+    try:
+        parts = urlsplit(url)
+        host, port = parts.hostname or url, parts.port
+    except ValueError:  # in a settings file that somebody edited
+        return url
+    return host if port in (None, PORT) else f"{host}:{port}"
 
 
 @dataclass(frozen=True)
@@ -64,8 +78,6 @@ class Entry:
     """0 to 1; NaN unknown."""
     driver: str = ""
     """Who has control; empty when it is free or unknown."""
-    driver_id: str = ""
-    """The client id that has control."""
     silent: float = math.nan
     """Since its last HELLO [s]; NaN when it never said one."""
     latency: float = math.nan
@@ -76,6 +88,16 @@ class Entry:
     """Alike for one robot under two addresses; empty when it never said HELLO."""
     icon: str = ""
     """As in RobotInfo; empty when it gave none."""
+    key: str = ""
+    """As in Hello: a claim; empty when it made none."""
+    kept: bool = False
+    """It is connected, saved or, as it claims, paired: strangers never crowd it out."""
+    known_for: float = 0.0
+    """Since its first HELLO without a longer gap [s]; 0 when it never said one."""
+    warning: str = ""
+    """What is wrong with it, as a sentence; empty when nothing is known to be."""
+    probe: tuple[str, int] | None = None
+    """Address that its HELLO came from and port of its web server, to measure a round trip by; None without one."""
 
     @property
     def state(self) -> str:
@@ -90,28 +112,85 @@ class Entry:
         return address(self.url)
 
 
+@dataclass(slots=True)
+class _Heard:
+    hello: Hello
+    at: float
+    """When it came [s]."""
+    first: float
+    """When the first came [s]."""
+    source: str
+    """The address that it came from; empty when that is not known."""
+
+
 class KnownRobots:
     """Keeps the list. Lives in the UI thread; the HELLOs come through the mailbox."""
 
-    def __init__(self, now: Callable[[], float], saved: Iterable[dict[str, Any]] = ()) -> None:
-        """`saved` is what `save` returned once; damaged entries are left out."""
-        self._now = now
-        self._heard: dict[str, tuple[Hello, float]] = {}
+    def __init__(
+        self,
+        now: Callable[[], float],
+        saved: Iterable[dict[str, Any]] = (),
+        *,
+        connected: Callable[[], Collection[str]] = tuple,
+        paired: Callable[[], Mapping[str, str]] = dict,
+    ) -> None:
+        """`saved` is what `save` returned once; damaged entries are left out.
+
+        `connected` are the urls that are connected now; `paired` is the key of each paired robot, as in `Hello`, by its name.
+        """
+        self._now, self._connected, self._paired = now, connected, paired
+        self._heard: dict[str, _Heard] = {}
         self._latency: dict[str, float] = {}
         self._saved: dict[str, dict[str, str]] = {}
         for entry in saved if isinstance(saved, list | tuple) else ():
             if isinstance(entry, dict) and isinstance(entry.get("url"), str):
                 self._saved[entry["url"]] = {key: str(entry.get(key, "")) for key in _KEPT}
 
-    def heard(self, hello: Hello, received: float) -> None:
-        """A robot said HELLO at `received` [s], our clock."""
-        self._heard[hello.url] = (hello, received)
+    def heard(self, hello: Hello, received: float, source: str = "") -> None:
+        """A robot said HELLO at `received` [s], our clock, from the address `source`."""
+        known = self._heard.get(hello.url)
+        if known is None and not self._is_kept(hello) and not self._has_room(source):
+            return
+        self._heard[hello.url] = _Heard(hello, received, known.first if known else received, source)
         if hello.url in self._saved:
             self._saved[hello.url] = _kept(hello)
 
+    def _has_room(self, source: str) -> bool:
+        """Whether one more stranger is listed; one that fell silent makes room for it."""
+        for alike, most in (
+            ([url for url, one in self._heard.items() if source and one.source == source], MAX_PER_SOURCE),
+            (list(self._heard), MAX_HEARD),
+        ):
+            if len(alike) >= most and not self._drop_silent(alike):
+                return False
+        return True
+
+    def _drop_silent(self, urls: list[str]) -> bool:
+        """Drop the one of `urls` that is silent for longest; False when all of them are heard, or kept."""
+        silent = [
+            (one.at, url)
+            for url in urls
+            if self._now() - (one := self._heard[url]).at > SILENCE_LIMIT and not self._is_kept(one.hello)
+        ]
+        if not silent:
+            return False
+        url = min(silent)[1]
+        del self._heard[url]
+        self._latency.pop(url, None)
+        return True
+
+    def _is_kept(self, hello: Hello) -> bool:
+        if hello.url in self._saved or hello.url in self._connected():
+            return True
+        if not hello.key or hello.key not in self._paired().values():
+            return False
+        claims = [url for url, one in self._heard.items() if one.hello.key == hello.key]
+        return len(claims) < MAX_PER_KEY or hello.url in claims[:MAX_PER_KEY]
+
     def measured(self, url: str, latency: float) -> None:
         """A round trip to the robot took `latency` [s]; NaN when it did not answer."""
-        self._latency[url] = latency
+        if url in self._heard or url in self._saved:
+            self._latency[url] = latency
 
     def add(self, text: str) -> str:
         """Save an address that somebody typed; returns its url. ValueError with a sentence when it is none."""
@@ -139,11 +218,20 @@ class KnownRobots:
         """
         now = self._now()
         self._heard = {
-            url: (hello, at)
-            for url, (hello, at) in self._heard.items()
-            if now - at <= FORGET_DELAY or url in self._saved
+            url: one for url, one in self._heard.items() if now - one.at <= FORGET_DELAY or url in self._saved
         }
-        heard = [self._entry(hello, now - at) for hello, at in self._heard.values()]
+        self._latency = {
+            url: latency for url, latency in self._latency.items() if url in self._heard or url in self._saved
+        }
+        here = {one.hello.boot for one in self._heard.values() if self._is_here(one, now)}
+        heard = [
+            self._entry(one, now)
+            for one in self._heard.values()
+            if not one.hello.boot
+            or one.hello.boot not in here
+            or is_loopback(one.source)
+            or self._is_kept(one.hello)
+        ]
         unheard = [
             Entry(
                 url,
@@ -153,13 +241,20 @@ class KnownRobots:
                 icon=kept["icon"],
                 latency=self._latency.get(url, math.nan),
                 saved=True,
+                kept=True,
             )
             for url, kept in self._saved.items()
             if url not in self._heard
         ]
         return [*sorted(heard, key=lambda entry: entry.state == "lost"), *unheard]
 
-    def _entry(self, hello: Hello, silent: float) -> Entry:
+    def _is_here(self, one: _Heard, now: float) -> bool:
+        """A robot of this machine: it is listed under its loopback address, and not again under the others."""
+        return is_loopback(one.source) and now - one.at <= SILENCE_LIMIT
+
+    def _entry(self, one: _Heard, now: float) -> Entry:
+        hello = one.hello
+        port = port_of(hello.http) if hello.http else None
         return Entry(
             hello.url,
             hello.name,
@@ -167,13 +262,24 @@ class KnownRobots:
             hello.description,
             hello.battery,
             hello.driver,
-            hello.driver_id,
-            silent,
+            now - one.at,
             self._latency.get(hello.url, math.nan),
             hello.url in self._saved,
             hello.boot,
             hello.icon,
+            hello.key,
+            self._is_kept(hello),
+            one.at - one.first,
+            self._warning(hello),
+            (one.source, port) if one.source and port else None,
         )
+
+    def _warning(self, hello: Hello) -> str:
+        name = _alike(hello.name)
+        for paired, key in self._paired().items():
+            if _alike(paired) == name and hello.key != key:
+                return f"Not your paired {paired}: another robot uses its name."
+        return ""
 
 
 _KEPT = ("name", "kind", "description", "icon")
@@ -181,3 +287,8 @@ _KEPT = ("name", "kind", "description", "icon")
 
 def _kept(hello: Hello) -> dict[str, str]:
     return {key: getattr(hello, key) for key in _KEPT}
+
+
+def _alike(name: str) -> str:
+    """The same for names that look alike: width, case and blanks do not tell robots apart."""
+    return "".join(unicodedata.normalize("NFKC", name).casefold().split())

@@ -1,25 +1,30 @@
 """The beacon of a robot: twice a second it announces itself on the local network by UDP.
 
-A hello is one JSON object in one datagram to port 48900, broadcast on each interface and on loopback.
+A hello is one JSON object in one datagram to port 48900. It leaves by the interfaces that the robot listens on, and names
+the robot's address on that interface; a robot that listens on this machine alone announces itself to nobody else.
 """
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
+import ipaddress
 import logging
 import math
 import socket
-import struct
+import time
 from collections.abc import Callable, Iterable
-from typing import Any, ClassVar
+from typing import Any
+from urllib.parse import urlsplit, urlunsplit
 
-from bridge.codec import from_json, to_json
+import msgspec
+
 from bridge.core.async_tasks import is_cancelled_from_outside
 from bridge.core.errors import BridgeError, ProtocolError
-from bridge.msgs import Msg
+from bridge.discovery.hello import Hello, is_loopback, read_hello, write_hello
+from bridge.discovery.interfaces import LOOPBACK, Interface, interfaces
 
-__all__ = ["PORT", "Beacon", "Hello", "Listener", "broadcast_addresses"]
+__all__ = ["PORT", "Beacon", "Hello", "Listener"]
 
 log = logging.getLogger(__name__)
 
@@ -27,35 +32,12 @@ PORT = 48900
 """UDP port of the hellos."""
 PERIOD = 0.5
 """Time between two hellos [s]."""
-_SIOCGIFBRDADDR = 0x8919
-_LOOPBACK = "127.255.255.255"
-
-
-class Hello(Msg, frozen=True, gc=False):
-    """A robot's announcement of itself."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Hello"
-    name: str = ""
-    """Its name for people, as in `Patrol-1`."""
-    kind: str = ""
-    """As in `RobotInfo.kind`."""
-    model: str = ""
-    description: str = ""
-    """The kind in plain words."""
-    icon: str = ""
-    """As in `RobotInfo.icon`."""
-    url: str = ""
-    """URL of its bridge, as in `ws://192.168.1.7:9090`."""
-    http: str = ""
-    """URL of its web page; empty when it has none."""
-    battery: float = math.nan
-    """Charge, 0 empty to 1 full; NaN when it is not known."""
-    driver: str = ""
-    """Name of the client that has control; empty when control is free."""
-    driver_id: str = ""
-    """The `client_id` that has control; two handhelds may have one name, but not one id."""
-    boot: str = ""
-    """Identity of this run of the robot side."""
+LOG_PERIOD = 60.0
+"""Between two log lines about datagrams that are no HELLO [s]: strangers cause them."""
+EVERYWHERE = ("", "0.0.0.0", "::")  # noqa: S104 - compared with, not bound to
+"""Hosts that stand for every interface."""
+_PLAIN = {"wss": "ws", "https": "http"}
+"""What a robot speaks on loopback, by what it speaks elsewhere."""
 
 
 class Beacon:
@@ -65,15 +47,20 @@ class Beacon:
         self,
         hello: Callable[[], Hello],
         *,
+        host: str = "",
         port: int = PORT,
         addresses: Callable[[], Iterable[str]] | None = None,
+        networks: Callable[[], Iterable[Interface]] = interfaces,
         period: float = PERIOD,
     ) -> None:
-        """`hello` is called for each datagram. `addresses` returns the addresses to send to; by default all broadcast
-        addresses."""
+        """`hello` is called for each time. `host` is what the robot listens on: a name, an address or empty for all.
+
+        `addresses` returns the addresses to send to instead, by any interface and with the hello as it is.
+        `networks` are this machine's interfaces.
+        """
         self._hello = hello
-        self._port = port
-        self._addresses = addresses or broadcast_addresses
+        self._host, self._port = host, port
+        self._addresses, self._networks = addresses, networks
         self._period = period
         self._work: asyncio.Task[None] | None = None
 
@@ -96,7 +83,7 @@ class Beacon:
         reported = False
         while True:
             try:
-                self._send(to_json(self._hello()))
+                self._send(self._hello(), await self._ways())
                 reported = False
             except OSError as fault:
                 # being found is a convenience: its faults must never end the robot side
@@ -105,13 +92,53 @@ class Beacon:
                 reported = True
             await asyncio.sleep(self._period)
 
-    def _send(self, datagram: bytes) -> None:
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
-            sock.setblocking(False)
-            sock.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, 1)
-            for address in self._addresses():
-                with contextlib.suppress(OSError):
-                    sock.sendto(datagram, (address, self._port))
+    async def _ways(self) -> list[Interface]:
+        """The interfaces to announce the robot on, looked up each time: networks come and go."""
+        if self._addresses is not None:
+            return [Interface("", address) for address in self._addresses()]
+        if self._host in EVERYWHERE:
+            return list(self._networks())
+        nearby = Interface("", LOOPBACK.broadcast)
+        if ":" in self._host or is_loopback(self._host):
+            return [nearby]  # an IPv6 address: nobody who hears an IPv4 broadcast can be told of it
+        address = await _resolved(self._host)
+        if is_loopback(address):
+            return [nearby]
+        mine = [network for network in self._networks() if network.address == address]
+        return mine or [Interface(address, "255.255.255.255")]
+
+    def _send(self, hello: Hello, ways: Iterable[Interface]) -> None:
+        for way in ways:
+            with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock, contextlib.suppress(OSError):
+                sock.setblocking(False)
+                sock.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, 1)
+                sock.bind((way.address, 0))
+                sock.sendto(write_hello(named(hello, way.address)), (way.broadcast, self._port))
+
+
+async def _resolved(host: str) -> str:
+    """The IPv4 address of `host`. OSError when it has none."""
+    try:
+        return str(ipaddress.IPv4Address(host))
+    except ValueError:
+        found = await asyncio.get_running_loop().getaddrinfo(host, None, family=socket.AF_INET)
+        return str(found[0][4][0])
+
+
+def named(hello: Hello, address: str) -> Hello:
+    """The hello with `address` as the host of its URLs, plain on loopback; as it is where `address` is empty."""
+    if not address:
+        return hello
+    return msgspec.structs.replace(
+        hello, url=_at(hello.url, address), http=hello.http and _at(hello.http, address)
+    )
+
+
+def _at(url: str, address: str) -> str:
+    parts = urlsplit(url)
+    scheme = _PLAIN.get(parts.scheme, parts.scheme) if is_loopback(address) else parts.scheme
+    place = address if parts.port is None else f"{address}:{parts.port}"
+    return urlunsplit(parts._replace(scheme=scheme, netloc=place))
 
 
 class Listener:
@@ -125,6 +152,9 @@ class Listener:
         """UDP port; with 0 a free one, known after `start()`."""
         self._host = host
         self._on_hello = on_hello
+        self.refused = 0
+        """Datagrams that were no HELLO."""
+        self._said_at = -math.inf
         self._transport: asyncio.DatagramTransport | None = None
         self._gone: asyncio.Future[None] | None = None
 
@@ -142,7 +172,7 @@ class Listener:
         self.port = sock.getsockname()[1]
         gone = self._gone
         self._transport, _ = await loop.create_datagram_endpoint(
-            lambda: _HelloReceiver(self._on_hello, gone), sock=sock
+            lambda: _HelloReceiver(self._receive, gone), sock=sock
         )
 
     async def close(self) -> None:
@@ -152,48 +182,27 @@ class Listener:
             await self._gone
             self._transport = None
 
+    def _receive(self, datagram: bytes, host: str, port: int) -> None:
+        try:
+            hello = read_hello(datagram, host)
+        except ProtocolError as fault:
+            self.refused += 1
+            now = time.monotonic()
+            if now - self._said_at >= LOG_PERIOD:
+                self._said_at = now
+                log.info("%d datagrams were no HELLO; the last, from %s: %s", self.refused, host, fault)
+            return
+        self._on_hello(hello, (host, port))
+
 
 class _HelloReceiver(asyncio.DatagramProtocol):
-    def __init__(
-        self, on_hello: Callable[[Hello, tuple[str, int]], None], gone: asyncio.Future[None]
-    ) -> None:
-        self._on_hello = on_hello
+    def __init__(self, on_datagram: Callable[[bytes, str, int], None], gone: asyncio.Future[None]) -> None:
+        self._on_datagram = on_datagram
         self._gone = gone
 
     def datagram_received(self, data: bytes, addr: tuple[str | Any, int]) -> None:
-        try:
-            hello = from_json(data, Hello)
-        except ProtocolError:
-            return
-        if hello.name and hello.url:
-            self._on_hello(hello, (addr[0], addr[1]))
+        self._on_datagram(data, str(addr[0]), addr[1])
 
     def connection_lost(self, exc: Exception | None) -> None:
         if not self._gone.done():
             self._gone.set_result(None)
-
-
-def broadcast_addresses() -> list[str]:
-    """The broadcast addresses of all interfaces, loopback included."""
-    found = {_LOOPBACK}
-    for _, name in socket.if_nameindex():
-        address = _broadcast_address(name)
-        if address is not None:
-            found.add(address)
-    return sorted(found)
-
-
-def _broadcast_address(interface: str) -> str | None:
-    """The broadcast address of one interface; None when it has none or the system does not report it."""
-    try:
-        import fcntl
-    except ImportError:
-        return None
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
-        try:
-            request = struct.pack("256s", interface.encode()[:15])
-            answer = fcntl.ioctl(sock.fileno(), _SIOCGIFBRDADDR, request)
-        except OSError:
-            return None
-    address = socket.inet_ntoa(answer[20:24])
-    return address if any(answer[20:24]) else None

@@ -86,7 +86,7 @@ class StationServer:
                 await gateway.start()
                 endpoints.update(gateway.endpoints())
             self.addresses.note(endpoints)
-            beacon = Beacon(self._hello)
+            beacon = Beacon(self._hello, host=self.addresses.host)
             yield RunningServer((beacon.run,), beacon.close)
 
     def _hello(self) -> Hello:
@@ -101,6 +101,5 @@ class StationServer:
             http=self.addresses.http,
             battery=self.station.autonomy.battery,
             driver=driver.name if driver else "",
-            driver_id=driver.client_id if driver else "",
             boot=self.station.events.boot,
         )

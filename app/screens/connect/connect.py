@@ -60,7 +60,7 @@ Builder.load_string("""
                 shorten_from: 'right'
             Text:
                 text: root.subtitle
-                role: 'muted'
+                role: 'danger' if root.warned else 'muted'
                 font_size: sp(15)
                 size_hint_y: 1
                 shorten: True
@@ -203,6 +203,8 @@ class RobotCard(Card):
     icon = StringProperty(GENERIC_ICON)
     lost = BooleanProperty(False)
     saved = BooleanProperty(False)
+    warned = BooleanProperty(False)
+    """The line under its name says what is wrong with it."""
     quiet = BooleanProperty(False)
     """The button offers nothing to look forward to: it tries again."""
     battery_text = StringProperty("—")
@@ -219,11 +221,12 @@ class RobotCard(Card):
     """The robot, as of the list."""
 
     def show_entry(self, entry: Entry, me: str) -> None:
-        """Take over what is known of the robot; `me` is this handheld's client id."""
+        """Take over what is known of the robot; `me` is what this handheld is called."""
         self.entry = entry
         self.icon, self.lost = robot_icon(entry.icon), entry.state == "lost"
         self.title = entry.name or entry.address
-        about = [entry.description or "Saved address"]
+        about = [entry.warning or entry.description or "Saved address"]
+        self.warned = bool(entry.warning)
         self.subtitle = " · ".join([*about, entry.address] if entry.name else about)
         self.saved = entry.saved
         self._show_battery(entry)
@@ -248,11 +251,10 @@ class RobotCard(Card):
             self.link_text, self.link_role = "not heard yet", "muted"
 
     def _show_driver(self, entry: Entry, me: str) -> None:
-        mine, other = entry.driver_id == me and bool(me), bool(entry.driver)
+        # a HELLO tells a name and not an identity: under this handheld's own name it may have control from before
+        mine, other = entry.driver == me and bool(me), bool(entry.driver)
         if entry.state != "live":
             self.driver_text, self.driver_role = ("lost" if self.lost else ""), "danger"
-        elif mine:
-            self.driver_text, self.driver_role = "driven by you", "accent"
         elif other:
             narrow = self.width < NARROW * Metrics.density
             name = _shortened(entry.driver, 10 if narrow else 18)

@@ -7,9 +7,11 @@ import socket
 
 import pytest
 
-from bridge.codec import to_json
+from bridge.codec import from_json, to_json
 from bridge.core.errors import BridgeError
-from bridge.discovery.beacon import Beacon, Hello, Listener, broadcast_addresses
+from bridge.discovery.beacon import Beacon, Hello, Listener, named
+from bridge.discovery.interfaces import LOOPBACK as THIS_MACHINE
+from bridge.discovery.interfaces import Interface, broadcast_addresses
 from tests.bridge.wires import Record
 
 PATROL = Hello(name="Patrol-1", kind="wheels", url="ws://10.0.0.3:9090", battery=0.75, boot="b1")
@@ -37,7 +39,7 @@ async def test_a_hello_reaches_every_listener_of_the_machine():
 
 
 async def test_a_hello_is_asked_for_anew_each_time():
-    heard, batteries = Record(), iter(range(1000))
+    heard, batteries = Record(), iter(n / 1024 for n in range(1000))
     listener = Listener(heard, port=0)
     await listener.start()
     beacon = Beacon(
@@ -48,7 +50,7 @@ async def test_a_hello_is_asked_for_anew_each_time():
     )
     running = asyncio.create_task(beacon.run())
     await heard.reach(3)
-    assert [hello.battery for hello, _ in heard[:3]] == [0.0, 1.0, 2.0]
+    assert [hello.battery for hello, _ in heard[:3]] == [0 / 1024, 1 / 1024, 2 / 1024]
     await beacon.close()
     await running
     await listener.close()
@@ -121,4 +123,99 @@ async def test_a_network_that_fails_silences_the_beacon_for_a_while_and_ends_not
     ]
     await beacon.close()
     await running
+    await listener.close()
+
+
+# where it is announced
+
+
+class Wire:
+    """What leaves this machine: by which interface, to whom, and what it says."""
+
+    def __init__(self, monkeypatch):
+        self.sent = []
+        wire = self
+
+        class Sock:
+            def __enter__(self):
+                return self
+
+            def __exit__(self, *_):
+                return None
+
+            def setblocking(self, _):
+                pass
+
+            def setsockopt(self, *_):
+                pass
+
+            def bind(self, address):
+                self.bound = address[0]
+
+            def sendto(self, datagram, to):
+                wire.sent.append((self.bound, to[0], from_json(datagram, Hello)))
+
+        monkeypatch.setattr("bridge.discovery.beacon.socket.socket", lambda *_: Sock())
+
+
+LAN, VPN = Interface("10.0.0.3", "10.0.0.255"), Interface("172.16.0.9", "172.16.0.255")
+SECURE = Hello(name="Patrol-1", url="wss://10.0.0.3:9090", http="https://10.0.0.3:8080")
+
+
+async def announced(monkeypatch, host, hello=SECURE):
+    """(interface, to, url, http) of one round."""
+    wire = Wire(monkeypatch)
+    beacon = Beacon(lambda: hello, host=host, networks=lambda: [THIS_MACHINE, LAN, VPN])
+    beacon._send(hello, await beacon._ways())
+    return [(bound, to, said.url, said.http) for bound, to, said in wire.sent]
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "127.0.0.2", "::1"])
+async def test_a_robot_of_this_machine_alone_is_announced_on_loopback_only(monkeypatch, host):
+    hello = Hello(name="Patrol-1", url=f"ws://{host}:9090")
+    assert await announced(monkeypatch, host, hello) == [("", "127.255.255.255", f"ws://{host}:9090", "")]
+
+
+async def test_a_robot_at_one_address_is_announced_by_that_interface_under_that_address(monkeypatch):
+    assert await announced(monkeypatch, "172.16.0.9") == [
+        ("172.16.0.9", "172.16.0.255", "wss://172.16.0.9:9090", "https://172.16.0.9:8080")
+    ]
+
+
+async def test_an_address_that_no_interface_is_known_for_is_announced_from_there(monkeypatch):
+    assert [way[:3] for way in await announced(monkeypatch, "10.9.9.9")] == [
+        ("10.9.9.9", "255.255.255.255", "wss://10.9.9.9:9090")
+    ]
+
+
+@pytest.mark.parametrize("host", ["", "0.0.0.0", "::"])
+async def test_a_robot_on_every_interface_names_its_address_of_each_and_is_plain_on_loopback(
+    monkeypatch, host
+):
+    assert await announced(monkeypatch, host) == [
+        ("127.0.0.1", "127.255.255.255", "ws://127.0.0.1:9090", "http://127.0.0.1:8080"),
+        ("10.0.0.3", "10.0.0.255", "wss://10.0.0.3:9090", "https://10.0.0.3:8080"),
+        ("172.16.0.9", "172.16.0.255", "wss://172.16.0.9:9090", "https://172.16.0.9:8080"),
+    ]
+
+
+def test_a_robot_without_a_web_page_names_none():
+    assert named(PATROL, "10.0.0.9") == Hello(
+        name="Patrol-1", kind="wheels", url="ws://10.0.0.9:9090", battery=0.75, boot="b1"
+    )
+
+
+async def test_datagrams_of_strangers_are_counted_and_make_one_log_line(caplog):
+    caplog.set_level("INFO", "bridge.discovery.beacon")
+    heard = Record()
+    listener = Listener(heard, port=0, host="127.0.0.1")
+    await listener.start()
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
+        for datagram in (b'{"name":"a","url":"ws://[x"}', b"no hello", b"x" * 5000, to_json(PATROL)):
+            sock.sendto(datagram, ("127.0.0.1", listener.port))
+    await heard.reach(1)
+    assert (listener.refused, [hello for hello, _ in heard]) == (3, [PATROL])
+    lines = [record.getMessage() for record in caplog.records if record.name == "bridge.discovery.beacon"]
+    assert len(lines) == 1
+    assert lines[0].startswith("1 datagrams were no HELLO; the last, from 127.0.0.1: url is as in")
     await listener.close()

@@ -19,7 +19,7 @@ from app.inputs.switch_access.window.naming import beside, intent_of, slug, word
 from app.inputs.switch_access.window.openings import Openings
 from app.inputs.switch_access.window.ring import Ring
 from app.inputs.switch_access.window.window_app import WindowApp
-from bridge.discovery.beacon import broadcast_addresses
+from bridge.discovery.interfaces import broadcast_addresses
 from bridge.msgs.pilothouse_msgs import PlaceArray
 from widgets.inputs.scan_pad import PadButton, ScanPad
 from widgets.parts.cards import ActionToast
