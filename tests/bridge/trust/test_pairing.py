@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bridge.core.pairing import BadPairing, PairLink, confirmations, sides, split_code
+from bridge.trust.pairing import BadPairing, PairLink, confirmations, sides, split_code
 
 PRINT, SECRET = "ab" * 32, "s3cret_of-22-letters--"
 LINK = PairLink("192.168.1.7", 9090, PRINT, SECRET, "Patrol-1 & Co")
