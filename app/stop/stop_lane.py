@@ -17,6 +17,7 @@ from app.link.commands import Commands, Outcome
 from app.stop.local_stop import LocalStop
 from app.stop.stop_state import StopState
 from bridge.client.client import BridgeClient, LinkState, Phase
+from bridge.client.credentials import Credentials
 from bridge.core.errors import BridgeError
 from bridge.core.topic_choice import drive_message
 from bridge.msgs import Msg
@@ -53,6 +54,8 @@ class Report:
     """It has no STOP of its own: zero speed is sent for as long as the lane lasts."""
     identity: tuple[str, str, Time] | None = None
     """Alike for the same robot under two addresses; None while that is not known."""
+    proven: str = ""
+    """Fingerprint of the key by which the robot proved who it is; empty until then, and for one that is not paired."""
 
 
 class Client(Protocol):
@@ -99,11 +102,19 @@ class StopLane:
         new_id: Callable[[], str],
         client_id: str,
         client_name: str,
+        credentials: Credentials | None = None,
         connect: Callable[..., Client] = BridgeClient,
     ) -> None:
-        """`now` is our clock [s]; `client_id` and `client_name` are who this handheld is to the robot."""
+        """`now` is our clock [s]; `client_id` and `client_name` are who this handheld is to the robot.
+
+        With `credentials` only the robot with that key is asked, and what another machine says at `url` counts for nothing.
+        """
         self._now = now
-        self._client = connect(url, on_state=self._on_state, now=now, backoff=BACKOFF)
+        self._credentials = credentials
+        self._proven = ""
+        self._client = connect(
+            url, on_state=self._on_state, now=now, backoff=BACKOFF, credentials=credentials
+        )
         self._commands = Commands(
             self._client.call,
             self._on_outcome,
@@ -175,6 +186,8 @@ class StopLane:
 
     def _on_state(self, state: LinkState) -> None:
         self._reached = state.phase is Phase.CONNECTED
+        if self._reached and self._credentials is not None:
+            self._proven = self._credentials.fingerprint
         hopeless = state.phase is Phase.CLOSED and bool(state.sentence)  # such an address can never work
         self._stopping.reach(self._reached, state.sentence, hopeless=hopeless)
         if self._learning is not None:
@@ -263,7 +276,15 @@ class StopLane:
 
     def _look(self) -> None:
         phase, sentence = self._judged()
-        self.report = Report(phase, sentence, self._info.name, self._reached, self._has_none, self._identity)
+        self.report = Report(
+            phase,
+            sentence,
+            self._info.name,
+            self._reached,
+            self._has_none,
+            self._identity,
+            self._proven,
+        )
 
     def _judged(self) -> tuple[str, str]:
         if self._reached and self._has_none:

@@ -9,10 +9,12 @@ import time
 from collections.abc import Callable
 
 from bridge.client.connection import Connection, open_connection
+from bridge.client.credentials import Credentials
 from bridge.client.reconnecting import Reconnecting
 from bridge.core.address import BadAddress, LinkLost
 from bridge.core.camera_frames import Frame, unpack
 from bridge.core.errors import ProtocolError
+from bridge.core.link_state import LinkFault
 
 __all__ = ["CameraStream"]
 
@@ -32,27 +34,32 @@ class CameraStream(Reconnecting):
         now: Callable[[], float] = time.monotonic,
         backoff: tuple[float, float] = (0.5, 5.0),
         rng: random.Random | None = None,
+        credentials: Credentials | None = None,
     ) -> None:
         """`url` is `ws://HOST:PORT/camera/NAME`; `on_frame(frame, received)` is called for each picture, `received`
-        by `now()` [s]."""
+        by `now()` [s]. `credentials` are as in `bridge.client.connection.open_connection`."""
         super().__init__(url, now, backoff, rng)
+        self._credentials = credentials
         self._on_frame = on_frame
 
     async def stay_connected(self) -> None:
         """Connect, and reconnect whenever the connection is lost; returns when the address can never work."""
         attempt = 0
         while True:
-            attempt += 1
+            attempt, fault = attempt + 1, LinkFault.NONE
             try:
-                connection = await open_connection(self.url, OPEN_TIMEOUT, ping_interval=2.0)
+                connection = await open_connection(
+                    self.url, OPEN_TIMEOUT, ping_interval=2.0, credentials=self._credentials
+                )
                 attempt = 0
                 await self._watch(connection)
             except BadAddress as error:
                 log.warning("No pictures: %s", error)
                 return
             except LinkLost as error:
+                fault = error.fault
                 log.info("No pictures: %s", error)
-            await asyncio.sleep(self.wait_before(max(1, attempt)))
+            await asyncio.sleep(self.wait_before(max(1, attempt), fault))
 
     async def _watch(self, connection: Connection) -> None:
         try:

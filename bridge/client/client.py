@@ -15,6 +15,7 @@ from msgspec import Raw
 
 from bridge.client.camera_stream import CameraStream
 from bridge.client.connection import Connection, open_connection
+from bridge.client.credentials import Credentials
 from bridge.client.heartbeat import Heartbeat
 from bridge.client.liveness import Liveness
 from bridge.client.message_receiver import MessageReceiver
@@ -23,7 +24,7 @@ from bridge.client.registrations import Registrations
 from bridge.client.service_calls import ServiceCalls
 from bridge.codec import to_json
 from bridge.core.address import BadAddress, LinkLost
-from bridge.core.link_state import LinkState, Phase
+from bridge.core.link_state import LinkFault, LinkState, Phase
 from bridge.discovery.network_changes import Network, NetworkChanges, SystemNetwork
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
@@ -59,11 +60,13 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         backoff: tuple[float, float] = (0.5, 5.0),
         rng: random.Random | None = None,
         network: Network | None = None,
+        credentials: Credentials | None = None,
     ) -> None:
-        """`url` is `ws://HOST:PORT`. `backoff` is the first and the longest wait between attempts [s].
+        """`url` is `ws://HOST:PORT`, or `wss://HOST:PORT` for TLS. `backoff` is the first and the longest wait between attempts [s].
 
         `on_state` is called with each new state. `now` is this machine's clock [s]. `rng` spreads the waits, so that
-        many clients do not reconnect at once. `network` reports this machine's addresses; None asks the system.
+        many clients do not reconnect at once. `network` reports this machine's addresses; None asks the system. With
+        `credentials` only the robot with that key is spoken to, as `bridge.client.connection.open_connection` says.
         """
         Reconnecting.__init__(self, url, now, backoff, rng)
         session = ClientSession()
@@ -73,6 +76,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         self._on_state = on_state
         self._network: Network = SystemNetwork() if network is None else network
         self._receiver = MessageReceiver(session, self._provider, url, now)
+        self._credentials = credentials
         self._connection: Connection | None = None
         self._address: tuple[str, int] | None = None
         self._heartbeat: Heartbeat | None = None
@@ -96,6 +100,11 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
     def foreign(self) -> bool:
         """Whether the server is not a Pilothouse server; False without a connection."""
         return self._connection is not None and not self._connection.ours
+
+    @property
+    def fingerprint(self) -> str:
+        """Fingerprint of the robot's certificate; empty without a connection or without TLS."""
+        return self._connection.fingerprint if self._connection else ""
 
     @property
     def ros2(self) -> bool:
@@ -159,22 +168,22 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
 
     async def stay_connected(self) -> None:
         """Connect, and reconnect whenever the link is lost; returns when the address can never work."""
-        attempt, trouble = 0, ""
+        attempt, trouble, fault = 0, "", LinkFault.NONE
         while True:
             attempt += 1
             opening = f"{trouble} Trying again." if trouble else f"Connecting to {self.place}."
-            self._set_state(Phase.CONNECTING, opening, attempt)
+            self._set_state(Phase.CONNECTING, opening, attempt, fault=fault)
             try:
                 await self._connect_once()
             except BadAddress as error:
                 self._set_state(Phase.CLOSED, str(error), attempt)
                 return
             except LinkLost as error:
-                trouble = str(error)
+                trouble, fault = str(error), error.fault
             if self.state.phase is Phase.CONNECTED:
                 attempt = 0
-            wait = self.wait_before(max(1, attempt))
-            self._set_state(Phase.WAITING, trouble, attempt, wait)
+            wait = self.wait_before(max(1, attempt), fault)
+            self._set_state(Phase.WAITING, trouble, attempt, wait, fault)
             await self._pause(wait)
 
     async def _pause(self, wait: float) -> None:
@@ -189,7 +198,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
 
     async def _connect_once(self) -> None:
         """Connect and serve the link until it is lost; always raises LinkLost or BadAddress."""
-        connection = await open_connection(self.url, OPEN_TIMEOUT)
+        connection = await open_connection(self.url, OPEN_TIMEOUT, credentials=self._credentials)
         self._address = connection.address
         self._heartbeat = heartbeat = Heartbeat(
             connection,
@@ -246,8 +255,15 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
     def _send(self, op: Op) -> bool:
         return self._connection is not None and self._connection.send(dump(op))
 
-    def _set_state(self, phase: Phase, sentence: str, attempt: int = 0, retry_in: float = 0.0) -> None:
-        self.state = LinkState(phase, sentence, attempt, retry_in)
+    def _set_state(
+        self,
+        phase: Phase,
+        sentence: str,
+        attempt: int = 0,
+        retry_in: float = 0.0,
+        fault: LinkFault = LinkFault.NONE,
+    ) -> None:
+        self.state = LinkState(phase, sentence, attempt, retry_in, fault)
         if self._on_state is not None:
             try:
                 self._on_state(self.state)

@@ -8,13 +8,19 @@ import logging
 import socket
 import struct
 from collections.abc import AsyncIterator, Callable
+from functools import partial
+from typing import Any
+from urllib.parse import urlsplit
 
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.asyncio.connection import broadcast
 from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidStatus
+from websockets.http11 import Response
 from websockets.protocol import State
 
-from bridge.core.address import LinkLost, cause, host_and_port, look_up
+from bridge.client import tls
+from bridge.client.credentials import Credentials
+from bridge.core.address import BadAddress, LinkLost, NotAccepted, WrongKey, cause, host_and_port, look_up
 from bridge.protocol import MAX_CLIENT_FRAME
 
 __all__ = ["Connection", "open_connection"]
@@ -22,7 +28,11 @@ __all__ = ["Connection", "open_connection"]
 OURS = "Pilothouse"
 """Beginning of our server's name in the `Server` header."""
 _MAX_UNSENT_BYTES = 65536
-"""A socket with more bytes than this waiting counts as full."""
+"""A socket with more bytes than this waiting counts as full. TLS keeps what exceeds this in a buffer of its own."""
+_MAX_SENTENCE = 200
+"""Longest sentence that is taken from a server's refusal [characters]."""
+_UNAUTHORIZED = 401
+"""HTTP status of a refused token."""
 _RETRANSMITS = 2
 """Offset of the retransmission count in Linux's `struct tcp_info` [byte]."""
 _RESET = struct.pack("ii", 1, 0)
@@ -35,7 +45,10 @@ class Connection:
     def __init__(self, ws: ClientConnection, address: tuple[str, int]) -> None:
         self.address = address
         """Numeric address and port of the other end."""
+        self.fingerprint = tls.fingerprint(ws.transport)
+        """Fingerprint of the other end's certificate; empty without TLS."""
         self._ws = ws
+        self._max_unsent = 0 if self.fingerprint else _MAX_UNSENT_BYTES
         self._socket: socket.socket = ws.transport.get_extra_info("socket")
         self._pinging: asyncio.Task[None] | None = None
         self._probe: asyncio.Task[None] | None = None
@@ -65,7 +78,7 @@ class Connection:
     @property
     def full(self) -> bool:
         """Whether so much waits in the socket that nothing more should be queued behind it."""
-        return self._ws.transport.get_write_buffer_size() > _MAX_UNSENT_BYTES
+        return self._ws.transport.get_write_buffer_size() > self._max_unsent
 
     def send(self, text: str) -> bool:
         """Send a text now; False when the connection is closed."""
@@ -124,11 +137,31 @@ class Connection:
             self._ws.transport.abort()
 
 
-class _Acknowledging(ClientConnection):
-    """A connection whose data the kernel acknowledges as soon as it is read.
+class _PinnedConnection(ClientConnection):
+    """A connection that goes on to the handshake only when the other end has the expected certificate.
 
-    A server with Nagle's algorithm holds back the short last piece of a message until all before it is acknowledged.
+    Its kernel acknowledges data as soon as it is read: a server with Nagle's algorithm holds back the short last piece
+    of a message until all before it is acknowledged.
     """
+
+    def __init__(self, *args: Any, pin: str, **options: Any) -> None:
+        """`pin` is the fingerprint of the expected certificate; empty for any."""
+        super().__init__(*args, **options)
+        self._pin = pin
+        self._wrong_key = False
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Compare the certificate and leave at once when it is another one."""
+        super().connection_made(transport)
+        self._wrong_key = bool(self._pin) and tls.fingerprint(transport) != self._pin
+        if self._wrong_key:
+            self.transport.abort()
+
+    async def handshake(self, *args: Any, **options: Any) -> None:
+        """Send the request, which holds the token; WrongKey instead when the certificate is another one."""
+        if self._wrong_key:
+            raise WrongKey
+        await super().handshake(*args, **options)
 
     def data_received(self, data: bytes) -> None:
         """Handle data from the network."""
@@ -136,23 +169,41 @@ class _Acknowledging(ClientConnection):
         super().data_received(data)
 
 
-async def open_connection(url: str, open_timeout: float, *, ping_interval: float | None = None) -> Connection:
+class _Connect(connect):
+    """An attempt that follows no redirect: the pin and the token are for one address."""
+
+    def process_redirect(self, exc: Exception) -> Exception | str:
+        """The redirect as a failure."""
+        return exc
+
+
+async def open_connection(
+    url: str,
+    open_timeout: float,
+    *,
+    ping_interval: float | None = None,
+    credentials: Credentials | None = None,
+) -> Connection:
     """Open a WebSocket; LinkLost or BadAddress with the reason when that fails.
 
     `open_timeout` [s] limits the look-up of the name, and again the opening of the connection. With `ping_interval`
     [s] the connection is closed when its other end no longer answers pings.
+
+    With `credentials` the other end has to prove by TLS that it has that robot's key before one byte is sent to it:
+    WrongKey where it does not, NotAccepted where it does not accept the token, BadAddress for a `ws://` address. A
+    `wss://` address without credentials opens without proof, and `Connection.fingerprint` tells which key was seen.
     """
     host, port = host_and_port(url)
     place = f"{host}:{port}"
     try:
         address = await look_up(host, open_timeout)
-        ws = await connect(
+        ws = await _Connect(
             url,
             host=address,
             port=port,
             compression=None,
             proxy=None,
-            create_connection=_Acknowledging,
+            create_connection=partial(_PinnedConnection, pin=credentials.fingerprint if credentials else ""),
             open_timeout=open_timeout,
             ping_interval=ping_interval,
             ping_timeout=ping_interval and ping_interval * 2,
@@ -160,19 +211,46 @@ async def open_connection(url: str, open_timeout: float, *, ping_interval: float
             max_size=MAX_CLIENT_FRAME,
             user_agent_header=None,
             logger=_quiet_log(),
+            **_protection(url, credentials),
         )
+    except WrongKey as error:
+        name = (credentials and credentials.name) or "this robot"
+        raise WrongKey(f"Another robot answers at {place}: its key is not the one of {name}.") from error
     except socket.gaierror as error:
         raise LinkLost(f"No machine called {host} is known on this network.") from error
     except TimeoutError as error:
         raise LinkLost(f"No robot answers at {place} (no reply within {open_timeout:g} s).") from error
     except InvalidStatus as error:
-        status = error.response.status_code
-        raise LinkLost(f"What answers at {place} is no robot (HTTP {status}).") from error
+        raise _refusal(place, error.response) from error
+    except tls.TlsError as error:
+        raise LinkLost(f"What answers at {place} is no robot (it does not speak TLS).") from error
     except (InvalidHandshake, EOFError, ConnectionResetError) as error:
         raise LinkLost(f"What answers at {place} is no robot (it does not speak WebSocket).") from error
     except OSError as error:
         raise LinkLost(f"No robot answers at {place} ({cause(error)}).") from error
     return Connection(ws, (address, port))
+
+
+def _protection(url: str, credentials: Credentials | None) -> dict[str, Any]:
+    """Options of an attempt: TLS where the address asks for it, and the token."""
+    secure = urlsplit(url).scheme == "wss"
+    if credentials is not None and not secure:
+        raise BadAddress(f"A paired robot is reached by wss:// only, not {url!r}: there it proves its key.")
+    token = credentials.token if credentials else ""
+    headers = {"Authorization": f"Bearer {token}"} if token else None
+    return {"additional_headers": headers} | ({"ssl": tls.context()} if secure else {})
+
+
+def _refusal(place: str, response: Response) -> LinkLost:
+    """Why a server answered the handshake with an HTTP status, in its own words where it has some."""
+    if response.status_code == _UNAUTHORIZED:
+        return NotAccepted("This robot does not know this handheld any more; pair again.")
+    words = ""
+    if response.headers.get("Content-Type", "").startswith("text/plain"):
+        words = (response.body or b"")[:_MAX_SENTENCE].decode(errors="replace").partition("\n")[0].strip()
+    if not words or not words.isprintable():
+        return LinkLost(f"What answers at {place} is no robot (HTTP {response.status_code}).")
+    return LinkLost(f"{place} refuses: {words}")
 
 
 def _acknowledge_at_once(sock: socket.socket) -> None:

@@ -7,6 +7,7 @@ import random
 from collections.abc import Callable
 
 from bridge.core.async_tasks import is_cancelled_from_outside
+from bridge.core.link_state import LinkFault
 
 __all__ = ["Reconnecting"]
 
@@ -51,10 +52,13 @@ class Reconnecting:
         """Connect, and reconnect whenever the connection is lost; returns only when the address can never work."""
         raise NotImplementedError
 
-    def wait_before(self, attempt: int) -> float:
+    def wait_before(self, attempt: int, fault: LinkFault = LinkFault.NONE) -> float:
         """Wait before attempt number `attempt` [s], counted from 1: a quarter longer each time, and spread.
 
-        After an outage of t seconds the next attempt comes within half of t.
+        After an outage of t seconds the next attempt comes within half of t. After a fault that only a person can mend
+        it is the longest wait from the first time on.
         """
         first, longest = self._backoff
+        if fault is not LinkFault.NONE:
+            first = longest
         return min(longest, first * _BACKOFF_FACTOR ** min(attempt - 1, 100)) * self._rng.uniform(0.8, 1.0)

@@ -16,6 +16,7 @@ from typing import Any, Protocol, Self, TypeVar, overload
 
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.client.client_goals import Goal, part_of
+from bridge.client.credentials import Credentials
 from bridge.client.service_provider import Call, Run
 from bridge.core.errors import BridgeError, NoReply, NotConnected
 from bridge.core.network_thread import NetworkThread
@@ -68,11 +69,14 @@ class RemoteRobot:
     Callbacks are called in the network thread: they must not block.
     """
 
-    def __init__(self, url: str) -> None:
-        """`url` is `ws://HOST:PORT`; returns at once, before there is a connection."""
+    def __init__(self, url: str, *, credentials: Credentials | None = None) -> None:
+        """`url` is `ws://HOST:PORT`, or `wss://HOST:PORT` for TLS; returns at once, before there is a connection.
+
+        `credentials` are as in `bridge.client.connection.open_connection`.
+        """
         self._connected = threading.Event()
         self._published: set[str] = set()
-        self._client = BridgeClient(url, on_state=self._note)
+        self._client = BridgeClient(url, on_state=self._note, credentials=credentials)
         self._network = NetworkThread(f"link to {url}")
         self._network.start(self._client.run())
 

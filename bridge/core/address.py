@@ -11,15 +11,32 @@ import socket
 import threading
 from urllib.parse import urlsplit
 
-__all__ = ["BadAddress", "LinkLost", "cause", "host_and_port", "look_up"]
+from bridge.core.link_state import LinkFault
+
+__all__ = ["BadAddress", "LinkLost", "NotAccepted", "WrongKey", "cause", "host_and_port", "look_up"]
 
 
 class LinkLost(Exception):
     """There is no usable connection; the text gives the reason."""
 
+    fault = LinkFault.NONE
+    """What programs decide by."""
+
 
 class BadAddress(LinkLost):
     """The address can never work, so that another attempt makes no sense."""
+
+
+class WrongKey(LinkLost):
+    """The machine that answers does not have the robot's key; nothing was sent to it."""
+
+    fault = LinkFault.WRONG_KEY
+
+
+class NotAccepted(LinkLost):
+    """The robot does not know this client's token any more."""
+
+    fault = LinkFault.NOT_ACCEPTED
 
 
 def host_and_port(url: str) -> tuple[str, int]:

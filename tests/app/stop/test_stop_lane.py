@@ -13,6 +13,7 @@ import pytest
 
 from app.stop.stop_lane import StopLane
 from bridge.client.client import LinkState, Phase
+from bridge.client.credentials import Credentials
 from bridge.core.errors import NoReply, NotConnected, Refused
 from bridge.msgs.geometry_msgs import Twist, TwistStamped, TwistWithCovariance
 from bridge.msgs.nav_msgs import Odometry
@@ -39,11 +40,16 @@ class Robot:
         self.zeros: list[tuple[str, Any]] = []
         self.heard: dict[str, Callable[[Any, float], object]] = {}
         self.status = ControlStatus(at_rest=False)
+        self.credentials: Credentials | None = None
+        """By which its client goes."""
         self._closed = asyncio.Event()
         self._on_state: Callable[[LinkState], None] = lambda _: None
 
-    def client(self, url: str, *, on_state: Callable[[LinkState], None], **_: Any) -> Robot:
+    def client(
+        self, url: str, *, on_state: Callable[[LinkState], None], credentials: Credentials | None, **_: Any
+    ) -> Robot:
         self._on_state = on_state
+        self.credentials = credentials
         return self
 
     async def run(self) -> None:
@@ -119,7 +125,7 @@ class Robot:
 
 
 @asynccontextmanager
-async def pressed(robot: Robot) -> Any:
+async def pressed(robot: Robot, credentials: Credentials | None = None) -> Any:
     ids = itertools.count(1)
     lane = StopLane(
         "ws://robot:9090",
@@ -127,6 +133,7 @@ async def pressed(robot: Robot) -> Any:
         new_id=lambda: str(next(ids)),
         client_id="me",
         client_name="tablet",
+        credentials=credentials,
         connect=robot.client,
     )
     running = asyncio.create_task(lane.run())
@@ -377,3 +384,26 @@ async def test_the_same_robot_is_known_by_what_it_says(robot: Robot) -> None:
     async with pressed(robot) as lane:
         await asyncio.sleep(0.5)
         assert lane.report.identity == ("Fake-1", "patrol", Time(7, 1))
+
+
+@story
+async def test_a_paired_robot_is_proven_from_the_first_connection_on(robot):
+    """The client lets nobody with another key be connected; what it proved outlives the link."""
+    key = Credentials("ab" * 32, "me.secret", "Fake-1")
+    async with pressed(robot, key) as lane:
+        await asyncio.sleep(1.0)
+        assert (robot.credentials, lane.report.proven) == (key, "")
+        robot.arrive()
+        await asyncio.sleep(1.0)
+        assert (lane.report.phase, lane.report.proven) == ("stopped", key.fingerprint)
+        robot.vanish()
+        await asyncio.sleep(1.0)
+        assert lane.report.proven == key.fingerprint
+
+
+@story
+async def test_a_robot_that_is_not_paired_proves_nothing(robot):
+    robot.there = True
+    async with pressed(robot) as lane:
+        await asyncio.sleep(1.0)
+        assert (lane.report.phase, lane.report.proven) == ("stopped", "")
