@@ -13,7 +13,7 @@ from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Operator
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.control.authority import Authority
-from robotside.control.command_expiry import HOLD_TIME, CommandExpiry
+from robotside.control.command_expiry import HOLD_TIME, VALID_TIME, CommandExpiry
 from robotside.control.latency_speed_cap import UNMEASURED_SHARE, LatencySpeedCap
 from robotside.control.neutral_interlock import LET_GO_SENTENCE, NeutralInterlock
 from robotside.core.notice import Notice, Problem
@@ -123,8 +123,8 @@ class CommandGate(Authority):
         """Judge a drive command that has just come; `stamp` is when it was given [s], None when that is not known.
 
         While the robot drives itself (`auto`), a command of zero means a stick at rest and changes nothing. `trouble` says
-        why the robot cannot be driven at all, empty when it can. A stick that was pushed in vain, or for longer than a
-        moment without being obeyed, counts again once it was at rest.
+        why the robot cannot be driven at all, empty when it can. A stick that was pushed in vain, or whose commands did not
+        come in time, counts again once it is heard at zero.
         """
         moving = not at_rest(order)
         said = self._fault(client, order, now, stamp)
@@ -133,11 +133,14 @@ class CommandGate(Authority):
         if not said and (moving or not (auto or trouble or self.stopped)):
             said = trouble or self._refusal(client, now, counts)
             if not said:
-                self._sticks.obey(client.id, now)
+                if self._giver is not None and not self.drives(client):
+                    self._sticks.void(self._giver.id)
                 self._giver, self._until = client, self._expiry.given(client, now, stamp) + HOLD_TIME
+                self._sticks.obey(client.id, self._until + VALID_TIME - HOLD_TIME)
                 self.update_speed_cap(now)
                 # the robot's own limits are looked at where orders reach its port
                 return Ruling(paced(order, self._info, self.pace.share))
+        if moving and said and not _overtaken(said):
             self._sticks.void(client.id)
         self.dropped += bool(said)
         return Ruling(None, said)
@@ -151,6 +154,7 @@ class CommandGate(Authority):
             return True
         if now < self._until:
             return False
+        self._sticks.void(self._giver.id)
         self.hold()
         return True
 
@@ -190,3 +194,8 @@ class CommandGate(Authority):
             said = "A drive command was dropped: its speeds are not all numbers."
             return Notice(Code.DRIVE_INVALID, said)
         return self._expiry.fault(client, now, stamp, rest=at_rest(order))
+
+
+def _overtaken(said: Problem) -> bool:
+    """An older command came twice or behind a newer one: of the stick itself that says nothing."""
+    return isinstance(said, Notice) and said.code == Code.DRIVE_OVERTAKEN

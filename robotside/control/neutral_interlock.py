@@ -1,10 +1,13 @@
-"""The neutral interlock: a stick that was held while the robot was stopped otherwise must come to rest before it counts again.
+"""The neutral interlock: a stick that was held while the robot stopped must be heard at zero before it counts again.
+
+A pause is never taken for zero: a link that froze, a program that hung and a hand that let go all fall silent alike.
 
 Pure: every call is told the time. Times are seconds of the operators' clock.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from bridge.core.codes import Code
@@ -12,15 +15,9 @@ from robotside.core.notice import Notice
 
 __all__ = ["LET_GO_SENTENCE", "NeutralInterlock"]
 
-NEUTRAL_PAUSE = 0.5
-"""A stick by which nothing was said for this long was at rest [s]: some clients say nothing while it is."""
-
-STANDSTILL_TIME = 0.7
-"""A robot that stands for longer though its stick is pushed has stopped in its driver's eyes [s]; less is a hiccup of the link."""
-
 LET_GO_SENTENCE = Notice(
     Code.DRIVE_NOT_RELEASED,
-    "Stopped while the stick was held. Release the stick, then push it again.",
+    "Stopped while the stick was held. Release it (send zero), then push it again.",
 )
 
 
@@ -30,8 +27,8 @@ class _Push:
 
     given: float
     """When its newest command was given [s]."""
-    obeyed: float
-    """When it was obeyed last, or began [s]."""
+    due: float = math.inf
+    """When the next one has to have come [s]."""
     void: bool = False
 
 
@@ -49,19 +46,22 @@ class NeutralInterlock:
             if push is not None and given >= push.given:
                 del self._pushes[client]
             return True
-        if push is None or given - push.given >= NEUTRAL_PAUSE:
-            push = self._pushes[client] = _Push(given, given)
+        if push is None:
+            push = self._pushes[client] = _Push(given)
         push.given = max(push.given, given)
-        push.void = push.void or now - push.obeyed > STANDSTILL_TIME
+        push.void = push.void or now >= push.due
         return not push.void
 
-    def obey(self, client: str, now: float) -> None:
-        """The command that was heard last moves the robot."""
+    def obey(self, client: str, due: float) -> None:
+        """The command that was heard last moves the robot; unless the next one has come when it is `due` [s], the stick is void.
+
+        That holds even if nobody looked meanwhile: this process may have been frozen.
+        """
         if client in self._pushes:
-            self._pushes[client].obeyed = now
+            self._pushes[client].due = due
 
     def void(self, client: str) -> None:
-        """This stick, if it is pushed, no longer counts until it was at rest."""
+        """This stick, if it is pushed, no longer counts until it is heard at zero."""
         if client in self._pushes:
             self._pushes[client].void = True
 

@@ -8,7 +8,8 @@ import sys
 from contextlib import asynccontextmanager
 from pathlib import Path
 
-from tests.clients.peers import START, both
+from bench.support.wire import wire
+from tests.clients.peers import START, both, peer
 
 ROOT = Path(__file__).parents[2]
 VELOCITY = {"name": "/cmd_vel", "type": "geometry_msgs/Twist"}
@@ -33,15 +34,26 @@ async def patrol_robot(state):
         await process.wait()
 
 
+async def push(script, speed=0.4):
+    """One drive command."""
+    await script.do("publish", **VELOCITY, msg={"linear": {"x": speed}})
+
+
 async def drive_until(script, python, moved):
-    """Push until the odometry that the other program hears fits."""
+    """Push, each time from zero, until the odometry that the other program hears fits."""
     seen = 0
     async with asyncio.timeout(START):
         while True:
-            await script.do("publish", **VELOCITY, msg={"linear": {"x": 0.4}})
+            await push(script, 0.0)
+            await push(script)
             seen += 1
-            if moved((await python.message("/odom", seen))["twist"]["twist"]["linear"]["x"]):
+            if moved(await speed(python, seen)):
                 return
+
+
+async def speed(python, count):
+    """As the odometry that came as the `count`-th tells it."""
+    return (await python.message("/odom", count))["twist"]["twist"]["linear"]["x"]
 
 
 async def test_it_is_seen_driven_and_stopped_by_both(tmp_path):
@@ -63,3 +75,29 @@ async def test_it_is_seen_driven_and_stopped_by_both(tmp_path):
         python.events.clear()
         await drive_until(script, python, lambda speed: abs(speed) < 0.01)
         assert (await script.do("call", **RELEASE))["values"]["success"]
+
+
+async def test_a_stick_held_through_a_frozen_link_moves_nothing_before_it_was_at_zero(tmp_path):
+    async with (
+        patrol_robot(tmp_path) as port,
+        wire(port) as link,
+        peer("roslibpy", port) as watcher,
+        peer("roslibpy", link.port) as driver,
+    ):
+        await watcher.do("subscribe", name="/odom", type="nav_msgs/Odometry")
+        for pushes_on_while_it_is_frozen in (False, True):
+            watcher.events.clear()
+            await drive_until(driver, watcher, lambda speed: speed > 0.1)
+            link.freeze()
+            watcher.events.clear()
+            seen = 1
+            while abs(await speed(watcher, seen)) > 0.01:
+                if pushes_on_while_it_is_frozen:
+                    await push(driver)
+                seen += 1
+            link.thaw()
+            for more in range(40):
+                await push(driver)
+                assert abs(await speed(watcher, seen + 1 + more)) < 0.02
+        watcher.events.clear()
+        await drive_until(driver, watcher, lambda speed: speed > 0.1)

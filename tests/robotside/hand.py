@@ -44,6 +44,7 @@ class Hand:
         self.robot = make(name, WORLDS.get(name, "parking_lot"), seed=2, camera=False, payloads=payloads)
         self.now = 1000.0
         self.anna = FakeClient("anna", self.now)
+        self._pushed = math.inf
         self.station = Station(
             self.robot,
             records_at(state),
@@ -74,11 +75,14 @@ class Hand:
         self.robot.manoeuvre(Manoeuvre(kind="take_off", height=height))
         self.wait(2.5)
 
-    def push(self, order: Order, seconds: float) -> None:
-        """Hold the controls there."""
+    def push(self, order: Order, seconds: float, *, from_rest: bool = True) -> None:
+        """Hold the controls there, coming from rest unless they were held already."""
         topic = "/cmd_manoeuvre" if isinstance(order, Manoeuvre) else "/cmd_vel"
+        if from_rest and self.now - self._pushed > 0.2:
+            self.station.on_message(self.anna, "/cmd_vel", Twist(), None)
         for _ in range(round(seconds / 0.1)):
             self.station.on_message(self.anna, topic, order, None)
+            self._pushed = self.now
             self.wait(0.1)
 
     def ask(

@@ -158,6 +158,7 @@ def test_a_late_manoeuvre_is_dropped_like_a_late_twist(hand: Make) -> None:
     stamped = msgspec.structs.replace(order, header=Header(Time.at(run.now - 0.4)))
     run.station.on_message(run.anna, "/cmd_manoeuvre", stamped, None)
     assert "it came 0.4 s late" in run.events[said]
+    run.station.on_message(run.anna, "/cmd_vel", Twist(), None)
     run.station.on_message(run.anna, "/cmd_manoeuvre", order, run.now)
     run.wait(0.1)
     assert run.robot.simulation.vehicle.order.kind == "steer"  # type: ignore[attr-defined]  # the drive's

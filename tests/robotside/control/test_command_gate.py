@@ -177,6 +177,7 @@ def test_a_command_from_a_wrong_clock_does_not_lock_its_sender_out(
     assert "1e+308 s late" in controls.drive(anna, AHEAD, 10.0, stamp=-1e308).said
     assert "1e+308 s ahead" in controls.drive(anna, AHEAD, 10.0, stamp=1e308).said
     assert "ahead of the robot's" in controls.drive(anna, AHEAD, 10.0, stamp=99.0).said
+    controls.drive(anna, REST, 10.05, stamp=10.05)
     assert controls.drive(anna, AHEAD, 10.1, stamp=10.1).order == AHEAD
 
 
@@ -256,14 +257,93 @@ def test_a_stick_held_while_the_robot_was_halted_counts_again_when_it_was_at_res
     assert controls.drive(anna, AHEAD, 15.05, stamp=15.05).order == AHEAD
 
 
-def test_a_stick_that_says_nothing_while_it_rests_counts_after_half_a_second(
+def test_no_pause_of_a_stick_stands_for_its_rest(controls: CommandGate, anna: FakeClient) -> None:
+    controls.drive(anna, AHEAD, 10.0)
+    controls.halt()
+    for pause in (0.1, 0.5, 1.0, 60.0):
+        assert controls.drive(anna, AHEAD, 10.0 + pause).said == LET_GO_SENTENCE
+    controls.drive(anna, REST, 71.0)
+    assert controls.drive(anna, AHEAD, 71.1).order == AHEAD
+
+
+@pytest.mark.parametrize("stamped", [False, True])
+@pytest.mark.parametrize("looked", [False, True])
+@pytest.mark.parametrize("pause", [VALID_TIME, 0.5, 3.0, 60.0])
+def test_a_client_that_fell_silent_with_a_held_stick_moves_nothing_before_it_was_at_zero(
+    controls: CommandGate, anna: FakeClient, pause: float, looked: bool, stamped: bool
+) -> None:
+    def push(moment: float) -> Ruling:
+        return controls.drive(anna, AHEAD, moment, stamp=moment if stamped else None)
+
+    assert [push(10.0 + number / 20).order for number in range(20)] == [AHEAD] * 20
+    again = 10.95 + pause
+    if looked:
+        assert controls.expired(again - 0.01)
+    anna.last_heard = again
+    after = [push(again + number / 20) for number in range(40)]
+    assert {(ruling.order, ruling.said) for ruling in after} == {(None, LET_GO_SENTENCE)}
+    controls.drive(anna, REST, again + 2.0, stamp=again + 2.0 if stamped else None)
+    assert push(again + 2.05).order == AHEAD
+
+
+def test_a_command_without_a_stamp_that_may_be_too_old_voids_the_stick(
     controls: CommandGate, anna: FakeClient
 ) -> None:
     controls.drive(anna, AHEAD, 10.0)
-    controls.halt()
+    anna.answered = 9.0
+    assert "no stamp" in controls.drive(anna, AHEAD, 10.1).said
+    anna.answered = 10.2
+    assert controls.drive(anna, AHEAD, 10.2).said == LET_GO_SENTENCE
+
+
+def test_a_command_that_came_too_late_voids_the_stick(controls: CommandGate, anna: FakeClient) -> None:
+    controls.drive(anna, AHEAD, 10.0, stamp=10.0)
+    assert "late" in controls.drive(anna, AHEAD, 10.1, stamp=9.8).said
+    assert controls.drive(anna, AHEAD, 10.15, stamp=10.15).said == LET_GO_SENTENCE
+
+
+def test_a_command_that_comes_twice_leaves_the_stick_as_it_is(
+    controls: CommandGate, anna: FakeClient
+) -> None:
+    controls.drive(anna, AHEAD, 10.0, stamp=10.0)
+    assert controls.drive(anna, AHEAD, 10.1, stamp=10.0).order is None
+    assert controls.drive(anna, AHEAD, 10.15, stamp=10.15).order == AHEAD
+
+
+def test_a_stick_whose_holder_lost_control_is_let_go_before_it_drives_again(
+    controls: CommandGate, anna: FakeClient, bert: FakeClient
+) -> None:
+    controls.drive(anna, AHEAD, 10.0)
+    controls.release(anna)
+    assert controls.expired(10.05), "who drove has control no longer"
     assert controls.drive(anna, AHEAD, 10.1).said == LET_GO_SENTENCE
-    assert controls.drive(anna, AHEAD, 10.5).said == LET_GO_SENTENCE
-    assert controls.drive(anna, AHEAD, 11.0).order == AHEAD
+    assert controls.drive(bert, AHEAD, 10.1).order == AHEAD
+
+
+def test_a_stick_that_another_took_over_from_is_let_go_before_it_drives_again(
+    controls: CommandGate, anna: FakeClient, bert: FakeClient
+) -> None:
+    controls.drive(anna, AHEAD, 10.0)
+    controls.release(anna)
+    controls.drive(bert, AHEAD, 10.02)
+    controls.release(bert)
+    assert controls.drive(anna, AHEAD, 10.05).said == LET_GO_SENTENCE
+
+
+def test_a_stick_held_at_the_moment_of_stop_is_let_go_before_it_drives_again(
+    controls: CommandGate, anna: FakeClient
+) -> None:
+    controls.drive(anna, AHEAD, 10.0)
+    controls.stop("Bert")
+    controls.release_stop()
+    assert controls.drive(anna, AHEAD, 10.05).said == LET_GO_SENTENCE
+
+
+def test_an_older_stop_does_not_wind_back_when_the_latest_was_given(controls: CommandGate) -> None:
+    controls.stop("Bert", given=12.0)
+    controls.stop("Anna", given=11.0)
+    controls.stop("Carl")
+    assert controls.stop_given == 12.0
 
 
 def test_a_stick_pushed_while_there_is_trouble_does_not_drive_off_when_it_ends(
@@ -307,13 +387,13 @@ def test_a_stick_held_through_an_outage_of_its_link_does_not_drive_off_after_it(
     assert controls.drive(anna, AHEAD, 13.25, stamp=13.25).said == LET_GO_SENTENCE
 
 
-def test_a_hiccup_of_the_link_costs_no_more_than_the_time_it_takes(
-    controls: CommandGate, anna: FakeClient
-) -> None:
+def test_a_hiccup_of_the_link_costs_a_release_of_the_stick(controls: CommandGate, anna: FakeClient) -> None:
     held(controls, anna, 10.0, 11.0)
     assert controls.expired(11.3)
     held(controls, anna, 11.0, 11.2, lag=0.4)
-    assert controls.drive(anna, AHEAD, 11.6, stamp=11.5).order == AHEAD
+    assert controls.drive(anna, AHEAD, 11.6, stamp=11.5).said == LET_GO_SENTENCE
+    controls.drive(anna, REST, 11.7, stamp=11.65)
+    assert controls.drive(anna, AHEAD, 11.75, stamp=11.7).order == AHEAD
 
 
 def test_a_zero_that_was_overtaken_does_not_stand_for_rest(controls: CommandGate, anna: FakeClient) -> None:
@@ -380,6 +460,7 @@ def test_an_operator_whose_link_is_not_measured_never_drives_at_full_speed(
     assert controls.drive(anna, FULL, 10.0).order == Twist.planar(0.35, 0.0)
     assert controls.pace.shown == 0.5
     controls.update_speed_cap(12.0)
+    controls.drive(anna, REST, 11.95)
     assert controls.drive(anna, FULL, 12.0).order == Twist.planar(0.35, 0.0), "it does not rise with time"
 
 

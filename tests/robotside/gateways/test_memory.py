@@ -71,6 +71,7 @@ def test_who_drives_by_it_has_control_and_the_cap_of_a_link_that_is_not_measured
     assert scene.robot.at_rest
     scene.drive(FULL)
     scene.run(2.0)
+    scene.drive(Twist())
     scene.drive(FULL)
     assert scene.robot.twist == FULL
 
@@ -79,6 +80,10 @@ def test_its_drive_commands_expire(gateway: MemoryGateway, scene: Scene) -> None
     client = gateway.connect("carl")
     client.publish("/cmd_vel", FULL, scene.clock - 1.0)
     assert scene.robot.at_rest
+    client.publish("/cmd_vel", FULL, scene.clock)
+    assert scene.robot.at_rest, "zero has to be heard first"
+    client.publish("/cmd_vel", Twist(), scene.clock)
+    scene.run(0.05)
     client.publish("/cmd_vel", FULL, scene.clock)
     assert not scene.robot.at_rest
     scene.run(0.3)

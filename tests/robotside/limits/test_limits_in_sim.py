@@ -35,7 +35,7 @@ def test_a_wild_stick_never_gets_the_body_over_the_fence(robot: SimRobot, tmp_pa
     config = Config(limits=LimitSettings(keep_in=(PAD,), keep_out=(KERB,)))
     anna = FakeClient("anna", now)
     station = Station(robot, records_at(tmp_path), now=now, clock=lambda: now, rng=rng, config=config)
-    rooms, wanted, until, silent = [], Twist(), 0.0, 0.0
+    rooms, wanted, until, silent, pushed = [], Twist(), 0.0, 0.0, 0.0
     for step in range(60 * 60):
         now += TICK
         anna.last_heard = now
@@ -44,6 +44,9 @@ def test_a_wild_stick_never_gets_the_body_over_the_fence(robot: SimRobot, tmp_pa
             wanted = Twist.planar(rng.choice([0.7, 0.7, -0.7, 0.3]), turn)
             until, silent = now + rng.uniform(0.3, 4.0), rng.choice([0.0, 0.0, 1.0])
         if step % 6 == 0 and now < until - silent:
+            if now - pushed > 0.2:
+                station.on_message(anna, "/cmd_vel", Twist(), None)
+            pushed = now
             station.on_message(anna, "/cmd_vel", wanted, None)
         station.step(now)
         x, y, _ = robot.simulation.pose()
