@@ -14,10 +14,11 @@ from sqlalchemy.exc import ArgumentError, NoSuchModuleError
 from robotside.records.database.files import LOCK_TIMEOUT, MAX_BACKUPS, DatabaseFiles
 from robotside.records.database.legacy import left_behind, put_away
 from robotside.records.database.postgresql_store import PostgresqlStore
-from robotside.records.database.rows import Put
+from robotside.records.database.rows import Put, rows_of
 from robotside.records.database.sqlite_store import SqliteStore
 from robotside.records.database.storage import NotWritten
 from robotside.records.database.store import CannotOpen, Opened, Store
+from robotside.records.database.unkept_store import UnkeptStore
 from robotside.records.database.writer import CallSoon, WriterThread
 from robotside.records.records import Records
 
@@ -45,16 +46,11 @@ def open_records(
     does. Of a SQLite file `backups` are kept. `patience` [s] is waited for another program that has the records. Anything
     unusual is in `problems`.
     """
-    store = _store(
-        directory, url, partial(DatabaseFiles, now=now, patience=patience, backups=backups), patience
-    )
+    files = partial(DatabaseFiles, now=now, patience=patience, backups=backups)
+    store, opened = _opened(directory, url, files, patience)
     try:
-        opened = store.open()
         puts, said = _first_words(opened, directory)
-        trouble = _tried(opened, puts)
-    except NotWritten as problem:
-        store.close()
-        raise CannotOpen(str(problem)) from problem
+        trouble = _tried(store, opened, puts)
     except BaseException:
         store.close()
         raise
@@ -72,19 +68,35 @@ def open_records(
     return records
 
 
-def _store(
+def _opened(
     directory: Path, url: str | None, files: Callable[[Path], DatabaseFiles], patience: float
-) -> Store:
-    if not url:
-        return SqliteStore(directory / "records.sqlite3", files, patience)
-    parsed = _parsed(url)
-    if parsed.get_backend_name() != "sqlite":
-        return PostgresqlStore(parsed, patience)
-    if not parsed.database or parsed.database == ":memory:":
+) -> tuple[Store, Opened]:
+    """The store and what it has; one that keeps nothing where nothing can be written, so that the robot is served."""
+    parsed = _parsed(url) if url else None
+    if parsed is not None and parsed.get_backend_name() != "sqlite":
+        return _open(PostgresqlStore(parsed, patience))
+    if parsed is not None and parsed.database in (None, "", ":memory:"):
         raise CannotOpen(
             f"The database {url!r} would be gone with the process; name a file, as sqlite:///FILE."
         )
-    return SqliteStore(Path(parsed.database), files, patience)
+    path = directory / "records.sqlite3" if parsed is None else Path(str(parsed.database))
+    try:
+        return _open(SqliteStore(path, files, patience))
+    except CannotOpen as problem:
+        if not problem.around:
+            raise
+        return _open(UnkeptStore(path, patience, str(problem)))
+
+
+def _open(store: Store) -> tuple[Store, Opened]:
+    try:
+        return store, store.open()
+    except NotWritten as problem:
+        store.close()
+        raise CannotOpen(str(problem), around=not problem.locked) from problem
+    except BaseException:
+        store.close()
+        raise
 
 
 def _first_words(opened: Opened, directory: Path) -> tuple[list[Put], list[str]]:
@@ -111,14 +123,17 @@ def _first_words(opened: Opened, directory: Path) -> tuple[list[Put], list[str]]
     return puts, left.problems
 
 
-def _tried(opened: Opened, puts: list[Put]) -> str:
+def _tried(store: Store, opened: Opened, puts: list[Put]) -> str:
     """Write the first rows; a robot whose disk is full is served all the same, with the reason as one sentence."""
     try:
-        opened.storage.write(puts)
+        store.write(puts)
     except NotWritten as problem:
-        if problem.damaged:
-            raise
-        return str(problem)
+        if not problem.damaged:
+            return str(problem)
+        try:
+            opened.problems.append(store.rebuild([*rows_of(opened.content), *puts]))
+        except NotWritten as still:
+            return str(still)
     for put in puts:
         opened.content[put.table][put.key] = put.value
     return ""

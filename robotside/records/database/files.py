@@ -12,7 +12,7 @@ from contextlib import closing, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 
-__all__ = ["MAX_BACKUPS", "LOCK_TIMEOUT", "DatabaseFiles", "InUse"]
+__all__ = ["MAX_BACKUPS", "LOCK_TIMEOUT", "DatabaseFiles", "InUse", "is_damage", "touch"]
 
 LOCK_TIMEOUT = 5.0
 """The longest wait for another program that has the database [s]."""
@@ -22,6 +22,31 @@ MAX_DAMAGED = 3
 MAX_BACKUPS = 5
 """Backups that are kept: one half are the newest ones, the others the newest of each of the days before."""
 _PARTS = ("", "-wal", "-shm", "-journal")
+_PRIVATE, _PRIVATE_DIRECTORY = 0o600, 0o700
+"""Modes of files and directories that only their owner reads."""
+_SURROUNDINGS = frozenset(
+    {
+        sqlite3.SQLITE_AUTH,
+        sqlite3.SQLITE_BUSY,
+        sqlite3.SQLITE_CANTOPEN,
+        sqlite3.SQLITE_FULL,
+        sqlite3.SQLITE_INTERRUPT,
+        sqlite3.SQLITE_IOERR,
+        sqlite3.SQLITE_LOCKED,
+        sqlite3.SQLITE_NOLFS,
+        sqlite3.SQLITE_NOMEM,
+        sqlite3.SQLITE_PERM,
+        sqlite3.SQLITE_PROTOCOL,
+        sqlite3.SQLITE_READONLY,
+    }
+)
+"""Errors that are not in the file, but in what is around it."""
+_BAD_SECTORS = frozenset(
+    {sqlite3.SQLITE_IOERR_READ, sqlite3.SQLITE_IOERR_SHORT_READ, sqlite3.SQLITE_IOERR_CORRUPTFS}
+)
+"""Errors of the disk that are this file's alone."""
+_VERSIONS = slice(18, 20)
+"""The bytes of a file by which SQLite tells whether it may write and read it: 1 or 2 each."""
 
 
 class InUse(Exception):
@@ -37,17 +62,19 @@ class DatabaseFiles:
         now: Callable[[], float] = time.time,
         patience: float = LOCK_TIMEOUT,
         backups: int = MAX_BACKUPS,
+        backups_in: Path | None = None,
     ) -> None:
         """`path` is the database, which need not be there; `now` names backups and broken files.
 
-        `patience` [s] is waited for another process that has it; `backups` are kept, 0 makes none.
+        `patience` [s] is waited for another process that has it; `backups` are kept `backups_in` that directory,
+        by default one beside it; 0 makes none.
 
         Raises OSError when its directory cannot be made.
         """
-        path.parent.mkdir(parents=True, exist_ok=True)
+        path.parent.mkdir(_PRIVATE_DIRECTORY, parents=True, exist_ok=True)
         self.path = path
         """The database."""
-        self.backups_in = path.parent / "backups"
+        self.backups_in = backups_in or path.parent / "backups"
         """Where its backups are."""
         self._now, self._patience, self._keep = now, patience, backups
         self._lock = -1
@@ -59,7 +86,7 @@ class DatabaseFiles:
         InUse when another process does not let go of them in time.
         """
         lock = os.open(
-            self.path.with_name(f"{self.path.name}.lock"), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o644
+            self.path.with_name(f"{self.path.name}.lock"), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, _PRIVATE
         )
         end = time.monotonic() + self._patience
         while True:
@@ -90,14 +117,15 @@ class DatabaseFiles:
             return ""
         try:
             with closing(sqlite3.connect(path, timeout=self._patience)) as database:
-                found = database.execute("PRAGMA quick_check(1)").fetchone()
-        except sqlite3.OperationalError as error:
-            if "malformed" in str(error):
-                return str(error)
+                database.text_factory = _readable
+                found = database.execute("PRAGMA integrity_check(1)").fetchone()
+        except Exception as error:  # a damaged file makes SQLite and its reader fail in any way
+            if is_damage(error):
+                return " ".join(str(error).split())
             raise
-        except sqlite3.DatabaseError as error:
-            return str(error)
-        return "" if found and found[0] == "ok" else str(found[0] if found else "nothing found")
+        if found and found[0] == "ok":
+            return _unwritable(path)
+        return str(found[0] if found else "nothing found")
 
     def missing(self) -> str:
         """Why there is nothing where backups say that there was something; empty when there is, or never was."""
@@ -135,17 +163,21 @@ class DatabaseFiles:
         _sync(self.path.parent)
         return aside
 
-    def restore(self) -> Path | None:
-        """Put the newest backup that is whole in the place of the database; None when there is none."""
-        for backup in reversed(self.backups()):
-            try:
-                if self.fault(backup):
-                    continue
-            except sqlite3.Error:
-                continue
-            _copy(backup, self.path)
-            return backup
-        return None
+    def restore(self, backup: Path) -> None:
+        """Put a backup in the place of the database. Raises OSError, or sqlite3.Error when it cannot be read."""
+        _copy(backup, self.path)
+
+    def clear(self) -> None:
+        """Let go of what `restore` put in the place of the database."""
+        for part in _PARTS:
+            Path(f"{self.path}{part}").unlink(missing_ok=True)
+
+    def tighten(self) -> None:
+        """Have nobody else read the files of the database, which older programs let everybody read."""
+        for path in (*self.path.parent.glob(f"{self.path.stem}*"), *self.backups()):
+            if path.is_file():
+                with suppress(OSError):  # somebody else's, who decides
+                    path.chmod(_PRIVATE)
 
     def backups(self) -> list[Path]:
         """All backups, oldest first."""
@@ -158,7 +190,7 @@ class DatabaseFiles:
         """
         if not self._keep:
             return None
-        self.backups_in.mkdir(exist_ok=True)
+        self.backups_in.mkdir(_PRIVATE_DIRECTORY, exist_ok=True)
         fresh = self.backups_in / "fresh.new"
         try:
             _copy(self.path, fresh)
@@ -189,9 +221,37 @@ class DatabaseFiles:
         return datetime.fromtimestamp(self._now(), UTC).strftime("%Y%m%d-%H%M%S-%f")
 
 
+def touch(path: Path) -> None:
+    """Make the file if it is not there, for its owner alone; what SQLite makes beside it is then likewise."""
+    os.close(os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, _PRIVATE))
+
+
+def is_damage(error: BaseException) -> bool:
+    """The error is in the file itself, and not in the disk, the lock or the permission around it."""
+    if isinstance(error, OSError | MemoryError):
+        return False
+    code = getattr(error, "sqlite_errorcode", None)
+    if code in _BAD_SECTORS:
+        return True
+    # the low byte is the kind of error, what is above it the circumstances
+    return code is None or code & 0xFF not in _SURROUNDINGS
+
+
+def _unwritable(path: Path) -> str:
+    """Why SQLite would never write the file, whoever asks; empty when it would."""
+    with path.open("rb") as file:
+        versions = file.read(_VERSIONS.stop)[_VERSIONS]
+    return "" if all(version in (1, 2) for version in versions) else "its header names no known format"
+
+
+def _readable(text: bytes) -> str:
+    return text.decode(errors="replace")
+
+
 def _copy(source: Path, target: Path) -> None:
     """Copy a database to a whole file that is on the disk when this returns."""
     target.unlink(missing_ok=True)
+    touch(target)
     with (
         closing(sqlite3.connect(source, timeout=LOCK_TIMEOUT)) as old,
         closing(sqlite3.connect(target)) as new,

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Collection, Iterable
-from typing import Any
 
 from robotside.records.database.jobs import Job
-from robotside.records.database.rows import Content, Key, Put
+from robotside.records.database.rows import Content, Key, Put, rows_of
 
 __all__ = ["RowMemory"]
 
@@ -53,11 +52,18 @@ class RowMemory:
         if job in self._pending:
             self._pending.remove(job)
         for table, key, _ in job.facts:
-            self.dirty.add((table, key))
+            self._owe(table, key)
         later = {(put.table, put.key): put for other in self._pending for put in other.puts}
         for table, key, _ in job.orders:
             if (table, key) not in self.dirty:
                 _set(self.current, later.get((table, key)) or Put(table, key, self.stored[table].get(key)))
+
+    def _owe(self, table: str, key: Key) -> None:
+        """Have the row tried again; one that came and went without having been on the disk is as it is there."""
+        if key in self.current[table] or key in self.stored[table]:
+            self.dirty.add((table, key))
+        else:
+            self.dirty.discard((table, key))
 
     def again(self) -> list[Put]:
         """The rows to try again, as they are now."""
@@ -72,7 +78,7 @@ class RowMemory:
 
     def everything(self) -> list[Put]:
         """All rows as they will be."""
-        return list(_rows(self.current))
+        return rows_of(self.current)
 
 
 def _set(content: Content, put: Put) -> None:
@@ -80,10 +86,3 @@ def _set(content: Content, put: Put) -> None:
         content[put.table].pop(put.key, None)
     else:
         content[put.table][put.key] = put.value
-
-
-def _rows(content: Content) -> Iterable[Put]:
-    rows: dict[Key, Any]
-    for table, rows in content.items():
-        for key, value in rows.items():
-            yield Put(table, key, value)

@@ -37,7 +37,7 @@ class PostgresqlStore(Store):
         self._take_lock()
         upgrade(self._storage.engine)
         content, unread = self._storage.load()
-        return Opened(self._storage, content, unread, 0)
+        return Opened(content, unread, 0)
 
     def write(self, puts: list[Put]) -> None:
         """Write rows, all or none."""

@@ -17,6 +17,7 @@ from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event, Mission, Place, ScheduledTask, TaskOrder, TaskRun
 from bridge.msgs.std_msgs import Time
+from robotside.records.database.soundness import Unsound, check_columns, check_counters
 from robotside.records.database.tables import (
     AnswerRow,
     Base,
@@ -30,7 +31,22 @@ from robotside.records.database.tables import (
     SettingRow,
 )
 
-__all__ = ["TABLES", "Answered", "Content", "Key", "Put", "Queued", "empty", "read_all", "write"]
+__all__ = [
+    "TABLES",
+    "Answered",
+    "Content",
+    "Key",
+    "Put",
+    "Queued",
+    "Unsound",
+    "empty",
+    "read_all",
+    "rows_of",
+    "write",
+]
+
+MAX_INSTANT = 2**32 * 1_000_000_000
+"""What a stamp of ROS holds [ns]."""
 
 Key: TypeAlias = int | str
 Content: TypeAlias = dict[str, dict[Key, Any]]
@@ -83,22 +99,32 @@ def empty() -> Content:
     return {name: {} for name in TABLES}
 
 
+def rows_of(content: Content) -> list[Put]:
+    """All rows."""
+    return [Put(table, key, value) for table, rows in content.items() for key, value in rows.items()]
+
+
 def read_all(session: Session) -> tuple[Content, list[str]]:
-    """Everything there is, and a sentence for each table of which rows could not be read; they are left where they are."""
+    """Everything there is, and a sentence for each table of which rows could not be read; they are left where they are.
+
+    Raises Unsound when the facts are not as any program has ever written them.
+    """
     content, problems = empty(), []
     for name, table in TABLES.items():
         bad: list[Key] = []
         for row in session.scalars(select(table.model)):
             key = getattr(row, table.key)
             try:
+                check_columns(row)
                 content[name][key] = table.from_row(row)
-            except (BridgeError, ValueError, TypeError):
+            except (BridgeError, ValueError, TypeError, OverflowError):
                 bad.append(key)
         if bad:
             shown = ", ".join(map(repr, bad[:3]))
             problems.append(
                 f"{len(bad)} of the {name} in the database cannot be read ({shown}) and are left out."
             )
+    check_counters(content)
     return content, problems
 
 
@@ -132,6 +158,8 @@ def _instant(time: Time) -> int:
 
 
 def _time(instant: int) -> Time:
+    if not 0 <= instant < MAX_INSTANT:
+        raise ValueError("no instant")
     return Time(*divmod(instant, 1_000_000_000))
 
 

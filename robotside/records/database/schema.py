@@ -9,13 +9,16 @@ from typing import TYPE_CHECKING
 from sqlalchemy import Engine, inspect, text
 from sqlalchemy.exc import SQLAlchemyError
 
-from robotside.records.database.storage import not_written
+from robotside.records.database.storage import NotWritten, not_written
 from robotside.records.database.store import CannotOpen
 
 if TYPE_CHECKING:
     from alembic.script import ScriptDirectory
 
 __all__ = ["upgrade"]
+
+NOTED_FROM = 3
+"""From this revision on the header of a SQLite file says the revision too."""
 
 
 def upgrade(engine: Engine, before: Callable[[], object] = lambda: None) -> None:
@@ -27,6 +30,8 @@ def upgrade(engine: Engine, before: Callable[[], object] = lambda: None) -> None
     try:
         revision = _revision(engine)
         if revision != _newest(migrations):
+            if revision is not None:
+                _check_twice(engine, revision)
             _migrate(engine, migrations, revision, before)
     except SQLAlchemyError as error:
         raise not_written(error) from error
@@ -39,6 +44,17 @@ def _revision(engine: Engine) -> str | None:
             return None
         found = connection.scalar(text("SELECT version_num FROM alembic_version"))
         return None if found is None else str(found)
+
+
+def _check_twice(engine: Engine, revision: str) -> None:
+    """NotWritten when the file's header says another revision than the table: one of them is damaged."""
+    if engine.dialect.name != "sqlite":
+        return
+    with engine.connect() as connection:
+        noted = int(connection.scalar(text("PRAGMA user_version")) or 0)
+    if not revision.isdigit() or int(revision) != (noted or min(int(revision), NOTED_FROM - 1)):
+        said = f"The database is damaged (its tables are of revision {revision[:20]!r}, its header says {noted})."
+        raise NotWritten(said, damaged=True)
 
 
 def _newest(migrations: Path) -> str:
@@ -61,6 +77,8 @@ def _migrate(engine: Engine, migrations: Path, revision: str | None, before: Cal
     with engine.begin() as connection:
         config.attributes["connection"] = connection
         command.upgrade(config, "head")
+        if engine.dialect.name == "sqlite":
+            connection.exec_driver_sql(f"PRAGMA user_version={int(_newest(migrations))}")
 
 
 def _check_known(script: ScriptDirectory, revision: str) -> None:

@@ -13,7 +13,7 @@ from sqlalchemy.pool import StaticPool
 
 from bridge.core.errors import BridgeError
 from robotside.records.database.files import LOCK_TIMEOUT
-from robotside.records.database.rows import Content, Put, read_all, write
+from robotside.records.database.rows import Content, Put, Unsound, read_all, write
 from robotside.records.database.tables import Base
 
 __all__ = ["NotWritten", "Storage", "engine_of", "not_written"]
@@ -24,12 +24,16 @@ _DAMAGED = ("malformed", "not a database", "file is encrypted", "database corrup
 class NotWritten(Exception):
     """The database could not do it; the text is one sentence."""
 
-    def __init__(self, said: str, *, damaged: bool = False, general: bool = True) -> None:
+    def __init__(
+        self, said: str, *, damaged: bool = False, general: bool = True, locked: bool = False
+    ) -> None:
         super().__init__(said)
         self.damaged = damaged
         """The file is broken, and will be for every later write."""
         self.general = general
         """Any other write would have failed as well."""
+        self.locked = locked
+        """Another program has it."""
 
 
 class Storage:
@@ -50,7 +54,7 @@ class Storage:
         try:
             with Session(self.engine) as session:
                 return read_all(session)
-        except SQLAlchemyError as error:
+        except (SQLAlchemyError, Unsound) as error:
             raise not_written(error) from error
 
     def write(self, puts: Iterable[Put]) -> None:
@@ -97,7 +101,8 @@ def not_written(error: Exception) -> NotWritten:
     if "full" in small or "no space" in small or getattr(cause, "sqlstate", "") == "53100":
         return NotWritten("The disk is full: nothing was stored. Make room on the robot's computer.")
     if "locked" in small or "busy" in small or "lock wait timeout" in small:
-        return NotWritten("The database is locked by another program: nothing was stored. End that one.")
+        said = "The database is locked by another program: nothing was stored. End that one."
+        return NotWritten(said, locked=True)
     if "readonly" in small or "read-only" in small or "unable to open" in small:
         return NotWritten(f"The database may not be written ({text}): nothing was stored.")
     if "disk i/o" in small:

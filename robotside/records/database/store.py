@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 from bridge.core.errors import BridgeError
 from robotside.records.database.rows import Content, Put
-from robotside.records.database.storage import Storage
 
 __all__ = ["CannotOpen", "Opened", "Store"]
 
@@ -15,11 +14,15 @@ __all__ = ["CannotOpen", "Opened", "Store"]
 class CannotOpen(BridgeError):
     """There are no records to work with; the text is one sentence."""
 
+    def __init__(self, said: str, *, around: bool = False) -> None:
+        super().__init__(said)
+        self.around = around
+        """The robot could be served without them: it is the disk or a permission that is in the way."""
+
 
 class Opened(NamedTuple):
     """A database that was opened, with all that is in it."""
 
-    storage: Storage
     content: Content
     problems: list[str]
     """Sentences for the operator."""

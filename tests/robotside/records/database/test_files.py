@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from robotside.records.database.files import MAX_DAMAGED, DatabaseFiles
+from robotside.records.opening import open_records
 
 DAY = 86_400.0
 
@@ -106,3 +107,41 @@ def test_how_old_the_newest_backup_is_tells_when_the_next_one_is_due(tmp_path: P
     assert files.backup_age() == 600.0
     now[0] = 900.0
     assert files.backup_age() == math.inf
+
+
+def modes(directory: Path) -> dict[str, int]:
+    return {path.name: path.stat().st_mode & 0o777 for path in [directory, *directory.rglob("*")]}
+
+
+def test_only_their_owner_reads_the_files_whatever_the_umask(tmp_path: Path) -> None:
+    before = os.umask(0)
+    try:
+        records = open_records(tmp_path / "state", None, lambda *_: None)
+        DatabaseFiles(tmp_path / "state" / "records.sqlite3").back_up()
+        found = modes(tmp_path / "state")
+        records.close()
+    finally:
+        os.umask(before)
+    assert {"records.sqlite3", "records.sqlite3-wal", "records.sqlite3-shm", "records.sqlite3.lock"} <= set(
+        found
+    )
+    assert {name: mode for name, mode in found.items() if mode != 0o600} == {"state": 0o700, "backups": 0o700}
+
+
+def test_what_older_programs_let_everybody_read_is_tightened_at_the_start(tmp_path: Path) -> None:
+    state = tmp_path / "state"
+    open_records(state, None, lambda *_: None).close()
+    files = DatabaseFiles(state / "records.sqlite3")
+    backup = files.back_up()
+    aside = database(state / "records-damaged-20260101-000000-000000.sqlite3")
+    assert backup is not None
+    for path in (files.path, backup, aside):
+        path.chmod(0o644)
+    open_records(state, None, lambda *_: None).close()
+    assert {path.stat().st_mode & 0o777 for path in (files.path, backup, aside)} == {0o600}
+
+
+def test_a_state_directory_that_was_there_stays_as_it_is(tmp_path: Path) -> None:
+    tmp_path.chmod(0o755)
+    open_records(tmp_path, None, lambda *_: None).close()
+    assert tmp_path.stat().st_mode & 0o777 == 0o755

@@ -63,6 +63,8 @@ async def test_a_database_of_a_newer_program_is_not_touched(
     engine = create_engine(url or f"sqlite:///{tmp_path / 'records.sqlite3'}")
     with engine.begin() as connection:
         connection.execute(text("UPDATE alembic_version SET version_num = '0999'"))
+        if url is None:
+            connection.execute(text("PRAGMA user_version = 999"))
     engine.dispose()
     with pytest.raises(
         CannotOpen, match="of a newer program.*revision '0999', this program knows up to '0002'"
