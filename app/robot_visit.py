@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from app.connector import Connector
-from app.link.camera_decoder import PICTURE
+from app.link.camera_decoder import PICTURE, REFUSED
 from app.link.feeds import Post
 from app.pages import Pages
 from app.screens.connect.connect import ConnectScreen
@@ -86,6 +86,8 @@ class RobotVisit:
         """Something came from the robot."""
         if channel == PICTURE:
             self._pictures.show(post.value, post.received, self._pages.shell, self.session)
+        elif channel == REFUSED:
+            self._pictures.refuse(post.value)
         elif self.session is not None:
             self.session.deliver(channel, post)
             self._records.put(channel, post.value)

@@ -1,4 +1,7 @@
-"""Makes pixels of camera frames, in a thread of its own; newest wins."""
+"""Makes pixels of camera frames, in a thread of its own; newest wins.
+
+The robot, or whoever plays one, made the picture: its format and size are checked before any decoder sees it.
+"""
 
 from __future__ import annotations
 
@@ -6,22 +9,27 @@ import importlib
 import importlib.util
 import io
 import logging
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from app.core.newest_worker import NewestWorker
 from app.link.feeds import Mailbox
-from bridge.core.camera_frames import Frame
+from bridge.core.camera_frames import Frame, picture_size
+from bridge.core.errors import ProtocolError
 
-__all__ = ["PICTURE", "CameraDecoder", "Picture", "best_decoder"]
+__all__ = ["PICTURE", "REFUSED", "CameraDecoder", "Picture", "best_decoder"]
 
 log = logging.getLogger(__name__)
 
-PICTURE = "picture"
-"""Channel of the mailbox with decoded pictures."""
+PICTURE, REFUSED = "picture", "picture refused"
+"""Channels of the mailbox with decoded pictures, and with why the last one was not decoded, in one sentence."""
+LOG_PERIOD = 60.0
+"""Between two log lines about pictures that were not decoded [s]."""
+FORMATS = ("JPEG", "PNG")
 
 Decoder = Callable[[bytes], tuple[int, int, bytes]]
-"""JPEG to width [px], height [px] and RGBA rows from the top; ValueError or OSError for what is none."""
+"""A checked JPEG or PNG file to width [px], height [px] and RGBA rows from the top; ValueError or OSError for what is none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +57,8 @@ def best_decoder() -> Decoder:
 
 def _simplejpeg(module: object) -> Decoder:
     def decode(jpeg: bytes) -> tuple[int, int, bytes]:
+        if not jpeg.startswith(b"\xff\xd8"):
+            return _kivy(jpeg)
         rows = module.decode_jpeg(jpeg, "RGBA")  # type: ignore[attr-defined]
         height, width = rows.shape[:2]
         return width, height, rows.tobytes()
@@ -58,7 +68,7 @@ def _simplejpeg(module: object) -> Decoder:
 
 def _pillow(module: object) -> Decoder:
     def decode(jpeg: bytes) -> tuple[int, int, bytes]:
-        with module.open(io.BytesIO(jpeg)) as image:  # type: ignore[attr-defined]
+        with module.open(io.BytesIO(jpeg), formats=FORMATS) as image:  # type: ignore[attr-defined]
             rgb = image.convert("RGB")
         return rgb.width, rgb.height, rgb.tobytes("raw", "RGBX")
 
@@ -68,8 +78,11 @@ def _pillow(module: object) -> Decoder:
 def _kivy(jpeg: bytes) -> tuple[int, int, bytes]:
     from kivy.core.image import ImageLoader
 
-    able = next(one for one in ImageLoader.loaders if one.can_load_memory() and "jpg" in one.extensions())
-    loaded = able("frame.jpg", ext="jpg", rawdata=io.BytesIO(jpeg), inline=True, nocache=True, keep_data=True)
+    ext = "jpg" if jpeg.startswith(b"\xff\xd8") else "png"
+    able = next(one for one in ImageLoader.loaders if one.can_load_memory() and ext in one.extensions())
+    loaded = able(
+        f"frame.{ext}", ext=ext, rawdata=io.BytesIO(jpeg), inline=True, nocache=True, keep_data=True
+    )
     (data,) = loaded._data  # noqa: SLF001 - the public way makes a texture, which only the UI thread may
     pixels = data.data
     if data.fmt == "rgb":
@@ -88,7 +101,8 @@ class CameraDecoder:
         self._mailbox, self._decode = mailbox, decode
         self._worker: NewestWorker[tuple[Frame, float]] = NewestWorker(self._work, "camera")
         self.bad = 0
-        """Frames that were no picture."""
+        """Frames that were no picture, or too large a one."""
+        self._said_at = -math.inf
 
     def show(self, frame: Frame, received: float) -> None:
         """Decode a frame that came at `received` [s], our clock; a newer one takes its place in the queue."""
@@ -103,10 +117,20 @@ class CameraDecoder:
         if self._decode is None:
             self._decode = best_decoder()
         try:
+            picture_size(frame.jpeg)
             width, height, rgba = self._decode(frame.jpeg)
+        except ProtocolError as error:
+            self._refuse(str(error), received)
+            return
         except Exception as error:  # noqa: BLE001 - decoders raise what they like at a damaged picture
-            self.bad += 1
-            log.info("frame %d is no picture: %s", frame.seq, error)
+            self._refuse("The picture is damaged.", received, error)
             return
         picture = Picture(frame.seq, frame.stamp, width, height, rgba, (frame.width, frame.height))
         self._mailbox.post(PICTURE, picture, received, urgent=True)
+
+    def _refuse(self, sentence: str, received: float, error: Exception | None = None) -> None:
+        self.bad += 1
+        if received - self._said_at >= LOG_PERIOD:
+            self._said_at = received
+            log.info("%d frames were no picture; the last: %s %.200s", self.bad, sentence, error or "")
+        self._mailbox.post(REFUSED, sentence, received)

@@ -32,6 +32,13 @@ class ShownPicture(Protocol):
     @state.setter
     def state(self, value: str) -> None: ...
 
+    @property
+    def refusal(self) -> str:
+        """Why there is no newer picture, as a sentence; empty where nobody knows."""
+
+    @refusal.setter
+    def refusal(self, value: str) -> None: ...
+
 
 class PictureScreen(Protocol):
     """A screen, as far as pictures need it."""
@@ -61,13 +68,15 @@ class PictureFeed:
         self._recent: list[float] = []
         """When the pictures of the last second came [s]."""
         self._newest = math.nan
+        self._refusal = ""
+        """Why the picture after the newest was not decoded."""
         self._watched: str | None = None
 
     def show(
         self, picture: Picture, received: float, shell: PictureFrame | None, session: Session | None
     ) -> None:
         """Put a decoded picture on the screen that is on the glass; without a `shell` there is none."""
-        self._newest = received
+        self._newest, self._refusal = received, ""
         screen = shell.shown if shell is not None else None
         if screen is None:
             return
@@ -75,6 +84,10 @@ class PictureFeed:
         rate = float(len(self._recent)) if len(self._recent) > 1 else math.nan
         latency = session.link.robot_time() - picture.stamp if session and picture.stamp else math.nan
         screen.show_picture(picture, rate, latency if latency > 0 else math.nan)
+
+    def refuse(self, sentence: str) -> None:
+        """A picture came that is not decoded; the last good one stays, and grows old."""
+        self._refusal = sentence
 
     def judge(self, shell: PictureFrame) -> None:
         """A picture is believed for a second; after that it says how old it is."""
@@ -84,6 +97,7 @@ class PictureFeed:
             return
         age = self._now() - self._newest
         video.state = "never" if math.isnan(age) else "live" if age < PICTURE_LIVES else "stale"
+        video.refusal = self._refusal if video.state != "live" else ""
         if video.state == "stale" and not abs(age - video.age) < 0.5:
             video.age = age
 
@@ -102,4 +116,4 @@ class PictureFeed:
 
     def forget(self) -> None:
         """The robot is left: there is no picture and nothing is watched."""
-        self._watched, self._newest = None, math.nan
+        self._watched, self._newest, self._refusal = None, math.nan, ""

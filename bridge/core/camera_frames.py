@@ -2,6 +2,8 @@
 
 Header, big-endian: `PHF1`, sequence number (uint32), stamp (float64), width (uint32), height (uint32). The receiver
 answers each with the text `ack SEQ`.
+
+A picture that somebody else made is checked by `picture_size` before a decoder sees it: some kilobytes can ask for all memory.
 """
 
 from __future__ import annotations
@@ -11,7 +13,14 @@ from dataclasses import dataclass
 
 from bridge.core.errors import ProtocolError
 
-__all__ = ["Frame", "pack", "sequence", "unpack"]
+__all__ = ["MAX_PIXELS", "MAX_SIDE", "Frame", "pack", "picture_size", "sequence", "unpack"]
+
+MAX_SIDE = 8192
+"""Columns or rows of a picture that is decoded."""
+MAX_PIXELS = 4096 * 4096
+"""Pixels of a picture that is decoded: 64 MB in memory."""
+MAX_SCANS = 100
+"""Scans of a JPEG file that is decoded; each costs as much as the whole picture, and cameras make one to ten."""
 
 _HEADER = struct.Struct(">4sIdII")
 _MAGIC = b"PHF1"
@@ -53,3 +62,40 @@ def sequence(raw: bytes) -> int:
 def _check(raw: bytes) -> None:
     if len(raw) < _HEADER.size or raw[:4] != _MAGIC:
         raise ProtocolError(f"A camera frame must begin with {_MAGIC!r} and a header, not {raw[:8]!r}.")
+
+
+def picture_size(data: bytes) -> tuple[str, int, int]:
+    """Format, `jpeg` or `png`, columns and rows of a picture by its header. ProtocolError, in one sentence, for one
+    that is neither or is too large to be decoded."""
+    if data[:3] == b"\xff\xd8\xff":
+        kind, (columns, rows) = "jpeg", _jpeg_size(data)
+        if data.count(b"\xff\xda") > MAX_SCANS:
+            raise ProtocolError(f"A JPEG picture has at most {MAX_SCANS} scans.")
+    elif data[:8] == b"\x89PNG\r\n\x1a\n" and data[12:16] == b"IHDR" and len(data) >= 24:
+        kind, columns, rows = "png", int.from_bytes(data[16:20], "big"), int.from_bytes(data[20:24], "big")
+    else:
+        raise ProtocolError("The picture is neither JPEG nor PNG.")
+    if not (0 < columns <= MAX_SIDE and 0 < rows <= MAX_SIDE and columns * rows <= MAX_PIXELS):
+        limits = f"1 to {MAX_SIDE} px a side and {MAX_PIXELS // 10**6} megapixels at most"
+        raise ProtocolError(f"A picture has {limits}, not {columns} x {rows}.")
+    return kind, columns, rows
+
+
+def _jpeg_size(jpeg: bytes) -> tuple[int, int]:
+    """Columns and rows that the one frame header before the first scan says."""
+    sizes, at = [], 2
+    while at + 4 <= len(jpeg) and jpeg[at] == 0xFF:
+        marker = jpeg[at + 1]
+        if marker == 0xFF:  # a fill byte
+            at += 1
+            continue
+        if marker == 0xDA:
+            break
+        if 0xC0 <= marker <= 0xCF and marker not in (0xC4, 0xC8, 0xCC):
+            sizes.append(
+                (int.from_bytes(jpeg[at + 7 : at + 9], "big"), int.from_bytes(jpeg[at + 5 : at + 7], "big"))
+            )
+        at += 2 + max(2, int.from_bytes(jpeg[at + 2 : at + 4], "big"))
+    if len(sizes) != 1:
+        raise ProtocolError("The picture is no whole JPEG file.")
+    return sizes[0]

@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 
+from bridge.core.camera_frames import picture_size
+from bridge.core.errors import ProtocolError
 from robotside.mapping.connected_components import boxes
 
 __all__ = ["Sighting", "find_cones"]
@@ -61,10 +63,11 @@ class Sighting:
 def find_cones(jpeg: bytes) -> list[Sighting]:
     """The cones in a picture, best first; a picture that cannot be read shows none."""
     try:
-        with Image.open(io.BytesIO(jpeg)) as image:
+        picture_size(jpeg)
+        with Image.open(io.BytesIO(jpeg), formats=("JPEG",)) as image:
             image.draft("RGB", (SEARCH_WIDTH, SEARCH_WIDTH))
             rgb = np.asarray(image.convert("RGB"))
-    except (UnidentifiedImageError, OSError, ValueError):
+    except (ProtocolError, UnidentifiedImageError, OSError, ValueError):
         return []
     step = max(1, round(rgb.shape[1] / SEARCH_WIDTH))
     return _search(rgb[::step, ::step].astype(np.int16))

@@ -7,6 +7,7 @@ another's; this one does neither.
 from __future__ import annotations
 
 import io
+import logging
 import sqlite3
 from collections import OrderedDict
 from contextlib import closing
@@ -18,7 +19,15 @@ from kivy.core.image import Image as CoreImage
 from kivy.graphics.texture import Texture
 from kivy_garden.mapview.source import MapSource
 
-__all__ = ["MBTiles"]
+from bridge.core.camera_frames import picture_size
+from bridge.core.errors import ProtocolError
+
+__all__ = ["MAX_TILE_SIDE", "MBTiles"]
+
+log = logging.getLogger(__name__)
+
+MAX_TILE_SIDE = 1024
+"""Columns or rows of a tile that is shown [px]; tiles have 256 or 512, and each is decoded between two frames."""
 
 MAX_TILES_PER_FRAME = 6
 """Tiles read in one frame."""
@@ -44,6 +53,8 @@ class MBTiles(MapSource):
         """West, south, east, north of what it shows [deg]."""
         self._textures: OrderedDict[tuple[int, int, int], Texture | None] = OrderedDict()
         self._waiting: list[Any] = []
+        self.refused = 0
+        """Tiles that were no picture, or too large a one; they are shown as gaps."""
         self._read_some = Clock.create_trigger(self._read_waiting)
 
     def fill_tile(self, tile: Any) -> None:
@@ -92,9 +103,14 @@ class MBTiles(MapSource):
         ).fetchone()
         if row is None:
             return None
-        # Kivy keeps pictures by name, so the name must distinguish files
-        name = f"{self.path}/{zoom}/{x}/{y}"
-        return CoreImage(io.BytesIO(row[0]), ext=self.image_ext, filename=name, nocache=True).texture
+        try:
+            # Kivy keeps pictures by name, so the name must distinguish files
+            return _decoded(row[0], f"{self.path}/{zoom}/{x}/{y}")
+        except Exception as fault:  # noqa: BLE001 - decoders raise what they like at a damaged picture
+            self.refused += 1
+            if self.refused == 1:
+                log.warning("%s: tile %d/%d/%d is not shown: %.200s", self.path, zoom, x, y, fault)
+            return None
 
     def _connect(self) -> sqlite3.Connection:
         return sqlite3.connect(f"{self.path.absolute().as_uri()}?mode=ro", uri=True)
@@ -119,3 +135,14 @@ def _quarter(texture: Texture | None, right: int, upper: int) -> Texture | None:
         return None
     wide, high = texture.width / 2, texture.height / 2
     return texture.get_region(right * wide, upper * high, wide, high)
+
+
+def _decoded(data: object, name: str) -> Texture:
+    """The texture of a tile; ProtocolError, or what the decoder raises, for what is no small JPEG or PNG picture."""
+    if not isinstance(data, bytes):
+        raise ProtocolError("A tile is a picture, not text.")
+    kind, columns, rows = picture_size(data)
+    if max(columns, rows) > MAX_TILE_SIDE:
+        raise ProtocolError(f"A tile has at most {MAX_TILE_SIDE} px a side, not {columns} x {rows}.")
+    ext = "png" if kind == "png" else "jpg"
+    return CoreImage(io.BytesIO(data), ext=ext, filename=name, nocache=True).texture

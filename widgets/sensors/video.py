@@ -15,7 +15,14 @@ import numpy as np
 from kivy.graphics import Color, Rectangle, SmoothRoundedRectangle
 from kivy.graphics.texture import Texture
 from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, BooleanProperty, ListProperty, NumericProperty, OptionProperty
+from kivy.properties import (
+    AliasProperty,
+    BooleanProperty,
+    ListProperty,
+    NumericProperty,
+    OptionProperty,
+    StringProperty,
+)
 from kivy.uix.widget import Widget
 
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
@@ -60,7 +67,7 @@ class Video(Drawing):
     accepts: ClassVar = (Detection2DArray,)
     drawn_from: ClassVar = (
         "frame_size", "taken_size", "fit", "boxes", "rate", "latency", "age", "show_chip", "chip_room", "corner", "insets",
-        "below", "marks", "field_of_view",
+        "below", "marks", "field_of_view", "refusal",
     )  # fmt: skip
 
     frame_size: ListProperty[int] = ListProperty([0, 0])
@@ -79,6 +86,8 @@ class Video(Drawing):
     """Frames a second [Hz]; NaN when not known."""
     latency = NumericProperty(math.nan)
     """From the exposure to the screen [s]; NaN when not known."""
+    refusal = StringProperty("")
+    """Why no newer picture is shown, as a sentence; empty where nobody knows."""
     chip_room = NumericProperty(math.inf)
     """How wide the chip may be [px]: what is not needed to drive by is left out of a narrower one."""
     show_chip = BooleanProperty(True)
@@ -240,7 +249,7 @@ class Video(Drawing):
                 theme.muted,
                 font=theme.icons,
             )
-            yield Word("No picture yet", self.center_x, self.center_y - dp(16), sp(14), theme.muted)
+            yield self._refused(self.center_y - dp(16), theme.muted, "No picture yet")
         elif self.state == "stale":
             age = "" if math.isnan(self.age) else f" {self.age:.0f} s ago"
             words = f"Last picture{age}"
@@ -248,6 +257,12 @@ class Video(Drawing):
             low = min(self.center_y, self.below - dp(20))
             middle = low if low >= self.y + dp(16) else self.center_y
             yield Word(words, self.center_x, middle, size, theme.text, bold=True)
+            if self.refusal and middle - dp(24) >= self.y + dp(16):
+                yield self._refused(middle - dp(24), theme.text)
+
+    def _refused(self, y: float, colour: Any, otherwise: str = "") -> Word:
+        size = fitting_size([self.refusal], sp(14), self.width - dp(16)) if self.refusal else sp(14)
+        return Word(self.refusal or otherwise, self.center_x, y, size, colour)
 
     @property
     def late(self) -> bool:

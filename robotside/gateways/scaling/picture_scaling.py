@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 from PIL import Image
 
+from bridge.core.camera_frames import picture_size
 from bridge.core.errors import BridgeError
-from robotside.perception.intruder_watch import jpeg_size
 
 __all__ = ["LEVELS", "PictureScaler", "Superseded", "smaller"]
 
@@ -26,9 +26,6 @@ MAX_WAITING = 4
 
 MAX_CACHED = 8
 """Pictures kept for others who want the same."""
-
-MAX_SIDE = 8192
-"""Columns or rows of a picture that is still made smaller [px]; to read a larger one would take all memory."""
 
 
 class Superseded(BridgeError):
@@ -125,9 +122,8 @@ class PictureScaler:
 
 def smaller(jpeg: bytes, width: float | None, quality: int) -> bytes:
     """`jpeg` as `PictureScaler.make` describes, made at once; never wider than it was."""
-    columns, rows = jpeg_size(jpeg)
-    if max(columns, rows) > MAX_SIDE:
-        raise BridgeError(f"A picture has at most {MAX_SIDE} columns and rows, not {columns} x {rows}.")
+    if jpeg.startswith(b"\xff\xd8\xff"):  # what is no JPEG file at all is said below
+        picture_size(jpeg)
     try:
         with Image.open(io.BytesIO(jpeg), formats=("JPEG",)) as image:
             columns, rows = image.size

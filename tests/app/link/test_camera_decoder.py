@@ -8,7 +8,7 @@ import threading
 import pytest
 from PIL import Image
 
-from app.link.camera_decoder import PICTURE, CameraDecoder, Decoder, _kivy, _pillow, best_decoder
+from app.link.camera_decoder import PICTURE, REFUSED, CameraDecoder, Decoder, _kivy, _pillow, best_decoder
 from app.link.feeds import Mailbox
 from bridge.core.camera_frames import Frame
 
@@ -42,7 +42,7 @@ def test_a_damaged_picture_is_skipped_and_counted() -> None:
     camera.show(Frame(1, 5.0, 64, 32, b"no picture"), 1.0)
     camera.close()
     assert camera.bad == 1
-    assert mailbox.drain() == []
+    assert [channel for channel, _ in mailbox.drain()] == [REFUSED], "no picture"
 
 
 def test_a_decoded_picture_keeps_its_stamp_and_when_it_came() -> None:
@@ -66,6 +66,68 @@ def test_a_picture_is_decoded_in_a_thread_of_its_own() -> None:
         return 1, 1, bytes(4)
 
     camera = CameraDecoder(Mailbox(lambda: None), decode)
-    camera.show(Frame(1, 5.0, 1, 1, b""), 1.0)
+    camera.show(Frame(1, 5.0, 1, 1, jpeg()), 1.0)
     camera.close()
     assert [thread is not threading.current_thread() for thread in threads] == [True]
+
+
+def png() -> bytes:
+    out = io.BytesIO()
+    Image.new("RGB", (64, 32), (255, 0, 0)).save(out, "PNG")
+    return out.getvalue()
+
+
+@pytest.mark.parametrize("decode", [pillow(), best_decoder(), _kivy], ids=["pillow", "best", "kivy"])
+def test_a_png_is_a_picture_too(decode: Decoder) -> None:
+    width, height, rgba = decode(png())
+    assert (width, height, len(rgba), rgba[:3]) == (64, 32, 64 * 32 * 4, b"\xff\0\0")
+
+
+HUGE = "A picture has 1 to 8192 px a side and 16 megapixels at most, not 30000 x 20000."
+
+
+def bomb(kind: str) -> bytes:
+    """Few bytes that ask for a gigabyte and more."""
+    out = io.BytesIO()
+    Image.new("1" if kind == "PNG" else "L", (30000, 20000)).save(out, kind)
+    return out.getvalue()
+
+
+def gif() -> bytes:
+    out = io.BytesIO()
+    Image.new("L", (64, 32)).save(out, "GIF")
+    return out.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("data", "sentence"),
+    [
+        (bomb("PNG"), HUGE),
+        (bomb("JPEG")[:2000], HUGE),
+        (gif(), "The picture is neither JPEG nor PNG."),
+        (jpeg()[:60], "The picture is no whole JPEG file."),
+    ],
+    ids=["png", "jpeg", "gif", "cut"],
+)
+def test_a_bomb_never_reaches_a_decoder_and_it_is_said_why(data: bytes, sentence: str) -> None:
+    decoded: list[bytes] = []
+
+    def decode(data: bytes) -> tuple[int, int, bytes]:
+        decoded.append(data)
+        return 1, 1, bytes(4)
+
+    mailbox = Mailbox(lambda: None)
+    camera = CameraDecoder(mailbox, decode)
+    camera.show(Frame(1, 5.0, 1, 1, data), 1.0)
+    camera.close()
+    assert decoded == []
+    assert [(channel, post.value) for channel, post in mailbox.drain()] == [(REFUSED, sentence)]
+
+
+def test_a_stream_of_bad_pictures_makes_one_log_line_a_minute(caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level("INFO", "app.link.camera_decoder")
+    camera = CameraDecoder(Mailbox(lambda: None), pillow())
+    for second in range(120):
+        camera._work((Frame(second, 5.0, 1, 1, b"no picture"), float(second)))
+    assert camera.bad == 120
+    assert len([one for one in caplog.records if one.name == "app.link.camera_decoder"]) == 2

@@ -97,3 +97,20 @@ def test_a_picture_that_cannot_be_read_shows_none(cut: int) -> None:
     image, draw = picture()
     cone(draw, 200, 400, 100)
     assert find_cones(jpeg(image)[:cut]) == []
+
+
+@pytest.mark.parametrize("kind", ["PNG", "GIF", "BMP"])
+def test_a_picture_of_another_format_than_a_cameras_is_not_decoded(kind: str) -> None:
+    image, draw = picture()
+    cone(draw, 200, 400, 100)
+    assert find_cones(jpeg(image))
+    out = io.BytesIO()
+    image.save(out, kind)
+    assert find_cones(out.getvalue()) == []
+
+
+def test_a_picture_that_would_take_all_memory_is_not_decoded() -> None:
+    image, draw = picture(8200, 480)
+    cone(draw, 200, 400, 300)
+    assert find_cones(jpeg(image.crop((0, 0, 8190, 480))))
+    assert find_cones(jpeg(image)) == []

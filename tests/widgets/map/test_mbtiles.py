@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import pytest
 from PIL import Image
 
-from widgets.map.mbtiles import MAX_TILES_PER_FRAME, MBTiles
+from widgets.map.mbtiles import MAX_TILE_SIDE, MAX_TILES_PER_FRAME, MBTiles
 
 SHIPPED = Path(__file__).parents[3] / "widgets/data/parking_lot.mbtiles"
 PLAIN = {"format": "png", "minzoom": "3", "maxzoom": "5"}
@@ -133,3 +133,25 @@ def test_the_shipped_file_is_small_and_goes_down_to_a_few_centimetres():
     source = MBTiles(SHIPPED)
     assert (source.min_zoom, source.max_zoom) == (17, 22)
     assert SHIPPED.stat().st_size < 1_000_000
+
+
+def bomb(side: int) -> bytes:
+    """A small file whose header asks for a large picture."""
+    raw = io.BytesIO()
+    Image.new("1", (side, side)).save(raw, "PNG")
+    return raw.getvalue()
+
+
+@pytest.mark.parametrize(
+    "data",
+    [bomb(MAX_TILE_SIDE + 1), b"", b"no picture", picture("red")[:60], "text", None, b"GIF89a" + bytes(40)],
+    ids=["large", "empty", "words", "cut", "text", "null", "gif"],
+)
+def test_a_tile_that_is_no_small_picture_is_a_gap_and_is_not_decoded(tmp_path, stage, caplog, data):
+    tiles = {(4, 1, 2): data, (4, 2, 2): data, (4, 3, 2): picture("red")}
+    source = MBTiles(write(tmp_path / "a.mbtiles", PLAIN, tiles))
+    asked = [tile(*key) for key in tiles]
+    filled(source, stage, *asked)
+    assert [one.texture is not None for one in asked] == [False, False, True]
+    assert source.refused == 2
+    assert sum("is not shown" in record.getMessage() for record in caplog.records) == 1

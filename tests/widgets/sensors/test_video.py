@@ -192,3 +192,15 @@ def test_without_a_field_of_view_nothing_is_marked(stage):
     video = stage.show(Video(state="live", marks=[("1", 0.0)]), size=(640, 480))
     video.show_frame(640, 480, bytes(640 * 480 * 4))
     assert not list(video._pointers(Shapes()))
+
+
+def test_it_says_why_no_newer_picture_is_shown(video, stage):
+    video.refusal = "The picture is neither JPEG nor PNG."
+    stage.frames(2)
+    assert [word.text for word in video._sentence()][-1] == video.refusal
+    video.show_frame(64, 48, FRAME)
+    video.state, video.age = "stale", 5.0
+    stage.frames(2)
+    assert [word.text for word in video._sentence()] == ["Last picture 5 s ago", video.refusal]
+    video.refusal = ""
+    assert [word.text for word in video._sentence()] == ["Last picture 5 s ago"]
