@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
+from contextlib import suppress
+
 from bridge.core.codes import Code
 from robotside.core.notice import Notice
 from robotside.records import Records
@@ -16,6 +19,7 @@ class StopRecord:
     def __init__(self, records: Records, say: Say) -> None:
         self._records, self._say = records, say
         self._unkept = False
+        self._waiting: set[asyncio.Future[None]] = set()
         records.watch("facts", self._on_change)
 
     def note(self, by: str) -> None:
@@ -27,12 +31,36 @@ class StopRecord:
     def doubt(self) -> str:
         """Why a STOP that is pressed would be gone after a restart, as one sentence; empty when nothing says so."""
         records = self._records
-        if records.stop_kept or not (records.stopped_by and records.trouble):
+        if records.stop_kept or not records.stopped_by:
             return ""
+        if not records.trouble:
+            return "It is not saved yet: a restart of the robot's computer just now would release it."
         return f"A restart of the robot's computer would release it. {records.trouble}"
+
+    @property
+    def saving(self) -> bool:
+        """A STOP that is pressed is on its way to the disk, and nothing says that it does not arrive."""
+        records = self._records
+        return bool(records.stopped_by) and not (records.stop_kept or records.trouble)
+
+    async def saved(self, timeout: float) -> None:
+        """Wait until it is there or could not be written, `timeout` [s] at most."""
+        if not self.saving:
+            return
+        future = asyncio.get_running_loop().create_future()
+        self._waiting.add(future)
+        try:
+            with suppress(TimeoutError):
+                async with asyncio.timeout(timeout):
+                    await future
+        finally:
+            self._waiting.discard(future)
 
     def _tried(self) -> None:
         """What was noted is on the disk or could not be written."""
+        for future in self._waiting:
+            if not future.done():
+                future.set_result(None)
         if self._records.stop_kept:
             self._unkept = False
         elif not self._unkept:

@@ -15,6 +15,7 @@ from robotside.door.gate import OPEN, Gate
 from robotside.door.offered_topics import OfferedTopics
 from robotside.services.catalogue import catalogue
 from robotside.services.command_messages import listener
+from robotside.services.stop_answer import stop_answer
 from robotside.services.stop_services import press_stop
 from robotside.station.station import Station
 
@@ -80,14 +81,19 @@ class StationDoor(Door):
         """The newest message of a topic, None when there was none."""
         return self._station.bus.last(topic)
 
-    def stop(self, who: str) -> CommandResponse:
-        """Press STOP for `who`, who has no session; no success while the robot may not have obeyed."""
-        try:
-            return CommandResponse(True, press_stop(self._station, who))
-        except Refusal as refusal:
-            return CommandResponse(False, refusal.notice, **coded(refusal.notice))
-        finally:
+    async def stop(self, who: str) -> CommandResponse:
+        """Press STOP for `who`, who has no session; no success while the robot may not have obeyed.
+
+        STOP acts and is published at once; the answer comes when it is saved, or a moment later and says that it is not.
+        """
+        with self._station.records.together():
+            try:
+                answer = CommandResponse(True, press_stop(self._station, who))
+            except Refusal as refusal:
+                answer = CommandResponse(False, refusal.notice, **coded(refusal.notice))
             self._station.publish_control()
+        later = stop_answer(self._station, answer)
+        return later if isinstance(later, CommandResponse) else await later
 
     def close(self) -> None:
         """Let go of the station; no other call follows."""

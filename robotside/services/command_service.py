@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Generator
+from collections.abc import Awaitable, Callable
 from functools import partial
 from typing import Any
 
@@ -17,6 +17,7 @@ from robotside.core.refusal import Refusal
 from robotside.records import Job, NotRecorded
 from robotside.records.database.rows import Answered
 from robotside.services.command_log import CommandLog
+from robotside.services.stop_answer import Later, stop_answer
 from robotside.station.station import Station
 
 __all__ = ["Action", "CommandService"]
@@ -54,7 +55,7 @@ class CommandService:
         *,
         ageless: bool = False,
     ) -> Service:
-        """A service that runs `action` as a command. One that is `ageless` never waits for the disk."""
+        """A service that runs `action` as a command. One that is `ageless` is STOP, which waits for the disk for a moment only."""
 
         def call(client: Operator, asked: CommandRequest) -> CommandResponse | Awaitable[CommandResponse]:
             station = self._station
@@ -75,7 +76,7 @@ class CommandService:
                     told = Answered(sender, name, asked.command_id, to_json(answer).decode())
                     station.records.answers.keep(told)
             if ageless:
-                return answer
+                return stop_answer(station, answer)
             return self._answer((sender, name, asked.command_id), answer, job)
 
         return Service(name, f"pilothouse_msgs/{kind}", request, response, call)
@@ -91,7 +92,7 @@ class CommandService:
             return answer
         if key[2]:
             self._unwritten[key] = job
-        return _Later(partial(self._when_kept, key, answer, job))
+        return Later(partial(self._when_kept, key, answer, job))
 
     async def _when_kept(self, key: _Key, answer: CommandResponse, job: Job) -> CommandResponse:
         await job.kept(DISK_TIMEOUT)
@@ -117,13 +118,3 @@ def _done(action: Action, client: Operator, asked: CommandRequest) -> str | Comm
         return action(client, asked)
     except NotRecorded as problem:
         raise Refusal(problem.notice) from problem
-
-
-class _Later:
-    """An answer that takes its first step when it is awaited; one that is given up before then leaves nothing behind."""
-
-    def __init__(self, begin: Callable[[], Awaitable[CommandResponse]]) -> None:
-        self._begin = begin
-
-    def __await__(self) -> Generator[Any, None, CommandResponse]:
-        return self._begin().__await__()

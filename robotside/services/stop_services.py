@@ -34,7 +34,7 @@ def press_stop(station: Station, name: str, client_id: str = "", given: float = 
     if doubt:
         said = f"STOP is pressed, but {doubt[0].lower()}{doubt[1:]}"
         raise Refusal(Notice(Code.STOP_UNSURE, said))
-    return f"Stopped. {station.stop.unkept}".strip()
+    return "Stopped."
 
 
 class _StopOrders:

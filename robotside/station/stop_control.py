@@ -9,7 +9,7 @@ from collections.abc import Callable
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.autonomy.readiness import Readiness
-from robotside.control.command_gate import CommandGate
+from robotside.control.command_gate import SOMEBODY, CommandGate
 from robotside.control.guarded_robot import GuardedRobot
 from robotside.control.stop_consequences import still_moves
 from robotside.control.stop_record import StopRecord
@@ -51,6 +51,13 @@ class StopControl:
 
     def press(self, name: str, client_id: str = "", given: float = math.inf) -> None:
         """Latch STOP, as `CommandGate.stop` does, bring the robot to rest and hold the task; it was `given` now at the latest."""
+        self._press(name, client_id, given)
+        if (
+            self._ending and not self._records.stopped_by
+        ):  # the latch is this robot side's own already: what a person pressed meanwhile outlives it
+            self._latch.note(name or SOMEBODY)
+
+    def _press(self, name: str, client_id: str = "", given: float = math.inf) -> None:
         fresh = not self._controls.stopped
         self._controls.stop(name, client_id, min(given, self._clock()))  # before all that may fail
         self._port_fault = ""
@@ -86,7 +93,7 @@ class StopControl:
         """Press STOP for the last time, for `name`; that is the robot side's own and not kept over the restart."""
         self.note()
         self._ending = True
-        self.press(name)
+        self._press(name)
 
     def note(self) -> None:
         """Keep whether STOP is pressed for a restart."""
@@ -102,6 +109,15 @@ class StopControl:
     def unkept(self) -> str:
         """Why a STOP that is pressed would be gone after a restart, as one sentence; empty when it would not."""
         return self._latch.doubt
+
+    @property
+    def saving(self) -> bool:
+        """A STOP that is pressed is on its way to the disk."""
+        return self._latch.saving
+
+    async def saved(self, timeout: float) -> None:
+        """Wait until it is there or could not be written, `timeout` [s] at most."""
+        await self._latch.saved(timeout)
 
     def _try(self, act: Callable[[], None]) -> None:
         try:

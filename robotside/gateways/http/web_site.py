@@ -82,7 +82,7 @@ def site(door: StationDoor, bridge_url: Callable[[], str], streams: CameraStream
             raise HTTPException(
                 405, "STOP is pressed by POST, from anywhere and by anyone.", {"Allow": "POST"}
             )
-        return PlainTextResponse(*_stop(door, request))
+        return PlainTextResponse(*await _stop(door, request))
 
     return Starlette(
         routes=[
@@ -96,11 +96,11 @@ def site(door: StationDoor, bridge_url: Callable[[], str], streams: CameraStream
     )
 
 
-def _stop(door: StationDoor, request: Request) -> tuple[str, int]:
+async def _stop(door: StationDoor, request: Request) -> tuple[str, int]:
     """Press STOP for any client; one sentence and the status."""
     name = plain(request.query_params.get("name", ""), MAX_NAME_LENGTH)
     who = name or f"a browser at {request.client.host if request.client else 'an unknown address'}"
-    answer = door.stop(who)
+    answer = await door.stop(who)
     return f"{answer.message}\n", 200 if answer.success else 503
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+
 import pytest
 
 from bridge.msgs import Msg
@@ -15,10 +17,19 @@ def slow() -> Slow:
 
 
 def press(slow: Slow) -> str:
-    answer = slow.ask("/stop", CommandRequest(client_name="Anna"))
+    """Press STOP and let the disk be; what is answered."""
+
+    async def answered() -> Msg:
+        given = slow.ask("/stop", CommandRequest(client_name="Anna"))
+        return given if isinstance(given, Msg) else await given
+
+    answer = asyncio.run(answered())
     assert isinstance(answer, CommandResponse)
     assert answer.success
     return answer.message
+
+
+NOT_YET = "Stopped. It is not saved yet: a restart of the robot's computer just now would release it."
 
 
 def hear(slow: Slow) -> list[str]:
@@ -40,7 +51,7 @@ UNKEPT = (
 
 def test_a_stop_that_is_not_kept_is_pressed_and_says_so_until_it_is(slow: Slow) -> None:
     heard = hear(slow)
-    assert press(slow) == "Stopped."
+    assert press(slow) == NOT_YET
     slow.write(FULL)
     assert slow.station.controls.stopped
     assert heard == ["STOP pressed by Anna.", UNKEPT]
@@ -79,3 +90,75 @@ def test_a_stop_that_was_kept_is_not_talked_about(slow: Slow) -> None:
     press(slow)
     slow.write()
     assert heard == ["STOP pressed by Anna."]
+
+
+async def pressed(slow: Slow) -> asyncio.Task[Msg]:
+    """STOP is pressed, and its answer is waited for."""
+    given = slow.ask("/stop", CommandRequest(client_name="Anna"))
+    assert not isinstance(given, Msg)
+    task = asyncio.ensure_future(given)
+    await asyncio.sleep(0)
+    return task
+
+
+async def test_stop_acts_and_is_told_before_it_is_saved_and_answered_when_it_is(slow: Slow) -> None:
+    task = await pressed(slow)
+    assert slow.station.controls.stopped
+    assert slow.robot.at_rest
+    assert slow.last("/control/status").stopped
+    again = await pressed(slow)
+    assert (task.done(), again.done()) == (False, False), (
+        "the second has nothing to write and waits with the first"
+    )
+    slow.write()
+    for each in (task, again):
+        answer = await each
+        assert isinstance(answer, CommandResponse)
+        assert (answer.success, answer.message) == (True, "Stopped.")
+    slow.restart()
+    assert slow.station.controls.stopped_by == "Anna"
+
+
+async def test_a_disk_that_fails_meanwhile_is_in_the_answer(slow: Slow) -> None:
+    task = await pressed(slow)
+    slow.write(FULL)
+    answer = await task
+    assert isinstance(answer, CommandResponse)
+    assert answer.message == f"Stopped. A restart of the robot's computer would release it. {FULL}"
+
+
+async def test_a_stop_by_who_has_no_session_is_answered_as_late(slow: Slow) -> None:
+    task = asyncio.ensure_future(slow.door.stop("a browser"))
+    await asyncio.sleep(0)
+    assert slow.station.controls.stopped
+    assert not task.done()
+    slow.write()
+    assert (await task).message == "Stopped."
+    late = asyncio.ensure_future(slow.door.stop("a browser"))
+    assert (await late).message == "Stopped.", "it is on the disk already"
+
+
+async def test_who_gives_up_waiting_leaves_nothing_behind_and_stop_pressed(slow: Slow) -> None:
+    task = await pressed(slow)
+    task.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await task
+    slow.write()
+    slow.restart()
+    assert slow.station.controls.stopped
+
+
+async def test_a_stop_pressed_while_the_robot_side_ends_outlives_it(slow: Slow) -> None:
+    slow.station.end()
+    task = await pressed(slow)
+    slow.write()
+    await task
+    slow.restart()
+    assert slow.station.controls.stopped_by == "Anna"
+
+
+def test_the_stop_of_a_robot_side_that_ends_does_not_outlive_it(slow: Slow) -> None:
+    slow.station.end()
+    slow.write()
+    slow.restart()
+    assert not slow.station.controls.stopped

@@ -90,14 +90,14 @@ def test_its_drive_commands_expire(gateway: MemoryGateway, scene: Scene) -> None
     assert scene.robot.at_rest
 
 
-def test_stop_by_one_gateway_holds_for_all(gateway: MemoryGateway, scene: Scene) -> None:
+async def test_stop_by_one_gateway_holds_for_all(gateway: MemoryGateway, scene: Scene) -> None:
     client = gateway.connect("carl")
     scene.drive(FULL)
     answer = ask(client, "/stop", client_name="Carl")
     assert (answer.success, scene.robot.at_rest, scene.station.controls.stopped_by) == (True, True, "Carl")
     scene.drive(FULL)
     assert scene.robot.at_rest
-    assert scene.door.stop("a browser").success
+    assert (await scene.door.stop("a browser")).success
     assert scene.station.controls.stopped_by == "Carl"
 
 

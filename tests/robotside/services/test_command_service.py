@@ -109,8 +109,8 @@ async def test_the_start_of_a_task_is_answered_when_its_run_is_kept_and_stands_i
     assert slow.station.autonomy.engine.running
 
 
-@pytest.mark.parametrize("service", ["/stop", "/control/acquire", "/control/release"])
-def test_stop_and_control_never_wait_for_the_disk(slow: Slow, service: str) -> None:
+@pytest.mark.parametrize("service", ["/control/acquire", "/control/release"])
+def test_control_never_wait_for_the_disk(slow: Slow, service: str) -> None:
     answer = slow.ask(service, CommandRequest(client_name="Anna"))
     assert isinstance(answer, Msg)
     assert answer.success  # type: ignore[attr-defined]

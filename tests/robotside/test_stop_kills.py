@@ -1,0 +1,83 @@
+"""`kill -9` of the real robot side right after it answered STOP: after the restart STOP is pressed."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import re
+import sys
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+from websockets.asyncio.client import connect
+
+ROOT = Path(__file__).parents[2]
+START_TIMEOUT = 60.0
+"""How long the robot's process may take to start [s]."""
+COMMAND = "-m robotside serve --robot sim:patrol --port 0 --http-port 0 --with-parent --state"
+
+
+@asynccontextmanager
+async def robot_side(state: Path) -> AsyncIterator[tuple[int, int]]:
+    """A robot side on what is kept in `state`, killed at the end; the ports of its bridge and its web site."""
+    process = await asyncio.create_subprocess_exec(
+        sys.executable, *COMMAND.split(), str(state), stdout=asyncio.subprocess.PIPE, cwd=ROOT
+    )
+    try:
+        assert process.stdout is not None
+        async with asyncio.timeout(START_TIMEOUT):
+            line = (await process.stdout.readline()).decode()
+        bridge, web = (re.search(rf"{name}=\S*?:(\d+)", line) for name in ("bridge", "http"))
+        assert bridge is not None, line
+        assert web is not None, line
+        yield int(bridge[1]), int(web[1])
+    finally:
+        process.kill()
+        await process.wait()
+
+
+async def by_bridge(port: int) -> bool:
+    """Press STOP on the rosbridge socket; whether it was answered as done."""
+    async with connect(f"ws://127.0.0.1:{port}", max_size=None) as socket:
+        await socket.send(json.dumps({"op": "call_service", "service": "/stop", "id": "stop"}))
+        async for text in socket:
+            told = json.loads(text)
+            if told.get("id") == "stop":
+                return bool(told["values"]["success"] and told["values"]["message"] == "Stopped.")
+    return False
+
+
+async def by_page(port: int) -> bool:
+    """Press STOP on the web site."""
+    reader, writer = await asyncio.open_connection("127.0.0.1", port)
+    request = (
+        f"POST /stop HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nContent-Length: 0\r\nConnection: close\r\n\r\n"
+    )
+    writer.write(request.encode())
+    head = await reader.readuntil(b"Stopped.\n")
+    writer.close()
+    return b" 200 " in head
+
+
+async def status(port: int) -> dict[str, Any]:
+    """The first `/control/status` that it tells."""
+    async with connect(f"ws://127.0.0.1:{port}", max_size=None) as socket:
+        await socket.send(json.dumps({"op": "subscribe", "topic": "/control/status"}))
+        async for text in socket:
+            told = json.loads(text)
+            if told["op"] == "publish":
+                return dict(told["msg"])
+    return {}
+
+
+@pytest.mark.parametrize("press", [by_bridge, by_page])
+async def test_a_stop_that_was_answered_is_pressed_after_a_kill(press: Any, tmp_path: Path) -> None:
+    for round in range(2):
+        state = tmp_path / str(round)
+        async with robot_side(state) as (bridge, web):
+            assert await press(bridge if press is by_bridge else web)
+        async with robot_side(state) as (bridge, _):
+            assert (await status(bridge))["stopped"]
