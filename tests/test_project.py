@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from bridge.generate.modules import MARK
-from scripts import code_table
+from scripts import code_table, permission_table
 from scripts.room_map import imported_names
 from scripts.topic_table import DOCUMENTS, with_table
 
@@ -40,6 +40,11 @@ def body_length(node: ast.FunctionDef | ast.AsyncFunctionDef) -> int:
     )
     start = first.end_lineno if spoken else node.lineno
     return node.end_lineno - start
+
+
+def test_the_table_of_roles_is_the_one_of_the_permissions():
+    text = permission_table.DOCUMENT.read_text()
+    assert permission_table.with_table(text) == text, "run python scripts/permission_table.py"
 
 
 def test_the_code_table_is_the_one_of_the_catalogue():
