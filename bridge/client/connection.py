@@ -10,7 +10,7 @@ import struct
 from collections.abc import AsyncIterator, Callable
 from functools import partial
 from typing import Any
-from urllib.parse import urlsplit
+from urllib.parse import urlsplit, urlunsplit
 
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.asyncio.connection import broadcast
@@ -20,7 +20,7 @@ from websockets.protocol import State
 
 from bridge.client import tls
 from bridge.client.credentials import Credentials
-from bridge.core.address import BadAddress, LinkLost, NotAccepted, WrongKey, cause, host_and_port, look_up
+from bridge.core.address import LinkLost, NotAccepted, NotProtected, WrongKey, cause, host_and_port, look_up
 from bridge.protocol import MAX_CLIENT_FRAME
 
 __all__ = ["Connection", "open_connection"]
@@ -31,8 +31,8 @@ _MAX_UNSENT_BYTES = 65536
 """A socket with more bytes than this waiting counts as full. TLS keeps what exceeds this in a buffer of its own."""
 _MAX_SENTENCE = 200
 """Longest sentence that is taken from a server's refusal [characters]."""
-_UNAUTHORIZED = 401
-"""HTTP status of a refused token."""
+_UNAUTHORIZED, _UPGRADE_REQUIRED = 401, 426
+"""HTTP status of a refused token, and of a refused connection without TLS."""
 _RETRANSMITS = 2
 """Offset of the retransmission count in Linux's `struct tcp_info` [byte]."""
 _RESET = struct.pack("ii", 1, 0)
@@ -189,16 +189,18 @@ async def open_connection(
     `open_timeout` [s] limits the look-up of the name, and again the opening of the connection. With `ping_interval`
     [s] the connection is closed when its other end no longer answers pings.
 
-    With `credentials` the other end has to prove by TLS that it has that robot's key before one byte is sent to it:
-    WrongKey where it does not, NotAccepted where it does not accept the token, BadAddress for a `ws://` address. A
-    `wss://` address without credentials opens without proof, and `Connection.fingerprint` tells which key was seen.
+    With `credentials` it is by TLS whatever the address says, and the other end has to prove that it has that robot's key
+    before one byte is sent to it: WrongKey where it does not, NotAccepted where it does not accept the token. A `wss://`
+    address without credentials opens without proof, and `Connection.fingerprint` tells which key was seen.
     """
     host, port = host_and_port(url)
     place = f"{host}:{port}"
+    parts = urlsplit(url)
+    secure = credentials is not None or parts.scheme == "wss"
     try:
         address = await look_up(host, open_timeout)
         ws = await _Connect(
-            url,
+            urlunsplit(parts._replace(scheme="wss" if secure else "ws")),
             host=address,
             port=port,
             compression=None,
@@ -211,7 +213,7 @@ async def open_connection(
             max_size=MAX_CLIENT_FRAME,
             user_agent_header=None,
             logger=_quiet_log(),
-            **_protection(url, credentials),
+            **_protection(credentials, secure=secure),
         )
     except WrongKey as error:
         name = (credentials and credentials.name) or "this robot"
@@ -231,11 +233,8 @@ async def open_connection(
     return Connection(ws, (address, port))
 
 
-def _protection(url: str, credentials: Credentials | None) -> dict[str, Any]:
-    """Options of an attempt: TLS where the address asks for it, and the token."""
-    secure = urlsplit(url).scheme == "wss"
-    if credentials is not None and not secure:
-        raise BadAddress(f"A paired robot is reached by wss:// only, not {url!r}: there it proves its key.")
+def _protection(credentials: Credentials | None, *, secure: bool) -> dict[str, Any]:
+    """Options of an attempt: TLS where it is `secure`, and the token."""
     token = credentials.token if credentials else ""
     headers = {"Authorization": f"Bearer {token}"} if token else None
     return {"additional_headers": headers} | ({"ssl": tls.context()} if secure else {})
@@ -250,7 +249,8 @@ def _refusal(place: str, response: Response) -> LinkLost:
         words = (response.body or b"")[:_MAX_SENTENCE].decode(errors="replace").partition("\n")[0].strip()
     if not words or not words.isprintable():
         return LinkLost(f"What answers at {place} is no robot (HTTP {response.status_code}).")
-    return LinkLost(f"{place} refuses: {words}")
+    kind = NotProtected if response.status_code == _UPGRADE_REQUIRED else LinkLost
+    return kind(f"{place} refuses: {words}")
 
 
 def _acknowledge_at_once(sock: socket.socket) -> None:

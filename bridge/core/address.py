@@ -13,7 +13,16 @@ from urllib.parse import urlsplit
 
 from bridge.core.link_state import LinkFault
 
-__all__ = ["BadAddress", "LinkLost", "NotAccepted", "WrongKey", "cause", "host_and_port", "look_up"]
+__all__ = [
+    "BadAddress",
+    "LinkLost",
+    "NotAccepted",
+    "NotProtected",
+    "WrongKey",
+    "cause",
+    "host_and_port",
+    "look_up",
+]
 
 
 class LinkLost(Exception):
@@ -37,6 +46,12 @@ class NotAccepted(LinkLost):
     """The robot does not know this client's token any more."""
 
     fault = LinkFault.NOT_ACCEPTED
+
+
+class NotProtected(LinkLost):
+    """The robot is reached by TLS only; another attempt without it makes no sense."""
+
+    fault = LinkFault.NOT_PROTECTED
 
 
 def host_and_port(url: str) -> tuple[str, int]:

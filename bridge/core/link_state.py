@@ -31,6 +31,8 @@ class LinkFault(enum.Enum):
     """The machine at the address does not have the robot's key."""
     NOT_ACCEPTED = "not_accepted"
     """The robot does not know this client's token any more."""
+    NOT_PROTECTED = "not_protected"
+    """The robot is reached by TLS only, and this link has none."""
 
 
 @dataclass(frozen=True)

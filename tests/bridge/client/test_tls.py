@@ -17,7 +17,7 @@ from bridge.client.camera_stream import CameraStream
 from bridge.client.client import Phase
 from bridge.client.connection import open_connection
 from bridge.client.credentials import Credentials
-from bridge.core.address import BadAddress, LinkLost, NotAccepted, WrongKey
+from bridge.core.address import LinkLost, NotAccepted, NotProtected, WrongKey
 from bridge.core.link_state import LinkFault
 from tests.bridge.certificates import served
 from tests.bridge.wires import Record, link
@@ -122,12 +122,28 @@ async def test_a_pin_without_a_token_sends_none():
         assert tokens == [None]
 
 
-@pytest.mark.parametrize("scheme", ["ws", "WS"])
-async def test_a_token_never_leaves_without_tls(scheme):
-    with pytest.raises(BadAddress, match="by wss:// only"):
-        await open_connection(
-            f"{scheme}://127.0.0.1:9", 5.0, credentials=Credentials(served("patrol")[1], TOKEN)
+@pytest.mark.parametrize("scheme", ["ws", "WS", "wss"])
+async def test_a_token_never_leaves_without_tls_whatever_the_address_says(scheme):
+    async with robot() as (url, fingerprint, tokens):
+        made = await open_connection(
+            url.replace("wss", scheme), 5.0, credentials=Credentials(fingerprint, TOKEN)
         )
+        assert (made.fingerprint, tokens) == (fingerprint, [f"Bearer {TOKEN}"])
+        await made.close()
+
+
+async def test_a_robot_that_wants_tls_says_so():
+    async def refuse(connection, _):
+        return connection.respond(http.HTTPStatus.UPGRADE_REQUIRED, "Connect by wss:// and pair.")
+
+    async def nothing(ws):
+        await ws.wait_closed()
+
+    async with serve(nothing, "127.0.0.1", 0, process_request=refuse, close_timeout=0.1) as listening:
+        place = f"127.0.0.1:{listening.sockets[0].getsockname()[1]}"
+        with pytest.raises(NotProtected) as raised:
+            await open_connection(f"ws://{place}", 5.0)
+        assert str(raised.value) == f"{place} refuses: Connect by wss:// and pair."
 
 
 async def test_a_redirect_is_not_followed():
