@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 __all__ = ["Child", "child"]
 
@@ -52,16 +52,28 @@ class Child:
 
 
 @contextmanager
-def child(module: str, *arguments: str, environment: Mapping[str, str] | None = None) -> Iterator[Child]:
-    """Run `python -m module arguments…`; at the end its standard input is closed, then it is terminated."""
+def child(
+    module: str,
+    *arguments: str,
+    environment: Mapping[str, str] | None = None,
+    log: IO[str] | None = None,
+    niceness: int = 0,
+) -> Iterator[Child]:
+    """Run `python -m module arguments…`; at the end its standard input is closed, then it is terminated.
+
+    Its standard error goes to `log`, to ours if None. With a `niceness` [1..19] it yields to processes that have none.
+    """
     process = subprocess.Popen(
         [sys.executable, "-m", module, *arguments],
         cwd=ROOT,
         env={**os.environ, **(environment or {})},
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
+        stderr=log,
         text=True,
     )
+    if niceness:
+        os.setpriority(os.PRIO_PROCESS, process.pid, niceness)
     try:
         yield Child(process)
     finally:
