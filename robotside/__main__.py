@@ -21,6 +21,7 @@ from robotside import options as said
 from robotside.core.clock import RobotClock
 from robotside.core.config import BadConfig, Config
 from robotside.core.robot import Robot
+from robotside.core.worker_thread import WorkerThread
 from robotside.foreign.foreign_robot import ForeignRobot
 from robotside.kinds.registry import kind_of
 from robotside.options import One, UserMistake
@@ -119,6 +120,7 @@ class _Fleet:
             config=config,
             civil=time.time,
             zone=local_zone(),
+            worker=kept.enter_context(WorkerThread(f"planning {number}")),
         )
         take_over(robot, records, station.events.say)
         return StationServer(station, self._clock, self._wall, Addresses(self._options.host, *ports))

@@ -20,6 +20,7 @@ from bridge.msgs.pilothouse_msgs import (
     Waypoint,
 )
 from robotside.core.config import DEFAULT_CONFIG, Config
+from robotside.core.worker import Worker
 from robotside.door.station_door import StationDoor
 from robotside.records import Records
 from robotside.records.database.rows import Content, empty
@@ -54,6 +55,7 @@ class Scene:
         config: Config = DEFAULT_CONFIG,
         *,
         civil: Callable[[], float] | None = None,
+        worker: Worker | None = None,
     ) -> None:
         self.now = self.clock = 1000.0
         self._speed = speed
@@ -70,6 +72,7 @@ class Scene:
             rng=random.Random(1),
             config=config,
             civil=civil,
+            worker=worker,
         )
         self.said: list[tuple[str, Msg]] = []
         self.station.bus.subscribe(None, lambda topic, msg: self.said.append((topic, msg)))
