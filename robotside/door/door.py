@@ -81,6 +81,11 @@ class Door:
         }
         """By topic to the robot, who else wants its messages."""
 
+    @property
+    def connected(self) -> set[str]:
+        """Ids of the people who are here and have proven it."""
+        return {each.identity.id for each in self._operators if each.identity.proven}
+
     def service(self, name: str) -> Service:
         """The service of that name; raises Refused when there is none."""
         known = self.services.get(name)

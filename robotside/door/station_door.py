@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
+from bridge.core.robot_catalogue import Service
 from bridge.core.topics import TOPICS, camera_topics
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import CommandResponse, RobotInfo
@@ -40,13 +42,16 @@ class Health(NamedTuple):
 class StationDoor(Door):
     """The door of one station; every gateway stands behind the same one."""
 
-    def __init__(self, station: Station, gate: Gate = OPEN) -> None:
-        """`gate` knows who may do what. Derived topics are those of the motors that the robot has told of by now."""
+    def __init__(self, station: Station, gate: Gate = OPEN, services: Iterable[Service] = ()) -> None:
+        """`gate` knows who may do what; `services` are those beside the station's own.
+
+        Derived topics are those of the motors that the robot has told of by now.
+        """
         self._station = station
         self._derived = DerivedTopics(station.bus)
-        services, actions = catalogue(station)
+        own, actions = catalogue(station)
         super().__init__(
-            services=services.values(),
+            services=(*own.values(), *services),
             actions=actions.values(),
             topics=(*TOPICS, *self._derived.topics),
             pictures=camera_topics(station.info.cameras).values(),
