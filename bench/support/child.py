@@ -58,10 +58,12 @@ def child(
     environment: Mapping[str, str] | None = None,
     log: IO[str] | None = None,
     niceness: int = 0,
+    own_session: bool = False,
 ) -> Iterator[Child]:
     """Run `python -m module arguments…`; at the end its standard input is closed, then it is terminated.
 
-    Its standard error goes to `log`, to ours if None. With a `niceness` [1..19] it yields to processes that have none.
+    Its standard error goes to `log`, to ours if None. With a `niceness` [1..19] it yields to processes that have none. In
+    a session of its own it does not get the Ctrl-C of ours.
     """
     process = subprocess.Popen(
         [sys.executable, "-m", module, *arguments],
@@ -71,6 +73,7 @@ def child(
         stdout=subprocess.PIPE,
         stderr=log,
         text=True,
+        start_new_session=own_session,
     )
     if niceness:
         os.setpriority(os.PRIO_PROCESS, process.pid, niceness)

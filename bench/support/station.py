@@ -48,14 +48,22 @@ class Serving:
 
 @contextmanager
 def serving(
-    module: str = "robotside", *more: str, state: str | None = None, log: IO[str] | None = None
+    module: str = "robotside",
+    *more: str,
+    state: str | None = None,
+    log: IO[str] | None = None,
+    own_session: bool = False,
 ) -> Iterator[Serving]:
     """Run `python -m module serve`, with the simulated patrol robot unless `more` says otherwise, until the end of the block.
 
-    With its records in the folder `state`; in a folder of its own if None. It logs to `log`, to our standard error if None.
+    With its records in the folder `state`; in a folder of its own if None. It logs to `log`, to our standard error if None;
+    `own_session` is as `child` has it.
     """
     options = ("serve", "--port", "0", "--http-port", "0", *more, "--state")
-    with tempfile.TemporaryDirectory() as own, child(module, *options, state or own, log=log) as process:
+    with (
+        tempfile.TemporaryDirectory() as own,
+        child(module, *options, state or own, log=log, own_session=own_session) as process,
+    ):
         while not (ready := READY.match(process.line())):
             pass
         yield Serving(process, ready[1], ready[2] or "")
