@@ -49,6 +49,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         if options.command == "offer":
             print(_offer(_catalogue(), as_json=options.json))
             return 0
+        if "run" in options:
+            return int(options.run(options))
         return _serve(options, lambda: not options.with_parent or os.getppid() == parent)
     except (UserMistake, BadConfig, BridgeError) as problem:
         print(f"robotside: {problem}", file=sys.stderr)

@@ -14,6 +14,7 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 
 from spake2 import SPAKE2_B, SPAKEError
+from spake2.ed25519_basic import NotOnCurve
 
 from bridge.core.codes import Code
 from bridge.core.errors import Refused
@@ -180,8 +181,10 @@ class Pairing:
         spake = SPAKE2_B(offer.digits.encode(), idA=handheld, idB=robot)
         try:
             own, theirs = spake.start(), bytes.fromhex(message[: 2 * _MESSAGE_LENGTH + 1])
+            if len(theirs) != _MESSAGE_LENGTH:
+                raise ValueError("wrong length")
             key = spake.finish(theirs)
-        except (ValueError, AssertionError, IndexError, SPAKEError) as error:
+        except (ValueError, NotOnCurve, SPAKEError) as error:
             raise Refused("The message is none of SPAKE2.") from error
         self._keep(connection, _Session(host, now + SESSION_TIMEOUT, offer, offer.digits, key))
         sent: str = own.hex()

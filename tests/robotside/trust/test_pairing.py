@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+
 import pytest
 from spake2 import SPAKE2_A
 
@@ -221,6 +223,17 @@ class TestACode:
         robot.pairing.open(Role.DRIVE)
         with pytest.raises(Refused, match="none of SPAKE2"):
             robot.pairing.begin("c", FAR, "", message)
+
+    def test_no_message_of_the_right_length_does_anything_else(self, robot: Robot) -> None:
+        robot.pairing.open(Role.DRIVE)
+        refused = 0
+        for number in range(40):
+            message = "41" + hashlib.sha256(bytes([number])).hexdigest()
+            try:
+                robot.pairing.begin("c", f"192.0.2.{number}:1", "", message)
+            except Refused:
+                refused += 1
+        assert refused > 10  # half of all are on no curve, and most of the others not in the group
 
     def test_strangers_cannot_make_the_tries_grow(self, robot: Robot) -> None:
         offer = robot.pairing.open(Role.DRIVE)
