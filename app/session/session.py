@@ -92,6 +92,11 @@ class Session:
         return self.logbook.known.boot
 
     @property
+    def fingerprint(self) -> str:
+        """Of the certificate that the robot has shown over the link that stands; empty without one."""
+        return self.link.health.fingerprint
+
+    @property
     def control_status(self) -> ControlStatus | None:
         """The robot's newest word of control and STOP; None before the first."""
         status: ControlStatus | None = self.feeds.latest("/control/status")
