@@ -15,6 +15,7 @@ from robotside.door.derived_topics import DerivedTopics
 from robotside.door.door import Door
 from robotside.door.gate import OPEN, Gate
 from robotside.door.offered_topics import OfferedTopics
+from robotside.services.audit_trail import AuditTrail
 from robotside.services.catalogue import catalogue
 from robotside.services.command_messages import listener
 from robotside.services.stop_answer import stop_answer
@@ -49,14 +50,18 @@ class StationDoor(Door):
         """
         self._station = station
         self._derived = DerivedTopics(station.bus)
-        own, actions = catalogue(station)
+        self.trail = AuditTrail(station.records.audit, station.clock)
+        """What is done through this door, for the audit log."""
+        self._leave = station.bus.subscribe("/control/status", self._on_control)
+        own, actions = catalogue(station, self.trail)
         super().__init__(
-            services=(*own.values(), *services),
+            services=(*own.values(), *map(self.trail.watched, services)),
             actions=actions.values(),
             topics=(*TOPICS, *self._derived.topics),
             pictures=camera_topics(station.info.cameras).values(),
             bus=station.bus,
             gate=gate,
+            trail=self.trail,
             now=station.clock,
             on_message=listener(station),
             on_demand=self._want,
@@ -97,12 +102,17 @@ class StationDoor(Door):
             except Refusal as refusal:
                 answer = CommandResponse(False, refusal.notice, **coded(refusal.notice))
             self._station.publish_control()
+            self.trail.stopped(who, "http", outcome="done" if answer.success else f"refused {answer.code}")
         later = stop_answer(self._station, answer)
         return later if isinstance(later, CommandResponse) else await later
 
     def close(self) -> None:
         """Let go of the station; no other call follows."""
         self._derived.close()
+        self._leave()
+
+    def _on_control(self, *_: object) -> None:
+        self.trail.control(self._station.controls.driver)
 
     def _want(self, topic: str, wanted: bool) -> None:
         self._derived.want(topic, wanted)
