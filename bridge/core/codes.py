@@ -36,6 +36,13 @@ class Code(StrEnum):
     STOP_KEPT = "stop_kept", "A restart would no longer undo that STOP is pressed or released.", "state"
     STOP_IS_PRESSED = "stop_is_pressed", "STOP has to be released first."
     STOP_UNSURE = "stop_unsure", "STOP is pressed and may not have reached the robot."
+    STOP_NOT_HELD = "stop_not_held", "STOP is released by a hold of a second, which was not begun or is over."
+    STOP_HELD_SHORT = "stop_held_short", "STOP was not held long enough to be released.", "seconds"
+    STOP_RELEASED_LATELY = (
+        "stop_released_lately",
+        "STOP was released lately and cannot be again yet.",
+        "seconds",
+    )
     STOP_PRESSED_SINCE = "stop_pressed_since", "STOP was pressed after its release was requested."
 
     # trust

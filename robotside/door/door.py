@@ -26,7 +26,7 @@ __all__ = ["URGENT", "Door"]
 log = logging.getLogger(__name__)
 
 URGENT = frozenset(
-    {"/stop", "/stop/release"}
+    {"/stop", "/stop/hold", "/stop/release"}
     | {f"/control/{what}" for what in ("acquire", "release", "request", "grant", "object")}
 )
 """Services whose calls are always taken and whose answers go before everything else."""

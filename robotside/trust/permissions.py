@@ -43,6 +43,7 @@ _DRIVE = (
     "run /task/run",
     f"relay {ANY}",
     f"advertise {ANY}",
+    "call /stop/hold",
     "call /stop/release",
     "call /control/acquire",
     "call /control/release",

@@ -8,6 +8,7 @@ import pytest
 
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Event
+from tests.fakes import FakeClient
 from tests.robotside.slow import FULL, Slow
 
 
@@ -77,7 +78,10 @@ def test_a_release_that_is_not_kept_says_that_stop_will_be_pressed_again(slow: S
     press(slow)
     slow.write()
     heard = hear(slow)
-    slow.ask("/stop/release", CommandRequest(client_name="Anna"))
+    client = FakeClient("anna", slow.clock)
+    slow.door.call(client, "/stop/hold", CommandRequest(client_name="Anna"))
+    slow.clock += 1.5
+    slow.door.call(client, "/stop/release", CommandRequest(client_name="Anna"))
     slow.write(FULL)
     said = (
         f"That STOP is released could not be saved: a restart of the robot's computer would press it. {FULL}"
