@@ -22,14 +22,13 @@ from websockets.frames import CloseCode, Frame, Opcode
 from websockets.protocol import Event, State
 
 from bridge.server.flow.send_queue import TURN_TIME, WriteBatch
+from bridge.server.reception.places import Place
 
 __all__ = ["MessageHandler", "CallbackConnection"]
 
 log = logging.getLogger(__name__)
 T = TypeVar("T")
 
-MAX_CONNECTIONS = 128
-"""Most open connections; one more closes the oldest one that has not shaken hands, or itself."""
 MAX_PIECES = 1000
 """Most frames of one message."""
 PIECE_BYTES = 32_768
@@ -60,8 +59,12 @@ class CallbackConnection(ServerConnection):
     clock = staticmethod(time.monotonic)
     batch: WriteBatch | None = None
     """Gathers the frames written in one step of the loop; set by the server."""
-    connections: dict[CallbackConnection, None] | None = None
-    """All connections of one server, the oldest first; set by the server."""
+    place: Place | None = None
+    """Its place on the server's socket; set by the reception."""
+    below: asyncio.Transport | None = None
+    """The socket's own transport under an encrypted one; set by the reception."""
+    on_lost: Callable[[], None] | None = None
+    """Called once when the connection is gone; set by the server."""
     _handler: MessageHandler | None = None
     _direct = False
     """Messages go to the handler as they arrive: none waits in the library."""
@@ -99,7 +102,8 @@ class CallbackConnection(ServerConnection):
 
     async def serve(self, handler: MessageHandler) -> None:
         """Pass everything to `handler` until the connection ends; ConnectionClosed when it ends badly."""
-        self.transport.set_write_buffer_limits(high=0)
+        if self.below is None:  # under TLS the reception has seen to it
+            self.transport.set_write_buffer_limits(high=0)
         self._handler = handler
         try:
             while self._queued or self._incomplete:
@@ -119,26 +123,18 @@ class CallbackConnection(ServerConnection):
         if self.close_code not in (CloseCode.NORMAL_CLOSURE, CloseCode.GOING_AWAY):
             raise self.close_exc
 
-    def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Admit the connection if there is room, or another one that has not shaken hands."""
-        super().connection_made(transport)
-        if self.connections is None:
-            return
-        self.connections[self] = None
-        if len(self.connections) > MAX_CONNECTIONS:
-            strangers = (other for other in self.connections if other.protocol.state is State.CONNECTING)
-            oldest = next(strangers, self)
-            del self.connections[oldest]
-            oldest.transport.abort()
-
     def connection_lost(self, exc: Exception | None) -> None:
-        """Remove the connection."""
-        if self.connections is not None:
-            self.connections.pop(self, None)
+        """Leave its place."""
+        if self.place is not None:
+            self.place.leave()
         super().connection_lost(exc)
+        if self.on_lost is not None:
+            self.on_lost()
 
     def data_received(self, data: bytes) -> None:
         """Handle data from the network; much of it in pieces, with a turn for others between them."""
+        if self.place is not None:
+            self.place.hear()
         if self._waits:
             self._unread += data
         elif self._direct and len(data) > PIECE_BYTES:
@@ -265,6 +261,8 @@ class CallbackConnection(ServerConnection):
         # a goodbye that came in the same breath as this message has closed the protocol already; it was still sent before
         if self._closed:
             return
+        if self.place is not None:
+            self.place.asked = True
         if self._behind:
             self._undelivered.append(message)  # of one piece, so they are few or small
             return

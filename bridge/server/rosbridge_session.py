@@ -44,6 +44,8 @@ from bridge.server.flow.outgoing_messages import OutgoingMessage, op_frames
 from bridge.server.flow.priority_lanes import Lane, Stream
 from bridge.server.flow.round_trip import RoundTrip
 from bridge.server.flow.send_queue import TURN_TIME, FrameWriter, SendQueue, WriteBatch
+from bridge.server.reception.credentials import introduce
+from bridge.server.reception.places import FULL, Place
 from bridge.server.server_context import ServerContext
 from bridge.server.service_operations import ServiceOperations
 from bridge.server.topic_operations import TopicOperations
@@ -52,24 +54,34 @@ __all__ = ["RosbridgeSession"]
 
 log = logging.getLogger(__name__)
 
+_ON_RESERVE = (Auth, CallService, SetLevel)
+"""Operations that are heard on a place of the reserve; of calls STOP and the time are answered."""
+
 
 class RosbridgeSession:
     """One client of the rosbridge protocol; a `MessageHandler` of its connection."""
 
     def __init__(
-        self, writer: FrameWriter, batch: WriteBatch, operator: Operator, context: ServerContext
+        self,
+        writer: FrameWriter,
+        batch: WriteBatch,
+        operator: Operator,
+        context: ServerContext,
+        place: Place | None = None,
     ) -> None:
-        """`writer` is the connection, `batch` gathers what leaves in this step of the loop."""
+        """`writer` is the connection, `batch` gathers what leaves in this step of the loop, `place` is that of the
+        connection."""
         self.protocol = ServerSession(context.compat)
         """The state of the protocol: subscriptions, advertisements, pending calls and goals."""
         self.operator = operator
         self.queue = SendQueue(writer, batch, operator.address)
         self._context = context
+        self._place = place
         self._clock = asyncio.get_running_loop().time
         self._round_trip = RoundTrip(operator.opened)
         self._faults = ClientFaults(operator.address)
         self._topics = TopicOperations(self, operator, self.queue, context)
-        self._services = ServiceOperations(self, operator, context)
+        self._services = ServiceOperations(self, operator, context, self._only_stop)
         self._goals = ActionGoals(self, operator, self.queue, context.door, context.client_services)
         self._unhandled: deque[Arrival] = deque()
         self._handlers = self._make_handlers()
@@ -121,6 +133,7 @@ class RosbridgeSession:
         except Refused as refusal:
             level, said = "error", str(refusal)
         else:
+            introduce(self.operator, self._place, self._context.now())
             identity = self.operator.identity
             said = f"You are {identity.name}, with the role {identity.role.word}."
         self.send(Status(id=op.id, level=level, msg=said))
@@ -206,6 +219,8 @@ class RosbridgeSession:
     def _handle(self, arrival: Arrival) -> None:
         try:
             handler = self._handlers.get(type(arrival))
+            if handler is not None and self._only_stop() and not isinstance(arrival, _ON_RESERVE):
+                raise ProtocolError(FULL)
             if handler is not None:
                 handler(arrival)
             elif isinstance(arrival, ProtocolError):
@@ -214,6 +229,9 @@ class RosbridgeSession:
                 raise ProtocolError(f"{arrival.__struct_config__.tag} is not for a server.")
         except ProtocolError as error:
             self._report(error, arrival)
+
+    def _only_stop(self) -> bool:
+        return self._place is not None and self._place.only_stop
 
     def _note_round_trip(self) -> None:
         self.operator.rtt, self.operator.answered = self._round_trip.rtt, self._round_trip.answered

@@ -14,6 +14,7 @@ import errno
 import logging
 import re
 import socket
+import ssl
 import time
 from collections.abc import Callable, Iterable, Mapping
 from http import HTTPStatus
@@ -38,7 +39,11 @@ from bridge.server.flow.outgoing_messages import Reduce
 from bridge.server.flow.quality_levels import QualityLevels, Shrink
 from bridge.server.flow.round_trip import PING_PERIOD
 from bridge.server.flow.send_queue import WriteBatch
+from bridge.server.handshakes import Handshakes, address_of
 from bridge.server.node_graph import NodeGraph
+from bridge.server.reception.pages import PagePolicy
+from bridge.server.reception.places import Limits
+from bridge.server.reception.reception import Reception, anyone
 from bridge.server.rosapi.parameters import Parameters
 from bridge.server.rosapi.services import RosApi
 from bridge.server.rosbridge_session import RosbridgeSession
@@ -53,6 +58,8 @@ _CAMERA_PATH = re.compile(r"/camera/([\w-]+)/?(?:\?.*)?$")
 _MAX_UNSENT_BYTES = 65536
 """Most bytes that wait for one client in this process and again in the kernel; then newer messages replace older ones."""
 
+LIMITS = Limits()
+"""Connections that a server has at a time, where nothing else is asked for."""
 _DEAD_TIMEOUT = 15_000
 """A client that leaves data unacknowledged for this long is disconnected by the kernel [ms]."""
 _CHECK_PERIOD = 1.0
@@ -83,6 +90,7 @@ class BridgeServer:
         reduce: Reduce | None = None,
         params: Mapping[str, Any] | None = None,
         compat: Compat | None = None,
+        limits: Limits = LIMITS,
     ) -> None:
         """`now` is the operators' clock [s], the answer of `/rosapi/get_time`.
 
@@ -90,7 +98,7 @@ class BridgeServer:
         any; their frames come by `publish_frame`. `shrink` makes pictures smaller for slow watchers; without it they only
         come less often. `reduce` makes less of a message for subscribers that ask for fewer beams, smaller pictures or
         coarser maps; pictures and maps are reduced in a worker thread. `params` are the initial parameters of
-        `/rosapi/get_param`.
+        `/rosapi/get_param`. `limits` says how many connections there may be.
         """
         self.port = 0
         """Port that it listens on; 0 until started."""
@@ -119,7 +127,9 @@ class BridgeServer:
         self._cameras = None if cameras is None else frozenset(cameras)
         self._levels = QualityLevels(shrink)
         self._open: set[ServerConnection] = set()
-        self._connections: dict[CallbackConnection, None] = {}
+        self._limits = limits
+        self._reception = Reception(limits)
+        self._handshakes = Handshakes(door, PagePolicy(), now)
         self._server: Server | None = None
         self._batch: WriteBatch | None = None
         self._tasks: set[asyncio.Task[None]] = set()
@@ -129,8 +139,22 @@ class BridgeServer:
         """The connected clients; watchers of a camera are not among them."""
         return set(self._clients)
 
-    async def start(self, host: str = "127.0.0.1", port: int = 9090) -> None:
-        """Begin to listen; port 0 takes a free one. BridgeError when that is not possible."""
+    async def start(
+        self,
+        host: str = "127.0.0.1",
+        port: int = 9090,
+        *,
+        tls: ssl.SSLContext | None = None,
+        plain_from: Callable[[str], bool] = anyone,
+        pages: PagePolicy | None = None,
+    ) -> None:
+        """Begin to listen; port 0 takes a free one. BridgeError when that is not possible.
+
+        With `tls` clients may come encrypted, on the same port; `plain_from(host)` says who may come without.
+        `pages` are the web pages that may connect, by default none.
+        """
+        self._handshakes = Handshakes(self._door, pages or PagePolicy(), self._context.now)
+        self._reception = Reception(self._limits, tls=tls, plain_from=plain_from)
         self._batch = WriteBatch(asyncio.get_running_loop().call_soon)
         try:
             self._server = await serve(
@@ -138,6 +162,7 @@ class BridgeServer:
                 host,
                 port,
                 process_request=self._admit,
+                process_response=self._greet,
                 compression=None,
                 create_connection=self._connection,  # type: ignore[arg-type]  # it is only called
                 open_timeout=5,
@@ -166,12 +191,12 @@ class BridgeServer:
         if server is None:
             return
         server.close()
+        await self._reception.close()
         try:
             async with asyncio.timeout(_CLOSE_TIMEOUT):
                 await server.wait_closed()
         except TimeoutError:
-            for ws in list(self._open):
-                ws.transport.abort()
+            self._reception.places.give_up_all()
             await server.wait_closed()
 
     def publish(self, topic: str, msg: Msg) -> None:
@@ -194,40 +219,47 @@ class BridgeServer:
         else:
             self._wanted.pop(topic)()
 
-    def _connection(self, *args: Any, **options: Any) -> CallbackConnection:
-        connection = CallbackConnection(*args, **options)
-        connection.connections = self._connections
-        return connection
+    def _connection(self, *args: Any, **options: Any) -> asyncio.Protocol:
+        return self._reception.front(CallbackConnection(*args, **options))
 
-    def _admit(self, connection: ServerConnection, request: Request) -> Response | None:
-        camera = _CAMERA_PATH.match(request.path)
+    def _admit(self, ws: ServerConnection, request: Request) -> Response | None:
+        refusal = self._handshakes.refusal(ws, request)
+        camera = _camera(request)
         if camera is None:
-            connection.ping_interval = None  # a client's queue asks for signs of life itself
-        if camera is None or self._cameras is None or camera[1] in self._cameras:
-            return None
+            ws.ping_interval = None  # a client's queue asks for signs of life itself
+        if refusal or camera is None or self._cameras is None or camera in self._cameras:
+            return refusal
         names = ", ".join(sorted(self._cameras)) or "none"
-        return connection.respond(HTTPStatus.NOT_FOUND, f"No camera {camera[1]} here; there is: {names}.\n")
+        return ws.respond(HTTPStatus.NOT_FOUND, f"No camera {camera} here; there is: {names}.\n")
+
+    def _greet(self, ws: ServerConnection, request: Request, response: Response) -> Response | None:
+        if response.status_code != HTTPStatus.SWITCHING_PROTOCOLS or not isinstance(ws, CallbackConnection):
+            return None
+        return self._handshakes.join(ws, request, _camera(request))
 
     async def _serve(self, ws: ServerConnection) -> None:
+        operator = self._handshakes.joined.pop(ws, None) if isinstance(ws, CallbackConnection) else None
+        if operator is None or not isinstance(ws, CallbackConnection) or self._batch is None:
+            return
         _tune(ws)
-        camera = _CAMERA_PATH.match(ws.request.path) if ws.request else None
+        camera = _camera(ws.request)
         self._open.add(ws)
         try:
             if camera:
-                await self._serve_camera(ws, camera[1])
-            elif isinstance(ws, CallbackConnection) and self._batch is not None:
-                await self._serve_client(ws, self._batch)
+                await self._serve_camera(ws, camera)
+            else:
+                await self._serve_client(ws, operator, self._batch)
         except ConnectionClosed:
-            log.info("%s was cut off", _address(ws))
+            log.info("%s was cut off", address_of(ws))
         except Exception:
-            log.exception("Serving %s failed", _address(ws))
+            log.exception("Serving %s failed", address_of(ws))
         finally:
             self._open.discard(ws)
+            if camera:
+                self._door.leave(operator)
 
-    async def _serve_client(self, ws: CallbackConnection, batch: WriteBatch) -> None:
-        operator = self._door.join(_address(ws), way="rosbridge")
-        operator.on_expelled = ws.abort
-        client = RosbridgeSession(ws, batch, operator, self._context)
+    async def _serve_client(self, ws: CallbackConnection, operator: Operator, batch: WriteBatch) -> None:
+        client = RosbridgeSession(ws, batch, operator, self._context, ws.place)
         ws.batch = batch
         self._clients[operator] = client
         client.measure_round_trip()
@@ -263,9 +295,10 @@ class BridgeServer:
             self._switchboard.unwatch(watcher, camera)
 
 
-def _address(ws: ServerConnection) -> str:
-    host, port = (*(ws.remote_address or ("unknown", 0)),)[:2]
-    return f"{host}:{port}"
+def _camera(request: Request | None) -> str | None:
+    """The camera whose frames a request asks for."""
+    found = _CAMERA_PATH.match(request.path) if request else None
+    return found[1] if found else None
 
 
 def _tune(ws: ServerConnection) -> None:

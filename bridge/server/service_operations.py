@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Awaitable, Coroutine
+from collections.abc import Awaitable, Callable, Coroutine
 from typing import Any
 
 import msgspec
@@ -12,36 +12,45 @@ from msgspec import Raw
 
 from bridge.codec import to_json
 from bridge.core.async_tasks import cancel_all
-from bridge.core.errors import BridgeError
+from bridge.core.errors import BridgeError, Refused
 from bridge.core.robot_catalogue import Operator
 from bridge.msgs import Msg
 from bridge.protocol import MISSING, CallService, Id, ServiceResponse, arguments, service_and_id
 from bridge.server.client_services import Peer
 from bridge.server.flow.priority_lanes import Lane
+from bridge.server.reception.places import FULL
 from bridge.server.server_context import ServerContext
 
 __all__ = ["ServiceOperations"]
 
 log = logging.getLogger(__name__)
 
+STOP_SERVICE = "/stop"
 TIME_SERVICE = "/rosapi/get_time"
 """A client that has called it knows the offset of its clock from the operators' clock."""
+ON_RESERVE = (STOP_SERVICE, TIME_SERVICE)
+"""The services that are answered where all places are taken."""
 
 
 class ServiceOperations:
     """The calls that one client has made."""
 
-    def __init__(self, client: Peer, operator: Operator, context: ServerContext) -> None:
-        """Responses are sent by `client.send`."""
+    def __init__(
+        self, client: Peer, operator: Operator, context: ServerContext, only_stop: Callable[[], bool]
+    ) -> None:
+        """Responses are sent by `client.send`. While `only_stop()` nothing but STOP and the time is answered."""
         self._client = client
         self._operator = operator
         self._context = context
+        self._only_stop = only_stop
         self._tasks: set[asyncio.Task[None]] = set()
 
     def call(self, op: CallService) -> None:
         """Have a call answered, now or later; what fails is sent as the response."""
         name, id = service_and_id(op)
         try:
+            if self._only_stop() and name not in ON_RESERVE:
+                raise Refused(FULL)
             if name.startswith("/rosapi/"):
                 self._context.door.check(self._operator, "rosapi", name)
             known = self._context.rosapi.answer(name, op.args)

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Generator
 from typing import Protocol
 
 import numpy as np
 
 from robotside.core.pose2 import Points, Pose2
-from robotside.core.worker import Work
 from robotside.kinds.vehicle_kind import PursuitParameters
 from robotside.navigation.planner import Planner
 from robotside.navigation.pure_pursuit import ON_WHEELS, PathFollower
 
-__all__ = ["CRUISE_SHARE", "UNSURE_SPEED", "PathController", "GroundBound", "Piece", "SinglePath", "Search"]
+__all__ = ["CRUISE_SHARE", "UNSURE_SPEED", "PathController", "GroundBound", "SinglePath", "Search"]
 
 CRUISE_SHARE = 0.9
 """Part of the robot's greatest speed that it travels with by itself."""
@@ -23,18 +22,8 @@ UNSURE_SPEED = 0.15
 """Speed while the position is unsure [m/s]."""
 
 
-@dataclass(frozen=True, slots=True)
-class Piece:
-    """A part of a way without a change of direction."""
-
-    points: Points
-    """Of `base_link`, shape (n, 2) [m]."""
-    ahead: bool
-    """Driven forwards."""
-
-
-Search = Work[list[Piece]]
-"""For a way: each step is a bit of work of less than a few milliseconds; it changes nothing and returns the way's pieces."""
+Search = Generator[None, None, Points]
+"""For a way: each step is a bit of work of less than a few milliseconds; it returns the points of the way."""
 
 
 class PathController(Protocol):
@@ -50,8 +39,6 @@ class PathController(Protocol):
     """Of the tightest bend in which it turns [m]; 0 when it turns where it is."""
     cruise: float
     """The speed that it travels with [m/s]."""
-    avoids: bool
-    """It keeps off what its sensors see beside the way; what does not must rest where the way is blocked."""
     look: float
     """How far along the way something new makes the navigator plan anew [m]."""
     clear: float
@@ -74,13 +61,10 @@ class PathController(Protocol):
     def search(
         self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
     ) -> Search:
-        """For a way from `pose` to `goal` (x, y [m], yaw [rad], NaN for any) round `obstacles`.
+        """For a way from `pose` to `goal` (x, y [m], yaw [rad], NaN for any) round `obstacles`, which is then taken.
 
-        It may run in another thread: the way that the controller has stays until `follow`. Unreachable raises.
+        Until it is found the way that it has stays. Unreachable raises.
         """
-
-    def follow(self, way: list[Piece]) -> None:
-        """Go a way that a search has found, from its first piece on."""
 
     def forget(self) -> None:
         """Have no way any more; the robot rests."""
@@ -140,11 +124,9 @@ class SinglePath:
         self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
     ) -> Search:
         """For a way to `goal`. Unreachable raises."""
-        return [Piece((yield from planner.search((pose.x, pose.y), goal[:2], name, obstacles)), ahead=True)]
-
-    def follow(self, way: list[Piece]) -> None:
-        """Go the only piece of `way`."""
-        self._follower = PathFollower(way[0].points, cruise=self.cruise, parameters=self._parameters)
+        path = yield from planner.search((pose.x, pose.y), goal[:2], name, obstacles)
+        self._follower = PathFollower(path, cruise=self.cruise, parameters=self._parameters)
+        return path
 
     def forget(self) -> None:
         """Have no way any more."""

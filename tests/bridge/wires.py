@@ -115,7 +115,7 @@ def service(name: str = "/stop", call: Callable[..., Any] = accept) -> Service:
 
 def door(options: dict[str, Any]) -> Door:
     """The door of a robot with a STOP, made of those of the options that are a door's; the server's are left."""
-    parts = ("services", "actions", "topics", "on_message", "on_demand", "on_gone", "now")
+    parts = ("services", "actions", "topics", "on_message", "on_demand", "on_gone", "now", "gate")
     own = {part: options[part] for part in parts if part in options}
     for part in own:
         if part != "now":

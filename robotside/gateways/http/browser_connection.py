@@ -6,13 +6,15 @@ import asyncio
 import contextlib
 import socket
 
-import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-__all__ = ["CLOSE_TIMEOUT", "MAX_CONNECTION_TIME", "MAX_CONNECTIONS", "STUCK_TIMEOUT", "BrowserConnection"]
+from bridge.server.reception.places import Limits, Place
+from bridge.server.reception.tls import unsent
 
-MAX_CONNECTIONS = 64
-"""Connections open at a time; for one more the oldest that asks nothing is closed, else that one."""
+__all__ = ["CLOSE_TIMEOUT", "LIMITS", "MAX_CONNECTION_TIME", "PLACE", "STUCK_TIMEOUT", "BrowserConnection"]
+
+LIMITS = Limits(total=64, per_address=48)
+"""Connections that the web site has at a time."""
 
 MAX_CONNECTION_TIME = 30.0
 """How long a connection may stay, for any request [s]; a stream as long as it is read."""
@@ -23,6 +25,9 @@ STUCK_TIMEOUT = 10.0
 CLOSE_TIMEOUT = 0.5
 """How long the answers under way may still take when the site ends [s]."""
 
+PLACE = "pilothouse.place"
+"""Key of a request's `Place` in the state of its scope."""
+
 _UNSENT = 49_152
 """Bytes on their way to one browser: a stream must not queue old pictures in the kernel."""
 
@@ -30,40 +35,52 @@ _UNSENT = 49_152
 class BrowserConnection(H11Protocol):
     """HTTP on one connection; uvicorn's own limits begin only after the first request."""
 
+    place: Place | None = None
+    """Its place on the site's socket; set by the reception."""
+    below: asyncio.Transport | None = None
+    """The socket's own transport under an encrypted one; set by the reception."""
     _looking: asyncio.TimerHandle | None = None
     until = 0.0
     """When its time is over, by the loop's clock [s]."""
     _left = 0
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Let it in if there is room or somebody asks nothing."""
+        """Its time begins."""
         super().connection_made(transport)
+        self.app_state = {**self.app_state, PLACE: self.place}
         self.until = self.loop.time() + MAX_CONNECTION_TIME
-        if len(self.connections) > MAX_CONNECTIONS:
-            self._make_room()
-        if not transport.is_closing():
-            _keep_little(transport)
-            self._look_later()
+        _keep_little(transport, self.below)
+        self._look_later()
 
-    def _make_room(self) -> None:
-        """Close the oldest connection that asks nothing, which slow ones and idle ones are; this one when there is none."""
-        others = [
-            visit for visit in self.connections if visit is not self and isinstance(visit, BrowserConnection)
-        ]
-        idle = [visit for visit in others if not visit.asking and not visit.transport.is_closing()]
-        min(idle, key=lambda visit: visit.until, default=self).transport.abort()
+    def data_received(self, data: bytes) -> None:
+        """Somebody asks, or goes on asking."""
+        if self.place is not None:
+            self.place.hear()
+        super().data_received(data)
+        self._note_asking()
+
+    def on_response_complete(self) -> None:
+        """An answer is complete."""
+        super().on_response_complete()
+        self._note_asking()
+
+    def resume_writing(self) -> None:
+        """All that was written has left the process."""
+        if self.place is not None:
+            self.place.hear()
+        self.flow.resume_writing()
+
+    def _unsupported_upgrade_warning(self) -> None:
+        """Pass over that somebody asks for a WebSocket here: it is answered as any other request."""
+
+    def _note_asking(self) -> None:
+        if self.place is not None:
+            self.place.asked = self.asking
 
     def shutdown(self) -> None:
         """The site ends: finish what is being answered, but not a stream and not one who does not read."""
         super().shutdown()
         self.loop.call_later(CLOSE_TIMEOUT, self.transport.abort)
-
-    def send_400_response(self, msg: str) -> None:
-        """Say that a request is none; where its answer has begun nothing can be said any more, and the connection ends."""
-        if self.conn.our_state in (h11.IDLE, h11.SEND_RESPONSE):
-            super().send_400_response(msg)
-        else:
-            self.transport.abort()
 
     def _look_later(self) -> None:
         left = self.until - self.loop.time()
@@ -73,7 +90,7 @@ class BrowserConnection(H11Protocol):
 
     def _look(self) -> None:
         """End it when its time is over; a stream when its viewer takes nothing of what it is sent."""
-        left = self.transport.get_write_buffer_size()
+        left = unsent(self.transport, self.below)
         stuck, self._left = left > 0 and left == self._left, left
         if stuck if self._streaming else self.loop.time() >= self.until:
             self.transport.abort()
@@ -91,13 +108,16 @@ class BrowserConnection(H11Protocol):
 
     def connection_lost(self, exc: Exception | None) -> None:
         """It is gone."""
+        if self.place is not None:
+            self.place.leave()
         if self._looking:
             self._looking.cancel()
         super().connection_lost(exc)
 
 
-def _keep_little(transport: asyncio.Transport) -> None:
+def _keep_little(transport: asyncio.Transport, below: asyncio.Transport | None) -> None:
     """Have a writer wait until all went into the kernel, and the kernel take little."""
-    transport.set_write_buffer_limits(0)
+    if below is None:  # under TLS the reception has seen to it
+        transport.set_write_buffer_limits(0)
     with contextlib.suppress(OSError):
         transport.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _UNSENT)

@@ -12,6 +12,7 @@ from collections.abc import Awaitable, Callable, Iterator, Mapping, MutableMappi
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
+from bridge.core.async_tasks import cancel_all
 from bridge.core.errors import BridgeError
 from bridge.core.robot_door import RobotDoor
 from bridge.core.topics import CAMERA
@@ -87,6 +88,10 @@ def _number(name: str, text: str) -> float:
     return value
 
 
+def _always() -> bool:
+    return True
+
+
 class CameraStreams:
     """The pictures of one robot's camera for all who look by HTTP."""
 
@@ -104,11 +109,11 @@ class CameraStreams:
             except TimeoutError:
                 return None
 
-    def viewer(self, view: View) -> _Viewer:
-        """An ASGI application that sends pictures for as long as they are taken. Raises FullError."""
+    def viewer(self, view: View, may_watch: Callable[[], bool] = _always) -> _Viewer:
+        """An ASGI application that sends pictures for as long as they are taken and `may_watch()`. Raises FullError."""
         if len(self.viewers) >= MAX_VIEWERS:
             raise FullError(f"{MAX_VIEWERS} look at the camera already; close one of them.")
-        return _Viewer(self, view)
+        return _Viewer(self, view, may_watch)
 
     @contextmanager
     def looking(self, topic: str = CAMERA) -> Iterator[_Newest]:
@@ -152,20 +157,24 @@ class _Newest:
 class _Viewer:
     """One response that does not end."""
 
-    def __init__(self, streams: CameraStreams, view: View) -> None:
-        self._streams, self._view = streams, view
+    def __init__(self, streams: CameraStreams, view: View, may_watch: Callable[[], bool]) -> None:
+        self._streams, self._view, self._may_watch = streams, view, may_watch
+        self._ended = asyncio.Event()
+
+    def end(self) -> None:
+        """Its viewer may not look any more."""
+        self._ended.set()
 
     async def __call__(self, _: object, receive: Receive, send: Send) -> None:
         """Send pictures until the viewer is gone or none come any more."""
         self._streams.viewers.add(self)
-        showing, gone = asyncio.create_task(self._show(send)), asyncio.create_task(_gone(receive))
+        work = (self._show(send), _gone(receive), self._ended.wait())
+        tasks = [asyncio.create_task(each) for each in work]  # type: ignore[arg-type]  # of coroutines of any result
         try:
-            await asyncio.wait({showing, gone}, return_when=asyncio.FIRST_COMPLETED)
+            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         finally:
             self._streams.viewers.discard(self)
-            for task in (showing, gone):
-                task.cancel()
-            await asyncio.gather(showing, gone, return_exceptions=True)
+            await cancel_all(tasks)
         await send({"type": "http.response.body", "body": b"", "more_body": False})
 
     async def _show(self, send: Send) -> None:
@@ -187,6 +196,8 @@ class _Viewer:
                     async with asyncio.timeout(PICTURE_TIMEOUT):
                         jpeg = await newest.next()
                 except TimeoutError:
+                    return
+                if not self._may_watch():
                     return
                 await self._send(jpeg, send)
 

@@ -5,16 +5,22 @@ from __future__ import annotations
 import asyncio
 import logging
 import socket
+import ssl
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from typing import Any
 
 import uvicorn
 
 from bridge.core.errors import BridgeError
+from bridge.server.reception.pages import PagePolicy
+from bridge.server.reception.reception import Reception, anyone
 from robotside.door.station_door import StationDoor
 from robotside.gateways.addresses import listening_socket, url
-from robotside.gateways.http.browser_connection import BrowserConnection
+from robotside.gateways.http.browser_connection import LIMITS, BrowserConnection
 from robotside.gateways.http.camera_streams import CameraStreams
+from robotside.gateways.http.doorkeeper import Doorkeeper
+from robotside.gateways.http.sessions import Sessions
 from robotside.gateways.http.web_site import site
 from robotside.gateways.scaling.picture_scaling import PictureScaler
 
@@ -33,13 +39,25 @@ class HttpGateway:
         port: int,
         pictures: PictureScaler,
         rosbridge_url: Callable[[], str],
+        *,
+        tls: ssl.SSLContext | None = None,
+        plain_from: Callable[[str], bool] = anyone,
+        pages: PagePolicy | None = None,
+        stop_from_pages: bool = True,
     ) -> None:
-        """Port 0 takes a free one. The page names `rosbridge_url` to programs."""
+        """Port 0 takes a free one. The page names `rosbridge_url` to programs.
+
+        With `tls` browsers may come encrypted, on the same port; `plain_from(host)` says who may come without.
+        `pages` may speak to the robot, by default its own; `stop_from_pages` as of `Doorkeeper`.
+        """
         self._host = host
         self.port = port
         """Where it listens; 0 until one was taken."""
-        self.site = site(door, rosbridge_url, CameraStreams(door, pictures))
+        allowed = pages or PagePolicy(web_port=lambda: self.port)
+        own = site(door, rosbridge_url, CameraStreams(door, pictures), Sessions(door, allowed))
+        self.site = Doorkeeper(own, door, allowed, stop_from_pages=stop_from_pages)
         """The ASGI application."""
+        self._reception = Reception(LIMITS, tls=tls, plain_from=plain_from, scheme="https")
         self._socket: socket.socket | None = None
         self._server: uvicorn.Server | None = None
         self._serving: asyncio.Task[None] | None = None
@@ -56,7 +74,12 @@ class HttpGateway:
             ) from error
         self.port = self._socket.getsockname()[1]
         config = uvicorn.Config(
-            self.site, http=BrowserConnection, log_level="warning", lifespan="off", access_log=False
+            self.site,
+            http=self._connection,  # type: ignore[arg-type]  # it is only called
+            ws="none",
+            log_level="warning",
+            lifespan="off",
+            access_log=False,
         )
         self._server = _WebServer(config)
         self._serving = asyncio.create_task(self._server.serve([self._socket]))
@@ -66,9 +89,13 @@ class HttpGateway:
         """End all connections and stop listening; nothing is left running."""
         if self._server is not None and self._serving is not None:
             self._server.should_exit = True
+            await self._reception.close()
             await asyncio.wait({self._serving})
         if self._socket is not None:
             self._socket.close()
+
+    def _connection(self, *args: Any, **options: Any) -> asyncio.Protocol:
+        return self._reception.front(BrowserConnection(*args, **options))
 
     def endpoints(self) -> Mapping[str, str]:
         """The URL of the page."""

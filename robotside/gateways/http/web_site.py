@@ -12,7 +12,9 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, Response
 from starlette.routing import Route
 
-from bridge.core.errors import BridgeError
+from bridge.core.errors import BridgeError, Refused
+from bridge.core.identity import Role
+from bridge.core.robot_catalogue import Operator
 from bridge.core.topics import CAMERA, TOPICS, camera_topics
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from robotside.control.authority import MAX_NAME_LENGTH
@@ -26,6 +28,8 @@ from robotside.gateways.http.camera_streams import (
     View,
     view_of,
 )
+from robotside.gateways.http.doorkeeper import OPERATOR
+from robotside.gateways.http.sessions import Sessions
 
 __all__ = ["site"]
 
@@ -33,6 +37,13 @@ SNAPSHOT_TIMEOUT = 2.0
 """How long to wait for a picture [s]."""
 
 _FRESH = {"Cache-Control": "no-store"}
+_PRIVATE = {
+    "Cache-Control": "no-store",
+    "X-Frame-Options": "DENY",
+    "Content-Security-Policy": "frame-ancestors 'none'",
+    "Referrer-Policy": "no-referrer",
+}
+"""Pages are neither kept nor shown inside pages of others."""
 
 _PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{name}</title>
 <style>body{{font-family:sans-serif;max-width:60em;margin:2em auto;padding:0 1em}}
@@ -46,6 +57,13 @@ padding:.4em 2em;border:0">STOP</button></form><p>{description}{world}. {state}<
 <h2>Topics</h2><table><tr><th>topic</th><th>type</th><th>rate</th><th>what</th></tr>{topics}</table>
 <h2>Services</h2><table><tr><th>service</th><th>type</th></tr>{services}</table></html>"""
 
+_STRANGERS_PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{name}</title>
+<style>body{{font-family:sans-serif;max-width:40em;margin:2em auto;padding:0 1em}}</style>
+<h1>{name}</h1><form method="post" action="/stop"><button style="font-size:1.5em;color:#fff;background:#c00;
+padding:.4em 2em;border:0">STOP</button></form><p>{said}</p>
+<form method="post" action="/login"><label>Token <input name="token" type="password" autocomplete="off" size="50"></label>
+<button>Log in</button></form></html>"""
+
 _CAMERA = """<li>camera {name}: <code>{bridge}/camera/{name}</code>, <a href="/snapshot/{name}.jpg">a picture</a>,
 <a href="/stream/{name}.mjpeg">moving pictures</a>; both take <code>?width=</code> [px] and <code>quality=</code>
 (1 to 95), the moving ones <code>rate=</code> [Hz] as well<br>
@@ -53,59 +71,122 @@ _CAMERA = """<li>camera {name}: <code>{bridge}/camera/{name}</code>, <a href="/s
 """
 
 
-def site(door: StationDoor, bridge_url: Callable[[], str], streams: CameraStreams) -> Starlette:
-    """The web site of one robot."""
-
-    async def page(_: Request) -> Response:
-        return HTMLResponse(_page(door, bridge_url()))
-
-    async def health(_: Request) -> Response:
-        return JSONResponse({"ok": True, **door.health._asdict()})
-
-    async def snapshot(request: Request) -> Response:
-        view = _view(request, door)
-        if request.method == "HEAD":
-            return Response(headers=_FRESH, media_type="image/jpeg")
-        jpeg = await streams.picture(view, SNAPSHOT_TIMEOUT)
-        if jpeg is None:
-            raise HTTPException(503, f"No picture came within {SNAPSHOT_TIMEOUT:g} s.")
-        return Response(jpeg, media_type="image/jpeg", headers=_FRESH)
-
-    async def stream(request: Request) -> Any:
-        view = _view(request, door)
-        if request.method == "HEAD":
-            return Response(headers=_FRESH | {"Content-Type": MEDIA_TYPE})
-        return streams.viewer(view)
-
-    async def stop(request: Request) -> Response:
-        if request.method != "POST":
-            raise HTTPException(
-                405, "STOP is pressed by POST, from anywhere and by anyone.", {"Allow": "POST"}
-            )
-        return PlainTextResponse(*await _stop(door, request))
-
+def site(
+    door: StationDoor, bridge_url: Callable[[], str], streams: CameraStreams, sessions: Sessions
+) -> Starlette:
+    """The web site of one robot, behind its `Doorkeeper`."""
+    pages = _Pages(door, bridge_url, streams, sessions)
     return Starlette(
         routes=[
-            Route("/", page),
-            Route("/stop", stop, methods=["GET", "POST"]),
-            Route("/healthz", health),
-            Route("/snapshot/{name}.jpg", snapshot),
-            Route("/stream/{name}.mjpeg", stream),
+            Route("/", pages.page),
+            Route("/stop", pages.stop, methods=["GET", "POST"]),
+            Route("/login", pages.login, methods=["POST"]),
+            Route("/logout", pages.logout, methods=["POST"]),
+            Route("/healthz", pages.health),
+            Route("/snapshot/{name}.jpg", pages.snapshot),
+            Route("/stream/{name}.mjpeg", pages.stream),
         ],
         exception_handlers={HTTPException: _sentence, FullError: _full, BridgeError: _broken},
     )
 
 
+class _Pages:
+    """The answers to each path."""
+
+    def __init__(
+        self, door: StationDoor, bridge_url: Callable[[], str], streams: CameraStreams, sessions: Sessions
+    ) -> None:
+        self._door, self._bridge_url = door, bridge_url
+        self._streams, self._sessions = streams, sessions
+
+    async def page(self, request: Request) -> Response:
+        if _is_known(self._door, request):
+            return HTMLResponse(_page(self._door, self._bridge_url()), headers=_PRIVATE)
+        return _strangers_page(self._door, "Show the token that you were given to see more.")
+
+    async def health(self, request: Request) -> Response:
+        known = _is_known(self._door, request)
+        return JSONResponse({"ok": True, **(self._door.health._asdict() if known else {})}, headers=_FRESH)
+
+    async def snapshot(self, request: Request) -> Response:
+        view = _view(request, self._door)
+        if request.method == "HEAD":
+            return Response(headers=_FRESH, media_type="image/jpeg")
+        jpeg = await self._streams.picture(view, SNAPSHOT_TIMEOUT)
+        if jpeg is None:
+            raise HTTPException(503, f"No picture came within {SNAPSHOT_TIMEOUT:g} s.")
+        return Response(jpeg, media_type="image/jpeg", headers=_FRESH)
+
+    async def stream(self, request: Request) -> Any:
+        view = _view(request, self._door)
+        if request.method == "HEAD":
+            return Response(headers=_FRESH | {"Content-Type": MEDIA_TYPE})
+        viewer = self._streams.viewer(view, lambda: _may_watch(self._door, request))
+        _operator(request).on_expelled = viewer.end
+        return viewer
+
+    async def stop(self, request: Request) -> Response:
+        if request.method != "POST":
+            raise HTTPException(
+                405, "STOP is pressed by POST, from anywhere and by anyone.", {"Allow": "POST"}
+            )
+        return PlainTextResponse(*await _stop(self._door, request))
+
+    async def login(self, request: Request) -> Response:
+        try:
+            return await self._sessions.login(request)
+        except Refused as refusal:
+            return _strangers_page(self._door, str(refusal), 401)
+
+    async def logout(self, request: Request) -> Response:
+        return self._sessions.logout(request)
+
+
+def _operator(request: Request) -> Operator:
+    """Who asks, as the doorkeeper found out."""
+    operator = getattr(request.state, OPERATOR)
+    if not isinstance(operator, Operator):
+        raise TypeError(f"The doorkeeper let {operator!r} in.")
+    return operator
+
+
+def _is_known(door: StationDoor, request: Request) -> bool:
+    return _operator(request).role(door.now()) > Role.NONE
+
+
+def _may_watch(door: StationDoor, request: Request) -> bool:
+    try:
+        door.check(_operator(request), "camera", request.path_params["name"])
+    except Refused:
+        return False
+    return True
+
+
 async def _stop(door: StationDoor, request: Request) -> tuple[str, int]:
-    """Press STOP for any client; one sentence and the status."""
+    """Press STOP for any client; one sentence and the status.
+
+    Who proved who it is presses under its own name; another name is repeated with the address that it came from.
+    """
+    identity = _operator(request).identity
     name = plain(request.query_params.get("name", ""), MAX_NAME_LENGTH)
-    who = name or f"a browser at {request.client.host if request.client else 'an unknown address'}"
-    answer = await door.stop(who)
+    where = request.client.host if request.client else "an unknown address"
+    who = f"{name} at {where} (not proven)" if name else f"a browser at {where}"
+    answer = await door.stop(identity.name if identity.proven else who)
     return f"{answer.message}\n", 200 if answer.success else 503
 
 
+def _strangers_page(door: StationDoor, said: str, status: int = 200) -> Response:
+    """What a stranger sees: the robot's name, STOP, and where to show a token."""
+    shown = _STRANGERS_PAGE.format(name=html.escape(door.info.name), said=html.escape(said))
+    return HTMLResponse(shown, status, _PRIVATE)
+
+
 def _view(request: Request, door: StationDoor) -> View:
-    """What of which camera is asked for; HTTPException with one sentence for what does not exist."""
+    """What of which camera is asked for; HTTPException with one sentence for what does not exist or may not be seen."""
+    try:
+        door.check(_operator(request), "camera", request.path_params["name"])
+    except Refused as refusal:
+        raise HTTPException(401 if not _is_known(door, request) else 403, str(refusal)) from refusal
     cameras = door.info.cameras
     if request.path_params["name"] not in ({*cameras, "camera"} if cameras else ()):
         names = ", ".join(cameras) or "none"

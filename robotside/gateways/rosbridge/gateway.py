@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import ssl
 from collections.abc import Callable, Mapping
 
 from bridge.core import camera_frames
 from bridge.core.topics import camera_topics
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.server.reception.pages import PagePolicy
+from bridge.server.reception.reception import anyone
 from bridge.server.server import BridgeServer
 from robotside.door.station_door import StationDoor
 from robotside.gateways.addresses import url
@@ -28,11 +31,18 @@ class RosbridgeGateway:
         port: int,
         pictures: PictureScaler,
         real_time: Callable[[float], float],
+        *,
+        tls: ssl.SSLContext | None = None,
+        plain_from: Callable[[str], bool] = anyone,
+        pages: PagePolicy | None = None,
     ) -> None:
         """Port 0 takes a free one. `real_time` makes of the robot's time real time [s], by which frames are stamped.
 
-        Handhelds tell a picture's age by that, at any speed of the robot's clock.
+        Handhelds tell a picture's age by that, at any speed of the robot's clock. With `tls` clients may come encrypted, on
+        the same port; `plain_from(host)` says who may come without. `pages` are the web pages that may
+        connect, by default none.
         """
+        self._tls, self._plain_from, self._pages = tls, plain_from, pages
         self._door, self._host, self._real_time = door, host, real_time
         self.port = port
         """Where it listens; 0 until one was taken."""
@@ -51,7 +61,9 @@ class RosbridgeGateway:
 
     async def start(self) -> None:
         """Begin to listen. BridgeError with one sentence when that is not possible."""
-        await self.server.start(self._host, self.port)
+        await self.server.start(
+            self._host, self.port, tls=self._tls, plain_from=self._plain_from, pages=self._pages
+        )
         self.port = self.server.port
         for topic in self._cameras:
             self._door.subscribe(self, topic, self._publish_frame, wanted=False)

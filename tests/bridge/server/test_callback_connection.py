@@ -10,11 +10,12 @@ import struct
 from contextlib import asynccontextmanager
 
 import pytest
-from websockets.exceptions import ConnectionClosedError, InvalidMessage
+from websockets.exceptions import ConnectionClosedError
 from websockets.frames import Frame, Opcode
 
 from bridge.server import callback_connection as server_connection
 from bridge.server import rosbridge_session as serving
+from bridge.server.reception.places import FULL, Limits
 from tests.bridge.peers import bare, peer
 from tests.bridge.wires import TIMEOUT, Record, server
 
@@ -38,7 +39,7 @@ async def test_a_message_in_several_frames_is_one_and_in_its_place():
 
 
 HANDSHAKE = (
-    b"GET / HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+    b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
     b"Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n\r\n"
 )
 
@@ -171,11 +172,16 @@ async def test_a_vanished_clients_session_is_over_before_what_it_left_is_tidied_
     assert order == [True, "gone", False]
 
 
-async def test_who_does_not_shake_hands_makes_room_for_others(monkeypatch):
-    monkeypatch.setattr(server_connection, "MAX_CONNECTIONS", 3)
-    async with server() as robot, peer(robot) as first, bare(robot) as oldest, bare(robot) as other:
+async def test_who_does_not_shake_hands_makes_room_for_others():
+    async with (
+        server(limits=Limits(3)) as robot,
+        peer(robot) as first,
+        bare(robot) as oldest,
+        bare(robot) as other,
+    ):
+        await first.settled()
         for _, writer in (oldest, other):
-            writer.write(b"GET / HTTP/1.1\r\nHost: x\r\nUpgr")
+            writer.write(b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgr")
         async with peer(robot) as second:
             async with asyncio.timeout(TIMEOUT):
                 with contextlib.suppress(ConnectionResetError):
@@ -185,13 +191,19 @@ async def test_who_does_not_shake_hands_makes_room_for_others(monkeypatch):
             assert not other[0].at_eof()
 
 
-async def test_one_client_too_many_is_cut_off_and_room_is_made_again(monkeypatch):
-    monkeypatch.setattr(server_connection, "MAX_CONNECTIONS", 2)
-    async with server() as robot, peer(robot) as first:
+async def test_who_comes_when_all_are_busy_may_stop_the_robot_and_nothing_else_until_there_is_room():
+    async with server(limits=Limits(2)) as robot, peer(robot) as first:
+        await first.settled()
         async with peer(robot) as second:
-            with pytest.raises((OSError, InvalidMessage)):
-                async with peer(robot):
-                    pass
+            await second.settled()
+            async with peer(robot) as late:
+                assert (await late.call("/rosapi/get_time"))["result"]
+                assert (await late.call("/stop"))["values"]["success"]
+                answer = await late.call("/rosapi/nodes")
+                assert (answer["result"], answer["values"]) == (False, FULL)
+                await late.say(op="set_level", level="error")
+                await late.say(op="subscribe", topic="/odom")
+                assert FULL in (await late.hear())["msg"]
             await first.settled()
             await second.settled()
         async with peer(robot) as third:

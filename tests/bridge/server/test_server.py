@@ -381,6 +381,6 @@ async def test_what_was_never_started_closes_too():
 
 async def test_plain_http_on_the_port_is_answered_and_not_logged_as_a_fault(caplog):
     async with server() as robot, bare(robot) as (reader, writer):
-        writer.write(b"GET / HTTP/1.1\r\nHost: x\r\n\r\n")
+        writer.write(b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
         assert b"426" in await reader.readline()
     assert caplog.text == ""

@@ -10,8 +10,7 @@ import pytest
 
 from robotside.core.pose2 import Pose2
 from robotside.mapping.occupancy_grid import Grid
-from robotside.navigation.lattice_planner import LatticePlanner
-from robotside.navigation.path_controller import Piece
+from robotside.navigation.lattice_planner import LatticePlanner, Piece
 
 BEND = 0.25
 DISCS, RADIUS, MARGIN = (0.0, 1.0, 2.0), 0.95, 0.15

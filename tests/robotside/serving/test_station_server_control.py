@@ -16,7 +16,6 @@ from robotside.control.command_expiry import MAX_UNSTAMPED_AGE
 from robotside.serving.station_server import StationServer
 from tests.bridge.wires import wire
 from tests.fakes import FakeRobot
-from tests.releasing import release_stop
 from tests.robotside.foreign.test_foreign_link import until
 from tests.robotside.serving.test_station_server import connected, serving
 
@@ -46,15 +45,13 @@ async def test_anybody_stops_the_robot_over_http(tmp_path: Path) -> None:
         answer = await web.post("/stop?name=Fred%0A\u202e")
         assert (answer.status_code, answer.text) == (200, "Stopped.\n")
         assert robot.at_rest
-        assert serves.station.controls.stopped_by == "Fred"
+        assert serves.station.controls.stopped_by == "Fred at 127.0.0.1 (not proven)"
         assert serves.station.controls.stopped_by_id == ""
         assert (await web.post("/stop")).status_code == 200
         asked = await web.get("/stop")
         assert (asked.status_code, asked.headers["allow"]) == (405, "POST")
         assert asked.text == "STOP is pressed by POST, from anywhere and by anyone.\n"
-        await release_stop(
-            lambda name: client.call(name, CommandRequest(), CommandResponse), lambda answer: answer.success
-        )
+        await client.call("/stop/release", CommandRequest(), CommandResponse)
         assert (await web.get("/stop")).status_code == 405
         assert not serves.station.controls.stopped
 

@@ -17,7 +17,8 @@ from app.inputs.switch_access.window.area import Area
 from app.inputs.switch_access.window.finding import Box, in_window
 from app.inputs.switch_access.window.placing import beside
 from app.inputs.switch_access.window.window_app import WindowApp
-from widgets.controls.stop.stop_button import LONG_HOLD_DURATION, RELEASE_DURATION
+from widgets.controls.hold_progress import HOLD_DURATION
+from widgets.controls.stop.stop_button import LONG_HOLD_DURATION
 from widgets.inputs.scan_keyboard import ScanKeyboard
 from widgets.inputs.scan_pad import PadKey, ScanPad
 
@@ -198,9 +199,7 @@ class Openings:
             return
         latched = getattr(widget, "phase", "stopped") == "stopped"
         self._lift = finger.hold(
-            widget,
-            (RELEASE_DURATION if latched else LONG_HOLD_DURATION) * MAX_HOLD_FACTOR,
-            until="on_held_long",
+            widget, (HOLD_DURATION if latched else LONG_HOLD_DURATION) * MAX_HOLD_FACTOR, until="on_held_long"
         )
 
 

@@ -126,7 +126,7 @@ async def test_a_viewer_who_does_not_read_is_cut_off_and_the_camera_rests(
         lazy = socket.socket()
         lazy.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         lazy.connect(("127.0.0.1", serves.addresses.http_port))
-        lazy.sendall(f"GET {STREAM} HTTP/1.1\r\nHost: x\r\n\r\n".encode())
+        lazy.sendall(f"GET {STREAM} HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n".encode())
         await robot.until(True)
 
         async def film() -> None:

@@ -43,7 +43,7 @@ async def test_stop_goes_by_the_door(scene: Scene, pictures: PictureScaler) -> N
         with pytest.raises(httpx.ConnectError):
             await web.get("/")
     assert (answer.status_code, answer.text) == (200, "Stopped.\n")
-    assert scene.station.controls.stopped_by == "Fred"
+    assert scene.station.controls.stopped_by == "Fred at 127.0.0.1 (not proven)"
 
 
 async def test_a_port_that_is_taken_is_one_sentence(scene: Scene, pictures: PictureScaler) -> None:

@@ -1,0 +1,126 @@
+"""The doorkeeper of the web site: who asks, from whose page, and whether that person may have what is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, MutableMapping, Sequence
+from typing import Any, NamedTuple
+
+from starlette.responses import PlainTextResponse
+from starlette.types import ASGIApp
+
+from bridge.core.errors import Refused
+from bridge.core.identity import Role
+from bridge.core.robot_catalogue import Operator
+from bridge.server.reception.credentials import bearer, cookie, introduce
+from bridge.server.reception.pages import PagePolicy, Verdict
+from bridge.server.reception.places import FULL, Place
+from robotside.door.station_door import StationDoor
+from robotside.gateways.http.browser_connection import PLACE
+
+__all__ = ["OPERATOR", "Doorkeeper"]
+
+OPERATOR = "pilothouse.operator"
+"""Key of who asks in the state of a request's scope, an `Operator` for as long as the answer takes."""
+
+STOP = "/stop"
+
+Scope = MutableMapping[str, Any]
+Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
+Send = Callable[[MutableMapping[str, Any]], Awaitable[None]]
+
+
+class _Asked(NamedTuple):
+    """What decides about a request, of its scope."""
+
+    path: str
+    stops: bool
+    """It presses STOP."""
+    address: str
+    secure: bool
+    headers: Callable[[bytes], Sequence[str]]
+
+
+class Doorkeeper:
+    """An ASGI application before the site: each request joins at the robot's door and leaves when it is answered."""
+
+    def __init__(
+        self, site: ASGIApp, door: StationDoor, pages: PagePolicy, *, stop_from_pages: bool = True
+    ) -> None:
+        """`pages` may speak to the robot; STOP may be pressed by every page of the world while `stop_from_pages`: to stop
+        without need is safe, and a page that was opened by another name of the robot must be able to stop it."""
+        self._site, self._door, self._pages = site, door, pages
+        self._stop_from_pages = stop_from_pages
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer one request."""
+        if scope["type"] != "http":
+            await self._site(scope, receive, send)
+            return
+        asked = _read(scope)
+        state: dict[str, Any] = scope.setdefault("state", {})
+        place: Place | None = state.get(PLACE)
+        verdict = self._pages.judge(asked.headers(b"origin"), asked.headers(b"host"))
+        if verdict.refusal and not (asked.stops and self._stop_from_pages):
+            await _answer(403, verdict.refusal)(scope, receive, send)
+            return
+        try:
+            operator = self._join(asked, verdict)
+        except Refused as refusal:
+            await _answer(401, str(refusal))(scope, receive, send)
+            return
+        try:
+            introduce(operator, place, self._door.now())
+            refused = self._refusal(operator, asked, place)
+            state[OPERATOR] = operator
+            await (refused or self._site)(scope, receive, send)
+        finally:
+            self._door.leave(operator)
+
+    def _join(self, asked: _Asked, verdict: Verdict) -> Operator:
+        """Who asks. A wrong token raises Refused, but who presses STOP needs none; a cookie that ended counts for nothing."""
+        trusted = verdict.trusted and not verdict.refusal
+        by_hand = [] if asked.stops and verdict.refusal else asked.headers(b"authorization")
+        shown = cookie(asked.headers(b"cookie"), self._pages.cookie_name) if trusted else ""
+        try:
+            if token := bearer(by_hand):
+                return self._enter(asked, token, trusted)
+            if shown:
+                return self._enter(asked, shown, trusted)
+        except Refused:
+            if by_hand and not asked.stops:
+                raise
+        return self._enter(asked, "", trusted)
+
+    def _enter(self, asked: _Asked, token: str, trusted: bool) -> Operator:
+        return self._door.join(asked.address, way="http", secure=asked.secure, token=token, trusted=trusted)
+
+    def _refusal(self, operator: Operator, asked: _Asked, place: Place | None) -> ASGIApp | None:
+        if place is not None and place.only_stop and not asked.stops:
+            return _answer(503, FULL)
+        try:
+            self._door.check(operator, "page", asked.path)
+        except Refused as refusal:
+            unknown = operator.role(self._door.now()) is Role.NONE
+            return _answer(401 if unknown else 403, str(refusal))
+        return None
+
+
+def _read(scope: Scope) -> _Asked:
+    client = scope.get("client") or ("unknown", 0)
+    headers: Sequence[tuple[bytes, bytes]] = scope["headers"]
+
+    def values(name: bytes) -> list[str]:
+        return [value.decode("latin-1") for key, value in headers if key == name]
+
+    path = scope["path"]
+    stops = path == STOP and scope["method"] == "POST"
+    return _Asked(path, stops, f"{client[0]}:{client[1]}", scope.get("scheme") == "https", values)
+
+
+def _answer(status: int, sentence: str) -> PlainTextResponse:
+    headers = {"Cache-Control": "no-store"}
+    if status == 401:
+        headers["WWW-Authenticate"] = "Bearer"
+    if status == 503:
+        headers["Retry-After"] = "5"
+    return PlainTextResponse(f"{sentence}\n", status, headers)
