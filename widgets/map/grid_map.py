@@ -6,6 +6,7 @@ robot.on("/map", map.show), robot.on("/pose", map.show)
 
 from __future__ import annotations
 
+import logging
 import math
 from collections.abc import Callable
 from typing import Any, ClassVar
@@ -18,6 +19,7 @@ from kivy.properties import ObjectProperty
 from kivy.uix.widget import Widget
 from numpy.typing import NDArray
 
+from bridge.core.camera_frames import MAX_PIXELS, MAX_SIDE
 from bridge.msgs import Msg
 from bridge.msgs.arrays import Int8Array
 from bridge.msgs.geometry_msgs import (
@@ -40,6 +42,8 @@ from widgets.map.map_overlay import MapOverlay
 
 __all__ = ["GridMap", "fenced", "patrol", "samples"]
 
+log = logging.getLogger(__name__)
+
 
 class GridMap(MapOverlay):
     """The local map. Two fingers move, enlarge and turn it."""
@@ -58,6 +62,8 @@ class GridMap(MapOverlay):
         self._shift, self._turn, self._scale = Translate(), Rotate(axis=(0, 0, 1)), Scale(1.0)
         self._texture: Texture | None = None
         self._texture_look: tuple[object, ...] = ()
+        self._too_large = False
+        """The last grid was not shown for its size."""
         super().__init__(**kwargs)
         placing = (
             PushMatrix(),
@@ -76,7 +82,20 @@ class GridMap(MapOverlay):
         if not isinstance(msg, OccupancyGrid):
             super().show(msg)
             return
-        self.grid = msg if len(msg.data) == msg.info.width * msg.info.height > 0 else None
+        wide, high = msg.info.width, msg.info.height
+        if max(wide, high) > MAX_SIDE or wide * high > MAX_PIXELS:
+            if self.grid is not None or not self._too_large:
+                log.warning(
+                    "the map is not shown: %d x %d cells, at most %d a side and %d are",
+                    wide,
+                    high,
+                    MAX_SIDE,
+                    MAX_PIXELS,
+                )
+            self._too_large, self.grid = True, None
+            return
+        self._too_large = False
+        self.grid = msg if len(msg.data) == wide * high > 0 else None
         self._fit_until_touched()
 
     def extent(self) -> Points:

@@ -443,3 +443,22 @@ def test_the_age_stands_in_the_middle_of_what_is_free_at_its_top(stage, map_):
     assert y + map_.badge_size[1] <= map_.top - 20
     map_.badge_span = [map_.x + 200, map_.x + 300]
     assert map_.badge_pos[0] >= map_.x + 200
+
+
+@pytest.mark.parametrize("size", [(8193, 1), (1, 8193), (4097, 4096)])
+def test_a_grid_too_large_for_a_texture_is_not_shown_and_said_once(map_, stage, caplog, size):
+    wide, high = size
+    small = OccupancyGrid(info=MapMetaData(resolution=0.1, width=2, height=1), data=Int8Array(bytes(2)))
+    large = OccupancyGrid(
+        info=MapMetaData(resolution=0.1, width=wide, height=high), data=Int8Array(bytes(wide * high))
+    )
+    map_.show(small)
+    stage.frames(1)
+    assert map_.grid is small
+    for _ in range(3):
+        map_.show(large)
+        stage.frames(1)
+    assert map_.grid is None
+    assert sum("the map is not shown" in record.getMessage() for record in caplog.records) == 1
+    map_.show(small)
+    assert map_.grid is small
