@@ -32,7 +32,6 @@ from app.robot_directory import RobotDirectory
 from app.robot_visit import RobotVisit
 from app.root import Root
 from app.screens.connect.connect import ConnectScreen
-from app.screens.connect.simulator_launcher import CHANNEL as SIMULATED
 from app.screens.connect.simulator_launcher import SimulatorLauncher
 from app.screens.inputs.page import InputsPage
 from app.screens.parts.themes import Themes
@@ -71,20 +70,20 @@ class PilothouseApp(App):
         settings_dir: Path | str | None = None,
         simulator: Sequence[str] | None = None,
         *,
+        pair: Sequence[str] = (),
         discover: bool = True,
         poll: bool = False,
         now: Callable[[], float] = time.monotonic,
         **kwargs: Any,
     ) -> None:
-        """`url` is connected to at once; `screen` is shown once connected, `inputs` without a robot too.
+        """`url` is connected to at once, robots whose links are in `pair` are paired with unasked; `screen` is shown once connected, `inputs` without a robot too.
 
         `theme` overrides the remembered one, `layout` the one that is made for the robot; `simulator` is the command that starts the built-in simulator;
         `discover` listens to robots saying HELLO; `poll` looks for fingers once more a frame. Raises LayoutError for a layout that cannot be shown.
         """
         super().__init__(**kwargs)
-        self._url, self._first_screen, self._theme = url, screen or "mission", theme
-        self.layouts = LayoutChoice(CATALOGUE, layout)
-        self._settings_dir = settings_dir
+        self._url, self._first_screen, self._theme, self._pair = url, screen or "mission", theme, pair
+        self.layouts, self._settings_dir = LayoutChoice(CATALOGUE, layout), settings_dir
         self.simulating = SimulatorLauncher(self, simulator, self.say, now)
         self._discover, self._poll = discover, poll
         self.now = now
@@ -148,6 +147,7 @@ class PilothouseApp(App):
             rest=self._rest,
             on_cut=self._cut,
             on_left=self._left,
+            ask_to_pair=self.robot_list.trust.ask,
             now=self.now,
         )
 
@@ -160,11 +160,12 @@ class PilothouseApp(App):
             self.records,
             client_id=self.client_id,
             client_name=self.client_name,
+            key_for=self.robot_list.trust.key_for,
             deliver=self._deliver,
             discover=self._discover,
             now=self.now,
         )
-        self.mailbox = self._network.mailbox
+        self.mailbox, self.robot_list.trust.attempts = self._network.mailbox, self._network.pairing
         self._timers = Timers(look=self._look, beat=self._beat, refresh_list=self._list, poll=self._poll)
         self.inputs = Inputs(self, self.now)
         self.inputs.open()
@@ -172,6 +173,7 @@ class PilothouseApp(App):
         Window.allow_screensaver = False
         self.pages.on_show = self.corner.tick  # STOP ALL is never where STOP is, not for a frame
         self._list()
+        self.robot_list.trust.pair_silently(self._pair)
         if self._url:
             self.open(self._url)
         elif self._first_screen == "inputs":
@@ -226,10 +228,7 @@ class PilothouseApp(App):
         self.collector.step()
 
     def _deliver(self, channel: str, post: Post) -> None:
-        if self.robot_list.on_post(channel, post):
-            return
-        if channel.startswith(SIMULATED):
-            self.simulating.on_report(*post.value)
+        if self.robot_list.on_post(channel, post) or self.simulating.on_post(channel, post):
             return
         self.visit.deliver(channel, post)
         if channel == "/robot/info" and self.session is not None:
@@ -260,8 +259,9 @@ class PilothouseApp(App):
     # a robot
 
     def open(self, url: str, *, watch: bool = False) -> None:
-        """Connect to a robot; with `watch` without asking for control. Its screens come when it answers."""
-        self.visit.open(url, wants_control=not watch, on_rest=self.inputs.rest)
+        """Connect to a robot, or pair by its link; with `watch` without asking for control. Its screens come when it answers."""
+        if not self.robot_list.trust.asks_first(url):
+            self.visit.open(url, wants_control=not watch, on_rest=self.inputs.rest)
 
     def leave(self) -> None:
         """Back to the connect screen; the robot goes on with what it does."""
@@ -284,7 +284,7 @@ class PilothouseApp(App):
     def _make_shell(self, session: Session) -> Shell:
         from app.screens.robot_screens import robot_shell
 
-        self.robot_list.on_answer(session.robot.url)
+        self.robot_list.on_answer(session)
         root = self.pages.root
         return robot_shell(self, session, self.layouts.of, size=root.size, pos=root.pos)
 

@@ -10,6 +10,7 @@ from app.link.feeds import Feeds, Mailbox
 from app.link.link import Link
 from app.session.logbook import marks
 from app.session.session import Session
+from app.trust.keyring import RobotKey
 from bridge.core.camera_frames import Frame
 from bridge.core.network_thread import NetworkThread
 
@@ -28,21 +29,28 @@ class Connector:
         client_id: str,
         client_name: str,
         on_frame: Callable[[Frame, float], None],
+        key_for: Callable[[str], RobotKey | None],
         now: Callable[[], float],
     ) -> None:
-        """`on_frame` is called in the network thread with each camera frame and when it came [s]; `now` is our clock [s]."""
+        """`on_frame` is called in the network thread with each camera frame and when it came [s]; `now` is our clock [s].
+
+        `key_for` gives the key of the robot that is expected at an address; None where it is not paired.
+        """
+        self._key_for = key_for
         self._settings, self._mailbox, self._network = settings, mailbox, network
         self._client_id, self._client_name = client_id, client_name
         self._on_frame, self._now = on_frame, now
 
     def link(self, url: str, known: KnownEvents | None = None) -> Link:
         """A link to the robot at `url`; `known` is how far its events are known."""
+        key = self._key_for(url)
         link = Link(
             url,
             self._mailbox,
             self._network,
             client_id=self._client_id,
             client_name=self._client_name,
+            credentials=key.credentials if key else None,
             known=known,
             marks=marks(self._settings),
             on_picture=self._on_frame,
@@ -60,4 +68,5 @@ class Connector:
             now=self._now,
             client_id=self._client_id,
             wants_control=wants_control,
+            key=self._key_for(url),
         )

@@ -12,6 +12,8 @@ from app.link.camera_decoder import CameraDecoder
 from app.link.feeds import Mailbox, Post
 from app.session.recordings import Recordings
 from app.timers import GLASS_PERIOD, wake_trigger
+from app.trust.keyring import RobotKey
+from app.trust.pairing_attempts import PairingAttempts
 from bridge.core.camera_frames import Frame
 from bridge.core.network_thread import NetworkThread
 
@@ -28,11 +30,12 @@ class NetworkSide:
         *,
         client_id: str,
         client_name: str,
+        key_for: Callable[[str], RobotKey | None],
         deliver: Callable[[str, Post], object],
         discover: bool,
         now: Callable[[], float],
     ) -> None:
-        """`deliver` is called in the UI thread with each channel and post; `discover` listens to robots saying HELLO."""
+        """`key_for` gives the key of the robot that is expected at an address. `deliver` is called in the UI thread with each channel and post; `discover` listens to robots saying HELLO."""
         self._records, self._deliver, self._now = records, deliver, now
         self._drained = -math.inf
         self.mailbox = Mailbox(wake_trigger(self.drain))
@@ -41,6 +44,7 @@ class NetworkSide:
         self.nearby = BeaconListener(self.mailbox, self._network, now=now)
         if discover:
             self.nearby.start()
+        self.pairing = PairingAttempts(self.mailbox, self._network, client_name, now)
         self.connector = Connector(
             settings,
             self.mailbox,
@@ -48,6 +52,7 @@ class NetworkSide:
             client_id=client_id,
             client_name=client_name,
             on_frame=self._on_frame,
+            key_for=key_for,
             now=now,
         )
 

@@ -9,6 +9,7 @@ from app.core.settings_store import Settings
 from app.discovery.beacon_listener import HELLO, LATENCY, BeaconListener
 from app.discovery.known_robots import KnownRobots, check_address
 from app.link.feeds import Post
+from app.robot_trust import RobotTrust
 from app.screens.connect.connect import ConnectScreen
 from app.screens.parts.dialogs import AddressDialog
 from app.session.session import Session
@@ -24,6 +25,13 @@ class Host(Protocol):
     connect: ConnectScreen
 
     @property
+    def robots(self) -> KnownRobots:
+        """Every robot that is heard or saved."""
+
+    def say(self, text: str, level: str) -> None:
+        """Show one sentence, wherever the operator looks."""
+
+    @property
     def session(self) -> Session | None:
         """The session with the robot; None while none is wanted."""
 
@@ -37,7 +45,14 @@ class RobotDirectory:
     def __init__(self, app: Host, settings: Settings, client_name: str, now: Callable[[], float]) -> None:
         """`client_name` is what this handheld is called; `now` is our clock [s]."""
         self._app, self._settings, self._client_name = app, settings, client_name
-        self.robots = KnownRobots(now, settings.get("robots") or (), connected=self._connected)
+        self.trust = RobotTrust(app, settings.path.parent)
+        """The robots that this handheld is paired with."""
+        self.robots = KnownRobots(
+            now,
+            settings.get("robots") or (),
+            connected=self._connected,
+            paired=lambda: self.trust.keys.claims,
+        )
         """Every robot that is heard or saved."""
         self._unproven = ""
         """The address that was typed last, until something answers there."""
@@ -50,7 +65,7 @@ class RobotDirectory:
         elif channel.startswith(LATENCY):
             self.robots.measured(*post.value)
         else:
-            return False
+            return self.trust.on_post(channel, post)
         return True
 
     def on_info(self, url: str, info: RobotInfo) -> None:
@@ -76,8 +91,10 @@ class RobotDirectory:
         self._app.open(url)
         self._unproven = url
 
-    def on_answer(self, url: str) -> None:
-        """Something has answered at `url`: save an address that was typed."""
+    def on_answer(self, session: Session) -> None:
+        """A robot has answered: save an address that was typed, and where a paired one was met."""
+        url = session.robot.url
+        self.trust.on_answer(session)
         if self._unproven == url:
             self.robots.add(url)
             self._save()

@@ -14,6 +14,7 @@ from app.session.connecting import connecting_words, has_failed
 from app.session.picture_feed import PictureFeed
 from app.session.recordings import Recordings
 from app.session.session import Session
+from bridge.core.link_state import LinkFault
 
 if TYPE_CHECKING:
     from app.screens.shell.shell import Shell  # made when there is a robot, for a quick start
@@ -35,15 +36,18 @@ class RobotVisit:
         rest: Callable[[], object],
         on_cut: Callable[[Shell | None], object],
         on_left: Callable[[], object],
+        ask_to_pair: Callable[[str, str], object],
         now: Callable[[], float],
     ) -> None:
         """`connector` gives what makes links, `make_shell` the screens of a robot that answered; `now` is our clock [s].
 
         `rest` is called when every control has to let go, `on_cut` with the robot's screens before its link is closed, `on_left` afterwards.
+        `ask_to_pair` gets the address of a robot that does not let this handheld in, and why.
         """
         self._pages, self._connect, self._records = pages, connect, records
         self._connector, self._make_shell = connector, make_shell
         self._rest, self._on_cut, self._on_left = rest, on_cut, on_left
+        self._ask_to_pair = ask_to_pair
         self._pictures = PictureFeed(now)
         self.session: Session | None = None
         """None while no robot is wanted."""
@@ -106,6 +110,11 @@ class RobotVisit:
     def _tick_connecting(self, session: Session) -> None:
         if session.ever_connected:
             self.enter()
+            return
+        if session.link_state.fault in (LinkFault.NOT_ACCEPTED, LinkFault.NOT_PROTECTED):
+            url, why = session.robot.url, session.link_state.sentence
+            self.leave()
+            self._ask_to_pair(url, why)
             return
         self._connect.say(*connecting_words(session), self.leave)
         if has_failed(session):

@@ -187,6 +187,16 @@ class KnownRobots:
         claims = [url for url, one in self._heard.items() if one.hello.key == hello.key]
         return len(claims) < MAX_PER_KEY or hello.url in claims[:MAX_PER_KEY]
 
+    def claim(self, url: str) -> str:
+        """The key that the robot at `url` claims in its HELLO; empty where it makes no claim."""
+        heard = self._heard.get(url)
+        return heard.hello.key if heard else ""
+
+    def name_of(self, url: str) -> str:
+        """What the robot at `url` is called; empty where that is not known."""
+        heard = self._heard.get(url)
+        return heard.hello.name if heard else self._saved.get(url, {}).get("name", "")
+
     def measured(self, url: str, latency: float) -> None:
         """A round trip to the robot took `latency` [s]; NaN when it did not answer."""
         if url in self._heard or url in self._saved:

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from app.link.subscriptions import Sources
 from app.link.task_set import TaskSet
 from bridge.client.client import CameraStream
+from bridge.client.credentials import Credentials
 from bridge.core.camera_frames import Frame
 from bridge.msgs.sensor_msgs import CompressedImage
 
@@ -21,9 +22,18 @@ class CameraWatch:
     """At most one stream at a time."""
 
     def __init__(
-        self, url: str, sources: Sources, tasks: TaskSet, on_frame: Callable[[Frame, float], None]
+        self,
+        url: str,
+        sources: Sources,
+        tasks: TaskSet,
+        on_frame: Callable[[Frame, float], None],
+        credentials: Credentials | None = None,
     ) -> None:
-        """`url` is the robot's; `on_frame` takes each frame and when it came [s], our clock."""
+        """`url` is the robot's; `on_frame` takes each frame and when it came [s], our clock.
+
+        With `credentials` pictures are taken from the robot with that key only.
+        """
+        self._credentials = credentials
         self._url, self._sources, self._tasks, self._on_frame = url.rstrip("/"), sources, tasks, on_frame
         self._stream: asyncio.Task[None] | None = None
         self._unsubscribe: Callable[[], None] | None = None
@@ -42,7 +52,7 @@ class CameraWatch:
             self._unsubscribe = self._sources.camera(self._on_image)
 
     async def _run(self, camera: str) -> None:
-        stream = CameraStream(f"{self._url}/camera/{camera}", self._on_frame)
+        stream = CameraStream(f"{self._url}/camera/{camera}", self._on_frame, credentials=self._credentials)
         try:
             await stream.run()
         finally:

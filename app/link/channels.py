@@ -3,22 +3,51 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 from app.link.event_order import KnownEvents
 from app.link.feeds import Mailbox
 from app.link.subscriptions import Seen
+from bridge.client.client import BridgeClient
+from bridge.core.errors import BridgeError
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import ControlStatus
 
-__all__ = ["EVENT", "KNOWN", "LINK", "MISSED", "CAPABILITIES", "OUTCOME", "SEEN", "LinkPosts"]
+__all__ = [
+    "ANSWER",
+    "CAPABILITIES",
+    "EVENT",
+    "KNOWN",
+    "LINK",
+    "MISSED",
+    "OUTCOME",
+    "SEEN",
+    "Answer",
+    "LinkPosts",
+]
 
 EVENT, MISSED, LINK, OUTCOME = "event", "missed", "link", "outcome"
 """`Event`s, what was `Missed`, `LinkState`s, `Outcome`s, all queued."""
 KNOWN = "known"
 """Newest wins: how far the robot's events are `KnownEvents`; it comes after them."""
+ANSWER = "answer"
+"""`Answer`s of services that are no commands, queued."""
+ANSWER_TIMEOUT = 5.0
+"""Longest time for the answer of a service that is no command [s]."""
 CAPABILITIES, SEEN = "offer", "seen"
 """The robot's `Capabilities` when it is known and when it changed, and what is `Seen` of the topic looked at."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What became of a call of a service."""
+
+    service: str
+    message: Msg | None
+    """The answer; None where the robot refused or did not answer."""
+    problem: str = ""
+    """Why there is none, as a sentence."""
 
 
 class LinkPosts:
@@ -31,6 +60,14 @@ class LinkPosts:
     def queue(self, channel: str) -> Callable[[Any], None]:
         """A function that queues a value in that channel: none is ever dropped."""
         return lambda value: self._mailbox.queue(channel, value, self._now())
+
+    async def answer(self, client: BridgeClient, service: str, request: Msg, response: type[Msg]) -> None:
+        """Call a service and queue its `Answer`."""
+        try:
+            found = Answer(service, await client.call(service, request, response, timeout=ANSWER_TIMEOUT))
+        except BridgeError as error:
+            found = Answer(service, None, str(error))
+        self.queue(ANSWER)(found)
 
     def post_message(self, name: str, message: Msg, received: float) -> None:
         """A message of a topic, by our name of it, that came at `received` [s], our clock; newest wins."""

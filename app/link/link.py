@@ -26,6 +26,7 @@ from app.link.link_health import LinkHealth
 from app.link.subscriptions import Peek, Sources
 from app.link.task_set import TaskSet
 from bridge.client.client import BridgeClient, LinkState, Phase
+from bridge.client.credentials import Credentials
 from bridge.core.camera_frames import Frame
 from bridge.core.network_thread import NetworkThread
 from bridge.msgs import Msg
@@ -48,6 +49,7 @@ class Link:
         *,
         client_id: str,
         client_name: str,
+        credentials: Credentials | None = None,
         known: KnownEvents | None = None,
         marks: Mapping[str, int] | None = None,
         on_picture: Callable[[Frame, float], None] | None = None,
@@ -56,12 +58,12 @@ class Link:
     ) -> None:
         """`client_id` and `client_name` are who this handheld is to the robot; `now` is our clock [s].
 
-        `known` and `marks` are how far its events are known, as `EventStream` takes them. `on_picture` is called in the network thread with each camera frame and when it came [s].
+        With `credentials` it speaks to the robot with that key only. `known` and `marks` are how far its events are known, as `EventStream` takes them. `on_picture` is called in the network thread with each camera frame and when it came [s].
         """
-        self.url = url
+        self.url, self.credentials = url, credentials
         self._network, self._now = network, now
         self._posts = posts = LinkPosts(mailbox, now)
-        self._client = client = BridgeClient(url, on_state=self._on_state, now=now)
+        self._client = client = BridgeClient(url, on_state=self._on_state, now=now, credentials=credentials)
         self._tasks = TaskSet()
         self.commands = Commands(
             client.call,
@@ -93,7 +95,7 @@ class Link:
         self._advertiser = Advertiser(client)
         self._peek = Peek(client, posts.post_seen)
         self._camera = CameraWatch(
-            url, self._sources, self._tasks, on_picture or (lambda _frame, _received: None)
+            url, self._sources, self._tasks, on_picture or (lambda _frame, _received: None), credentials
         )
         self._running: concurrent.futures.Future[None] | None = None
 
@@ -180,6 +182,10 @@ class Link:
         """
         self._spawn(partial(self.commands.send, name, origins.current(), **fields))
 
+    def ask(self, service: str, request: Msg, response: type[Msg]) -> None:
+        """Call a service that is no command; its `channels.Answer` comes through the mailbox."""
+        self._spawn(partial(self._posts.answer, self._client, service, request, response))
+
     def stop(self) -> None:
         """STOP: the stick is let go and the robot is told until it confirms.
 
@@ -225,8 +231,6 @@ class Link:
 
     def _spawn(self, begin: Callable[[], Coroutine[Any, Any, Any]]) -> None:
         self._network.call(lambda: self._tasks.start(begin()))
-
-    # what happens in the network thread
 
     async def _run(self) -> None:
         sender = self._tasks.start(self._sender.run())

@@ -26,7 +26,10 @@ from app.session.initial_pose import initial_pose
 from app.session.logbook import Logbook
 from app.session.robot_profile import RobotProfile
 from app.stop.robot_stop import RobotStop
+from app.trust.keyring import RobotKey, host_of
 from bridge.client.client import LinkState, Phase
+from bridge.core.identity import public_id
+from bridge.discovery.hello import is_loopback
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
 
@@ -45,8 +48,13 @@ class Session:
         now: Callable[[], float],
         client_id: str,
         wants_control: bool,
+        key: RobotKey | None = None,
     ) -> None:
-        """`wants_control` takes control whenever it is free; without it the robot is only watched."""
+        """`wants_control` takes control whenever it is free; without it the robot is only watched.
+
+        `key` is that of a paired robot, by which it has to prove who it is.
+        """
+        self.key = key
         self.link, self.feeds = link, feeds
         self.client_id = client_id
         self._now = now
@@ -85,6 +93,16 @@ class Session:
         return self._now()
 
     # how the robot and the link are
+
+    @property
+    def own_id(self) -> str:
+        """The public id of this handheld at that robot."""
+        return self.key.id if self.key else public_id(self.client_id)
+
+    @property
+    def protected(self) -> bool:
+        """Nobody in between reads or changes what is said: the link is to a paired robot, or within this machine."""
+        return self.key is not None or is_loopback(host_of(self.robot.url))
 
     @property
     def boot(self) -> str:

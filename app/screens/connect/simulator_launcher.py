@@ -8,7 +8,7 @@ from typing import Any, Protocol
 from app.core.settings_store import Settings
 from app.discovery import simulator_process as simulator
 from app.discovery.simulator_options import SimulationChoice, SimulatorOptions
-from app.link.feeds import Mailbox
+from app.link.feeds import Mailbox, Post
 from app.screens.connect.connect import ConnectScreen
 from app.screens.connect.simulator_dialog import SimulatorDialog
 from app.session.session import Session
@@ -102,6 +102,12 @@ class SimulatorLauncher:
         self._show(STARTING, busy=True)
         self._app.connect.say("")
         self.current.start()
+
+    def on_post(self, channel: str, post: Post) -> bool:
+        """Take in what a thread told; False for any other channel."""
+        if channel == CHANNEL:
+            self.on_report(*post.value)
+        return channel == CHANNEL
 
     def on_report(self, what: str, text: str) -> None:
         """Take in what a thread told."""

@@ -1,0 +1,166 @@
+"""Paired robots: their keys, and pairing as it is asked for on the glass or by a link."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any, Protocol
+
+from app.discovery.known_robots import KnownRobots
+from app.link.feeds import Post
+from app.screens.trust.pair_dialog import PairDialog
+from app.session.session import Session
+from app.trust.keyring import Keyring, RobotKey, place_of
+from app.trust.pairing_attempts import PAIRING, Attempt, PairingAttempts
+from bridge.trust.pairing import SCHEME, BadPairing, PairLink, split_code
+
+__all__ = ["RobotTrust"]
+
+NO_ROBOT = "A code is of one robot: choose that robot's card first, or paste its link."
+ROLES = {"watch": "may watch it", "drive": "may drive it", "manage": "may drive and manage it"}
+
+
+class Host(Protocol):
+    """The app, as far as pairing needs it."""
+
+    root: Any
+
+    @property
+    def robots(self) -> KnownRobots:
+        """Every robot that is heard or saved."""
+
+    def open(self, url: str) -> None:
+        """Connect to a robot."""
+
+    def say(self, text: str, level: str) -> None:
+        """Show one sentence, wherever the operator looks."""
+
+
+class RobotTrust:
+    """Everything here happens in the UI thread."""
+
+    def __init__(self, app: Host, folder: Path) -> None:
+        """`folder` is where the keys are kept."""
+        self._app = app
+        self.keys = Keyring(folder)
+        """The robots that this handheld is paired with."""
+        self.dialog: PairDialog | None = None
+        """The question that is on the glass."""
+        self.attempts: PairingAttempts
+        """What carries attempts out; there while the app runs."""
+        self._number = -1
+        self._url = ""
+        """Address of the robot that the dialog is about; empty for any."""
+        self._silent: list[PairLink] = []
+        """Links that are still to be paired with, without a question."""
+        self._then = ""
+        """Address to connect to once these are done; empty for none."""
+
+    # who is known
+
+    def key_for(self, url: str) -> RobotKey | None:
+        """The key of the robot that is expected at `url`; None where it is not paired."""
+        return self.keys.find(url, self._app.robots.claim(url))
+
+    def asks_first(self, url: str) -> bool:
+        """Ask on the glass to pair where nothing else is possible: `url` is a link, or reached by TLS and not paired."""
+        if url.startswith(f"{SCHEME}:"):
+            self.open_link(url)
+        elif url.startswith("wss:") and self.key_for(url) is None:
+            self.ask(url)
+        else:
+            return False
+        return True
+
+    def on_answer(self, session: Session) -> None:
+        """A robot has answered: a paired one has proved who it is, and is expected there from now on."""
+        if session.key is not None:
+            self.keys.met(session.key.fingerprint, session.robot.url)
+
+    def forget(self, key: RobotKey) -> None:
+        """Forget a robot here; it goes on knowing this handheld until somebody removes it there."""
+        self.keys.forget(key.fingerprint)
+
+    # pairing
+
+    def ask(self, url: str = "", problem: str = "", link: PairLink | None = None) -> None:
+        """Ask for the code of the robot at `url`, for any link, or whether to pair by `link`."""
+        if self.dialog is not None:
+            self.dialog.close()
+        self._url = url
+        name = self._app.robots.name_of(url) or place_of(url) if url else ""
+        self.dialog = PairDialog(self._answer, robot=name, link=link, problem=problem)
+        self.dialog.bind(on_close=self._closed)
+        self._app.root.add_widget(self.dialog)
+
+    def open_link(self, text: str) -> None:
+        """Somebody opened a robot's link: ask whether to pair."""
+        try:
+            self.ask(link=PairLink.read(text))
+        except BadPairing as mistake:
+            self._app.say(str(mistake), "danger")
+
+    def pair_silently(self, links: Iterable[str], then: str = "") -> None:
+        """Pair by links of robots that this app or who started it runs, without a question; then connect to `then`.
+
+        One that is paired already, or whose link is damaged, is left out: on this machine it is reached without a key.
+        """
+        for text in links:
+            try:
+                link = PairLink.read(text)
+            except BadPairing:
+                continue
+            if self.keys.get(link.fingerprint) is None:
+                self._silent.append(link)
+        self._then = then
+        self._go_on()
+
+    def _go_on(self) -> None:
+        if self._silent:
+            self._number = self.attempts.by_link(self._silent.pop(0))
+        elif self._then:
+            url, self._then = self._then, ""
+            self._app.open(url)
+
+    def _answer(self, text: str) -> None:
+        """What the dialog was told; BadPairing for what is neither link nor code."""
+        if text.strip().startswith(f"{SCHEME}:"):
+            self._number = self.attempts.by_link(PairLink.read(text))
+        else:
+            split_code(text)
+            if not self._url:
+                raise BadPairing(NO_ROBOT)
+            self._number = self.attempts.by_code(f"wss://{place_of(self._url)}", text)
+        if self.dialog is not None:
+            self.dialog.busy = True
+
+    def _closed(self, dialog: PairDialog) -> None:
+        if dialog is self.dialog:
+            self.dialog, self._number = None, -1
+            self.attempts.cancel()
+
+    # what comes in
+
+    def on_post(self, channel: str, post: Post) -> bool:
+        """Take in an attempt that ended; False for any other channel."""
+        if channel != PAIRING:
+            return False
+        attempt: Attempt = post.value
+        if attempt.number == self._number:
+            self._ended(attempt)
+        return True
+
+    def _ended(self, attempt: Attempt) -> None:
+        dialog = self.dialog
+        if attempt.paired is not None:
+            key = self.keys.add(attempt.paired)
+        if dialog is None:
+            self._go_on()
+        elif attempt.paired is None:
+            dialog.busy, dialog.problem = False, attempt.problem
+        else:
+            url = self._url or attempt.paired.url
+            self.dialog = None
+            dialog.close()
+            self._app.open(url)
+            self._app.say(f"Paired with {key.name}. This handheld {ROLES[key.role]}.", "ok")

@@ -1,0 +1,1 @@
+"""Pairing with a robot, and the people whom it knows."""

@@ -1,0 +1,187 @@
+"""Pairing with a robot: its code typed by big digits, or its link."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from kivy.core.clipboard import Clipboard
+from kivy.lang import Builder
+from kivy.properties import BooleanProperty, NumericProperty, StringProperty
+from kivy.uix.widget import Widget
+
+import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
+from app.screens.parts.dialogs import Question
+from bridge.trust.pairing import BadPairing, PairLink
+from widgets.parts.buttons import PushButton
+
+__all__ = ["PairDialog"]
+
+MAX_DIGITS = 8
+"""Of a guest's code; a robot's own has six."""
+MAX_PASTED = 600
+"""Characters that are taken from the clipboard."""
+KEYS = ("1", "2", "3", "4", "5", "6", "7", "8", "9", "Paste", "0", "backspace")
+HINT = "Type the code that the robot shows, or paste its link. A phone's camera opens the QR code by itself."
+HINT_LINK = "Paste the robot's link. A phone's camera opens the QR code by itself."
+
+Builder.load_string("""
+<PairDialog>:
+    short: root.room[3] < dp(520)
+    Card:
+        id: card
+        size_hint: None, None
+        width: min(dp(760) if root.short and root.types else dp(440), root.room[2] - dp(28))
+        height: self.minimum_height
+        pos: root.room[0] + (root.room[2] - self.width) / 2, root.room[1] + max(dp(8), (root.room[3] - self.height) / 2)
+        padding: dp(14) if root.short else dp(20)
+        spacing: dp(8) if root.short else dp(14)
+        BoxLayout:
+            size_hint_y: None
+            height: dp(30)
+            spacing: dp(10)
+            Icon:
+                name: 'lock'
+                role: 'accent'
+                pos_hint: {'center_y': .5}
+            Text:
+                text: root.title
+                bold: True
+                font_size: theme.size_title
+                shorten: True
+                shorten_from: 'right'
+                pos_hint: {'center_y': .5}
+        Remark:
+            text: root.problem or root.sentence
+            role: 'danger' if root.problem else 'muted'
+        BoxLayout:
+            orientation: 'horizontal' if root.short else 'vertical'
+            size_hint_y: None
+            height: self.minimum_height if root.types else 0
+            opacity: 1 if root.types else 0
+            disabled: not root.types or root.busy
+            spacing: dp(12)
+            TextField:
+                id: field
+                font_size: sp(15) if root.is_link else sp(34)
+                height: dp(68)
+                halign: 'left' if root.is_link else 'center'
+                hint_text: '000 000'
+                wrong: bool(root.problem)
+                pos_hint: {'center_y': .5}
+                on_text: root.problem = ''
+                on_text_validate: root.answer()
+            Grid:
+                id: pad
+                cols: 6 if root.short else 3
+                spacing: dp(8)
+                size_hint_x: 1.6 if root.short else 1
+                row_default_height: theme.target
+                row_force_default: True
+        BoxLayout:
+            size_hint_y: None
+            height: theme.target
+            spacing: dp(12)
+            QuietButton:
+                id: cancel
+                text: 'Cancel'
+                on_release: root.close()
+            PrimaryButton:
+                id: pair
+                text: 'Pairing …' if root.busy else 'Pair'
+                disabled: root.busy
+                on_release: root.answer()
+""")
+
+
+class PairDialog(Question):
+    """Asks for the code of one robot, for any link, or whether to pair by the link that was opened.
+
+    `on_answer` gets what was typed, and may raise ValueError, whose sentence is shown.
+    """
+
+    wanted = (468.0, 560.0)
+    title = StringProperty("Pair with a robot")
+    sentence = StringProperty(HINT)
+    problem = StringProperty("")
+    """Why it did not work, as a sentence."""
+    busy = BooleanProperty(False)
+    """An attempt goes on."""
+    types = BooleanProperty(True)
+    """There is something to type: no link was opened."""
+    is_link = BooleanProperty(False)
+    """What was typed or pasted is a link and no code."""
+    short = BooleanProperty(False)
+    """There is no room for the digits below the field."""
+    digits = NumericProperty(0)
+    """So many digits were typed."""
+
+    def __init__(
+        self,
+        on_answer: Callable[[str], object],
+        *,
+        robot: str = "",
+        link: PairLink | None = None,
+        problem: str = "",
+        **kwargs: Any,
+    ) -> None:
+        """`robot` is what the robot is called, empty for any; `link` is one that was opened."""
+        super().__init__(**kwargs)
+        self._on_answer, self._link = on_answer, link
+        self.problem = problem
+        for key in KEYS:
+            button = PushButton(
+                text=key if key != "backspace" else "",
+                icon="backspace" if key == "backspace" else "",
+                fill="raised",
+                border="line",
+                ink="text",
+            )
+            button.bind(on_release=lambda _, key=key: self.press(key))
+            self.ids.pad.add_widget(button)
+        self.ids.field.bind(text=self._typed)
+        if link is not None:
+            self.types = False
+            self.title = f"Pair with {link.name or 'this robot'}?"
+            self.sentence = (
+                f"Its link names {link.host}:{link.port}. Pair only if you opened the link yourself."
+            )
+        elif robot:
+            self.title = f"Pair with {robot}"
+        else:
+            self.sentence = HINT_LINK
+
+    def press(self, key: str) -> None:
+        """A key below the field was pressed."""
+        field = self.ids.field
+        if key == "Paste":
+            field.text = (Clipboard.paste() or "")[:MAX_PASTED].strip()
+        elif key == "backspace":
+            field.text = "" if self.is_link else field.text.rstrip()[:-1].rstrip()
+        elif not self.is_link and self.digits < MAX_DIGITS:
+            field.text += key
+
+    def _typed(self, field: Widget, text: str) -> None:
+        """Put a blank into the middle of a code, so that it is read as it is said."""
+        self.is_link = ":" in text
+        plain = "".join(letter for letter in text if letter.isdigit())
+        self.digits = len(plain)
+        if not self.is_link and plain and all(letter.isdigit() or letter.isspace() for letter in text):
+            grouped = " ".join(plain[start : start + 3] for start in range(0, min(len(plain), MAX_DIGITS), 3))
+            if grouped != text:
+                field.text = grouped
+
+    def answer(self) -> None:
+        """Hand over the link or what was typed; stays open until pairing has ended."""
+        if self.busy:
+            return
+        self.problem = ""
+        try:
+            self._on_answer(self._link.text if self._link else self.ids.field.text)
+        except BadPairing as mistake:
+            self.problem = str(mistake)
+
+    def close(self) -> None:
+        """Leave the glass, and the keyboard with it."""
+        self.ids.field.focus = False
+        super().close()
