@@ -1,9 +1,10 @@
-"""Command line of the benches, `python -m bench [NAME…] [--data DIR] [--json FILE] [--doc [CONDITIONS]]`: measures, prints a table, writes out/bench/."""
+"""Command line of the benches, `python -m bench [NAME…] [--data DIR] [--json FILE] [--doc [CONDITIONS]] [--COUNT N…]`: measures, prints a table, writes out/bench/."""
 
 from __future__ import annotations
 
 import argparse
 import json
+import math
 import os
 import platform
 import sys
@@ -11,7 +12,7 @@ import traceback
 from collections.abc import Sequence
 from pathlib import Path
 
-from bench.support.harness import Context, Result, load, measure, names
+from bench.support.harness import COUNTS, ON_DEMAND, Context, Result, load, measure, names
 from bench.support.noise import Noise
 from bench.support.report import as_json, document, table, write
 
@@ -23,7 +24,11 @@ PAGE = ROOT / "docs" / "performance.md"
 def options(arguments: Sequence[str], known: Sequence[str]) -> argparse.Namespace:
     """What the command line asks for; SystemExit 2 with one sentence for a name that is none."""
     parser = argparse.ArgumentParser(prog="python -m bench", description="Measures Pilothouse.")
-    parser.add_argument("name", nargs="*", help=f"benches to run: {', '.join(known)}; default: all")
+    parser.add_argument(
+        "name",
+        nargs="*",
+        help=f"benches to run: {', '.join(known)}; default: all but {', '.join(sorted(ON_DEMAND))}",
+    )
     parser.add_argument(
         "--data", type=Path, metavar="DIR", help="folder of recordings for the benches of a recogniser"
     )
@@ -35,12 +40,19 @@ def options(arguments: Sequence[str], known: Sequence[str]) -> argparse.Namespac
         metavar="CONDITIONS",
         help="write docs/performance.md from out/bench, with these remarks on the machine; measures only the named benches",
     )
+    for name, (usual, meaning) in COUNTS.items():
+        parser.add_argument(
+            f"--{name}", type=float, metavar="N", default=usual, help=f"{meaning}; default: {usual:g}"
+        )
     asked = parser.parse_args(arguments)
     unknown = [name for name in asked.name if name not in known]
     if unknown:
         parser.exit(2, f"There is no bench {unknown[0]!r}; there are {', '.join(known)}.\n")
     if asked.data and not asked.data.is_dir():
         parser.exit(2, f"--data must be a folder, and {asked.data} is none.\n")
+    for name in COUNTS:
+        if not 0 < getattr(asked, name) < math.inf:
+            parser.exit(2, f"--{name} must be above 0, and {getattr(asked, name):g} is not.\n")
     return asked
 
 
@@ -73,8 +85,10 @@ def main(arguments: Sequence[str]) -> int:
     """0 for any figures; 1 when a bench crashed."""
     known = names()
     asked = options(arguments, known)
-    chosen = asked.name or (known if asked.doc is None else [])
-    results = [run(name, Context(asked.data)) for name in chosen]
+    usual = [name for name in known if name not in ON_DEMAND]
+    chosen = asked.name or (usual if asked.doc is None else [])
+    context = Context(asked.data, {name: getattr(asked, name) for name in COUNTS})
+    results = [run(name, context) for name in chosen]
     found = [result for result in results if result]
     missed = [f"{r.name}.{o.figure.name}" for r in found for o in r.outcomes if o.verdict == "MISSED"]
     if missed:

@@ -1,6 +1,6 @@
-"""Links that are cut at random instants while a robot drives at full speed, over all kinds of robots.
+"""Links that are cut at random instants while a robot drives, over all kinds of robots and of clients: 5,000 of them.
 
-Each kind's robot side is a process of its own, driven by our client at 20 Hz over a real socket through a proxy that breaks
+**Vehicles**, at full speed: each kind's robot side is a process of its own, driven by our client at 20 Hz over a real socket through a proxy that breaks
 the connection by RST or passes nothing any more, while the driver goes on; later what still waited in the line is let
 through. All kinds are driven at the same time. The time counts at the robot's port: from the moment that the last
 command which it obeyed was given to the command to rest. Missed is a cut after which anything moved the robot later than
@@ -9,15 +9,21 @@ command which it obeyed was given to the command to rest. Missed is a cut after 
 The robots are the simulated ones, on open ground and in calm water: the patrol robot, the truck, the boat, the swimmer and
 the drone, which is in the air, each at its full speed (`bench/support/kinds.py`). The other way is a server that hands every
 twist on to the same robots and checks neither its age nor who is gone; these are watched for no longer than ours.
+
+**Clients**, all the other cuts: 21 robots that weigh nothing, in three processes, are driven at the same time by our client with its stamps, by a plain
+WebSocket without any, and by roslibpy. The stick is held on after the cut. A link ends by RST; or nothing passes any more and what waited comes late; or
+the robot alone hears nothing; or nothing passes for 0.35 to 1.1 s, then all at once, while the stick is still held. Late is a cut after which the robot was
+moved by a command that was given after the cut, or by any later than 300 ms after it was given: a stick has to be heard at zero first.
 """
 
 from __future__ import annotations
 
 import asyncio
 import json
+import math
 import random
 import threading
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 
 from bench.support.child import Child
@@ -25,15 +31,37 @@ from bench.support.cuts import Cut, Driver, Line, cut, naive, ours
 from bench.support.figures import Figure, percentile
 from bench.support.harness import Context, Sides
 from bench.support.kinds import KINDS
+from bench.support.many_cuts import ManyCut, many
 from bench.support.station import serving
 
 RELAY = "a relay without expiry"
-CUTS = 500
+VEHICLE_CUTS = 100
+"""Of the cuts."""
 THEIRS = 50
 """The other way does it less often: every time comes to the same."""
+CLIENT_NAMES = {
+    "ours": "our client, stamped",
+    "raw": "a plain WebSocket, no stamps",
+    "roslibpy": "roslibpy, no stamps",
+}
 FIGURES = (
     Figure("cuts", "", "links that were cut"),
-    Figure("missed", "%", "of them moved the robot later than 300 ms after the command", 0.0, against=RELAY),
+    *(
+        figure
+        for client, what in CLIENT_NAMES.items()
+        for figure in (
+            Figure(f"cuts_{client}", "", f"of them {what}"),
+            Figure(f"late_{client}", "", f"{what}: late motions", 0.0),
+            Figure(f"longest_{client}", "ms", f"{what}: the longest time that a command was in force", 300.0),
+        )
+    ),
+    Figure(
+        "missed",
+        "%",
+        "of the vehicles' moved the robot later than 300 ms after the command",
+        0.0,
+        against=RELAY,
+    ),
     Figure(
         "reset_p50", "ms", "last valid command to zero at the robot, broken by RST, median", against=RELAY
     ),
@@ -49,9 +77,34 @@ REPEATS = 1
 
 
 @contextmanager
-def prepare(_: Context) -> Iterator[Sides]:
+def prepare(context: Context) -> Iterator[Sides]:
     """Nothing is kept."""
-    yield Sides(lambda: run(CUTS, ours), theirs)
+    count = int(context.count("cuts"))
+    yield Sides(lambda: both(count), theirs)
+
+
+def both(count: int) -> dict[str, float]:
+    """Vehicles first, then clients of every kind."""
+    vehicles = run(min(VEHICLE_CUTS, count), ours)
+    found = many(max(0, count - VEHICLE_CUTS))
+    for each in found:
+        if each.late:
+            print(f"  {each}")
+    named = {name: value for client in CLIENT_NAMES for name, value in of_client(found, client).items()}
+    return {**vehicles, **named, "cuts": vehicles["cuts"] + len(found)}
+
+
+def of_client(found: Sequence[ManyCut], client: str) -> dict[str, float]:
+    """Its figures; RuntimeError when a robot was not driven at all."""
+    its = [each for each in found if each.client == client]
+    idle = sum(not each.obeyed for each in its)
+    if idle:
+        raise RuntimeError(f"{client}: {idle} of {len(its)} robots did not move before the cut.")
+    return {
+        f"cuts_{client}": len(its),
+        f"late_{client}": sum(each.late for each in its),
+        f"longest_{client}": max((each.longest for each in its), default=math.nan) * 1e3,
+    }
 
 
 def cuts(kinds: Iterable[str], count: int, driver: Driver, *flags: str) -> dict[str, list[Cut]]:

@@ -11,18 +11,40 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol
 
+from robotside.commands.state_directory import base
+from robotside.commands.user_mistake import UserMistake
 from robotside.core.config import DEFAULT_CONFIG, Config, load
 
-__all__ = ["MAX_ROBOTS", "SIMULATED", "One", "UserMistake", "configs", "ports", "read", "robots", "state"]
+__all__ = [
+    "COMMANDS",
+    "MAX_ROBOTS",
+    "SIMULATED",
+    "Command",
+    "One",
+    "UserMistake",
+    "configs",
+    "ports",
+    "read",
+    "robots",
+    "state",
+]
 
 MAX_ROBOTS = 32
 """Robots of one robot side."""
 SIMULATED = "sim:"
 
 
-class UserMistake(Exception):
-    """A mistake on the command line; the text is one sentence."""
+class Command(Protocol):
+    """A module of `robotside.commands`."""
+
+    def add(self, commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+        """Add the command and its options, with its `run(options) -> int` as their default `run`."""
+
+
+COMMANDS: tuple[Command, ...] = ()
+"""Those beside `serve` and `offer`, in the order of the help."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +61,7 @@ class One:
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> None:  # type: ignore[override]
-        raise UserMistake(f"{message[0].upper()}{message[1:]}; see python -m robotside serve --help.")
+        raise UserMistake(f"{message[0].upper()}{message[1:]}; see {self.prog} --help.")
 
 
 def read(argv: Sequence[str] | None) -> argparse.Namespace:
@@ -53,6 +75,8 @@ def read(argv: Sequence[str] | None) -> argparse.Namespace:
     _add_serve(commands.add_parser("serve", help="serve one robot, or several in one simulated world"))
     offer = commands.add_parser("offer", help="list the robots and worlds that can be simulated")
     offer.add_argument("--json", action="store_true", help="as JSON, for programs")
+    for command in COMMANDS:
+        command.add(commands)
     options = parser.parse_args(words)
     if options.command == "serve":
         _check(options)
@@ -200,11 +224,10 @@ def state(options: argparse.Namespace, names: Sequence[str], number: int, world:
     name = f"{names[number]}-{before + 1}" if before else names[number]
     if options.state is not None:
         return Path(options.state) / name if len(names) > 1 else Path(options.state)
-    base = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
     if name.startswith("ros:"):
-        return Path(base) / "pilothouse" / _plain(name)
+        return base() / _plain(name)
     where = str(Path(world).resolve()) if world.endswith(".toml") else world
-    return Path(base) / "pilothouse" / f"sim-{_plain(name)}-{_plain(where)}"
+    return base() / f"sim-{_plain(name)}-{_plain(where)}"
 
 
 def _plain(name: str) -> str:

@@ -147,6 +147,7 @@ COMMANDS: dict[str, Kind] = {
     "arm": Kind("/arm/move", MoveArmRequest, "move the arm", MoveArmResponse),
     "reset": Kind("/robot/reset", CommandRequest, "put the robot back"),
     "stop": Kind("/stop", CommandRequest, "STOP"),
+    "stop_hold": Kind("/stop/hold", CommandRequest, "hold Release"),
     "stop_release": Kind("/stop/release", CommandRequest, "release STOP"),
 }
 """Every one-shot command by its name in the app."""

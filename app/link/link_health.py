@@ -37,6 +37,11 @@ class LinkHealth:
         """Something came at `received` [s], our clock."""
         self._heard = received
 
+    @property
+    def fingerprint(self) -> str:
+        """Of the certificate that the robot has shown; empty without TLS or while the link does not stand."""
+        return self._client.fingerprint
+
     def robot_time(self) -> float:
         """The robot's clock [s]; NaN while it is not known."""
         return self._now() + self._offset

@@ -110,6 +110,11 @@ class Session:
         return self.logbook.known.boot
 
     @property
+    def fingerprint(self) -> str:
+        """Of the certificate that the robot has shown over the link that stands; empty without one."""
+        return self.link.health.fingerprint
+
+    @property
     def control_status(self) -> ControlStatus | None:
         """The robot's newest word of control and STOP; None before the first."""
         status: ControlStatus | None = self.feeds.latest("/control/status")
@@ -252,12 +257,19 @@ class Session:
         self.robot_stop.press()
         self.link.stop()
 
+    def hold_stop(self) -> None:
+        """The operator begins to hold Release; the robot counts the time by its own clock."""
+        self.outcomes.pop("stop_hold", None)
+        if self.robot.offers("/stop/hold"):
+            self.command("stop_hold")
+
     def release_stop(self) -> None:
-        """The operator wants to drive again; nothing moves by that alone."""
+        """The operator held Release for long enough and wants to drive again; nothing moves by that alone."""
         self.robot_stop.release()
         self.outcomes.pop("stop", None)
         self.link.unlatch()
-        if not self.robot.foreign:
+        hold = self.outcomes.get("stop_hold")
+        if not self.robot.foreign and (hold is None or hold.phase != "refused"):
             self.command("stop_release")
 
     def take_control(self) -> None:

@@ -1,7 +1,8 @@
 """STOP ALL: every robot that is known is stopped at once, each over a lane of its own, and it is told how many are.
 
 The connected robot is stopped by its own link, ahead of everything here. `Fleet` lives in the UI thread; the lanes have
-a network thread to themselves, so that fifty of them delay nobody's commands.
+a network thread to themselves, so that fifty of them delay nobody's commands. A robot that is paired counts as stopped only
+where it proved its key.
 """
 
 from __future__ import annotations
@@ -11,15 +12,17 @@ import concurrent.futures
 import math
 import time
 import uuid
-from collections.abc import Callable, Hashable, Iterable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Protocol
 
 from app.discovery.known_robots import Entry
+from app.stop.same_robot import Row, SameRobots, Seen
 from app.stop.stop_lane import Report, StopLane
 from app.stop.stop_state import ANSWER_TIMEOUT, silence
+from bridge.client.credentials import Credentials
 from bridge.core.network_thread import NetworkThread
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
 from bridge.msgs.std_msgs import Time
@@ -27,7 +30,7 @@ from bridge.msgs.std_msgs import Time
 __all__ = ["MAX_ROBOTS", "Connected", "Fleet", "Row", "known"]
 
 MAX_ROBOTS = 100
-"""So many robots are stopped at once at most."""
+"""So many robots are stopped at once at most; those that are connected, saved or paired come on top."""
 HEAD_START = 0.02
 """So long the connected robot's own STOP has the computer to itself [s]."""
 PACE = 0.002
@@ -36,22 +39,6 @@ ENDS = 1.0
 """All lanes have closed their sockets within this [s]."""
 HEARD = 3.0
 """A robot that said HELLO within this is there [s]; how long ago it was is told of others."""
-
-
-@dataclass(frozen=True, slots=True)
-class Row:
-    """One robot of STOP ALL."""
-
-    url: str
-    name: str
-    """What people call it, else its address."""
-    phase: str
-    """As of `stop_state.Verdict`."""
-    sentence: str = ""
-    foreign: bool = False
-    """It has no STOP of its own: zero speed is sent for as long as STOP ALL is held."""
-    also: int = 0
-    """Other addresses under which it is listed as well; it counts once."""
 
 
 class Identity(Protocol):
@@ -103,6 +90,10 @@ class Connected(Protocol):
     def control_status(self) -> ControlStatus | None:
         """Its newest word of control; None before the first."""
 
+    @property
+    def fingerprint(self) -> str:
+        """Of the certificate that it has shown over its link; empty without one."""
+
     def stop(self) -> None:
         """STOP, over its own lane."""
 
@@ -130,7 +121,13 @@ class _Robot:
     heard: str
     """When it was last heard, as a sentence; empty for one that is there."""
     boot: str = ""
-    """As of `Connected`."""
+    """As of `Connected`; a claim of its HELLO until its link said it."""
+    boot_by_link: str = ""
+    """What its own link said it is; empty until then."""
+    proven_by_link: str = ""
+    """Fingerprint of the certificate that its own link saw last; empty for none."""
+    credentials: Credentials | None = None
+    """Of a robot that is paired: nobody else counts as it."""
     lane: Lane | None = None
     """None while its own link stops it, and before the network thread has made it."""
     task: asyncio.Task[None] | None = None
@@ -152,22 +149,26 @@ class Fleet:
         client_name: str,
         now: Callable[[], float] = time.monotonic,
         new_id: Callable[[], str] = lambda: uuid.uuid4().hex,
-        open_lane: Callable[[str], Lane] | None = None,
+        open_lane: Callable[..., Lane] | None = None,
+        credentials: Callable[[str, str], Credentials | None] = lambda _url, _key: None,
         most: int = MAX_ROBOTS,
     ) -> None:
-        """`now` is our clock [s]; `most` is how many robots are stopped at once."""
-        self._open_lane: Callable[[str], Lane] = open_lane or partial(
+        """`now` is our clock [s]; `most` is how many robots are stopped at once that nobody saved, paired or connected to.
+
+        `credentials(url, key)` are those for the paired robot that is expected at an address, where `key` is what its HELLO
+        claims as in `Entry`; None where none is.
+        """
+        self._open_lane: Callable[..., Lane] = open_lane or partial(
             StopLane, now=now, new_id=new_id, client_id=client_id, client_name=client_name
         )
-        self._most, self._now = most, now
+        self._most, self._now, self._credentials = most, now, credentials
         self._network: NetworkThread | None = None
         self._robots: dict[str, _Robot] = {}
         self._ending: set[asyncio.Task[None]] = set()
         """Lanes that close their sockets; of the network thread."""
         self._linked = ""
         """Address of the one that its own link stops; empty for none."""
-        self._same: dict[str, str] = {}
-        """Address to another one of the same robot."""
+        self._same = SameRobots()
         self.untried = 0
         """Robots that were too many."""
         self.rows: list[Row] = []
@@ -204,11 +205,8 @@ class Fleet:
             connected.stop()
             time.sleep(0)  # lets the network thread send it before anything is done here
             self._linked = connected.robot.url
-            self._robots.setdefault(
-                connected.robot.url, _Robot(connected.robot.url, connected.robot.name, "")
-            ).begun = False
-        self.untried = 0
-        for entry in entries:
+            self._robot(connected.robot.url, "", connected.robot.name).begun = False
+        for entry in self._chosen(list(entries)):
             self._add(entry)
         others = [robot for robot in self._robots.values() if robot.url != self._linked]
         self._press(others, 0.0 if connected is None else HEAD_START)
@@ -229,12 +227,11 @@ class Fleet:
             connected.stop()
             self._close_lane(self._robots[url])
             self._linked = url
-        self._identify(connected)
-        self.rows = self._counted([self._row(robot, connected) for robot in self._robots.values()])
+        self.rows = self._same.counted([self._seen(robot, connected) for robot in self._robots.values()])
 
     def since(self, entries: Iterable[Entry]) -> int:
         """How many of `entries` STOP ALL was not meant for: they came after it was pressed."""
-        boots = {robot.boot for robot in self._robots.values() if robot.boot}
+        boots = {robot.boot_by_link for robot in self._robots.values() if robot.boot_by_link}
         fresh = [one for one in entries if one.url not in self._robots and one.boot not in boots]
         return known(fresh, None) - self.untried if len(fresh) > self.untried else 0
 
@@ -242,7 +239,8 @@ class Fleet:
         """Send nothing any more. Robots with a STOP of their own stay stopped; the others may be driven again."""
         for robot in self._robots.values():
             self._close_lane(robot)
-        self._robots, self._same, self._linked, self.untried, self.rows = {}, {}, "", 0, []
+        self._robots, self._linked, self.untried, self.rows = {}, "", 0, []
+        self._same.forget()
 
     def close(self) -> None:
         """Let go, and end the network thread; a STOP that was pressed just now has a moment to get through."""
@@ -259,13 +257,25 @@ class Fleet:
 
     # who is meant
 
+    def _chosen(self, entries: list[Entry]) -> list[Entry]:
+        """Those that are tried: saved, paired and connected ones, then who is known for longest; the rest are counted."""
+        strangers = [one for one in entries if one.url not in self._robots and not (one.kept or one.saved)]
+        kept = {one.url for one in entries if one.kept or one.saved} - self._robots.keys()
+        room = max(0, self._most - len(self._robots) - len(kept))
+        left_out = {one.url for one in sorted(strangers, key=lambda one: -one.known_for)[room:]}
+        self.untried = len(left_out)
+        return [one for one in entries if one.url not in left_out]
+
     def _add(self, entry: Entry) -> None:
-        if entry.url not in self._robots and len(self._robots) >= self._most:
-            self.untried += 1
-            return
-        robot = self._robots.setdefault(entry.url, _Robot(entry.url, "", ""))
+        robot = self._robot(entry.url, entry.key, "")
         robot.name, robot.boot = entry.name or entry.address, entry.boot or robot.boot
         robot.heard = "" if entry.silent <= HEARD else _not_heard(entry.silent)
+
+    def _robot(self, url: str, key: str, name: str) -> _Robot:
+        robot = self._robots.setdefault(url, _Robot(url, name, ""))
+        if robot.credentials is None and robot.lane is None:
+            robot.credentials = self._credentials(url, key)
+        return robot
 
     def _press(self, robots: list[_Robot], head_start: float = 0.0) -> None:
         if robots and self._network is None:
@@ -284,7 +294,8 @@ class Fleet:
             if robot.lane is not None:
                 robot.lane.press()
                 continue
-            robot.lane = self._open_lane(robot.url)
+            pinned = {} if robot.credentials is None else {"credentials": robot.credentials}
+            robot.lane = self._open_lane(robot.url, **pinned)
             robot.task = asyncio.get_running_loop().create_task(robot.lane.run())
             await asyncio.sleep(PACE)
 
@@ -314,56 +325,60 @@ class Fleet:
 
     # what is known
 
-    def _row(self, robot: _Robot, connected: Connected | None) -> Row:
-        if connected is not None and robot.url == self._linked:
-            robot.begun = robot.begun or connected.robot_stop.phase != "ready"
-            robot.last = _linked_row(connected, begun=robot.begun)
-            return robot.last
+    def _seen(self, robot: _Robot, connected: Connected | None) -> Seen:
+        """What is known at one address; a paired robot is known there only as far as its key was proved."""
         lane = robot.lane  # once: the network thread takes it away
-        if lane is None and robot.last is not None:
-            return robot.last
         report = lane.report if lane is not None else Report("sent")
-        sentence = report.sentence
-        if robot.heard and not report.reached:
-            sentence = f"{robot.heard} {sentence}".strip()
-        return Row(robot.url, robot.name or report.name, report.phase, sentence, report.foreign)
+        if connected is not None and robot.url == self._linked:
+            robot.boot_by_link = connected.boot or robot.boot_by_link
+            robot.proven_by_link = connected.fingerprint
+            row, proven, identity = (
+                self._linked_row(robot, connected),
+                connected.fingerprint,
+                _identity(connected),
+            )
+        elif lane is None and robot.last is not None:
+            row, proven, identity = robot.last, robot.proven_by_link, None
+        else:
+            row, proven, identity = _lane_row(robot, report), report.proven, report.identity
+        key = "" if robot.credentials is None else robot.credentials.fingerprint
+        if key and proven != key:
+            return Seen(_unproven(row))
+        return Seen(row, key, (robot.boot_by_link or robot.boot, identity))
 
-    def _identify(self, connected: Connected | None) -> None:
-        """Note which addresses lead to one robot: the log is the same, or what each says of control, to the nanosecond."""
-        first: dict[Hashable, str] = {}
-        for robot in self._robots.values():
-            lane = robot.lane  # once: the network thread takes it away
-            identity = lane.report.identity if lane is not None else None
-            if connected is not None and robot.url == self._linked:
-                robot.boot, identity = connected.boot or robot.boot, _identity(connected)
-            for mark in (robot.boot, identity):
-                known = first.setdefault(mark, robot.url) if mark else robot.url
-                if known != robot.url:
-                    self._same[robot.url] = self._same.get(known, known)
-
-    def _counted(self, rows: list[Row]) -> list[Row]:
-        """Each robot once, by the address at which most is known of it."""
-        found: dict[str, list[Row]] = {}
-        for row in rows:
-            found.setdefault(self._same.get(row.url, row.url), []).append(row)
-        best = [min(alike, key=lambda row: _CERTAIN.index(row.phase)) for alike in found.values()]
-        return [replace(row, also=len(alike) - 1) for row, alike in zip(best, found.values(), strict=True)]
-
-
-_CERTAIN = ("released", "moves", "stopped", "sent", "lost", "no_answer")
-"""Phases of one robot at several addresses: what it says itself goes before what is not known, the worst first."""
+    def _linked_row(self, robot: _Robot, connected: Connected) -> Row:
+        robot.begun = robot.begun or connected.robot_stop.phase != "ready"
+        robot.last = _linked_row(connected, begun=robot.begun)
+        return robot.last
 
 
 def known(entries: Iterable[Entry], connected: Connected | None) -> int:
-    """How many robots there are, one that is known under two addresses counted once."""
-    found = {entry.url: entry.boot or entry.url for entry in entries}
-    if connected is not None and connected.robot.url not in found:
+    """How many robots there are, one that says to be the same at two addresses counted once.
+
+    Those that are saved or paired are never counted as another: what they say may be a stranger's claim.
+    """
+    found = {entry.url: entry.url if entry.kept else entry.boot or entry.url for entry in entries}
+    if connected is not None:
         found[connected.robot.url] = connected.boot or connected.robot.url
     return len(set(found.values()))
 
 
 def _not_heard(silent: float) -> str:
     return "Never heard here." if math.isnan(silent) else f"Not heard for {silence(silent)}."
+
+
+def _lane_row(robot: _Robot, report: Report) -> Row:
+    sentence = report.sentence
+    if robot.heard and not report.reached:
+        sentence = f"{robot.heard} {sentence}".strip()
+    return Row(robot.url, robot.name or report.name, report.phase, sentence, report.foreign)
+
+
+def _unproven(row: Row) -> Row:
+    """What is said at the address of a paired robot by one that has not proved to be it."""
+    if row.phase not in ("stopped", "released", "moves"):
+        return row
+    return replace(row, phase="no_answer", sentence="It has not proved to be your paired robot.")
 
 
 def _identity(connected: Connected) -> tuple[str, str, Time] | None:

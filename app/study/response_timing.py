@@ -30,7 +30,7 @@ MAX_TRACKS = 64
 
 INTENT_OF = {"home": "go_home", "cancel": "end_task", "acquire": "take_control", "request": "take_control"}
 """Name of a command to the intent that it is, where they are called differently."""
-UNASKED = ("history", "missions", "object", "confirm")
+UNASKED = ("history", "missions", "object", "confirm", "stop_hold")
 """Commands that read, or answer a question of the robot's: no action of its own."""
 UNDOES = {
     "pause": ("resume",),

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 __all__ = ["Child", "child"]
 
@@ -52,16 +52,31 @@ class Child:
 
 
 @contextmanager
-def child(module: str, *arguments: str, environment: Mapping[str, str] | None = None) -> Iterator[Child]:
-    """Run `python -m module arguments…`; at the end its standard input is closed, then it is terminated."""
+def child(
+    module: str,
+    *arguments: str,
+    environment: Mapping[str, str] | None = None,
+    log: IO[str] | None = None,
+    niceness: int = 0,
+    own_session: bool = False,
+) -> Iterator[Child]:
+    """Run `python -m module arguments…`; at the end its standard input is closed, then it is terminated.
+
+    Its standard error goes to `log`, to ours if None. With a `niceness` [1..19] it yields to processes that have none. In
+    a session of its own it does not get the Ctrl-C of ours.
+    """
     process = subprocess.Popen(
         [sys.executable, "-m", module, *arguments],
         cwd=ROOT,
         env={**os.environ, **(environment or {})},
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
+        stderr=log,
         text=True,
+        start_new_session=own_session,
     )
+    if niceness:
+        os.setpriority(os.PRIO_PROCESS, process.pid, niceness)
     try:
         yield Child(process)
     finally:

@@ -32,6 +32,8 @@ PERIOD = 1 / 20
 """How often the frame loop sends [s]."""
 BETWEEN = (0.06, 0.12)
 """Between two moves of the finger [s]: not in step with the frames, and slow enough to be distinguished."""
+HELD, COOL_DOWN = 1.2, 3.0
+"""How long Release is held, and how long the robot then takes no other release [s]."""
 PAUSE = (0.1, 0.3)
 """Before a tap [s]."""
 ASK_AGAIN = 2.5
@@ -192,7 +194,10 @@ class Script:
             finger.up(x, y)
             taken.append(moments[0] - tapped if done else None)
             time.sleep(0.05)
+            in_ui(self.app.session.hold_stop)
+            time.sleep(HELD)
             in_ui(self.app.session.release_stop)
+            time.sleep(COOL_DOWN)
         return {"taken": taken}
 
     def _stop_at(self) -> tuple[int, int]:

@@ -14,7 +14,7 @@ import bench
 from bench.support.figures import Figure, Outcome, Samples
 from bench.support.noise import Noise
 
-__all__ = ["Bench", "Context", "Result", "Sides", "load", "measure", "names"]
+__all__ = ["COUNTS", "ON_DEMAND", "Bench", "Context", "Result", "Sides", "load", "measure", "names"]
 
 Side = Callable[[], Mapping[str, float]]
 """Measures once: a value for each figure's name. A figure may be left out."""
@@ -27,12 +27,29 @@ class Sides(NamedTuple):
     peer: Side | None = None
 
 
+COUNTS: Mapping[str, tuple[float, str]] = {
+    "frames": (1_000_000, "hostile: frames of the attack"),
+    "requests": (100_000, "hostile: HTTP requests of the attack"),
+    "cuts": (5_000, "link_cuts: links to cut"),
+    "kills": (200, "database: kills of the robot side"),
+    "flips": (600, "flips: databases to damage"),
+    "hours": (8, "soak: how long"),
+}
+"""By name of the option, how much a bench does unless told otherwise, and what that is."""
+
+
 @dataclass(frozen=True, slots=True)
 class Context:
     """What a bench may want to know."""
 
     data: Path | None = None
     """A folder of recordings, for the benches that judge a recogniser."""
+    counts: Mapping[str, float] = field(default_factory=dict)
+    """How much to do, by the names of `COUNTS`, where the default does not hold."""
+
+    def count(self, name: str) -> float:
+        """How much to do, by a name of `COUNTS`."""
+        return self.counts.get(name, COUNTS[name][0])
 
 
 class Bench(Protocol):
@@ -55,6 +72,10 @@ class Result:
     how: str
     outcomes: list[Outcome]
     noise: Noise = field(default_factory=Noise)
+
+
+ON_DEMAND = frozenset({"soak"})
+"""Benches that take hours: they run only when they are named."""
 
 
 def names() -> list[str]:

@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from kivy.base import EventLoop
+from kivy.clock import Clock
 from kivy.core.window import Window
 
 from bench.support.virtual_pad import EAST, VirtualPad, kivys_sdl
 from examples.demo.fingers import Finger, Hand
+from widgets.controls.stop.stop_button import RELEASE_DURATION
 
 __all__ = ["LOSSES", "Grip", "Loss"]
 
@@ -172,11 +174,17 @@ def _give_up(grip: Grip) -> None:
     grip.undo.append(grip.app.session.take_control)
 
 
+def release(session: Any) -> None:
+    """Hold Release as a finger does."""
+    session.hold_stop()
+    Clock.schedule_once(lambda _: session.release_stop(), RELEASE_DURATION)
+
+
 def _escape(grip: Grip) -> None:
     Window.dispatch("on_key_down", *ESCAPE, None, [])
     Window.dispatch("on_key_up", *ESCAPE)
     grip.stops = True
-    grip.undo.append(grip.app.session.release_stop)
+    grip.undo.append(lambda: release(grip.app.session))
 
 
 def _press_east(grip: Grip) -> None:
@@ -184,7 +192,7 @@ def _press_east(grip: Grip) -> None:
     if pad is not None:
         pad.button(EAST, down=True)
         grip.stops = True
-        grip.undo += [grip.app.session.release_stop, lambda: pad.button(EAST, down=False)]
+        grip.undo += [lambda: release(grip.app.session), lambda: pad.button(EAST, down=False)]
 
 
 LOSSES: dict[str, Loss] = {

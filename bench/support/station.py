@@ -7,6 +7,7 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import IO
 
 import psutil
 
@@ -24,7 +25,7 @@ from bridge.msgs.pilothouse_msgs import (
 
 __all__ = ["ROUND", "Serving", "patrol", "serving"]
 
-READY = re.compile(r"^robotside: ready bridge=(\S+)")
+READY = re.compile(r"^robotside: ready bridge=(\S+)(?: http=(\S+))?")
 ROUND = [Waypoint(-17.0, -7.5), Waypoint(17.0, -7.5), Waypoint(17.0, 7.5), Waypoint(-17.0, 7.5)]
 """Corners of the parking lot's two aisles: a lap of 98 m."""
 
@@ -36,6 +37,8 @@ class Serving:
     child: Child
     url: str
     """Of its rosbridge socket."""
+    site: str = ""
+    """Of its web site; empty for one that has none."""
 
     def cpu(self) -> float:
         """CPU time of all its threads since its start [s]."""
@@ -44,16 +47,26 @@ class Serving:
 
 
 @contextmanager
-def serving(module: str = "robotside", *more: str, state: str | None = None) -> Iterator[Serving]:
+def serving(
+    module: str = "robotside",
+    *more: str,
+    state: str | None = None,
+    log: IO[str] | None = None,
+    own_session: bool = False,
+) -> Iterator[Serving]:
     """Run `python -m module serve`, with the simulated patrol robot unless `more` says otherwise, until the end of the block.
 
-    With its records in the folder `state`; in a folder of its own if None.
+    With its records in the folder `state`; in a folder of its own if None. It logs to `log`, to our standard error if None;
+    `own_session` is as `child` has it.
     """
     options = ("serve", "--port", "0", "--http-port", "0", *more, "--state")
-    with tempfile.TemporaryDirectory() as own, child(module, *options, state or own) as process:
+    with (
+        tempfile.TemporaryDirectory() as own,
+        child(module, *options, state or own, log=log, own_session=own_session) as process,
+    ):
         while not (ready := READY.match(process.line())):
             pass
-        yield Serving(process, ready[1])
+        yield Serving(process, ready[1], ready[2] or "")
 
 
 def patrol(url: str) -> None:

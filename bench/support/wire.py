@@ -33,6 +33,7 @@ class Wire:
         self._tasks: set[asyncio.Task[None]] = set()
         self._sockets: set[socket.socket] = set()
         self._thawed = asyncio.Event()
+        self._thawed_down = asyncio.Event()
 
     def open(self) -> None:
         """Take connections."""
@@ -42,16 +43,22 @@ class Wire:
         made.listen()
         self.port = made.getsockname()[1]
         self._listening = made
-        self._thawed.set()
+        self.thaw()
         self._begin(self._accept(made))
 
-    def freeze(self) -> None:
-        """Nothing passes any more and neither end is informed, as beyond the reach of a radio."""
+    def freeze(self, *, upward_only: bool = False) -> None:
+        """Nothing passes any more and neither end is informed, as beyond the reach of a radio.
+
+        With `upward_only` what `to` sends still passes, as where one end has the weaker radio.
+        """
         self._thawed.clear()
+        if not upward_only:
+            self._thawed_down.clear()
 
     def thaw(self) -> None:
         """What still waits with those who have not given up passes, late."""
         self._thawed.set()
+        self._thawed_down.set()
 
     async def reset(self) -> None:
         """Break every connection at once, by RST to either side, and take none until opened again."""
@@ -81,15 +88,15 @@ class Wire:
             far = self._bare()
             await loop.sock_connect(far, ("127.0.0.1", self._to))
             self._sockets |= {near, far}
-            self._begin(self._pass(near, far))
-            self._begin(self._pass(far, near))
+            self._begin(self._pass(near, far, self._thawed))
+            self._begin(self._pass(far, near, self._thawed_down))
 
-    async def _pass(self, source: socket.socket, sink: socket.socket) -> None:
+    async def _pass(self, source: socket.socket, sink: socket.socket, thawed: asyncio.Event) -> None:
         loop = asyncio.get_running_loop()
         free = loop.time()
         try:
             while data := await loop.sock_recv(source, PIECE):
-                await self._thawed.wait()
+                await thawed.wait()
                 if _given_up(source):
                     break
                 free = max(free, loop.time()) + len(data) / self._rate

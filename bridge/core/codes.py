@@ -36,12 +36,34 @@ class Code(StrEnum):
     STOP_KEPT = "stop_kept", "A restart would no longer undo that STOP is pressed or released.", "state"
     STOP_IS_PRESSED = "stop_is_pressed", "STOP has to be released first."
     STOP_UNSURE = "stop_unsure", "STOP is pressed and may not have reached the robot."
+    STOP_NOT_HELD = "stop_not_held", "STOP is released by a hold of a second, which was not begun or is over."
+    STOP_HELD_SHORT = "stop_held_short", "STOP was not held long enough to be released.", "seconds"
+    STOP_RELEASED_LATELY = (
+        "stop_released_lately",
+        "STOP was released lately and cannot be again yet.",
+        "seconds",
+    )
     STOP_PRESSED_SINCE = "stop_pressed_since", "STOP was pressed after its release was requested."
 
     # trust
 
     TRUST_UNKNOWN = "trust_unknown", "The robot does not know who asks.", "operation"
     TRUST_ROLE = "trust_role", "The role of who asks is too small.", "operation", "role", "needed"
+    TRUST_KEY = "trust_key", "The key is unknown, wrong or ended."
+    TRUST_ATTEMPTS = "trust_attempts", "Too many attempts came from this address.", "seconds"
+    TRUST_INSECURE = "trust_insecure", "It is done over TLS only."
+    TRUST_PAIRING_CLOSED = "trust_pairing_closed", "Pairing is not open, or the link or code was used."
+    TRUST_PAIRING_PAUSED = "trust_pairing_paused", "Too many wrong codes were given.", "seconds"
+    TRUST_CODE_WRONG = "trust_code_wrong", "The code is wrong, or somebody is between."
+    TRUST_NAME_INVALID = "trust_name_invalid", "The name is empty, too long or cannot be shown.", "max"
+    TRUST_ROLE_INVALID = "trust_role_invalid", "Nobody can be given that role there.", "role"
+    TRUST_DURATION_INVALID = "trust_duration_invalid", "The duration is not allowed.", "duration"
+    TRUST_PERSON_UNKNOWN = "trust_person_unknown", "No one, or more than one, is called that.", "name"
+    TRUST_FULL = "trust_full", "No more people can be known.", "max"
+    TRUST_UNKEPT = "trust_unkept", "The list of people cannot be kept."
+    PERSON_PAIRED = "person_paired", "The actor was paired.", "name", "role"
+    PERSON_REMOVED = "person_removed", "A person was removed; its key opens nothing.", "name"
+    PAIRING_OPENED = "pairing_opened", "Pairing is open for somebody.", "role"
 
     # control
 

@@ -17,7 +17,7 @@ from bridge.protocol.ops import Fragment, Id
 
 __all__ = ["MAX_SLICES", "Fragments", "split"]
 
-MAX_SLICES = 10_000
+MAX_SLICES = 1000
 """Most slices of one text; a longer text gets longer slices instead."""
 SLICE_COST = 64
 """Memory of a waiting slice beside its text [byte]."""

@@ -35,6 +35,7 @@ from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Pose2
 from robotside.core.robot import Robot
 from robotside.core.topic_demand import Demand
+from robotside.core.worker import InLoopWorker, Worker
 from robotside.localisation.pose_estimator import PoseEstimator
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.navigator import Navigator
@@ -68,21 +69,24 @@ class Autonomy:
         fault: Callable[[str, float, float], Problem],
         fit: Callable[[Grid], Grid] = lambda grid: grid,
         heights: tuple[float, float] = (-math.inf, math.inf),
+        worker: Worker | None = None,
     ) -> None:
         """`chart` is the map, None or of no use while there is none; `clock` is the operators' [s], which stamps the task's messages.
 
         `fault` tells why the robot cannot or may not stand at a place that is called so, empty when it can.
         `fit` makes of the map the one to plan on, with all occupied where the robot may not go.
         `heights` are the lowest and the highest at which it can and may be [m].
+        `worker` looks for ways and makes maps ready; without one it is done in the steps of the loop.
         """
+        worker = worker or InLoopWorker()
         info, say = robot.info, events.say
         self._now = 0.0
         self._bus, self._say, self._demand = bus, say, demand
         self._silence = SensorSilence(info.kind)
         plan = PlanPublisher(bus.publish, lambda: self._now)
         self.pose_estimator = PoseEstimator(info, say, bus.publish)
-        self.navigator = Navigator(robot, Grid.unknown(), plan.show)
-        self._maps = MapIntake(self.pose_estimator, self.navigator, fit, say)
+        self.navigator = Navigator(robot, Grid.unknown(), plan.show, worker)
+        self._maps = MapIntake(self.pose_estimator, self.navigator, fit, say, worker)
         if chart is not None:
             self._maps.use(chart)
         self.situation = Situation()
@@ -192,8 +196,10 @@ class Autonomy:
             task.course.edit(patrol_route(mission))
 
     def place(self, pose: Pose2) -> None:
-        """An operator says where the robot is; what was seen from the wrong place is forgotten."""
+        """An operator says where the robot is; what was seen and planned from the wrong place is forgotten."""
         self.pose_estimator.place(pose)
+        if self.engine.running:
+            self.navigator.rest()
         self.navigator.obstacles.forget()
         self.watch.intruders.forget()
 

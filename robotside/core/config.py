@@ -24,6 +24,7 @@ __all__ = [
     "RobotSettings",
     "Ring",
     "SafeStateSettings",
+    "TrustSettings",
     "load",
     "parse",
 ]
@@ -114,6 +115,15 @@ class DatabaseSettings(_Section, frozen=True):
     """Of a SQLite file, as many are kept."""
 
 
+class TrustSettings(_Section, frozen=True):
+    """`[trust]`: who may do what without having been paired."""
+
+    local_role: Literal["none", "watch", "drive", "manage"] = "manage"
+    """Of programs on the robot's own computer that show no key."""
+    stop_role: Literal["none", "watch", "drive", "manage"] = "none"
+    """Who may press STOP."""
+
+
 class Config(_Section, frozen=True):
     """All that the file says; without a file, all that it leaves out."""
 
@@ -122,6 +132,7 @@ class Config(_Section, frozen=True):
     safe_state: SafeStateSettings = SafeStateSettings()
     control: ControlSettings = ControlSettings()
     database: DatabaseSettings = DatabaseSettings()
+    trust: TrustSettings = TrustSettings()
 
 
 DEFAULT_CONFIG = Config()

@@ -19,13 +19,14 @@ from robotside.core.bus import Bus
 from robotside.core.topic_demand import Demand
 from robotside.door.calls_in_progress import CallsInProgress
 from robotside.door.gate import OPEN, Gate, check_role
+from robotside.services.audit_trail import AuditTrail
 
 __all__ = ["URGENT", "Door"]
 
 log = logging.getLogger(__name__)
 
 URGENT = frozenset(
-    {"/stop", "/stop/release"}
+    {"/stop", "/stop/hold", "/stop/release"}
     | {f"/control/{what}" for what in ("acquire", "release", "request", "grant", "object")}
 )
 """Services whose calls are always taken and whose answers go before everything else."""
@@ -47,6 +48,7 @@ class Door:
         pictures: Iterable[str] = (),
         bus: Bus | None = None,
         gate: Gate = OPEN,
+        trail: AuditTrail | None = None,
         now: Callable[[], float] = float,
         on_message: Callable[[Any, str, Any, float | None], None] = _ignore,
         on_demand: Callable[[str, bool], None] = _ignore,
@@ -56,7 +58,8 @@ class Door:
 
         `on_message(operator, topic, msg, stamp)` takes what operators publish, `on_demand(topic, wanted)` is called when
         the first asker comes who wants a topic and when the last one left, `on_gone(operator)` when an operator left.
-        `gate` knows who may do what; without one everybody may do everything.
+        `gate` knows who may do what; without one everybody may do everything. What is refused
+        at the door is recorded in `trail`.
         """
         self.services = {service.name: service for service in services}
         """By absolute name."""
@@ -69,7 +72,7 @@ class Door:
         """The operators' clock [s]."""
         self._on_message, self._on_gone = on_message, on_gone
         self._bus = bus or Bus()
-        self._gate = gate
+        self._gate, self._trail = gate, trail
         self._demand = Demand(on_demand)
         self._numbers = itertools.count(1)
         self._operators: set[Operator] = set()
@@ -80,6 +83,11 @@ class Door:
             topic.name: {} for topic in self.topics.values() if topic.to == "robot"
         }
         """By topic to the robot, who else wants its messages."""
+
+    @property
+    def connected(self) -> set[str]:
+        """Ids of the people who are here and have proven it."""
+        return {each.identity.id for each in self._operators if each.identity.proven}
 
     def service(self, name: str) -> Service:
         """The service of that name; raises Refused when there is none."""
@@ -103,11 +111,18 @@ class Door:
         It came by the gateway `way`, over TLS when `secure`, and showed `token`, empty for none. One that is not `trusted`
         never counts as a program of this machine: a web page may have opened it. Raises Refused for a wrong token.
         """
-        known = self._gate.identify(token, address) if token else None
+        try:
+            known = self._gate.identify(token, address) if token else None
+        except Refused as refusal:
+            if self._trail:
+                self._trail.unknown(address, way, refusal)
+            raise
         identity = known or self._gate.admit(address, secure=secure, trusted=trusted)
         number = str(next(self._numbers))
         operator = Operator(number, address, self.now(), identity=identity, way=way, secure=secure)
         self._operators.add(operator)
+        if known and self._trail:
+            self._trail.did(operator, "auth")
         return operator
 
     def authenticate(self, operator: Operator, token: str) -> None:
@@ -115,10 +130,17 @@ class Door:
 
         Who is somebody else from now on has nothing of who it was: control that it had is free.
         """
-        identity = self._gate.identify(token, operator.address)
+        try:
+            identity = self._gate.identify(token, operator.address)
+        except Refused as refusal:
+            if self._trail:
+                self._trail.refused(operator, "auth", refusal)
+            raise
         if operator in self._operators and identity != operator.identity:
             self._on_gone(operator)
             operator.identity = identity
+        if self._trail:
+            self._trail.did(operator, "auth")
 
     def expel(self, ids: Iterable[str]) -> None:
         """The people with these ids may nothing any more: what they drive stops, and their connections end."""
@@ -135,7 +157,12 @@ class Door:
 
         `verb` and `name` are as in `robotside.trust.permissions`.
         """
-        check_role(self._gate, operator, self.now(), verb, name)
+        try:
+            check_role(self._gate, operator, self.now(), verb, name)
+        except Refused as refusal:
+            if self._trail:
+                self._trail.refused(operator, f"{verb} {name}", refusal)
+            raise
 
     def leave(self, asker: Hashable) -> None:
         """An operator or another asker is gone: end its subscriptions and, if it drove, the driving."""
@@ -202,6 +229,8 @@ class Door:
             self.check_listens(topic)
             return
         self.check(operator, "publish", topic)
+        if self._trail:
+            self._trail.published(operator, topic)
         try:
             self._on_message(operator, topic, msg, stamp)
         except Exception:

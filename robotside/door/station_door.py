@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
+from bridge.core.robot_catalogue import Service
 from bridge.core.topics import TOPICS, camera_topics
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import CommandResponse, RobotInfo
@@ -13,6 +15,7 @@ from robotside.door.derived_topics import DerivedTopics
 from robotside.door.door import Door
 from robotside.door.gate import OPEN, Gate
 from robotside.door.offered_topics import OfferedTopics
+from robotside.services.audit_trail import AuditTrail
 from robotside.services.catalogue import catalogue
 from robotside.services.command_messages import listener
 from robotside.services.stop_answer import stop_answer
@@ -40,18 +43,25 @@ class Health(NamedTuple):
 class StationDoor(Door):
     """The door of one station; every gateway stands behind the same one."""
 
-    def __init__(self, station: Station, gate: Gate = OPEN) -> None:
-        """`gate` knows who may do what. Derived topics are those of the motors that the robot has told of by now."""
+    def __init__(self, station: Station, gate: Gate = OPEN, services: Iterable[Service] = ()) -> None:
+        """`gate` knows who may do what; `services` are those beside the station's own.
+
+        Derived topics are those of the motors that the robot has told of by now.
+        """
         self._station = station
         self._derived = DerivedTopics(station.bus)
-        services, actions = catalogue(station)
+        self.trail = AuditTrail(station.records.audit, station.clock)
+        """What is done through this door, for the audit log."""
+        self._leave = station.bus.subscribe("/control/status", self._on_control)
+        own, actions = catalogue(station, self.trail)
         super().__init__(
-            services=services.values(),
+            services=(*own.values(), *map(self.trail.watched, services)),
             actions=actions.values(),
             topics=(*TOPICS, *self._derived.topics),
             pictures=camera_topics(station.info.cameras).values(),
             bus=station.bus,
             gate=gate,
+            trail=self.trail,
             now=station.clock,
             on_message=listener(station),
             on_demand=self._want,
@@ -92,12 +102,17 @@ class StationDoor(Door):
             except Refusal as refusal:
                 answer = CommandResponse(False, refusal.notice, **coded(refusal.notice))
             self._station.publish_control()
+            self.trail.stopped(who, "http", outcome="done" if answer.success else f"refused {answer.code}")
         later = stop_answer(self._station, answer)
         return later if isinstance(later, CommandResponse) else await later
 
     def close(self) -> None:
         """Let go of the station; no other call follows."""
         self._derived.close()
+        self._leave()
+
+    def _on_control(self, *_: object) -> None:
+        self.trail.control(self._station.controls.driver)
 
     def _want(self, topic: str, wanted: bool) -> None:
         self._derived.want(topic, wanted)

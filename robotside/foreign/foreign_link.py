@@ -36,6 +36,9 @@ TOPICS_TIMEOUT = 3.0
 STOP_RETRY_PERIOD = 0.3
 """How long a STOP waits for its answer before it is pressed again [s]."""
 
+HOLD_TIME = 1.1
+"""So long a robot side of ours wants Release to be held [s]: a second by its own clock."""
+
 MAX_SENDING_GAP = 0.15
 """After a longer pause between two commands zero goes before the next [s]; a robot side of ours takes 0.25 s for a lapse."""
 
@@ -203,7 +206,9 @@ class ForeignLink:
     async def _unstop(self) -> None:
         """Release STOP if it was pressed from here; what was on its way when it was released is seen later."""
         if self._mine and await self._order("/control/acquire"):
-            await self._order("/stop/release")
+            if await self._order("/stop/hold"):
+                await asyncio.sleep(HOLD_TIME)
+            await self._order("/stop/release")  # an older robot side wants no hold
 
     def _hear(self, topic: str, msg: Msg) -> None:
         if isinstance(msg, ControlStatus):

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bridge.core.fence import FenceGeometry, crosses_row
+from robotside.mapping.distances import distance_from
 from robotside.mapping.occupancy_grid import Grid
 
 __all__ = ["Fence"]
@@ -21,7 +23,9 @@ class Fence(FenceGeometry):
         if not self:
             return grid
         barred = replace(grid, occupied=~self._raster(grid)).marked(self.border.sampled(grid.resolution / 2))
-        return replace(grid, occupied=grid.occupied | (barred.distance < margin))
+        most = math.ceil(margin / grid.resolution) + 1
+        near = (distance_from(barred.occupied, most) - 0.5) * grid.resolution < margin
+        return replace(grid, occupied=grid.occupied | barred.occupied | near)
 
     def _raster(self, grid: Grid) -> NDArray[np.bool_]:
         """Whether the robot may be at the centre of each cell, row by row: far quicker than cell by cell."""

@@ -30,8 +30,7 @@ from robotside.core.notice import Notice
 from robotside.core.pose2 import Points, Pose2
 from robotside.kinds.registry import kind_of
 from robotside.localisation.position_uncertainty import PositionUncertainty
-from robotside.localisation.scan_matching import Localiser
-from robotside.mapping.occupancy_grid import Grid
+from robotside.localisation.scan_matching import Field, Localiser
 from robotside.records.events import Say
 
 __all__ = ["OdometryTrack", "PoseEstimator"]
@@ -174,10 +173,10 @@ class PoseEstimator:
             return math.nan
         return math.sqrt(_worst(self._localiser.covariance) + self._uncertainty.variance)
 
-    def set_map(self, grid: Grid) -> None:
-        """Localise on `grid` from now on: from the pose that it has, if any."""
+    def set_map(self, field: Field) -> None:
+        """Localise on the map of `field` from now on: from the pose that it has, if any."""
         known = self.pose
-        self._localiser = Localiser(grid)
+        self._localiser = Localiser(field)
         if known is not None:
             self._localiser.place(known, spread=0.3, turn=0.2)
 

@@ -26,6 +26,9 @@ HIT_SPREAD = 0.06
 MAX_FIT_DISTANCE = 0.15
 """End points within this of a surface agree with the map [m]."""
 
+FIELD_RANGE = (-1.0, 2.0)
+"""Distances of the field end at these [m]: within a wall, and in the open."""
+
 INDEPENDENT_SHARE = 0.15
 """Part of the end points that count as independent evidence: neighbours err together."""
 
@@ -61,10 +64,12 @@ class Field:
     """A map's distance field, readable between the cells and with slopes."""
 
     def __init__(self, grid: Grid) -> None:
-        outside = distance_from(grid.occupied)
-        inside = distance_from(~grid.occupied)
+        """It takes its time on a large map, and may be made in another thread."""
+        most = math.ceil(FIELD_RANGE[1] / grid.resolution) + 2
+        outside = distance_from(grid.occupied, most)
+        inside = distance_from(~grid.occupied, most)
         signed = np.where(grid.occupied, 1.0 - inside, outside) * grid.resolution
-        values = np.clip(signed, -1.0, 2.0)
+        values = np.clip(signed, *FIELD_RANGE)
         slope_y, slope_x = np.gradient(values, grid.resolution)
         self._layers = np.stack([values, slope_x, slope_y], axis=-1).astype(np.float32)
         self._grid = grid
@@ -103,8 +108,9 @@ class Match:
 class Localiser:
     """Where the robot is in `map`."""
 
-    def __init__(self, grid: Grid) -> None:
-        self._field = Field(grid)
+    def __init__(self, field: Field) -> None:
+        """`field` is the map's."""
+        self._field = field
         self._odom: Pose2 | None = None
         self.pose: Pose2 | None = None
         """In `map`; None until the first guess."""

@@ -19,12 +19,15 @@ _MAX_DISTANCE = 1 << 14
 """Distances end at this [cells]: its square is still a number of 32 bits, and so is the sum of two."""
 
 
-def distance_from(full: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Of each cell's centre to the nearest one that is `full` [cells]; 16384 when none is nearer."""
+def distance_from(full: NDArray[np.bool_], most: int = _MAX_DISTANCE) -> NDArray[np.float64]:
+    """Of each cell's centre to the nearest one that is `full` [cells]; 16384 when none is nearer.
+
+    Beyond `most` [cells] it may be too large, never too small: who needs no more has it far sooner.
+    """
     along = _along_rows(full)
     squared = along.copy()
     step, rows, columns = 0, slice(0, full.shape[0]), slice(0, full.shape[1])
-    while step < min(len(full), _MAX_DISTANCE) - 1:
+    while step < min(len(full) - 1, most, _MAX_DISTANCE - 1):
         if step % _ROWS_PER_CHECK == 0:
             # no row farther off can be nearer than what is found
             left = squared[rows, columns] > (step + 1) ** 2

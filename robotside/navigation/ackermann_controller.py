@@ -14,8 +14,8 @@ from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Manoeuvrable, Robot
 from robotside.core.text import place_sentence
 from robotside.kinds.registry import kind_of
-from robotside.navigation.lattice_planner import LatticePlanner, Piece
-from robotside.navigation.path_controller import CRUISE_SHARE, UNSURE_SPEED, GroundBound, Search
+from robotside.navigation.lattice_planner import LatticePlanner
+from robotside.navigation.path_controller import CRUISE_SHARE, UNSURE_SPEED, GroundBound, Piece, Search
 from robotside.navigation.planner import Planner, Unreachable
 from robotside.navigation.pure_pursuit import PathFollower
 
@@ -86,7 +86,7 @@ def bend_of(info: RobotInfo) -> float:
 class AckermannController(GroundBound):
     """`path_controller.PathController` of a robot that turns only by driving, and drives backwards too."""
 
-    stands = True
+    stands = avoids = True
     keeps_courses = False
     look = 12.0
 
@@ -122,7 +122,6 @@ class AckermannController(GroundBound):
         self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
     ) -> Search:
         """For a way to `goal`, pose by pose. Unreachable raises."""
-        self._speed = 0.0
         grid = planner.grid
         for place, called in (((pose.x, pose.y), "The robot"), (goal[:2], name)):
             if not grid.holds(*place):
@@ -132,8 +131,7 @@ class AckermannController(GroundBound):
         pieces = yield from lattice.search(pose, goal)
         if not pieces:
             raise Unreachable(f"There is no way to {place_sentence(name, *goal[:2])} that it can drive.")
-        self._follow(pieces)
-        return np.concatenate([piece.points for piece in pieces])
+        return pieces
 
     def forget(self) -> None:
         """Have no way any more."""
@@ -155,7 +153,7 @@ class AckermannController(GroundBound):
             return False
         if len(self._pieces) == 1:
             return True
-        self._follow(self._pieces[1:])
+        self.follow(self._pieces[1:])
         return False
 
     def steer(self, pose: Pose2, points: Points, *, sure: bool) -> None:
@@ -252,11 +250,12 @@ class AckermannController(GroundBound):
         else:
             self._robot.drive(Twist.planar(way * CREEP_SPEED, CREEP_SPEED * bend))
 
-    def _follow(self, pieces: list[Piece]) -> None:
-        if self._pieces and self._pieces[0].ahead != pieces[0].ahead:
+    def follow(self, way: list[Piece]) -> None:
+        """Go the pieces of `way` one after the other."""
+        if self._pieces and self._pieces[0].ahead != way[0].ahead:
             self._steered = -self._steered
-        self._pieces = pieces
-        points = pieces[0].points
+        self._pieces = way
+        points = way[0].points
         along = _end(points)
         # aiming beyond the end it comes there in the direction of the way
         beyond = points[-1] + np.arange(0.1, AIM_BEYOND + 0.05, 0.1)[:, None] * along

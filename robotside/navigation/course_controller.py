@@ -35,7 +35,7 @@ YAW_TOLERANCE = 0.1
 class CourseController(SinglePath):
     """`path_controller.PathController` of a robot that keeps courses."""
 
-    stands = False
+    stands = avoids = False
     keeps_courses = True
     discs: tuple[float, ...] = (0.0,)
     look = 10.0

@@ -29,6 +29,7 @@ class DifferentialController(SinglePath, GroundBound):
     """`path_controller.PathController` of a robot that turns where it stands."""
 
     stands = False
+    avoids = True
     keeps_courses = False
     discs: tuple[float, ...] = (0.0,)
     turning = 0.0

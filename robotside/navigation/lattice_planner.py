@@ -16,10 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robotside.core.pose2 import Points, Pose2
+from robotside.core.worker import completed
 from robotside.mapping.occupancy_grid import Grid
 from robotside.mapping.wavefront import Wavefront, work_steps
+from robotside.navigation.path_controller import Piece
 
-__all__ = ["MAX_POSES", "LatticePlanner", "Piece"]
+__all__ = ["MAX_POSES", "LatticePlanner"]
 
 STRIDE = 0.9
 """From a pose of the search to the next [m]."""
@@ -56,16 +58,6 @@ FINE_SPACING, ROUGH_SPACING = 0.1, 1.2
 
 
 @dataclass(frozen=True, slots=True)
-class Piece:
-    """A part of a way without a change of direction."""
-
-    points: Points
-    """Of the middle of the rear axle, shape (n, 2) [m]."""
-    ahead: bool
-    """Driven forwards."""
-
-
-@dataclass(frozen=True, slots=True)
 class _Node:
     pose: Pose2
     cost: float
@@ -90,13 +82,7 @@ class LatticePlanner:
 
     def way(self, start: Pose2, goal: tuple[float, float, float]) -> list[Piece]:
         """Pieces from `start` to `goal` (x, y [m], yaw [rad], NaN for any); none when there is no way."""
-        search = self.search(start, goal)
-        while True:
-            try:
-                next(search)
-            except StopIteration as found:
-                pieces: list[Piece] = found.value
-                return pieces
+        return completed(self.search(start, goal))
 
     def search(self, start: Pose2, goal: tuple[float, float, float]) -> Generator[None, None, list[Piece]]:
         """The same, bit by bit: it yields at least once for each of at most `MAX_POSES` poses, and while it reckons before."""

@@ -15,14 +15,17 @@ from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Manoeuvrable, Robot
 from robotside.core.text import place_sentence
+from robotside.core.worker import InLoopWorker, Worker
 from robotside.kinds.registry import kind_of
 from robotside.mapping.obstacle_memory import ObstacleMemory
 from robotside.mapping.occupancy_grid import Grid
+from robotside.motion.stopping_path import REST, PlanarVelocity, reach
 from robotside.navigation.ackermann_controller import AckermannController, girth
 from robotside.navigation.course_controller import CourseController
 from robotside.navigation.differential_controller import DifferentialController
-from robotside.navigation.path_controller import CRUISE_SHARE, UNSURE_SPEED, PathController, Search
+from robotside.navigation.path_controller import CRUISE_SHARE, UNSURE_SPEED, PathController
 from robotside.navigation.planner import STEP, Planner, Unreachable
+from robotside.navigation.way_search import WaySearch
 
 __all__ = ["CRUISE_SHARE", "UNSURE_SPEED", "Goal", "Navigator", "LegState"]
 
@@ -34,12 +37,6 @@ STUCK_TIMEOUT = 10.0
 
 READY_TIMEOUT = 20.0
 """To get ready to go [s]."""
-
-SEARCH_STEPS = 40
-"""Steps of a search for a way in one update: a few milliseconds, so that a STOP is handled in time."""
-
-MAX_REST_SPEED, REST_TIMEOUT = 0.15, 3.0
-"""Slower than this it stands, and after so long it is taken to [m/s, s]."""
 
 MAX_STUCK = 3
 """Times stuck on one leg before it is given up."""
@@ -94,7 +91,10 @@ def required_radius(info: RobotInfo) -> float:
 class Navigator:
     """Drives one robot on one map."""
 
-    def __init__(self, robot: Robot, grid: Grid, show: Callable[[Points], None]) -> None:
+    def __init__(
+        self, robot: Robot, grid: Grid, show: Callable[[Points], None], worker: Worker | None = None
+    ) -> None:
+        """`worker` looks for ways; without one it is done in `update`, a bit in each."""
         info = robot.info
         self._robot, self._show = robot, show
         self.kind = info.kind
@@ -102,7 +102,10 @@ class Navigator:
         self.controller: PathController = path_controller_of(robot)
         """Follows the path."""
         self._radius = required_radius(info)
-        self.set_map(grid)
+        cruising = PlanarVelocity(self.controller.cruise, 0.0, 0.0)
+        self._stopping_distance = reach(cruising, REST, kind_of(info.kind).handling) + self.controller.clear
+        self._search = WaySearch(self.controller, worker or InLoopWorker())
+        self.set_map(self.planner_on(grid))
         self._goal: Goal | None = None
         self.reason: Problem = ""
         """Why the way is blocked, as one sentence; empty when it is not."""
@@ -115,15 +118,17 @@ class Navigator:
         self._planned = self._moved = -math.inf
         self._best = math.inf
         self._stuck = 0
-        self._asked = math.inf
-        self._search: Search | None = None
-        self._seen: tuple[Pose2, float] | None = None
 
-    def set_map(self, grid: Grid) -> None:
-        """Plan on `grid` from now on; only between two tasks."""
-        self.planner = Planner(grid, self._radius)
+    def planner_on(self, grid: Grid) -> Planner:
+        """For `set_map`: what takes its time on a large map, and may be done in another thread."""
+        return Planner(grid, self._radius)
+
+    def set_map(self, planner: Planner) -> None:
+        """Plan by `planner` on its map from now on; only between two tasks."""
+        self._search.drop()
+        self.planner = planner
         """Plans paths on the map."""
-        self.obstacles = ObstacleMemory(grid)
+        self.obstacles = ObstacleMemory(planner.map)
         """Obstacles that the map does not show."""
 
     @property
@@ -146,7 +151,7 @@ class Navigator:
     @property
     def planning(self) -> bool:
         """It stands and looks for a way."""
-        return math.isfinite(self._asked)
+        return self._search.active
 
     @property
     def turning(self) -> bool:
@@ -187,7 +192,7 @@ class Navigator:
         """Begin a new leg; the path is planned with the next `update`."""
         self._goal, self.reason = goal, ""
         self.controller.forget()
-        self._drop()
+        self._search.drop()
         self._waits_since = math.inf
         self._stuck, self._left, self._moved = 0, math.nan, -math.inf
 
@@ -195,7 +200,7 @@ class Navigator:
         """Stand still and forget the path; a leg that goes on later is planned from wherever it is then."""
         self._robot.stop()
         self.controller.forget()
-        self._drop()
+        self._search.drop()
         self._waits_since = math.inf
         self._left = math.nan
         self._moved = -math.inf
@@ -227,13 +232,20 @@ class Navigator:
         self._left = controller.remaining(pose)
         if not self._progresses(pose, now):
             return LegState.BLOCKED
-        if now - self._planned >= REPLAN_PERIOD and self._in_the_way(now):
+        if now - self._planned >= REPLAN_PERIOD and self._in_the_way(now, controller.look):
             self._ask(now)
         if self.planning and not looks:
             looks = not self._search_on(pose, goal, now)
         if not looks or not controller.stands:
-            controller.steer(pose, points, sure=self.sure)
+            self._steer(pose, points, now)
         return LegState.UNDER_WAY
+
+    def _steer(self, pose: Pose2, points: Points, now: float) -> None:
+        """Go on along the way, unless something new is so near on it that only its controller could keep off it."""
+        if not self.controller.avoids and self._in_the_way(now, self._stopping_distance):
+            self._robot.stop()
+        else:
+            self.controller.steer(pose, points, sure=self.sure)
 
     def ready(self, now: float) -> str:
         """Get ready to go: what it does for that, as one sentence, empty when it goes. After too long there is a `reason`."""
@@ -249,49 +261,33 @@ class Navigator:
 
     def _ask(self, now: float) -> None:
         """A way is to be looked for; what cannot do that on the way stands for it."""
-        self._asked, self._seen = now, None
+        self._search.ask(now)
         if self.controller.stands:
             self._robot.stop()
 
     def _search_on(self, pose: Pose2, goal: Goal, now: float) -> bool:
-        """Look for the way that was asked for, as long as one update may take; True when there is one to go on."""
-        if self._search is None and self.controller.stands and not self._stands(pose, now):
-            return False
-        if self._search is None:
-            known = self.obstacles.points(now)
-            self._search = self.controller.search(
-                self.planner, pose, (goal.x, goal.y, goal.yaw), goal.name, known
-            )
+        """Have the way looked for that was asked for; True when there is one to go on."""
+        at = (goal.x, goal.y, goal.yaw)
         try:
-            for _ in range(SEARCH_STEPS):
-                next(self._search)
-        except StopIteration as found:
+            way = self._search.poll(
+                self.planner, pose, at, goal.name, lambda: self.obstacles.points(now), now
+            )
+            if way is None:
+                return False
+            self.controller.follow(way)
             self._left = self.controller.remaining(pose)
-            self._show(found.value)
+            self._show(np.concatenate([piece.points for piece in way]))
         except Unreachable as problem:
             # an old path stays; standing still on it is noticed
             self.reason = "" if self.controller.under_way else Notice(Code.WAY_MISSING, str(problem))
-        else:
-            return False
-        self._moved += now - self._asked
+        self._moved += now - self._search.asked
         self._planned = now
-        self._drop()
+        self._search.drop()
         return self.controller.under_way
 
-    def _stands(self, pose: Pose2, now: float) -> bool:
-        before, self._seen = self._seen, (pose, now)
-        if before is None:
-            return False
-        was, then = before
-        slow = pose.distance(was.x, was.y) < MAX_REST_SPEED * max(now - then, 1e-3)
-        return slow or now - self._asked > REST_TIMEOUT
-
-    def _drop(self) -> None:
-        """Look for no way any more."""
-        self._asked, self._search, self._seen = math.inf, None, None
-
-    def _in_the_way(self, now: float) -> bool:
-        ahead = self.controller.ahead[: int(self.controller.look / STEP)]
+    def _in_the_way(self, now: float, look: float) -> bool:
+        """Something new is in the way that it has, nearer than `look` [m] along it."""
+        ahead = self.controller.ahead[: int(look / STEP)]
         return bool(len(self.obstacles.near(ahead, self.controller.clear, now)))
 
     def _face(self, pose: Pose2, goal: Goal) -> LegState:

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Generator
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
 from robotside.core.pose2 import Points, Pose2
+from robotside.core.worker import Work
 from robotside.kinds.vehicle_kind import PursuitParameters
 from robotside.navigation.planner import Planner
 from robotside.navigation.pure_pursuit import ON_WHEELS, PathFollower
 
-__all__ = ["CRUISE_SHARE", "UNSURE_SPEED", "PathController", "GroundBound", "SinglePath", "Search"]
+__all__ = ["CRUISE_SHARE", "UNSURE_SPEED", "PathController", "GroundBound", "Piece", "SinglePath", "Search"]
 
 CRUISE_SHARE = 0.9
 """Part of the robot's greatest speed that it travels with by itself."""
@@ -22,8 +23,18 @@ UNSURE_SPEED = 0.15
 """Speed while the position is unsure [m/s]."""
 
 
-Search = Generator[None, None, Points]
-"""For a way: each step is a bit of work of less than a few milliseconds; it returns the points of the way."""
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A part of a way without a change of direction."""
+
+    points: Points
+    """Of `base_link`, shape (n, 2) [m]."""
+    ahead: bool
+    """Driven forwards."""
+
+
+Search = Work[list[Piece]]
+"""For a way: each step is a bit of work of less than a few milliseconds; it changes nothing and returns the way's pieces."""
 
 
 class PathController(Protocol):
@@ -39,6 +50,8 @@ class PathController(Protocol):
     """Of the tightest bend in which it turns [m]; 0 when it turns where it is."""
     cruise: float
     """The speed that it travels with [m/s]."""
+    avoids: bool
+    """It keeps off what its sensors see beside the way; what does not must rest where the way is blocked."""
     look: float
     """How far along the way something new makes the navigator plan anew [m]."""
     clear: float
@@ -61,10 +74,13 @@ class PathController(Protocol):
     def search(
         self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
     ) -> Search:
-        """For a way from `pose` to `goal` (x, y [m], yaw [rad], NaN for any) round `obstacles`, which is then taken.
+        """For a way from `pose` to `goal` (x, y [m], yaw [rad], NaN for any) round `obstacles`.
 
-        Until it is found the way that it has stays. Unreachable raises.
+        It may run in another thread: the way that the controller has stays until `follow`. Unreachable raises.
         """
+
+    def follow(self, way: list[Piece]) -> None:
+        """Go a way that a search has found, from its first piece on."""
 
     def forget(self) -> None:
         """Have no way any more; the robot rests."""
@@ -124,9 +140,11 @@ class SinglePath:
         self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
     ) -> Search:
         """For a way to `goal`. Unreachable raises."""
-        path = yield from planner.search((pose.x, pose.y), goal[:2], name, obstacles)
-        self._follower = PathFollower(path, cruise=self.cruise, parameters=self._parameters)
-        return path
+        return [Piece((yield from planner.search((pose.x, pose.y), goal[:2], name, obstacles)), ahead=True)]
+
+    def follow(self, way: list[Piece]) -> None:
+        """Go the only piece of `way`."""
+        self._follower = PathFollower(way[0].points, cruise=self.cruise, parameters=self._parameters)
 
     def forget(self) -> None:
         """Have no way any more."""

@@ -11,6 +11,7 @@ from bridge.core.codes import Code
 from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Points
 from robotside.core.text import place_sentence
+from robotside.core.worker import completed
 from robotside.mapping.occupancy_grid import Grid
 from robotside.mapping.wavefront import Cell, Wavefront, WorkSteps, rows_at_once, work_steps
 
@@ -50,12 +51,15 @@ class Planner:
     """Plans paths on one map for one robot."""
 
     def __init__(self, grid: Grid, radius: float) -> None:
+        self.map = grid
+        """The map as it was given."""
         factor = max(1, math.floor(MIN_CELL / grid.resolution + 1e-6))
         self.grid = grid.coarser(factor) if factor > 1 else grid
         self._need = radius + MARGIN
         self._want = radius + PREFERRED_MARGIN
         self._reach = radius + SOFT_MARGIN
-        _ = self.grid.distance  # now, and not while a search waits for it
+        for each in (grid, self.grid):
+            _ = each.distance  # now, and not while the robot's loop or a search waits for it
 
     def fault(self, name: str, x: float, y: float) -> Problem:
         """Why the robot cannot stand at this place, as one sentence; empty when it can."""
@@ -92,13 +96,7 @@ class Planner:
 
         Raises Unreachable with a sentence that calls the goal `name`.
         """
-        search = self.search(start, goal, name, obstacles)
-        while True:
-            try:
-                next(search)
-            except StopIteration as found:
-                path: Points = found.value
-                return path
+        return completed(self.search(start, goal, name, obstacles))
 
     def search(
         self,

@@ -11,6 +11,7 @@ from pathlib import Path
 from sqlalchemy.engine import URL, make_url
 from sqlalchemy.exc import ArgumentError, NoSuchModuleError
 
+from robotside.records.audit import Entry
 from robotside.records.database.files import LOCK_TIMEOUT, MAX_BACKUPS, DatabaseFiles
 from robotside.records.database.legacy import left_behind, put_away
 from robotside.records.database.postgresql_store import PostgresqlStore
@@ -55,7 +56,7 @@ def open_records(
         store.close()
         raise
     writer = WriterThread(store, call_soon)
-    records = Records(opened.content, writer, writer.close)
+    records = Records(opened.content, writer, writer.close, store.audit)
     records.problems += [*opened.problems, *said]
     if trouble:
         records.owe(puts, trouble)
@@ -65,6 +66,8 @@ def open_records(
     writer.on_trouble = records.say_trouble
     writer.on_damage = lambda: records.rebuild(writer.rebuild)
     writer.start()
+    for problem in records.problems:
+        records.audit.record(Entry("records", problem), now())
     return records
 
 

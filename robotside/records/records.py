@@ -11,10 +11,12 @@ and that cannot be written is taken back; a fact (an event, the progress of a ta
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import AbstractContextManager
 
 from robotside.records.answers import Answers
+from robotside.records.audit import Audit
+from robotside.records.database.audit_rows import Audited
 from robotside.records.database.jobs import Job
 from robotside.records.database.rows import Content, Put, empty
 from robotside.records.database.storage import Storage
@@ -32,7 +34,14 @@ __all__ = ["Records"]
 class Records:
     """All that the robot keeps. All calls come from one thread, the serving loop's."""
 
-    def __init__(self, stored: Content, writer: Writer, close: Callable[[], None]) -> None:
+    def __init__(
+        self,
+        stored: Content,
+        writer: Writer,
+        close: Callable[[], None],
+        audit: Callable[[], Iterable[Audited]] = tuple,
+    ) -> None:
+        """`audit` reads the rows of the audit log that are on the disk."""
         self._ledger = Ledger(stored, writer)
         self._close = close
         self.places = Places(self._ledger)
@@ -49,6 +58,8 @@ class Records:
         """What happened."""
         self.answers = Answers(self._ledger)
         """What was answered to commands."""
+        self.audit = Audit(self._ledger, audit)
+        """Who did what by which way in."""
         self.problems: list[str] = []
         """What had to be done to open it, one sentence each, for the operator."""
 
@@ -59,7 +70,9 @@ class Records:
         `stored` is what is there at first; it is brought up to date with each write.
         """
         storage = Storage.in_memory()
-        return cls(empty() if stored is None else stored, ImmediateWriter(storage), storage.close)
+        return cls(
+            empty() if stored is None else stored, ImmediateWriter(storage), storage.close, storage.audit
+        )
 
     def together(self) -> AbstractContextManager[Job]:
         """Have all changes within written as one, or none of them; the job has the outcome."""

@@ -16,6 +16,7 @@ from robotside.core.notice import Notice, coded
 from robotside.core.refusal import Refusal
 from robotside.records import Job, NotRecorded
 from robotside.records.database.rows import Answered
+from robotside.services.audit_trail import AuditTrail
 from robotside.services.command_log import CommandLog
 from robotside.services.stop_answer import Later, stop_answer
 from robotside.station.station import Station
@@ -38,8 +39,10 @@ _Key = tuple[str, str, str]
 class CommandService:
     """The answers of one station."""
 
-    def __init__(self, station: Station) -> None:
+    def __init__(self, station: Station, trail: AuditTrail | None = None) -> None:
+        """What is done is recorded in `trail`, by default one of its own."""
         self._station = station
+        self._trail = trail or AuditTrail(station.records.audit, station.clock)
         self._commands = CommandLog(station.clock)
         self._unwritten: dict[_Key, Job] = {}
         for answered in station.records.answers.all():
@@ -62,11 +65,12 @@ class CommandService:
             station.controls.introduce(client, asked.client_id, asked.client_name)
             sender = station.controls.id(client)
             station.readiness.on_operator_time(asked.stamp)
+            done: list[bool] = []
             with station.records.together() as job:
                 answer = self._commands.run(
                     name,
                     asked,
-                    lambda: _done(action, client, asked),
+                    lambda: _done(action, client, asked, done),
                     sender=sender,
                     ageless=ageless,
                     response=response,
@@ -75,11 +79,28 @@ class CommandService:
                 if job.binding and asked.command_id and answer.success:
                     told = Answered(sender, name, asked.command_id, to_json(answer).decode())
                     station.records.answers.keep(told)
+                if done:
+                    self._record(client, name, asked, answer, job)
             if ageless:
                 return stop_answer(station, answer)
             return self._answer((sender, name, asked.command_id), answer, job)
 
         return Service(name, f"pilothouse_msgs/{kind}", request, response, call)
+
+    def _record(
+        self, client: Operator, name: str, asked: CommandRequest, answer: CommandResponse, job: Job
+    ) -> None:
+        """Record what was done, together with it; and if it cannot be written, that it came to nothing."""
+        self._trail.command(client, name, asked, answer)
+
+        def unwritten() -> None:
+            if job.problem and answer.success:
+                refused = CommandResponse(
+                    False, job.problem, **coded(Notice(Code.RECORDS_UNWRITTEN, job.problem))
+                )
+                self._trail.command(client, name, asked, refused)
+
+        job.after.append(unwritten)
 
     def _answer(
         self, key: _Key, answer: CommandResponse, job: Job
@@ -113,7 +134,9 @@ class CommandService:
         return judged
 
 
-def _done(action: Action, client: Operator, asked: CommandRequest) -> str | CommandResponse:
+def _done(action: Action, client: Operator, asked: CommandRequest, done: list[bool]) -> str | CommandResponse:
+    """Do it, and note in `done` that it was tried."""
+    done.append(True)
     try:
         return action(client, asked)
     except NotRecorded as problem:

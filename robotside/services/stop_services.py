@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs.pilothouse_msgs import CommandRequest
+from robotside.control.stop_release import MIN_HOLD_TIME, PRESSED_SINCE
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.services.command_service import CommandService
@@ -21,6 +22,7 @@ def stop_services(station: Station, answering: CommandService) -> Iterable[Servi
     """The services of the STOP of `station`."""
     orders = _StopOrders(station)
     yield answering.service("/stop", orders.stop, ageless=True)
+    yield answering.service("/stop/hold", orders.hold)
     yield answering.service("/stop/release", orders.release_stop)
 
 
@@ -49,14 +51,41 @@ class _StopOrders:
         given = math.inf if math.isnan(asked.stamp) else asked.stamp
         return press_stop(self._station, controls.name(client), controls.id(client), given)
 
+    def hold(self, client: Operator, asked: CommandRequest) -> str:
+        """Begin to hold Release."""
+        station = self._station
+        if not station.controls.stopped:
+            return "STOP is not pressed."
+        if not self._pressed(client):
+            self._permits.may_change(client)
+        given = math.inf if math.isnan(asked.stamp) else asked.stamp
+        problem = station.stop.holds.hold(client.id, given, station.clock())
+        if problem:
+            raise Refusal(problem)
+        return f"Hold Release for {MIN_HOLD_TIME:.0f} s."
+
     def release_stop(self, client: Operator, asked: CommandRequest) -> str:
-        """Unlatch STOP, unless it was pressed after that was asked for: the release was late on its way."""
-        self._permits.need_control(client)
-        controls = self._station.controls
+        """Unlatch STOP after a hold, unless it was pressed after that was asked for: the release was late on its way."""
+        station = self._station
+        controls = station.controls
         if not controls.stopped:
+            self._permits.need_control(client)
             return "STOP was not pressed."
+        pressed = self._pressed(client)
+        if not pressed:
+            self._permits.may_change(client)
         if asked.stamp < controls.stop_given:
-            said = "STOP was pressed after this request: it stays."
-            raise Refusal(Notice(Code.STOP_PRESSED_SINCE, said))
-        self._station.stop.release(controls.name(client), controls.id(client))
+            raise Refusal(PRESSED_SINCE)
+        problem = station.stop.holds.objection(client.id, controls.stop_given, station.clock())
+        if problem:
+            raise Refusal(problem)
+        problem = controls.acquire(client, station.clock())
+        if problem and not pressed:
+            raise Refusal(problem)
+        station.stop.release(controls.name(client), controls.id(client))
         return "STOP is released."
+
+    def _pressed(self, client: Operator) -> bool:
+        """It was `client` who pressed STOP: it may release it whoever has control."""
+        controls = self._station.controls
+        return controls.stopped_by_id == controls.id(client)

@@ -34,6 +34,7 @@ from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Pose2
 from robotside.core.robot import Robot
 from robotside.core.topic_demand import Demand
+from robotside.core.worker import Worker
 from robotside.kinds.registry import described, unknown
 from robotside.limits.limits import LimitKeeper
 from robotside.motion.measured import MeasuredState
@@ -77,11 +78,14 @@ class Station:
         config: Config = DEFAULT_CONFIG,
         civil: Callable[[], float] | None = None,
         zone: tzinfo = UTC,
+        worker: Worker | None = None,
     ) -> None:
         """`now` is the robot's clock at the start [s]; `name` goes before that of `config`.
 
         `civil` is what the computer's clock says, by which the schedule goes in `zone` [s]; the operators' when left out.
+        `worker` plans; without one that is done in the steps, a bit in each. Who made it closes it.
         """
+        self._worker = worker
         self.clock, self.now = clock, now
         self.records = records
         """What is kept over restarts."""
@@ -263,6 +267,7 @@ class Station:
             fault=self.fault,
             fit=self.keeper.marked,
             heights=self.keeper.heights(self.robot.heights),
+            worker=self._worker,
         )
 
     def _agenda(self, civil: Callable[[], float], zone: tzinfo) -> Agenda:

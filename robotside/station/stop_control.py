@@ -13,6 +13,7 @@ from robotside.control.command_gate import SOMEBODY, CommandGate
 from robotside.control.guarded_robot import GuardedRobot
 from robotside.control.stop_consequences import still_moves
 from robotside.control.stop_record import StopRecord
+from robotside.control.stop_release import StopRelease
 from robotside.core.notice import Notice
 from robotside.motion.measured import MeasuredState
 from robotside.records import Records
@@ -45,6 +46,8 @@ class StopControl:
         self._info, self._controls, self._robot, self._engine = info, controls, robot, engine
         self._records, self._readiness = records, readiness
         self._say, self._clock, self._measured, self._is_at_rest = say, clock, measured, is_at_rest
+        self.holds = StopRelease()
+        """Who holds to release it."""
         self._latch = StopRecord(records, say)
         self._port_fault = ""
         self._ending = False
@@ -76,6 +79,7 @@ class StopControl:
     def release(self, name: str, client_id: str = "") -> None:
         """Unlatch STOP for `name` of that `client_id`; the robot stays where it is."""
         self._controls.release_stop()
+        self.holds.on_released(self._clock())
         self._robot.release_stop()
         released = Notice(Code.STOP_RELEASED, f"STOP released by {name}.", actor_id=client_id, name=name)
         self._say("stop", released, "ok")

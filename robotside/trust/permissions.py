@@ -16,6 +16,10 @@ _NONE = (
     "subscribe /robot/info",
     "rosapi /rosapi/get_time",
     "call /stop",
+    "call /pair/scan",
+    "call /pair/begin",
+    "call /pair/finish",
+    "call /people/me",
     "page /stop",
     "page /",
     "page /login",
@@ -31,6 +35,7 @@ _WATCH = (
     "call /history/get",
     "call /mission/get",
     "call /missions/get",
+    "call /people/remove",
 )
 _DRIVE = (
     "publish /cmd_vel",
@@ -41,6 +46,7 @@ _DRIVE = (
     "run /task/run",
     f"relay {ANY}",
     f"advertise {ANY}",
+    "call /stop/hold",
     "call /stop/release",
     "call /control/acquire",
     "call /control/release",
@@ -68,6 +74,9 @@ _DRIVE = (
 _MANAGE = (
     "call /settings/set",
     "call /robot/reset",
+    "call /people/list",
+    "call /people/guest",
+    "call /people/invite",
     "rosapi /rosapi/set_param",
     "rosapi /rosapi/delete_param",
 )

@@ -68,6 +68,7 @@ __all__ = ["FakeRobot"]
 
 REQUESTS: dict[str, type[Msg]] = {
     "/stop": CommandRequest,
+    "/stop/hold": CommandRequest,
     "/stop/release": CommandRequest,
     "/task/pause": CommandRequest,
     "/task/resume": CommandRequest,

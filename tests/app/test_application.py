@@ -131,6 +131,8 @@ def test_stop_is_sent_when_the_finger_comes_down_and_shown_when_the_robot_confir
     driving.until(lambda: stop.phase == "stopped", "not confirmed")
     driving.until(lambda: driving.app.screens["drive"].stick.state == "disabled", "the stick still lives")
     touch = driving.hold(stop)
+    driving.until(lambda: "/stop/hold" in robot.services(), "the robot was not told of the hold")
+    assert "/stop/release" not in robot.services()
     driving.until(lambda: "/stop/release" in robot.services(), "a hold did not release")
     touch.touch_up()
     driving.until(lambda: stop.phase == "ready", "not released")

@@ -10,11 +10,11 @@ from pathlib import Path
 
 from bench.support.wire import wire
 from tests.clients.peers import START, both, peer
+from tests.releasing import release_stop
 
 ROOT = Path(__file__).parents[2]
 VELOCITY = {"name": "/cmd_vel", "type": "geometry_msgs/Twist"}
 STOP = {"name": "/stop", "type": "std_srvs/Trigger"}
-RELEASE = {"name": "/stop/release", "type": "std_srvs/Trigger"}
 
 
 @asynccontextmanager
@@ -74,7 +74,10 @@ async def test_it_is_seen_driven_and_stopped_by_both(tmp_path):
         assert (await python.do("call", **STOP))["values"]["success"]
         python.events.clear()
         await drive_until(script, python, lambda speed: abs(speed) < 0.01)
-        assert (await script.do("call", **RELEASE))["values"]["success"]
+        await release_stop(
+            lambda name: script.do("call", name=name, type="std_srvs/Trigger"),
+            lambda answer: answer["values"]["success"],
+        )
 
 
 async def test_a_stick_held_through_a_frozen_link_moves_nothing_before_it_was_at_zero(tmp_path):

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Event, Manoeuvre
+from robotside.control.stop_release import MIN_HOLD_TIME
 from robotside.core.config import DEFAULT_CONFIG, Config
 from robotside.door.station_door import StationDoor
 from robotside.motion.manoeuvres import Order
@@ -91,6 +92,12 @@ class Hand:
         answer = self.door.call(by or self.anna, service, request or CommandRequest())
         assert isinstance(answer, CommandResponse)
         return answer
+
+    def release_stop(self) -> CommandResponse:
+        """Release STOP as a finger does, by a hold of a second."""
+        assert self.ask("/stop/hold").success
+        self.wait(MIN_HOLD_TIME + 0.1)
+        return self.ask("/stop/release")
 
     @property
     def state(self) -> State:

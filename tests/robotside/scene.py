@@ -19,7 +19,9 @@ from bridge.msgs.pilothouse_msgs import (
     TaskStatus,
     Waypoint,
 )
+from robotside.control.stop_release import MIN_HOLD_TIME
 from robotside.core.config import DEFAULT_CONFIG, Config
+from robotside.core.worker import Worker
 from robotside.door.station_door import StationDoor
 from robotside.records import Records
 from robotside.records.database.rows import Content, empty
@@ -54,6 +56,7 @@ class Scene:
         config: Config = DEFAULT_CONFIG,
         *,
         civil: Callable[[], float] | None = None,
+        worker: Worker | None = None,
     ) -> None:
         self.now = self.clock = 1000.0
         self._speed = speed
@@ -70,6 +73,7 @@ class Scene:
             rng=random.Random(1),
             config=config,
             civil=civil,
+            worker=worker,
         )
         self.said: list[tuple[str, Msg]] = []
         self.station.bus.subscribe(None, lambda topic, msg: self.said.append((topic, msg)))
@@ -104,6 +108,14 @@ class Scene:
         answer = self.ask(name, request, client)
         assert not answer.success
         return answer.message
+
+    def release_stop(self, client: FakeClient | None = None, request: Msg | None = None) -> CommandResponse:
+        """Release STOP as a finger does, by a hold of a second; the answer at its end, or to its beginning if that is refused."""
+        begun = self.ask("/stop/hold", request, client)
+        if not begun.success:
+            return begun
+        self.run(MIN_HOLD_TIME + 0.05)
+        return self.ask("/stop/release", request, client)
 
     def set(self, *points: Waypoint, **words: object) -> None:
         home = words.pop("home", [Waypoint(0.0, 0.0)])

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import argparse
 import json
+import sys
 from pathlib import Path
 
 import pytest
@@ -148,3 +150,33 @@ def test_what_can_be_simulated_is_told_to_people_and_to_programs(capsys: pytest.
     assert "for minnow, aqua, ardrone" in told
     assert main(["offer", "--json"]) == 0
     assert [world["name"] for world in json.loads(capsys.readouterr().out)["worlds"]] == list(WORLDS)
+
+
+class Greeting:
+    """A command, as a module of `robotside.commands` is one."""
+
+    def add(self, commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+        parser = commands.add_parser("greet")
+        parser.add_argument("--times", type=int, default=1)
+        parser.set_defaults(run=self.run)
+
+    def run(self, options: argparse.Namespace) -> int:
+        if options.times < 1:
+            raise UserMistake("Once at least.")
+        sys.stdout.write("Hello. " * options.times)
+        return 3
+
+
+def test_a_command_has_its_options_and_its_exit_code(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("robotside.options.COMMANDS", (Greeting(),))
+    assert main(["greet", "--times", "2"]) == 3
+    assert capsys.readouterr().out.startswith("Hello. Hello.")
+    assert main(["greet", "--times", "0"]) == 2
+    assert capsys.readouterr().err == "robotside: Once at least.\n"
+
+
+def test_a_wrong_option_names_the_help_of_its_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["offer", "--colour"]) == 2
+    assert "see python -m robotside" in capsys.readouterr().err

@@ -31,6 +31,8 @@ MAX_TILE_SIDE = 1024
 
 MAX_TILES_PER_FRAME = 6
 """Tiles read in one frame."""
+MAX_PIXELS_PER_FRAME = 2 * 512 * 512
+"""When so many were decoded in one frame, the rest waits for the next [px]: 11 ms on a laptop."""
 MAX_TEXTURES = 96
 """Textures kept."""
 
@@ -53,6 +55,8 @@ class MBTiles(MapSource):
         """West, south, east, north of what it shows [deg]."""
         self._textures: OrderedDict[tuple[int, int, int], Texture | None] = OrderedDict()
         self._waiting: list[Any] = []
+        self._decoded = 0
+        """Pixels decoded in this frame."""
         self.refused = 0
         """Tiles that were no picture, or too large a one; they are shown as gaps."""
         self._read_some = Clock.create_trigger(self._read_waiting)
@@ -70,9 +74,10 @@ class MBTiles(MapSource):
             self._read_some()
 
     def _read_waiting(self, *_: object) -> None:
-        batch, self._waiting = self._waiting[:MAX_TILES_PER_FRAME], self._waiting[MAX_TILES_PER_FRAME:]
+        self._decoded, read = 0, 0
         with closing(self._connect()) as file:
-            for tile in batch:
+            while self._waiting and read < MAX_TILES_PER_FRAME and self._decoded < MAX_PIXELS_PER_FRAME:
+                tile, read = self._waiting.pop(0), read + 1
                 if tile.state != "done":
                     self._hand_over(tile, self._texture(file, tile.zoom, tile.tile_x, tile.tile_y))
         if self._waiting:
@@ -105,12 +110,14 @@ class MBTiles(MapSource):
             return None
         try:
             # Kivy keeps pictures by name, so the name must distinguish files
-            return _decoded(row[0], f"{self.path}/{zoom}/{x}/{y}")
+            texture = _decoded(row[0], f"{self.path}/{zoom}/{x}/{y}")
         except Exception as fault:  # noqa: BLE001 - decoders raise what they like at a damaged picture
             self.refused += 1
             if self.refused == 1:
                 log.warning("%s: tile %d/%d/%d is not shown: %.200s", self.path, zoom, x, y, fault)
             return None
+        self._decoded += texture.width * texture.height
+        return texture
 
     def _connect(self) -> sqlite3.Connection:
         return sqlite3.connect(f"{self.path.absolute().as_uri()}?mode=ro", uri=True)

@@ -303,7 +303,11 @@ class Talkback(ToggleableMethod):
 
     def _answer(self, outcome: Outcome) -> None:
         """What the robot says to what it was asked for without looking."""
-        if outcome.origin.method not in EYES_OFF or outcome.phase == "sent" or outcome.name == "stop":
+        if (
+            outcome.origin.method not in EYES_OFF
+            or outcome.phase == "sent"
+            or outcome.name in ("stop", "stop_hold")
+        ):
             return
         label = outcome.label[:1].upper() + outcome.label[1:]
         if outcome.phase == "accepted":

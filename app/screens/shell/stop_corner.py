@@ -87,15 +87,18 @@ class StopCorner:
         """Look who is known and what became of STOP."""
         fleet, button = self._fleet, self.button
         fleet.update(self._app.session)
-        button.robots = known(self._app.robots.entries(), self._app.session)
+        entries, session = self._app.robots.entries(), self._app.session
+        button.robots = known(entries, session)
         button.active = fleet.active
         button.stopped, button.total = fleet.stopped, fleet.total
         least = 2 if self._app.shell is not None else 1
-        self._show(button, shown=fleet.active or button.robots >= least)
+        # by address: that two of them are one robot is what somebody says, and takes STOP ALL away from nobody
+        addresses = {entry.url for entry in entries} | ({session.robot.url} if session is not None else set())
+        self._show(button, shown=fleet.active or len(addresses) >= least)
         if not fleet.active:
             self._show(self.list, shown=False)
         elif self.list.parent is not None:
-            since = fleet.since(self._app.robots.entries())
+            since = fleet.since(entries)
             self.list.update(fleet.rows, fleet.stopped, fleet.total, untried=fleet.untried, since=since)
         elif not fleet.sending:
             self._finish()

@@ -21,12 +21,15 @@ class StopDisplay:
         """`rest` lets every finger go before STOP is sent."""
         self._session, self._notices, self._rest = session, notices, rest
         self.button = StopButton(size_hint=(None, None))
-        self.button.bind(on_command=self._stop, on_release_stop=self._release)
+        self.button.bind(on_command=self._stop, on_hold_stop=self._hold, on_release_stop=self._release)
         self.banner = Banner(level="warn")
 
     def _stop(self, *_: object) -> None:
         self._rest()
         self._session.stop()
+
+    def _hold(self, *_: object) -> None:
+        self._session.hold_stop()
 
     def _release(self, *_: object) -> None:
         self._session.release_stop()

@@ -32,6 +32,9 @@ MAX_LARGE_FORMS = 2
 """As `MAX_FORMS`, for forms of over `LARGE_BYTES`."""
 LARGE_BYTES = 1_048_576
 """Size of a large form [byte]."""
+MIN_SLICE = 30
+"""A slice may be so long, however short a client wants them [characters]; one character each would make a hundred bytes of every
+byte, and cost the robot as much time."""
 _TEXT, _BINARY, _PING = 0x81, 0x82, 0x89
 _HEAD_16, _HEAD_64 = struct.Struct(">BBH").pack, struct.Struct(">BBQ").pack
 """The head of a longer frame: its kind, what says how its length is told, and its length."""
@@ -47,7 +50,7 @@ class Form(NamedTuple):
     compression: str = "none"
     """One of `bridge.protocol.COMPRESSIONS`."""
     fragment_size: int | None = None
-    """Longest text frame [characters]; None for no limit."""
+    """Longest text frame [characters], `MIN_SLICE` at least; None for no limit."""
     reduction: Reduction | None = None
     """The part of it that is sent; None for all."""
     ros2: bool = False
@@ -200,7 +203,9 @@ def _binary_beginning(name: str) -> bytes:
 def _cut(text: bytes, size: int | None) -> bytes:
     if size is None:
         return text_frame(text)
-    return b"".join(text_frame(each) for each in split(text, size, f"fragment:{next(_numbers)}"))
+    return b"".join(
+        text_frame(each) for each in split(text, max(size, MIN_SLICE), f"fragment:{next(_numbers)}")
+    )
 
 
 def _head(kind: int, length: int) -> bytes:

@@ -207,7 +207,10 @@ def _given(args: Raw, fields: tuple[str, ...]) -> dict[str, str]:
     """The texts among the arguments by name, empty for a missing one."""
     if len(args) > MAX_ARGUMENT_BYTES:
         raise ProtocolError(f"args may have at most {MAX_ARGUMENT_BYTES} bytes, not {len(args)}.")
-    values = msgspec.json.decode(args)
+    try:
+        values = msgspec.json.decode(args)
+    except msgspec.ValidationError as error:  # JSON, but with a number beyond all numbers
+        raise ProtocolError(f"args cannot be used: {error}.") from error
     if isinstance(values, list):
         values = dict(zip(fields, values, strict=False))
     elif not isinstance(values, dict):

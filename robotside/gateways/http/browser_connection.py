@@ -6,6 +6,7 @@ import asyncio
 import contextlib
 import socket
 
+import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from bridge.server.reception.places import Limits, Place
@@ -81,6 +82,13 @@ class BrowserConnection(H11Protocol):
         """The site ends: finish what is being answered, but not a stream and not one who does not read."""
         super().shutdown()
         self.loop.call_later(CLOSE_TIMEOUT, self.transport.abort)
+
+    def send_400_response(self, msg: str) -> None:
+        """Say that a request is none; where its answer has begun nothing can be said any more, and the connection ends."""
+        if self.conn.our_state in (h11.IDLE, h11.SEND_RESPONSE):
+            super().send_400_response(msg)
+        else:
+            self.transport.abort()
 
     def _look_later(self) -> None:
         left = self.until - self.loop.time()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Collection, Iterable
 
+from robotside.records.database.audit_rows import AUDIT, Audited
 from robotside.records.database.jobs import Job
 from robotside.records.database.rows import Content, Key, Put, rows_of
 
@@ -17,7 +18,9 @@ class RowMemory:
     def __init__(self, stored: Content) -> None:
         self.stored = stored
         """On the disk."""
-        self.current: Content = {table: dict(rows) for table, rows in stored.items()}
+        self.current: Content = {
+            table: dict(rows) if table != AUDIT else {} for table, rows in stored.items()
+        }
         """As they will be when everything was written."""
         self.dirty: set[tuple[str, Key]] = set()
         """Rows of `current` that could not be written."""
@@ -44,8 +47,7 @@ class RowMemory:
         """The job, the oldest that is pending, is on the disk."""
         self._pending.remove(job)
         for put in job.puts:
-            _set(self.stored, put)
-            self.dirty.discard((put.table, put.key))
+            self._written(put)
 
     def failed(self, job: Job) -> None:
         """The job is not on the disk."""
@@ -57,6 +59,17 @@ class RowMemory:
         for table, key, _ in job.orders:
             if (table, key) not in self.dirty:
                 _set(self.current, later.get((table, key)) or Put(table, key, self.stored[table].get(key)))
+
+    def _written(self, put: Put) -> None:
+        self.dirty.discard((put.table, put.key))
+        if put.table != AUDIT:
+            _set(self.stored, put)
+            return
+        # only what is not on the disk yet is in memory, and the hash of the newest, to which the next one is chained
+        if self.current[AUDIT].get(put.key) is put.value:
+            del self.current[AUDIT][put.key]
+        if isinstance(put.value, Audited) and put.value.id > max(map(int, self.stored[AUDIT]), default=0):
+            self.stored[AUDIT] = {put.value.id: put.value.hash}
 
     def _owe(self, table: str, key: Key) -> None:
         """Have the row tried again; one that came and went without having been on the disk is as it is there."""
@@ -73,8 +86,7 @@ class RowMemory:
         """The disk has these rows and no others."""
         self.stored = {table: {} for table in self.current}
         for put in puts:
-            _set(self.stored, put)
-            self.dirty.discard((put.table, put.key))
+            self._written(put)
 
     def everything(self) -> list[Put]:
         """All rows as they will be."""

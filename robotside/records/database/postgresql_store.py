@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterable
 from contextlib import suppress
 
 from sqlalchemy import Connection, text
 from sqlalchemy.engine import URL
 from sqlalchemy.exc import SQLAlchemyError
 
+from robotside.records.database.audit_rows import Audited
 from robotside.records.database.rows import Put
 from robotside.records.database.schema import upgrade
 from robotside.records.database.storage import Storage, engine_of, not_written
@@ -42,6 +44,10 @@ class PostgresqlStore(Store):
     def write(self, puts: list[Put]) -> None:
         """Write rows, all or none."""
         self._storage.write(puts)
+
+    def audit(self) -> Iterable[Audited]:
+        """The rows of the audit log, oldest first."""
+        return self._storage.audit()
 
     def close(self) -> None:
         """Let go of the server."""

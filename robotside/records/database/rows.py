@@ -17,6 +17,7 @@ from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event, Mission, Place, ScheduledTask, TaskOrder, TaskRun
 from bridge.msgs.std_msgs import Time
+from robotside.records.database.audit_rows import AUDIT, head, write_audit
 from robotside.records.database.soundness import Unsound, check_columns, check_counters
 from robotside.records.database.tables import (
     AnswerRow,
@@ -96,7 +97,7 @@ class _Table:
 
 def empty() -> Content:
     """All tables without a row."""
-    return {name: {} for name in TABLES}
+    return {name: {} for name in (*TABLES, AUDIT)}
 
 
 def rows_of(content: Content) -> list[Put]:
@@ -124,6 +125,7 @@ def read_all(session: Session) -> tuple[Content, list[str]]:
             problems.append(
                 f"{len(bad)} of the {name} in the database cannot be read ({shown}) and are left out."
             )
+    content[AUDIT] = head(session)
     check_counters(content)
     return content, problems
 
@@ -131,6 +133,9 @@ def read_all(session: Session) -> tuple[Content, list[str]]:
 def write(session: Session, puts: Iterable[Put]) -> None:
     """Bring the rows to what they shall be; the caller commits."""
     for name, key, value in puts:
+        if name == AUDIT:
+            write_audit(session, key, value)
+            continue
         table = TABLES[name]
         if value is None:
             session.flush()

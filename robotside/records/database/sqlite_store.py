@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import sqlite3
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from sqlalchemy.engine import URL
 
+from robotside.records.database.audit_rows import AUDIT, Audited, read_file, salvage
 from robotside.records.database.files import DatabaseFiles, InUse, is_damage, touch
 from robotside.records.database.rows import Put
 from robotside.records.database.schema import upgrade
@@ -84,9 +85,17 @@ class SqliteStore(Store):
             aside = self._files.set_aside()
         except OSError as error:
             raise NotWritten(f"The broken database cannot be moved aside: {error.strerror}.") from error
-        self._connect(_nothing).write(puts)
+        kept = [Put(AUDIT, row.id, row) for row in salvage(aside)] if aside.exists() else []
+        self._connect(_nothing).write([*kept, *puts])
         became = f"damaged and is set aside as {aside.name}" if aside.exists() else "gone"
         return f"The database was {became}; a new one was written, nothing is lost."
+
+    def audit(self) -> Iterable[Audited]:
+        """The rows of the audit log, oldest first."""
+        try:
+            return list(read_file(self._files.path))
+        except sqlite3.Error as error:
+            raise not_written(error) from error
 
     def back_up(self) -> None:
         """Copy it beside itself."""

@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from sqlalchemy import Engine, create_engine, event
+from sqlalchemy import Engine, create_engine, event, select
 from sqlalchemy.engine import URL
 from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 from sqlalchemy.orm import Session
 from sqlalchemy.pool import StaticPool
 
 from bridge.core.errors import BridgeError
+from robotside.records.database.audit_rows import Audited
 from robotside.records.database.files import LOCK_TIMEOUT
 from robotside.records.database.rows import Content, Put, Unsound, read_all, write
-from robotside.records.database.tables import Base
+from robotside.records.database.tables import AuditRow, Base
 
 __all__ = ["NotWritten", "Storage", "engine_of", "not_written"]
 
@@ -65,6 +66,15 @@ class Storage:
         except (SQLAlchemyError, BridgeError, ValueError, TypeError) as error:
             raise not_written(error) from error
 
+    def audit(self) -> list[Audited]:
+        """The rows of the audit log, oldest first."""
+        try:
+            with Session(self.engine) as session:
+                rows = session.scalars(select(AuditRow).order_by(AuditRow.id))
+                return [Audited(*(getattr(row, name) for name in Audited.__struct_fields__)) for row in rows]
+        except SQLAlchemyError as error:
+            raise not_written(error) from error
+
     def close(self) -> None:
         """Let go of it."""
         self.engine.dispose()
@@ -81,7 +91,7 @@ def engine_of(url: URL, patience: float = LOCK_TIMEOUT) -> Engine:
         connection.isolation_level = (
             None  # transactions begin where SQLAlchemy says so, those of the tables as well
         )
-        for pragma in ("journal_mode=WAL", "synchronous=FULL"):
+        for pragma in ("journal_mode=WAL", "synchronous=FULL", "secure_delete=ON"):
             connection.execute(f"PRAGMA {pragma}")
 
     @event.listens_for(engine, "begin")

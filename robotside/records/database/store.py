@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from bridge.core.errors import BridgeError
+from robotside.records.database.audit_rows import Audited
 from robotside.records.database.rows import Content, Put
 
 __all__ = ["CannotOpen", "Opened", "Store"]
@@ -47,6 +49,10 @@ class Store:
         Raises NotWritten.
         """
         raise NotImplementedError
+
+    def audit(self) -> Iterable[Audited]:
+        """The rows of the audit log that are on the disk, oldest first; from any thread. Raises NotWritten."""
+        return ()
 
     def back_up(self) -> None:
         """Make a backup. Raises NotWritten."""

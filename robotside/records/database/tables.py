@@ -7,6 +7,7 @@ from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
 
 __all__ = [
     "AnswerRow",
+    "AuditRow",
     "Base",
     "EventRow",
     "FactRow",
@@ -123,6 +124,25 @@ class AnswerRow(Base):
     service: Mapped[str] = mapped_column(Text)
     command_id: Mapped[str] = mapped_column(Text)
     content: Mapped[str] = mapped_column(Text)
+
+
+class AuditRow(Base):
+    """Something that somebody did, chained to the row before; an instant in nanoseconds since the epoch."""
+
+    __tablename__ = "audit"
+    id: Mapped[int] = mapped_column(Integer, primary_key=True, autoincrement=False)
+    stamp: Mapped[int] = mapped_column(BigInteger)
+    person_id: Mapped[str] = mapped_column(Text)
+    name: Mapped[str] = mapped_column(Text)
+    role: Mapped[str] = mapped_column(Text)
+    way: Mapped[str] = mapped_column(Text)
+    address: Mapped[str] = mapped_column(Text)
+    operation: Mapped[str] = mapped_column(Text)
+    outcome: Mapped[str] = mapped_column(Text)
+    parameters: Mapped[str] = mapped_column(Text)
+    salt: Mapped[str] = mapped_column(Text)
+    digest: Mapped[str] = mapped_column(Text)
+    hash: Mapped[str] = mapped_column(Text)
 
 
 class FactRow(Base):

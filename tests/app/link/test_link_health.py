@@ -62,3 +62,10 @@ def test_a_round_trip_that_is_lost_is_none(watch: Watch) -> None:
     watch.client.rtt = math.nan
     watch.health.measure()
     assert watch.health.silent
+
+
+def test_the_certificate_that_the_robot_has_shown_is_that_of_the_connection_that_stands(watch: Watch) -> None:
+    watch.client.fingerprint = "f" * 64
+    assert watch.health.fingerprint == "f" * 64
+    watch.client.fingerprint = ""
+    assert watch.health.fingerprint == ""

@@ -20,6 +20,7 @@ from robotside.control.authority import OBJECTION_TIME
 from robotside.control.command_expiry import VALID_TIME
 from robotside.control.command_gate import CommandGate
 from robotside.control.guarded_robot import GuardedRobot
+from robotside.control.stop_release import MIN_HOLD_TIME
 from robotside.door.station_door import StationDoor
 from robotside.records import Records
 from robotside.station.station import Station
@@ -275,6 +276,9 @@ class OperatorsAtTheDoor(Operators):
             self.gateways.stop("Fred")
 
     def _release_stop(self, client: Operator) -> None:
+        self._call(client, "/stop/hold")
+        self.now += MIN_HOLD_TIME + 0.05
+        self._tick()
         self._call(client, "/stop/release")
 
     def _leave(self, client: Operator) -> None:

@@ -286,7 +286,7 @@ def test_with_stop_pressed_no_safe_state_moves_the_robot_nor_when_it_is_released
     scene.robot._odom = (*scene.robot._odom[:2], scene.robot._odom[2] + 0.3)
     before = len(scene.robot.commands)
     scene.run(5.0)
-    assert scene.ask("/stop/release", client=bert).success
+    assert scene.release_stop(bert).success
     scene.run(1.0)
     assert not any(scene.robot.commands[before:])
 

@@ -43,7 +43,10 @@ def test_whole_numbers_do_for_numbers() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("[limit]", "the file has no 'limit'; there are robot, limits, safe_state, control, database."),
+        (
+            "[limit]",
+            "the file has no 'limit'; there are robot, limits, safe_state, control, database, trust.",
+        ),
         ("[robot]\nnme = 'x'", "robot has no 'nme'; there are name."),
         ("limits = 3", "limits must be a table, not 3."),
         ("[limits]\nmax_speed = 'fast'", "limits.max_speed must be a number, not 'fast'."),

@@ -8,6 +8,7 @@ import time
 from collections.abc import AsyncIterator, Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -37,6 +38,7 @@ from robotside.station.station import Station
 from tests.bridge.client.foreign_server import ForeignServer, foreign
 from tests.bridge.wires import wire
 from tests.fakes import FakeRobot
+from tests.releasing import release_stop
 from tests.robotside.scene import records_at
 from tests.robotside.serving.test_station_server import connected
 
@@ -236,6 +238,11 @@ async def order(client: BridgeClient, service: str) -> str:
     return answer.message
 
 
+async def released(client: BridgeClient) -> str:
+    """Hold Release; the answer at its end."""
+    return await release_stop(partial(order, client), "STOP is released.".__eq__)
+
+
 async def test_a_robot_side_drives_patrols_and_stops_through_another_and_rests_when_the_wire_is_cut(
     tmp_path: Path,
 ) -> None:
@@ -264,7 +271,7 @@ async def test_a_robot_side_drives_patrols_and_stops_through_another_and_rests_w
 
         await order(client, "/stop")
         await until(lambda: far.at_rest)
-        assert await order(client, "/stop/release") == "STOP is released."
+        assert await released(client) == "STOP is released."
         # behind it is released a moment later
         await until(lambda: not behind.station.controls.stopped)
         await until(lambda: not (robot.trouble or serves.station.fitness.unfit))

@@ -25,7 +25,7 @@ from robotside.serving.station_server import StationServer
 from robotside.station.station import Station
 from tests.bridge.wires import Wire, wire
 from tests.fakes import FakeRobot
-from tests.robotside.foreign.test_foreign_link import order, reached, served, until
+from tests.robotside.foreign.test_foreign_link import order, reached, released, served, until
 from tests.robotside.serving.test_station_server import connected
 
 SPEED = Twist.planar(0.3, 0.1)
@@ -85,7 +85,7 @@ async def test_stop_in_front_presses_the_stop_behind_and_releasing_it_releases_t
         await until(lambda: far.stopped)
         assert far.stopped_by.startswith("the robot side on ")
         await until(lambda: it.port.trouble == "")
-        assert await order(it.anna, "/stop/release") == "STOP is released."
+        assert await released(it.anna) == "STOP is released."
         await until(lambda: not far.stopped)
 
 
@@ -114,7 +114,7 @@ async def test_what_somebody_else_pressed_behind_is_not_released_from_the_front(
         await order(it.fred, "/stop")
         await until(lambda: it.port.trouble == STOPPED)
         await order(it.anna, "/stop")
-        await order(it.anna, "/stop/release")
+        await released(it.anna)
         await stop_work(it.port)
         assert it.behind.station.controls.stopped_by == "Fred"
 
@@ -140,7 +140,7 @@ async def test_a_stop_pressed_behind_is_told_in_front_and_can_be_released_where_
         await until(lambda: STOPPED in said(it.front))
         it.anna.publish("/cmd_vel", SPEED)
         await until(lambda: it.behind.station.controls.driver is None)
-        assert await order(it.fred, "/stop/release") == "STOP is released."
+        assert await released(it.fred) == "STOP is released."
         await until(lambda: it.port.trouble == DRIVEN)
         assert await order(it.fred, "/control/release") == "Control is free."
         await until(lambda: it.port.trouble == "")

@@ -12,7 +12,7 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import LaserScan
 from robotside.core.pose2 import Points, Pose2
-from robotside.localisation.scan_matching import DISTRUSTED_SWEEPS, UNSURE_AFTER, Localiser
+from robotside.localisation.scan_matching import DISTRUSTED_SWEEPS, UNSURE_AFTER, Field, Localiser
 from robotside.mapping.laser_points import LaserProjection
 from robotside.mapping.occupancy_grid import Grid
 from tests.fakes import Box, FakeRobot, Pillar
@@ -36,7 +36,7 @@ def off(localiser: Localiser, truth: tuple[float, float, float]) -> tuple[float,
 
 def test_a_wrong_guess_is_corrected_by_one_search_and_a_few_sweeps() -> None:
     robot = FakeRobot(start=(1.0, -1.0, 0.7), boxes=BOXES)
-    localiser = Localiser(Grid.from_msg(robot.map()))
+    localiser = Localiser(Field(Grid.from_msg(robot.map())))
     points = sweep(robot)
     localiser.search(points, Pose2(1.8, -1.7, 0.4), reach=1.2, turn=0.5)
     for _ in range(5):
@@ -51,7 +51,7 @@ def test_a_wrong_guess_is_corrected_by_one_search_and_a_few_sweeps() -> None:
 def test_over_a_hundred_metres_of_drifting_odometry_the_error_stays_below_a_tenth(drift: float) -> None:
     pillars = [Pillar(0.0, 3.0), Pillar(-7.0, -4.0), Pillar(7.0, 0.0)]
     robot = FakeRobot(start=(0.0, 0.0, 0.0), boxes=BOXES, pillars=pillars, drift=drift, beams=120)
-    localiser = Localiser(Grid.from_msg(robot.map()))
+    localiser = Localiser(Field(Grid.from_msg(robot.map())))
     localiser.place(Pose2(0.0, 0.0, 0.0), spread=0.1, turn=0.05)
     laser, worst, now = LaserProjection(), 0.0, 0.0
     robot.drive(Twist.planar(0.5, 0.25))
@@ -70,7 +70,7 @@ def test_over_a_hundred_metres_of_drifting_odometry_the_error_stays_below_a_tent
 
 def test_the_spread_grows_on_the_way_and_shrinks_with_a_sweep() -> None:
     robot = FakeRobot(boxes=BOXES)
-    localiser = Localiser(Grid.from_msg(robot.map()))
+    localiser = Localiser(Field(Grid.from_msg(robot.map())))
     localiser.place(Pose2(0.0, 0.0, 0.0), spread=0.02, turn=0.01)
     localiser.predict(Pose2(0.0, 0.0, 0.0))
     before = np.trace(localiser.covariance)
@@ -86,7 +86,7 @@ def test_the_spread_grows_on_the_way_and_shrinks_with_a_sweep() -> None:
 
 def test_sweeps_that_do_not_fit_the_map_make_it_unsure_and_good_ones_sure_again() -> None:
     robot = FakeRobot(boxes=BOXES)
-    localiser = Localiser(Grid.from_msg(robot.map()))
+    localiser = Localiser(Field(Grid.from_msg(robot.map())))
     localiser.place(Pose2(0.0, 0.0, 0.0), spread=0.1, turn=0.05)
     points = sweep(robot)
     localiser.correct(points)
@@ -102,14 +102,14 @@ def test_sweeps_that_do_not_fit_the_map_make_it_unsure_and_good_ones_sure_again(
 
 def test_an_empty_sweep_changes_no_pose() -> None:
     robot = FakeRobot()
-    localiser = Localiser(Grid.from_msg(robot.map()))
+    localiser = Localiser(Field(Grid.from_msg(robot.map())))
     localiser.place(Pose2(1.0, 2.0, 0.3), spread=0.1, turn=0.05)
     localiser.correct(np.empty((0, 2)))
     assert localiser.pose == Pose2(1.0, 2.0, 0.3)
 
 
 def test_before_the_first_guess_there_is_no_pose() -> None:
-    localiser = Localiser(Grid.from_msg(FakeRobot().map()))
+    localiser = Localiser(Field(Grid.from_msg(FakeRobot().map())))
     localiser.predict(Pose2(0.0, 0.0, 0.0))
     localiser.correct(sweep(FakeRobot()))
     assert localiser.pose is None
@@ -117,7 +117,7 @@ def test_before_the_first_guess_there_is_no_pose() -> None:
 
 
 def test_a_compass_turns_it_little_by_little_and_by_no_more_than_it_is_trusted() -> None:
-    localiser = Localiser(HALL)
+    localiser = Localiser(Field(HALL))
     localiser.place(Pose2(0.0, 0.0, 0.0), spread=0.1, turn=0.2)
     localiser.correct_yaw(0.3, 0.2)
     assert localiser.pose is not None
@@ -128,7 +128,7 @@ def test_a_compass_turns_it_little_by_little_and_by_no_more_than_it_is_trusted()
 
 
 def test_echoes_put_it_right_by_the_place_on_each_arc_that_meets_a_surface() -> None:
-    localiser, true = Localiser(HALL), Pose2(1.0, -0.5, 0.1)
+    localiser, true = Localiser(Field(HALL)), Pose2(1.0, -0.5, 0.1)
     localiser.place(Pose2(1.12, -0.6, 0.05), spread=0.3, turn=0.1)
     for _ in range(4):
         localiser.correct_by_echoes(arcs(true))
@@ -138,7 +138,7 @@ def test_echoes_put_it_right_by_the_place_on_each_arc_that_meets_a_surface() -> 
 
 
 def test_echoes_of_what_the_map_does_not_know_and_too_few_change_nothing() -> None:
-    localiser, start = Localiser(HALL), Pose2(0.0, 0.0, 0.0)
+    localiser, start = Localiser(Field(HALL)), Pose2(0.0, 0.0, 0.0)
     localiser.place(start, spread=0.3, turn=0.1)
     localiser.correct_by_echoes(np.full((30, 3, 2), 0.8))
     localiser.correct_by_echoes(arcs(Pose2(0.3, 0.0, 0.01))[:5])
@@ -146,7 +146,7 @@ def test_echoes_of_what_the_map_does_not_know_and_too_few_change_nothing() -> No
 
 
 def test_a_way_into_what_is_touched_is_doubted_and_not_believed() -> None:
-    localiser = Localiser(HALL)
+    localiser = Localiser(Field(HALL))
     localiser.place(Pose2(0.0, 0.0, math.pi / 2), spread=0.02, turn=0.01)
     localiser.predict(Pose2(0.0, 0.0, 0.0))
     assert localiser.predict(Pose2(0.4, 0.3, 0.0), 0.0) == pytest.approx(0.4)
@@ -158,7 +158,7 @@ def test_a_way_into_what_is_touched_is_doubted_and_not_believed() -> None:
 
 
 def test_who_is_distrusted_is_sure_again_after_echoes_that_fit_for_a_while() -> None:
-    localiser, true = Localiser(HALL), Pose2(1.0, -0.5, 0.1)
+    localiser, true = Localiser(Field(HALL)), Pose2(1.0, -0.5, 0.1)
     localiser.place(true, spread=0.1, turn=0.1)
     localiser.distrust()
     localiser.correct_by_echoes(arcs(true))
@@ -169,7 +169,7 @@ def test_who_is_distrusted_is_sure_again_after_echoes_that_fit_for_a_while() -> 
 
 
 def test_echoes_of_what_the_map_does_not_know_make_it_unsure_after_a_while() -> None:
-    localiser = Localiser(HALL)
+    localiser = Localiser(Field(HALL))
     localiser.place(Pose2(0.0, 0.0, 0.0), spread=0.1, turn=0.1)
     for _ in range(UNSURE_AFTER - 1):
         localiser.correct_by_echoes(np.full((30, 3, 2), 0.8))

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from robotside.core.pose2 import Points, Pose2
+from robotside.core.worker import completed
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.ackermann_controller import HORIZON, AckermannController
 from robotside.navigation.planner import Planner, Unreachable
@@ -29,13 +30,17 @@ def truck(start: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> tuple[FakeRobo
 def drive(goal: tuple[float, float, float], things: Points = NOTHING) -> tuple[FakeRobot, float]:
     """To the end of its way; and its tightest bend [1/m]."""
     robot, controller = truck()
-    list(controller.search(Planner(GRID, 0.9), Pose2(*robot.pose), goal, "The goal", NOTHING))
+    controller.follow(
+        completed(controller.search(Planner(GRID, 0.9), Pose2(*robot.pose), goal, "The goal", NOTHING))
+    )
     now, tightest = 0.0, 0.0
     list(robot.read(now))
     while not controller.arrived(Pose2(*robot.pose)) and now < 120.0:
         pose = Pose2(*robot.pose)
         if not controller.under_way:
-            list(controller.search(Planner(GRID, 0.9), pose, goal, "The goal", NOTHING))
+            controller.follow(
+                completed(controller.search(Planner(GRID, 0.9), pose, goal, "The goal", NOTHING))
+            )
         controller.steer(pose, pose.inverse().apply(things), sure=True)
         if abs(robot.twist.linear.x) > 0.2:
             tightest = max(tightest, abs(robot.twist.angular.z / robot.twist.linear.x))

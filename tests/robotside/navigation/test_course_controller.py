@@ -10,6 +10,7 @@ import pytest
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.core.pose2 import Points, Pose2
+from robotside.core.worker import completed
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.course_controller import MAX_SPEED, TURNING_SPEED, CourseController
 from robotside.navigation.path_controller import UNSURE_SPEED
@@ -40,7 +41,7 @@ def steered(kind: str, yaw: float, *, fastest: float = 1.5, sure: bool = True) -
     """What one that looks to `yaw` [rad] is told, with its goal 15 m to the east."""
     robot = Course(kind, fastest)
     controller, pose = CourseController(robot), Pose2(0.0, 0.0, yaw)
-    list(controller.search(PLANNER, pose, (15.0, 0.0, math.nan), "The goal", NOTHING))
+    controller.follow(completed(controller.search(PLANNER, pose, (15.0, 0.0, math.nan), "The goal", NOTHING)))
     controller.steer(pose, NOTHING, sure=sure)
     return robot.told[-1]
 

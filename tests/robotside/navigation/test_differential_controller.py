@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from robotside.core.pose2 import Points, Pose2
+from robotside.core.worker import completed
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.differential_controller import (
     BACKING_SPEED,
@@ -26,10 +27,9 @@ def steered(points: Points, times: int) -> list[float]:
     """How fast it was told to go each time, with something at `points`, wherever it is [m/s]."""
     robot = FakeRobot()
     controller = DifferentialController(robot)
-    list(
-        controller.search(
-            Planner(GRID, 0.18), Pose2(0.0, 0.0, 0.0), (4.0, 0.0, math.nan), "The goal", np.empty((0, 2))
-        )
+    start, goal = Pose2(0.0, 0.0, 0.0), (4.0, 0.0, math.nan)
+    controller.follow(
+        completed(controller.search(Planner(GRID, 0.18), start, goal, "The goal", np.empty((0, 2))))
     )
     speeds = []
     for _ in range(times):

@@ -10,7 +10,8 @@ import pytest
 
 from robotside.core.pose2 import Pose2
 from robotside.mapping.occupancy_grid import Grid
-from robotside.navigation.lattice_planner import LatticePlanner, Piece
+from robotside.navigation.lattice_planner import LatticePlanner
+from robotside.navigation.path_controller import Piece
 
 BEND = 0.25
 DISCS, RADIUS, MARGIN = (0.0, 1.0, 2.0), 0.95, 0.15

@@ -12,11 +12,13 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Twist
 from robotside.core.pose2 import Pose2
+from robotside.core.worker import STEPS_PER_POLL, InLoopWorker
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation import lattice_planner as lattice
 from robotside.navigation.lattice_planner import LatticePlanner
-from robotside.navigation.navigator import SEARCH_STEPS, Goal, LegState, Navigator
+from robotside.navigation.navigator import Goal, LegState, Navigator
 from tests.fakes import Box, FakeRobot
+from tests.robotside.held_worker import HeldWorker
 from tests.robotside.scene import Scene
 
 CLOSED = [
@@ -57,7 +59,7 @@ def truck(*boxes: Box) -> FakeRobot:
 def test_the_hardest_search_takes_no_more_than_its_share_of_each_update(
     looks: Looks, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(lattice, "MAX_POSES", 10 * SEARCH_STEPS)
+    monkeypatch.setattr(lattice, "MAX_POSES", 10 * STEPS_PER_POLL)
     robot = truck(*CLOSED)
     navigator = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
     navigator.head_for(GOAL)
@@ -72,17 +74,17 @@ def test_the_hardest_search_takes_no_more_than_its_share_of_each_update(
         assert robot.at_rest
     assert leg is LegState.BLOCKED
     assert navigator.reason == "There is no way to Point 1 at (5.0, 0.0) that it can drive."
-    assert max(shares) <= SEARCH_STEPS
-    assert 9 * SEARCH_STEPS < sum(shares) <= 10 * SEARCH_STEPS
+    assert max(shares) <= STEPS_PER_POLL
+    assert 9 * STEPS_PER_POLL < sum(shares) <= 10 * STEPS_PER_POLL
 
 
 def test_it_finds_bit_by_bit_what_it_finds_in_one_go() -> None:
     robot = truck(Box(0.0, -2.0, 0.4, 2.0))
     grid = Grid.from_msg(robot.map())
 
-    def drawn() -> list[list[list[float]]]:
+    def drawn(worker: InLoopWorker) -> list[list[list[float]]]:
         ways: list[list[list[float]]] = []
-        navigator = Navigator(robot, grid, lambda way: ways.append(way.tolist()))
+        navigator = Navigator(robot, grid, lambda way: ways.append(way.tolist()), worker)
         navigator.head_for(GOAL)
         for tick in range(1000):
             navigator.update(Pose2(-4.0, 0.0, 0.0), np.empty((0, 2)), tick * 0.05)
@@ -90,11 +92,7 @@ def test_it_finds_bit_by_bit_what_it_finds_in_one_go() -> None:
                 break
         return ways
 
-    with pytest.MonkeyPatch.context() as patched:
-        found = []
-        for share in (2, 10**6):
-            patched.setattr("robotside.navigation.navigator.SEARCH_STEPS", share)
-            found.append(drawn())
+    found = [drawn(InLoopWorker(share)) for share in (2, 10**6)]
     assert found[0] == found[1]
     assert math.dist(found[0][0][-1], (5.0, 0.0)) < 0.05
 
@@ -104,7 +102,7 @@ def searching(state: Path, looks: Looks) -> Scene:
     run = Scene(truck(*CLOSED), state)
     run.run(3.5)
     run.go_to(5.0, 0.0)
-    for _ in itertools.takewhile(lambda _: looks.count < 3 * SEARCH_STEPS, range(20)):
+    for _ in itertools.takewhile(lambda _: looks.count < 3 * STEPS_PER_POLL, range(20)):
         run.run(0.1)
     status = run.task
     assert (status.phase, status.reason) == ("planning", "Looking for a way to the goal.")
@@ -147,12 +145,11 @@ def test_another_place_takes_the_place_of_the_one_that_it_looks_for(tmp_path: Pa
 
 @pytest.mark.parametrize("kind", ["wheels", "boat", "hexapod", "quadrotor"])
 def test_every_kind_looks_for_a_way_a_bit_at_a_time_and_stands_meanwhile(
-    kind: str, monkeypatch: pytest.MonkeyPatch
+    kind: str,
 ) -> None:
-    monkeypatch.setattr("robotside.navigation.navigator.SEARCH_STEPS", 1)
     robot = truck(Box(0.0, -2.0, 0.4, 2.0))
     robot.info = msgspec.structs.replace(robot.info, kind=kind)
-    navigator = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
+    navigator = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None, InLoopWorker(1))
     robot.drive(Twist.planar(0.5, 0.0))
     navigator.head_for(GOAL)
     ticks = 0
@@ -163,17 +160,15 @@ def test_every_kind_looks_for_a_way_a_bit_at_a_time_and_stands_meanwhile(
     assert 5 < ticks < 500
 
 
-def test_while_it_looks_for_another_way_it_goes_on_along_the_one_that_it_has(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    robot = truck()
+def test_while_it_looks_for_another_way_it_goes_on_along_the_one_that_it_has() -> None:
+    robot, worker = truck(), HeldWorker()
     robot.info = msgspec.structs.replace(robot.info, kind="wheels")
-    navigator = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None)
+    navigator = Navigator(robot, Grid.from_msg(robot.map()), lambda _: None, worker)
     navigator.head_for(GOAL)
     nothing = np.empty((0, 2))
     navigator.update(Pose2(-4.0, 0.0, 0.0), nothing, 0.0)
     assert navigator.controller.under_way
-    monkeypatch.setattr("robotside.navigation.navigator.SEARCH_STEPS", 1)
+    worker.holds = True
     navigator.obstacles.update(np.array([[1.0, 0.0]]), 2.0)
     told = len(robot.commands)
     navigator.update(Pose2(-4.0, 0.0, 0.0), nothing, 2.0)

@@ -101,7 +101,7 @@ def test_stop_holds_the_arm_where_it_is_until_it_is_told_anew(hand: Make) -> Non
     assert list(later.angles) == list(held.angles)
     assert later.gripper == held.gripper > 0.0
     assert move(run, ArmOrder(pose="home")) == STOP_SENTENCE
-    assert run.ask("/stop/release").success
+    assert run.release_stop().success
     assert list(arm(run, 0.5).angles) == list(held.angles)
     move(run, ArmOrder(pose="home"))
     assert arm(run, 2.0).pose == "home"

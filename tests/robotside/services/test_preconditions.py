@@ -54,7 +54,7 @@ def test_the_answer_about_a_queue_says_whether_it_begins(scene: Scene) -> None:
     assert said == "1 task waits in the queue; it waits, since STOP is pressed."
     scene.run(2.0)
     assert scene.task.state == "IDLE"
-    scene.ask("/stop/release")
+    scene.release_stop()
     scene.ask("/task/queue/set", SetQueueRequest(revision=1))
     said = scene.ask("/task/queue/set", SetQueueRequest(revision=2, orders=[STRAIGHT])).message
     assert said == "1 task waits in the queue; it begins now."

@@ -28,6 +28,7 @@ from bridge.msgs.pilothouse_msgs import (
     Waypoint,
 )
 from robotside.control.command_gate import STOP_SENTENCE
+from robotside.control.stop_release import MAX_HOLD_TIME, MIN_HOLD_TIME, NOT_HELD, RELEASE_PAUSE
 from tests.fakes import Box, FakeRobot
 from tests.robotside.scene import SQUARE, Scene
 
@@ -59,17 +60,22 @@ def test_stop_is_obeyed_from_anyone_and_latched(scene: Scene) -> None:
 def test_stop_is_obeyed_however_old_and_however_often_it_comes(scene: Scene) -> None:
     old = CommandRequest(command_id="s1", stamp=scene.now - 100.0)
     assert scene.ask("/stop", old).success
-    assert scene.ask("/stop/release").success
+    assert scene.release_stop().success
     assert scene.ask("/stop", old).success
     assert scene.control.stopped
 
 
-def test_stop_is_released_only_with_control(scene: Scene) -> None:
-    bert = scene.client("bert")
+def test_stop_is_released_by_who_has_control_or_pressed_it(scene: Scene) -> None:
+    bert, carl = scene.client("bert"), scene.client("carl")
     scene.ask("/control/acquire", CommandRequest(client_name="Anna"))
     scene.ask("/stop", client=bert)
-    assert "Anna has control" in scene.refused("/stop/release", client=bert)
-    assert scene.ask("/stop/release").success
+    for service in ("/stop/hold", "/stop/release"):
+        assert "Anna has control" in scene.refused(service, client=carl)
+    assert scene.release_stop(bert).success
+    assert scene.control.driver == "Anna"
+    scene.run(RELEASE_PAUSE + 0.1)
+    scene.ask("/stop", client=bert)
+    assert scene.release_stop().success
     assert scene.control.mode == "MANUAL"
 
 
@@ -77,20 +83,78 @@ def test_a_release_that_was_asked_for_before_the_latest_stop_leaves_it(scene: Sc
     bert = scene.client("bert")
     scene.ask("/control/acquire", CommandRequest(client_name="Anna"))
     scene.ask("/stop", CommandRequest(stamp=scene.now, client_name="Anna"))
-    late = CommandRequest(stamp=scene.now + 0.5, client_name="Anna")
-    scene.run(1.0)
+    scene.ask("/stop/hold")
+    late = CommandRequest(stamp=scene.now + 1.5, client_name="Anna")
+    scene.run(2.0)
     scene.ask("/stop", CommandRequest(stamp=scene.now, client_name="Bert"), bert)
     said = scene.refused("/stop/release", late)
     assert said == "STOP was pressed after this request: it stays."
     assert scene.control.stopped
     scene.run(1.0)
-    assert scene.ask("/stop/release", CommandRequest(stamp=scene.now, client_name="Anna")).success
+    assert scene.refused("/stop/release") == said, "the hold was begun before"
+    assert scene.release_stop().success
+
+
+def test_without_a_hold_of_a_second_stop_stays(scene: Scene) -> None:
+    scene.ask("/stop")
+    assert scene.refused("/stop/release") == NOT_HELD
+    assert scene.ask("/stop/hold").success
+    assert "longer" in scene.refused("/stop/release")
+    scene.run(MIN_HOLD_TIME - 0.05)
+    assert "longer" in scene.refused("/stop/release")
+    assert scene.control.stopped
+    scene.run(0.1)
+    assert scene.ask("/stop/release").message == "STOP is released."
+    assert not scene.control.stopped
+
+
+def test_a_hold_is_of_one_operator_and_over_after_a_while(scene: Scene) -> None:
+    bert = scene.client("bert")
+    scene.ask("/stop")
+    assert scene.ask("/stop/hold").success
+    scene.run(1.5)
+    assert scene.refused("/stop/release", client=bert) == NOT_HELD
+    scene.run(MAX_HOLD_TIME)
+    assert scene.refused("/stop/release") == NOT_HELD
+    assert scene.control.stopped
+
+
+def test_after_a_release_the_next_one_takes_a_pause(scene: Scene) -> None:
+    scene.ask("/stop")
+    assert scene.release_stop().success
+    scene.ask("/stop")
+    said = scene.refused("/stop/hold")
+    assert said == "STOP was released lately; hold Release again in 3.0 s."
+    scene.run(RELEASE_PAUSE - 0.1)
+    assert "lately" in scene.refused("/stop/hold")
+    scene.run(0.2)
+    assert scene.release_stop().success
+
+
+def test_a_refused_release_takes_no_control(scene: Scene) -> None:
+    scene.ask("/stop", client=scene.client("bert"))
+    scene.refused("/stop/release")
+    assert scene.ask("/stop/hold").success
+    scene.refused("/stop/release")
+    assert scene.control.driver == ""
+    scene.run(1.1)
+    assert scene.ask("/stop/release").success
+    assert scene.control.driver
+
+
+def test_a_hold_without_stop_is_none(scene: Scene) -> None:
+    assert scene.ask("/stop/hold").message == "STOP is not pressed."
+    scene.run(1.1)
+    scene.ask("/stop")
+    assert scene.refused("/stop/release") == NOT_HELD
 
 
 def test_a_stop_from_a_clock_ahead_is_released_all_the_same(scene: Scene) -> None:
     scene.ask("/control/acquire")
     scene.ask("/stop", CommandRequest(stamp=scene.now + 3600.0))
     scene.run(1.0)
+    assert scene.ask("/stop/hold", CommandRequest(stamp=scene.now)).success
+    scene.run(1.1)
     assert scene.ask("/stop/release", CommandRequest(stamp=scene.now)).success
 
 

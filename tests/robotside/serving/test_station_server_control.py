@@ -16,6 +16,7 @@ from robotside.control.command_expiry import MAX_UNSTAMPED_AGE
 from robotside.serving.station_server import StationServer
 from tests.bridge.wires import wire
 from tests.fakes import FakeRobot
+from tests.releasing import release_stop
 from tests.robotside.foreign.test_foreign_link import until
 from tests.robotside.serving.test_station_server import connected, serving
 
@@ -51,7 +52,9 @@ async def test_anybody_stops_the_robot_over_http(tmp_path: Path) -> None:
         asked = await web.get("/stop")
         assert (asked.status_code, asked.headers["allow"]) == (405, "POST")
         assert asked.text == "STOP is pressed by POST, from anywhere and by anyone.\n"
-        await client.call("/stop/release", CommandRequest(), CommandResponse)
+        await release_stop(
+            lambda name: client.call(name, CommandRequest(), CommandResponse), lambda answer: answer.success
+        )
         assert (await web.get("/stop")).status_code == 405
         assert not serves.station.controls.stopped
 

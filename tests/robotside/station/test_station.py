@@ -96,7 +96,7 @@ def test_with_stop_pressed_the_robot_brakes_even_if_a_task_runs(scene: Scene) ->
     assert scene.task.state == "RUNNING"
     assert scene.robot.commands[before:]
     assert not any(scene.robot.commands[before:])
-    scene.ask("/stop/release")
+    scene.release_stop()
     scene.run(1.0)
     assert not scene.robot.at_rest
 
@@ -210,7 +210,7 @@ def test_stop_is_still_pressed_after_the_computer_died_and_says_so(scene: Scene,
     again.run(4.0)
     again.drive(Twist.planar(0.3, 0.0))
     assert again.robot.at_rest
-    assert again.ask("/stop/release").success
+    assert again.release_stop().success
     assert not Scene(FakeRobot(), tmp_path).control.stopped
 
 

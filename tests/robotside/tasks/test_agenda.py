@@ -135,7 +135,7 @@ def test_the_queue_waits_after_what_an_operator_or_the_battery_ended_and_goes_on
         scene.ask("/task/cancel")
     elif how == "stop":
         scene.ask("/stop")
-        scene.ask("/stop/release")
+        scene.release_stop()
     elif how == "fault":
         scene.station.autonomy.engine.cancel("The client is gone.")
     elif how == "home":
@@ -227,7 +227,7 @@ def test_the_queue_does_not_start_while_stop_is_pressed_nor_by_its_release(scene
     scene.ask("/stop")
     fill(scene, point(2.0, 0.0))
     scene.run(2.0)
-    scene.ask("/stop/release")
+    scene.release_stop()
     scene.run(5.0)
     assert scene.robot.commands == [] or scene.robot.at_rest
     assert begun(scene) == []

@@ -24,7 +24,7 @@ def test_stop_holds_a_patrol_and_release_does_not_resume_it(scene: Scene) -> Non
     scene.run(3.0)
     scene.ask("/stop", CommandRequest(client_name="Anna"))
     assert (scene.task.state, scene.task.reason) == ("PAUSED", "Stopped by Anna.")
-    scene.ask("/stop/release")
+    scene.release_stop()
     scene.run(1.0)
     assert scene.robot.at_rest
     assert scene.control.mode == "PAUSED"

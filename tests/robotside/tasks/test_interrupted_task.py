@@ -112,7 +112,7 @@ def test_stop_keeps_it_from_being_resumed(scene: Scene, tmp_path: Path) -> None:
     scene.ask("/stop")
     again = cut(scene, tmp_path)
     assert "STOP is pressed" in again.refused("/task/resume")
-    again.ask("/stop/release")
+    again.release_stop()
     again.run(1.0)
     assert again.task.state == "INTERRUPTED"
     assert again.ask("/task/resume").success

@@ -21,14 +21,30 @@ def test_every_service_and_action_of_a_station_has_its_line(operations: set[str]
 
 EQUIPMENT = {"call /arm/move", "call /lights/set", "call /robot/reset"}
 """Services of robots that carry more than the one of these tests."""
+PEOPLE = {f"call /pair/{what}" for what in ("scan", "begin", "finish")} | {
+    f"call /people/{what}" for what in ("me", "list", "remove", "guest", "invite")
+}
+"""Services of robots that know people; tests/robotside/services/test_people_services.py has that these are all."""
 
 
 def test_every_line_of_a_service_or_action_is_one_of_a_station(operations: set[str]) -> None:
     named = {each for each in PERMISSIONS if each.split()[0] in ("call", "run") and not each.endswith(ANY)}
-    assert named - operations == EQUIPMENT
+    assert named - operations == EQUIPMENT | PEOPLE
 
 
 def test_without_a_role_there_is_stop_and_nothing_that_shows_or_moves_the_robot() -> None:
     free = {each for each, role in PERMISSIONS.items() if role is Role.NONE}
-    pages = {"page /stop", "page /", "page /login", "page /logout", "page /healthz"}
-    assert free == {"subscribe /robot/info", "rosapi /rosapi/get_time", "call /stop", *pages}
+    assert free == {
+        "subscribe /robot/info",
+        "rosapi /rosapi/get_time",
+        "call /stop",
+        "call /pair/scan",
+        "call /pair/begin",
+        "call /pair/finish",
+        "call /people/me",
+        "page /stop",
+        "page /",
+        "page /login",
+        "page /logout",
+        "page /healthz",
+    }

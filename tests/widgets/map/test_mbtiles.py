@@ -15,9 +15,9 @@ SHIPPED = Path(__file__).parents[3] / "widgets/data/parking_lot.mbtiles"
 PLAIN = {"format": "png", "minzoom": "3", "maxzoom": "5"}
 
 
-def picture(colour: str) -> bytes:
+def picture(colour: str, side: int = 256) -> bytes:
     raw = io.BytesIO()
-    Image.new("RGB", (256, 256), colour).save(raw, "PNG")
+    Image.new("RGB", (side, side), colour).save(raw, "PNG")
     return raw.getvalue()
 
 
@@ -155,3 +155,15 @@ def test_a_tile_that_is_no_small_picture_is_a_gap_and_is_not_decoded(tmp_path, s
     assert [one.texture is not None for one in asked] == [False, False, True]
     assert source.refused == 2
     assert sum("is not shown" in record.getMessage() for record in caplog.records) == 1
+
+
+@pytest.mark.parametrize(("side", "a_frame"), [(256, MAX_TILES_PER_FRAME), (512, 2), (MAX_TILE_SIDE, 1)])
+def test_large_tiles_are_read_over_more_frames_so_that_none_of_them_is_long(tmp_path, stage, side, a_frame):
+    tiles = {(5, x, 0): picture("red", side) for x in range(8)}
+    source = MBTiles(write(tmp_path / "a.mbtiles", PLAIN, tiles))
+    asked = [tile(*key) for key in tiles]
+    for each in asked:
+        source.fill_tile(each)
+    for frame in range(1, 9):
+        stage.frames(1)
+        assert sum(each.texture is not None for each in asked) == min(8, frame * a_frame)

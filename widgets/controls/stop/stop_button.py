@@ -1,7 +1,8 @@
 """STOP: the largest thing to touch, in the same corner of every screen.
 
 stop = StopButton()
-stop.bind(on_command=lambda _: commands.stop(), on_release_stop=lambda _: commands.release())
+stop.bind(on_command=lambda _: commands.stop())
+stop.bind(on_hold_stop=lambda _: commands.hold(), on_release_stop=lambda _: commands.release())
 """
 
 from __future__ import annotations
@@ -15,12 +16,15 @@ from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, Opt
 from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.widget import Widget
 
-from widgets.controls.hold_progress import HOLD_DURATION, Hold
+from widgets.controls.hold_progress import Hold
 from widgets.core.base import Control
 from widgets.core.surfaces import Outlined
 from widgets.parts.labels import spaced
 
-__all__ = ["PHASES", "StopButton"]
+__all__ = ["LONG_HOLD_DURATION", "PHASES", "RELEASE_DURATION", "StopButton"]
+
+RELEASE_DURATION = 1.2
+"""How long the finger must stay to release STOP [s]: the second that a robot asks for by its own clock, and what a link varies."""
 
 LONG_HOLD_DURATION = 3.0
 """How long the finger must stay to release a STOP held here alone that is not confirmed [s]: who presses it again and
@@ -118,10 +122,10 @@ Builder.load_string("""
 
 
 class StopButton(Outlined, Hold, Control, AnchorLayout):
-    """Dispatches `on_command` the moment a finger comes down, and `on_release_stop` after a hold once stopped."""
+    """Dispatches `on_command` the moment a finger comes down, once stopped `on_hold_stop` as a hold begins, and `on_release_stop` after it."""
 
     veiled = False
-    __events__ = ("on_release_stop",)
+    __events__ = ("on_hold_stop", "on_release_stop")
 
     phase = OptionProperty("ready", options=list(PHASES))
     """`ready`; `sent`, not confirmed; `stopped`, confirmed and latched; `moves`, latched and not at rest in time;
@@ -192,6 +196,9 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
         """It was held long enough."""
         self.dispatch("on_release_stop")
 
+    def on_hold_stop(self) -> None:
+        """A finger came down to release STOP, and has to stay."""
+
     def on_release_stop(self) -> None:
         """It was held long enough: the operator wants to drive again."""
 
@@ -202,10 +209,13 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
         touch.grab(self)
         self.pressed += 1
         unanswered = self.local and self.phase in ("no_answer", "moves")
-        if self.phase == "stopped" or unanswered:
-            self.hold(HOLD_DURATION if self.phase == "stopped" else LONG_HOLD_DURATION)
+        begins = self.phase == "stopped" or unanswered
+        if begins:
+            self.hold(RELEASE_DURATION if self.phase == "stopped" else LONG_HOLD_DURATION)
         if self.phase != "stopped":
             self.dispatch("on_command")
+        if begins and self.pressed == 1:  # after a STOP that is given once more, and not by a second finger
+            self.dispatch("on_hold_stop")
         return True
 
     def on_touch_up(self, touch: Any) -> bool:

@@ -17,8 +17,7 @@ from app.inputs.switch_access.window.area import Area
 from app.inputs.switch_access.window.finding import Box, in_window
 from app.inputs.switch_access.window.placing import beside
 from app.inputs.switch_access.window.window_app import WindowApp
-from widgets.controls.hold_progress import HOLD_DURATION
-from widgets.controls.stop.stop_button import LONG_HOLD_DURATION
+from widgets.controls.stop.stop_button import LONG_HOLD_DURATION, RELEASE_DURATION
 from widgets.inputs.scan_keyboard import ScanKeyboard
 from widgets.inputs.scan_pad import PadKey, ScanPad
 
@@ -199,7 +198,9 @@ class Openings:
             return
         latched = getattr(widget, "phase", "stopped") == "stopped"
         self._lift = finger.hold(
-            widget, (HOLD_DURATION if latched else LONG_HOLD_DURATION) * MAX_HOLD_FACTOR, until="on_held_long"
+            widget,
+            (RELEASE_DURATION if latched else LONG_HOLD_DURATION) * MAX_HOLD_FACTOR,
+            until="on_held_long",
         )
 
 

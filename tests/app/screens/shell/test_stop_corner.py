@@ -401,3 +401,17 @@ def test_without_a_link_stop_says_what_was_heard_last_and_a_hold_lets_nothing_go
     driving.stage.run_for(4.0, 0.1)
     finger.touch_up()
     driving.until(lambda: session.outcomes["stop"].phase == "no_reply", "it was let go and is sent no longer")
+
+
+def test_a_hello_that_claims_to_be_the_connected_robot_does_not_take_the_button_away(
+    driving: Glass, robot: FakeRobot, other: FakeRobot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    corner, app = driving.app.corner, driving.app
+    monkeypatch.setattr(type(app.session), "boot", "b1")
+    corner.tick()
+    assert corner.button.parent is None
+    app.robots.heard(Hello(name="Other", url=other.url, boot="b1"), time.monotonic())
+    corner.tick()
+    assert corner.button.parent is not None
+    press(driving)
+    driving.until(lambda: other.control.stopped, "it was meant too")

@@ -114,6 +114,11 @@ def test_operations_are_cut_as_messages_are():
     assert len(received(op_frames(Status(msg="x" * 100), 30))) > 3
 
 
+def test_no_client_makes_the_robot_cut_a_message_into_its_letters():
+    message = OutgoingMessage("/a", String("x" * 3000))
+    assert len(received(message.frame(Form("/a", fragment_size=1)))) < 3500 / module.MIN_SLICE
+
+
 def test_a_ping_is_one_for_the_library():
     (frame,) = frames(ping_frame(b"12345678"))
     assert (frame.opcode, bytes(frame.data)) == (Opcode.PING, b"12345678")

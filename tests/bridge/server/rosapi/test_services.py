@@ -134,6 +134,11 @@ def test_a_name_that_is_no_text_is_refused():
         ask("/rosapi/topic_type", b'{"topic":5}')
 
 
+def test_a_number_beyond_all_numbers_is_refused():
+    with pytest.raises(ProtocolError, match="args cannot be used: Number out of range"):
+        ask("/rosapi/topic_type", b'{"topic":1e999}')
+
+
 def test_arguments_are_bounded():
     with pytest.raises(ProtocolError, match=f"args may have at most {MAX_ARGUMENT_BYTES} bytes"):
         ask("/rosapi/set_param", b'{"name":"/a","value":"%s"}' % (b"1" * MAX_ARGUMENT_BYTES))

@@ -66,3 +66,16 @@ async def test_while_all_others_are_answered_one_too_many_may_press_stop_and_not
             assert (answer.status_code, answer.text) == (503, f"{FULL}\n")
             assert (await late.post("/stop")).status_code == 200
         assert serves.station.controls.stopped
+
+
+async def test_a_body_that_turns_out_to_be_none_after_its_answer_ends_the_connection(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    async with serving(tmp_path, FakeRobot()) as serves:
+        reader, writer = await asyncio.open_connection("127.0.0.1", serves.addresses.http_port)
+        writer.write(b"POST /healthz HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n")
+        assert b" 405 " in await reader.readuntil(b"\r\n\r\n")
+        writer.write(b"no chunk\r\n")
+        await end_of(reader)
+        writer.close()
+    assert not [record for record in caplog.records if record.exc_info]

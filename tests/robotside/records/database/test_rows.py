@@ -41,4 +41,4 @@ def mission(name: str) -> object:
 )
 def test_every_table_can_be_said_to_every_kind_of_database(dialect: Dialect) -> None:
     said = [str(CreateTable(table).compile(dialect=dialect)) for table in Base.metadata.sorted_tables]
-    assert len(said) == len(TABLES)
+    assert len(said) == len(TABLES) + 1, "those that are read, and the audit log"

@@ -2,15 +2,17 @@ from __future__ import annotations
 
 import pytest
 
-from widgets.controls.stop.stop_button import PHASES, StopButton
+from robotside.control.stop_release import MAX_HOLD_TIME, MIN_HOLD_TIME
+from widgets.controls.stop.stop_button import LONG_HOLD_DURATION, PHASES, RELEASE_DURATION, StopButton
 
 
 @pytest.fixture
 def stop(stage):
     button = stage.show(StopButton(), size=(300, 80))
-    button.heard = []
+    button.heard, button.holds = [], []
     button.bind(
         on_command=lambda _: button.heard.append("stop"),
+        on_hold_stop=lambda _: button.holds.append("hold"),
         on_release_stop=lambda _: button.heard.append("release"),
     )
     return button
@@ -45,20 +47,34 @@ def test_a_disabled_look_does_not_take_stop_away(stage, stop):
     assert stop.heard == ["stop"]
 
 
-def test_one_second_releases_and_less_does_not(stage, stop):
+def test_a_hold_releases_and_less_does_not(stage, stop):
     stop.phase = "stopped"
     finger = stage.touch(150, 40)
     finger.touch_down()
-    stage.run_for(0.9)
+    stage.run_for(0.9 * RELEASE_DURATION)
     finger.touch_up()
     assert stop.heard == []
     assert stop.held == 0.0
     finger = stage.touch(150, 40)
     finger.touch_down()
-    stage.run_for(0.9)
+    stage.run_for(0.9 * RELEASE_DURATION)
     assert 0.8 < stop.held < 1.0
     stage.run_for(0.2)
     assert stop.heard == ["release"]
+
+
+def test_a_hold_is_told_when_its_first_finger_comes_down_and_only_where_it_releases(stage, stop):
+    stage.tap(150, 40)
+    assert stop.holds == []
+    stop.phase = "stopped"
+    stage.touch(50, 40).touch_down()
+    assert (stop.holds, stop.heard) == (["hold"], ["stop"])
+    stage.touch(250, 40).touch_down()
+    assert stop.holds == ["hold"]
+
+
+def test_it_takes_longer_on_the_glass_than_by_the_robots_clock():
+    assert MIN_HOLD_TIME < RELEASE_DURATION < LONG_HOLD_DURATION < MAX_HOLD_TIME
 
 
 def test_a_hold_releases_once(stage, stop):

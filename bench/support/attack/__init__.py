@@ -1,0 +1,1 @@
+"""Hostile traffic: frames and requests that no robot should have to read, and the processes that send them."""

@@ -1,0 +1,1 @@
+"""A robot side that serves for hours: its visitors, its counts, and whether anything grows."""
