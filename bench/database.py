@@ -2,7 +2,7 @@
 
 The process is the one that users start; its records are in a SQLite file on this machine's disk. After each kill it is
 started again, and everything that was ever acknowledged is looked for: places, their changes and deletions, the mission,
-events that were heard and their acknowledgements; then SQLite checks the file. One round in seven kills it while it
+events that were heard and their acknowledgements, and STOP; then SQLite checks the file. One round in seven kills it while it
 opens the database. Anything that is missing counts as lost.
 
 The delay is measured in this process: a place that is changed, from the call to its commit, with a thousand kept.
@@ -24,10 +24,10 @@ from bench.support.harness import Context, Sides
 from bridge.msgs.pilothouse_msgs import Place
 from robotside.records.opening import open_records
 
-KILLS = 200
 CHANGES = 500
 FIGURES = (
     Figure("kills", "", "how often it was killed"),
+    Figure("stops", "", "STOPs that were acknowledged as kept before"),
     Figure("acknowledged", "", "changes that were acknowledged before"),
     Figure("lost", "", "of them lost, or the database not whole", target=0),
     Figure("commit_p50", "ms", "from a change to its commit, median"),
@@ -38,22 +38,26 @@ REPEATS = 1
 
 
 @contextmanager
-def prepare(_: Context) -> Iterator[Sides]:
+def prepare(context: Context) -> Iterator[Sides]:
     """A fresh directory for both."""
     with tempfile.TemporaryDirectory() as folder:
         yield Sides(
-            lambda: asyncio.run(_kills(Path(folder))) | asyncio.run(_delays(Path(folder) / "delays")), None
+            lambda: (
+                asyncio.run(_kills(Path(folder), int(context.count("kills"))))
+                | asyncio.run(_delays(Path(folder) / "delays"))
+            ),
+            None,
         )
 
 
-async def _kills(folder: Path) -> dict[str, float]:
+async def _kills(folder: Path, kills: int) -> dict[str, float]:
     ledger, rng, lost = Ledger(), random.Random(9), list[str]()
-    for _ in range(KILLS):
+    for _ in range(kills):
         lost += (await crash(folder / "state", ledger, rng)).lost
     lost += await find_losses(folder / "state", ledger)
     for each in lost:
         print(f"  {each}")
-    return {"kills": KILLS, "acknowledged": ledger.sure, "lost": len(lost)}
+    return {"kills": kills, "stops": ledger.stops, "acknowledged": ledger.sure, "lost": len(lost)}
 
 
 async def _delays(state: Path) -> dict[str, float]:

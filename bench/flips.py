@@ -17,7 +17,6 @@ from bench.support.figures import Figure, percentile
 from bench.support.flips import damaged_copies, reopen, use
 from bench.support.harness import Context, Sides
 
-COPIES = 600
 FIGURES = (
     Figure("copies", "", "damaged databases"),
     Figure("failed", "", "of them on which the robot side did not start", target=0),
@@ -29,16 +28,16 @@ REPEATS = 1
 
 
 @contextmanager
-def prepare(_: Context) -> Iterator[Sides]:
+def prepare(context: Context) -> Iterator[Sides]:
     """A fresh directory."""
     with tempfile.TemporaryDirectory() as folder:
-        yield Sides(lambda: _starts(Path(folder)), None)
+        yield Sides(lambda: _starts(Path(folder), int(context.count("flips"))), None)
 
 
-def _starts(folder: Path) -> dict[str, float]:
+def _starts(folder: Path, copies: int) -> dict[str, float]:
     used = asyncio.run(use(folder / "used")).parent
     took, failed, mended = list[float](), 0, 0
-    for seed, way, state in damaged_copies(used, folder / "copies", range(COPIES)):
+    for seed, way, state in damaged_copies(used, folder / "copies", range(copies)):
         begun = time.perf_counter()
         try:
             with reopen(state) as records:
@@ -48,7 +47,7 @@ def _starts(folder: Path) -> dict[str, float]:
             print(f"  copy {seed} ({way}): {error!r}")
             failed += 1
     return {
-        "copies": COPIES,
+        "copies": copies,
         "failed": failed,
         "mended": mended,
         "start_p50": percentile(took, 0.5) * 1e3,

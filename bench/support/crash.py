@@ -1,4 +1,7 @@
-"""A robot side that is killed while several clients make it write, and checked again: all that it acknowledged must be there."""
+"""A robot side that is killed while several clients make it write, and checked again: all that it acknowledged must be there.
+
+Its robot weighs nothing (`bench/support/bodies.py`), so that it starts soon; all else is as users have it.
+"""
 
 from __future__ import annotations
 
@@ -22,12 +25,15 @@ from websockets.exceptions import ConnectionClosed
 __all__ = ["Ledger", "Round", "crash", "find_losses"]
 
 ROOT = Path(__file__).parents[2]
-UNREACHABLE = "ros:ws://127.0.0.1:1"
-"""A robot that cannot be reached: the records need none, and the process starts in a second."""
+RELEASE_SHARE = 0.3
+"""Of the rounds, those in which a STOP is released at the beginning."""
+RELEASE_HOLD = 1.2
+"""As long the release is held [s]."""
 EARLY = 0.15
 """Share of the rounds in which it is killed before it serves, while it opens the database."""
 MANY = 300
 """Places from which on some are deleted instead."""
+LATCHED = ("/places", "/mission", "/control/status")
 WRITERS = 4
 """Calls that wait for their answer at once."""
 
@@ -50,6 +56,10 @@ class Ledger:
     """Text by number of every event that was heard."""
     acknowledged: set[int] = field(default_factory=set)
     """Events whose acknowledgement was acknowledged."""
+    stopped: bool = False
+    """STOP was acknowledged as kept, and its release was not asked for since."""
+    stops: int = 0
+    """STOPs that were acknowledged as kept."""
     numbers: itertools.count[int] = field(default_factory=itertools.count)
     sure: int = 0
     """Changes that were acknowledged."""
@@ -75,6 +85,8 @@ async def crash(state: Path, ledger: Ledger, rng: random.Random, early: float = 
         else:
             client = await Client.to(process)
             lost = await _find_losses(client, ledger)
+            if ledger.stopped and rng.random() < RELEASE_SHARE:
+                await _release(client, ledger)
             work = [asyncio.create_task(_write(client, ledger, rng)) for _ in range(WRITERS)]
             await asyncio.sleep(rng.uniform(0.0, 0.5))
             os.kill(process.pid, signal.SIGKILL)
@@ -113,6 +125,7 @@ async def _find_losses(client: Client, ledger: Ledger) -> list[str]:
     client.ids = {place["name"]: place["id"] for place in places}
     kept = {place["name"]: place["x"] for place in places}
     laps = (await client.latched("/mission"))["laps"]
+    stopped = (await client.latched("/control/status"))["stopped"]
     log = await client.ask("/events/get", since=1, boot=await client.boot())
     logged = {event["id"]: event for event in log["events"]}
     oldest = min(logged, default=0)
@@ -121,6 +134,8 @@ async def _find_losses(client: Client, ledger: Ledger) -> list[str]:
     wrong += [f"place {name} is there again" for name in ledger.gone & set(kept)]
     if not ledger.mission <= laps <= ledger.asked_mission:
         wrong.append(f"the mission is number {laps}; {ledger.mission} was acknowledged")
+    if ledger.stopped and not stopped:
+        wrong.append("STOP is forgotten")
     heard = {id: text for id, text in ledger.events.items() if id >= oldest}
     wrong += [
         f"event {id} is lost or another"
@@ -142,10 +157,28 @@ async def _find_losses(client: Client, ledger: Ledger) -> list[str]:
 
 async def _write(client: Client, ledger: Ledger, rng: random.Random) -> None:
     """Change one thing after the other until the robot side is gone."""
-    changes = (_new_place, _new_place, _move_place, _delete_place, _mission, _see_to)
+    changes = (_stop, _new_place, _new_place, _move_place, _delete_place, _mission, _see_to)
     with suppress(ConnectionClosed):
         while True:
             await rng.choice(changes)(client, ledger, rng)
+
+
+async def _stop(client: Client, ledger: Ledger, _: random.Random) -> None:
+    """Press STOP; an answer that says more than that doubts that it would outlast a restart."""
+    answer = await client.ask("/stop")
+    if answer["success"] and answer["message"] == "Stopped.":
+        ledger.stopped = True
+        ledger.stops += 1
+        ledger.sure += 1
+
+
+async def _release(client: Client, ledger: Ledger) -> None:
+    """Release STOP, whatever the robot answers; from now on it may be pressed or not."""
+    ledger.stopped = False
+    await client.ask("/control/acquire")
+    await client.ask("/stop/hold")
+    await asyncio.sleep(RELEASE_HOLD)
+    await client.ask("/stop/release")
 
 
 async def _new_place(client: Client, ledger: Ledger, rng: random.Random) -> None:
@@ -215,15 +248,17 @@ class Client:
         self._numbers = itertools.count()
         self._answers: dict[str, asyncio.Future[Any]] = {}
         loop = asyncio.get_running_loop()
-        self._latched = {topic: loop.create_future() for topic in ("/places", "/mission")}
+        self._latched = {topic: loop.create_future() for topic in LATCHED}
         self._reading = asyncio.create_task(self._read())
 
     @classmethod
     async def to(cls, process: subprocess.Popen[str]) -> Client:
         """Connect to a robot side once it says that it is ready."""
-        line = await asyncio.to_thread(process.stdout.readline if process.stdout else str)
-        if "ready" not in line:
-            raise RuntimeError(f"The robot side did not start: {line!r}.")
+        while "ready" not in (
+            line := await asyncio.to_thread(process.stdout.readline if process.stdout else str)
+        ):
+            if not line:
+                raise RuntimeError("The robot side did not start.")
         url = next(word.removeprefix("bridge=") for word in line.split() if word.startswith("bridge="))
         client = cls(await connect(url, max_size=None))
         for topic in ("/events", *client._latched):
@@ -284,7 +319,7 @@ def _start(state: Path) -> subprocess.Popen[str]:
     serve = (
         "serve",
         "--robot",
-        UNREACHABLE,
+        "sim:patrol",
         "--port",
         "0",
         "--http-port",
@@ -294,7 +329,7 @@ def _start(state: Path) -> subprocess.Popen[str]:
         "--with-parent",
     )
     return subprocess.Popen(
-        [sys.executable, "-m", "robotside", *serve],
+        [sys.executable, "-m", "bench.support.bodies", *serve],
         cwd=ROOT,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,

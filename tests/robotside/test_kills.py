@@ -21,3 +21,4 @@ def test_what_was_acknowledged_is_there_after_a_kill(tmp_path: Path) -> None:
     assert asyncio.run(killed(tmp_path / "state", ledger)) == []
     assert ledger.sure > 0
     assert ledger.events
+    assert ledger.stops > 0
