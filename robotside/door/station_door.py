@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from bridge.core.robot_catalogue import Service
@@ -15,6 +15,7 @@ from robotside.door.derived_topics import DerivedTopics
 from robotside.door.door import Door
 from robotside.door.gate import OPEN, Gate
 from robotside.door.offered_topics import OfferedTopics
+from robotside.records.audit_export import csv_lines
 from robotside.services.audit_trail import AuditTrail
 from robotside.services.catalogue import catalogue
 from robotside.services.command_messages import listener
@@ -74,6 +75,10 @@ class StationDoor(Door):
     def info(self) -> RobotInfo:
         """Who the robot is."""
         return self._station.info
+
+    def audit_lines(self) -> Iterator[str]:
+        """The audit log as lines of CSV. The first one may take a second: to be called in a thread of its own."""
+        return csv_lines(self._station.records.audit.rows())
 
     @property
     def health(self) -> Health:

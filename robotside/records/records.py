@@ -21,6 +21,7 @@ from robotside.records.database.jobs import Job
 from robotside.records.database.rows import Content, Put, empty
 from robotside.records.database.storage import Storage
 from robotside.records.database.writer import ImmediateWriter
+from robotside.records.erasure import erase
 from robotside.records.eventlog import EventLog
 from robotside.records.ledger import Ledger, Writer
 from robotside.records.missions import Missions
@@ -125,6 +126,13 @@ class Records:
         """Note who pressed STOP, or with an empty name that it was released; `after` is called once it was tried."""
         if by != self.stopped_by:
             self._ledger.fact("facts", "stopped by", by, after)
+
+    def erase(self, name: str) -> Job:
+        """Erase a person's name in all that happened; the job has the outcome. See `robotside.records.erasure`."""
+        with self._ledger.together() as job:
+            erase(self._ledger, name)
+            self.audit.erase(name)
+        return job
 
     @property
     def trouble(self) -> str:

@@ -79,6 +79,7 @@ _MANAGE = (
     "call /people/invite",
     "rosapi /rosapi/set_param",
     "rosapi /rosapi/delete_param",
+    "page /audit.csv",
 )
 
 PERMISSIONS: Mapping[str, Role] = MappingProxyType(
