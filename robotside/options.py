@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from robotside.commands import audit
+from robotside.commands import audit, erase
 from robotside.commands.state_directory import base
 from robotside.commands.user_mistake import UserMistake
 from robotside.core.config import DEFAULT_CONFIG, Config, load
@@ -44,7 +44,7 @@ class Command(Protocol):
         """Add the command and its options, with its `run(options) -> int` as their default `run`."""
 
 
-COMMANDS: tuple[Command, ...] = (audit,)
+COMMANDS: tuple[Command, ...] = (audit, erase)
 """Those beside `serve` and `offer`, in the order of the help."""
 
 

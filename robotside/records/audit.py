@@ -8,7 +8,16 @@ from collections.abc import Callable, Iterable
 import msgspec
 
 from robotside.core.text import plain
-from robotside.records.database.audit_rows import AUDIT, Audited, Erase, Prune, chained, erased, first_bad
+from robotside.records.database.audit_rows import (
+    AUDIT,
+    UNPROVEN,
+    Audited,
+    Erase,
+    Prune,
+    chained,
+    erased,
+    first_bad,
+)
 from robotside.records.ledger import Ledger
 
 __all__ = ["MAX_ROWS", "Audit", "Entry"]
@@ -89,7 +98,7 @@ class Audit:
         """Erase a person's name and addresses in all rows; what was done stays, and the chain holds."""
         with self._ledger.together():
             for number, row in list(self._ledger.rows(AUDIT).items()):
-                if isinstance(row, Audited) and row.name == name:
+                if isinstance(row, Audited) and row.name in (name, name + UNPROVEN):
                     self._ledger.fact(AUDIT, number, erased(row))
             self._ledger.fact(AUDIT, f"erase {name}", Erase(name))
 

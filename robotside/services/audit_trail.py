@@ -18,6 +18,7 @@ from robotside.control.authority import Driver
 from robotside.core.notice import Notice, coded
 from robotside.core.text import plain
 from robotside.records.audit import Audit, Entry
+from robotside.records.database.audit_rows import UNPROVEN
 
 __all__ = ["READ_ONLY", "AuditTrail"]
 
@@ -156,7 +157,7 @@ class AuditTrail:
 
     def stopped(self, name: str, way: str, address: str = "", outcome: str = "done") -> None:
         """STOP was pressed by somebody without a session, who says to be called so."""
-        called = f"{name} (not proven)" if name else ""
+        called = f"{name}{UNPROVEN}" if name else ""
         self._note(Entry("stop", outcome, "", called, Role.NONE.word, way, _host(address)), _host(address))
 
     def control(self, driver: Driver | None) -> None:
@@ -186,7 +187,7 @@ class AuditTrail:
     ) -> Entry:
         """What an operator did; `claimed` are the id and the name that it gives itself."""
         who = operator.identity
-        called = who.name if who.proven or not claimed[1] else f"{claimed[1]} (not proven)"
+        called = who.name if who.proven or not claimed[1] else f"{claimed[1]}{UNPROVEN}"
         return Entry(
             plain(operation, MAX_OPERATION),
             outcome,

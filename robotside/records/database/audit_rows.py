@@ -25,6 +25,7 @@ __all__ = [
     "AUDIT",
     "ERASED",
     "PRUNED",
+    "UNPROVEN",
     "Audited",
     "Erase",
     "Prune",
@@ -42,6 +43,8 @@ AUDIT = "audit"
 """The table."""
 ERASED = "erased"
 """Stands for the name of a person that was erased."""
+UNPROVEN = " (not proven)"
+"""Behind a name that somebody only says to have."""
 PRUNED = "pruned"
 """The operation of the row that stands for all before it, which were let go of; its hash is that of the last of them."""
 _HASH = re.compile(r"[0-9a-f]{64}")
@@ -151,7 +154,7 @@ def write_audit(session: Session, number: int | str, change: Change) -> None:
         return
     session.flush()
     if isinstance(change, Erase):
-        named = update(AuditRow).where(AuditRow.name == change.name)
+        named = update(AuditRow).where(AuditRow.name.in_((change.name, change.name + UNPROVEN)))
         session.execute(named.values(name=ERASED, address="", salt=""))
         return
     session.execute(delete(AuditRow).where(AuditRow.id < number))

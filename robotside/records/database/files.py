@@ -157,11 +157,19 @@ class DatabaseFiles:
         for part in _PARTS:
             with suppress(FileNotFoundError):
                 Path(f"{self.path}{part}").rename(f"{aside}{part}")
-        for old in sorted(self.path.parent.glob(f"{self.path.stem}-damaged-*.sqlite3"))[:-MAX_DAMAGED]:
-            for part in _PARTS:
-                Path(f"{old}{part}").unlink(missing_ok=True)
+        for old in self.set_aside_before()[:-MAX_DAMAGED]:
+            self.delete(old)
         _sync(self.path.parent)
         return aside
+
+    def set_aside_before(self) -> list[Path]:
+        """Broken files that are kept for inspection, oldest first."""
+        return sorted(self.path.parent.glob(f"{self.path.stem}-damaged-*.sqlite3"))
+
+    def delete(self, copy: Path) -> None:
+        """Delete a backup or a broken file, with all that belongs to it."""
+        for part in _PARTS:
+            Path(f"{copy}{part}").unlink(missing_ok=True)
 
     def restore(self, backup: Path) -> None:
         """Put a backup in the place of the database. Raises OSError, or sqlite3.Error when it cannot be read."""
@@ -169,8 +177,7 @@ class DatabaseFiles:
 
     def clear(self) -> None:
         """Let go of what `restore` put in the place of the database."""
-        for part in _PARTS:
-            Path(f"{self.path}{part}").unlink(missing_ok=True)
+        self.delete(self.path)
 
     def tighten(self) -> None:
         """Have nobody else read the files of the database, which older programs let everybody read."""
