@@ -11,13 +11,16 @@ import signal
 import sys
 import time
 from collections.abc import Callable, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from bridge.core.address import BadAddress, host_and_port
 from bridge.core.errors import BridgeError
+from bridge.core.identity import Role
 from robotside import options as said
+from robotside.commands.pairing_display import shown
 from robotside.core.clock import RobotClock
 from robotside.core.config import BadConfig, Config
 from robotside.core.robot import Robot
@@ -29,9 +32,12 @@ from robotside.records.landmarks import take_over
 from robotside.records.opening import open_records
 from robotside.serving.fleet_server import FleetServer
 from robotside.serving.malloc_trim import trim
+from robotside.serving.station_keys import StationKeys
 from robotside.serving.station_server import Addresses, StationServer
 from robotside.station.station import Station
 from robotside.tasks.schedule import local_zone
+from robotside.trust.certificate import BadCertificate, Certificate, own_certificate, users_certificate
+from robotside.trust.pairing import Offer
 
 __all__ = ["main"]
 
@@ -52,7 +58,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         if "run" in options:
             return int(options.run(options))
         return _serve(options, lambda: not options.with_parent or os.getppid() == parent)
-    except (UserMistake, BadConfig, BridgeError) as problem:
+    except (UserMistake, BadConfig, BadCertificate, BridgeError) as problem:
         print(f"robotside: {problem}", file=sys.stderr)
         return 2
 
@@ -67,6 +73,7 @@ def _serve(options: argparse.Namespace, wanted: Callable[[], bool]) -> int:
     states = [said.state(options, names, number, world) for number in range(len(ones))]
     began, steady = time.time(), time.monotonic()
     try:
+        said.check_reach(options, states)
         fleet = _Fleet(options, lambda: began + time.monotonic() - steady)
         asyncio.run(fleet.run(list(zip(ones, robots, configs, states, ports, strict=True)), wanted))
     finally:
@@ -80,6 +87,8 @@ class _Fleet:
 
     def __init__(self, options: argparse.Namespace, wall: Callable[[], float]) -> None:
         self._options, self._wall = options, wall
+        given = options.certificate is not None
+        self._certificate = users_certificate(options.certificate, options.key) if given else None
         self._clock = RobotClock(wall(), options.speed)
 
     async def run(
@@ -96,7 +105,7 @@ class _Fleet:
                 loop.add_signal_handler(signal_number, together.end)
             # what the maps were made of is freed by the first steps
             later = loop.call_later(SETTLED, trim)
-            await together.run(_say_ready)
+            await together.run(self._say_ready)
             later.cancel()
 
     def _serving(
@@ -125,7 +134,41 @@ class _Fleet:
             worker=kept.enter_context(WorkerThread(f"planning {number}")),
         )
         take_over(robot, records, station.events.say)
-        return StationServer(station, self._clock, self._wall, Addresses(self._options.host, *ports))
+        addresses = Addresses(self._options.host, *ports)
+        keys = StationKeys(
+            state,
+            station,
+            self._certificate or _own_certificate(state),
+            config.trust,
+            plain=Role.read(self._options.plain) if self._options.plain else None,
+        )
+        return StationServer(station, self._clock, self._wall, addresses, keys=keys)
+
+    def _say_ready(self, serving: StationServer) -> None:
+        if self._options.pair and serving.keys is not None:
+            pairing = serving.keys.pairing
+            offer = pairing.open(Role.read(self._options.pair))
+            print(f"robotside: pair {pairing.link(offer)}", flush=True)
+            serving.keys.on_offer = partial(_show_offer, serving)
+            _show_offer(serving, offer)
+        _say_ready(serving)
+
+
+def _own_certificate(state: Path) -> Certificate:
+    own = own_certificate(state)
+    if own.problem:
+        print(f"robotside: {own.problem}", file=sys.stderr, flush=True)
+    return own
+
+
+def _show_offer(serving: StationServer, offer: Offer) -> None:
+    """Show how to pair where a person reads it; only who is at the robot's own terminal does."""
+    if serving.keys is None or not sys.stderr.isatty():
+        return
+    name, pairing = serving.station.info.name, serving.keys.pairing
+    left = offer.open_until - serving.station.clock()
+    with suppress(OSError):
+        print(shown(name, pairing.link(offer), offer.code, left), file=sys.stderr, flush=True)
 
 
 def _say_ready(serving: StationServer) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import ipaddress
 import math
 import os
 import re
@@ -13,10 +14,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from robotside.commands import audit, erase
+from robotside.commands import audit, erase, pair, people, token
 from robotside.commands.state_directory import base
 from robotside.commands.user_mistake import UserMistake
 from robotside.core.config import DEFAULT_CONFIG, Config, load
+from robotside.trust.people_file import PeopleFile, Unkept
 
 __all__ = [
     "COMMANDS",
@@ -25,7 +27,9 @@ __all__ = [
     "Command",
     "One",
     "UserMistake",
+    "check_reach",
     "configs",
+    "is_here",
     "ports",
     "read",
     "robots",
@@ -44,7 +48,7 @@ class Command(Protocol):
         """Add the command and its options, with its `run(options) -> int` as their default `run`."""
 
 
-COMMANDS: tuple[Command, ...] = (audit, erase)
+COMMANDS: tuple[Command, ...] = (people, token, pair, audit, erase)
 """Those beside `serve` and `offer`, in the order of the help."""
 
 
@@ -73,7 +77,9 @@ def read(argv: Sequence[str] | None) -> argparse.Namespace:
     about = "The robot's computer. `serve` is optional before options; `serve --help` lists them."
     parser = _Parser(prog="python -m robotside", description=about)
     commands = parser.add_subparsers(dest="command", required=True)
-    _add_serve(commands.add_parser("serve", help="serve one robot, or several in one simulated world"))
+    serve = commands.add_parser("serve", help="serve one robot, or several in one simulated world")
+    _add_serve(serve)
+    _add_trust(serve)
     offer = commands.add_parser("offer", help="list the robots and worlds that can be simulated")
     offer.add_argument("--json", action="store_true", help="as JSON, for programs")
     for command in COMMANDS:
@@ -138,7 +144,31 @@ def _add_more(serve: argparse.ArgumentParser) -> None:
     add("--with-parent", action="store_true", help="exit when the program that started it exits")
 
 
+def _add_trust(serve: argparse.ArgumentParser) -> None:
+    add, roles = serve.add_argument, ("watch", "drive", "manage")
+    add(
+        "--pair",
+        nargs="?",
+        const="drive",
+        choices=roles,
+        help="open pairing for ten minutes and one handheld, with this role, by default drive; the first one ever has "
+        "manage. Of several robots each shows a link of its own",
+    )
+    add(
+        "--plain",
+        nargs="?",
+        const="drive",
+        choices=roles,
+        help="let programs of other computers in without encryption and without a key, with this role, by default drive; "
+        "everybody in the network can be one of them",
+    )
+    add("--certificate", type=Path, metavar="FILE", help="a certificate of your own, in PEM, with --key")
+    add("--key", type=Path, metavar="FILE", help="its private key, in PEM, without a password")
+
+
 def _check(options: argparse.Namespace) -> None:
+    if (options.certificate is None) != (options.key is None):
+        raise UserMistake("--certificate and --key go together: give both, or none.")
     for name in ("port", "http_port"):
         number = getattr(options, name)
         if not 0 <= number <= 65535:
@@ -233,3 +263,27 @@ def state(options: argparse.Namespace, names: Sequence[str], number: int, world:
 
 def _plain(name: str) -> str:
     return re.sub(r"[^\w.-]+", "-", name)
+
+
+def check_reach(options: argparse.Namespace, states: Sequence[Path]) -> None:
+    """UserMistake when other computers could reach a robot of one of these state directories that nobody is paired with."""
+    if options.pair or options.plain or is_here(options.host):
+        return
+    for state in states:
+        try:
+            known = PeopleFile(state).read()
+        except Unkept as problem:
+            raise UserMistake(str(problem)) from problem
+        if not known:
+            raise UserMistake(
+                f"Nobody is paired with the robot in {state}, so nobody could use it from {options.host}: "
+                "add --pair and scan the QR code with the app, or --plain to let everybody in the network drive."
+            )
+
+
+def is_here(host: str) -> bool:
+    """Only this machine reaches what listens on `host`."""
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return host == "localhost"

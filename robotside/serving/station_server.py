@@ -14,6 +14,7 @@ from robotside.gateways.http.gateway import HttpGateway
 from robotside.gateways.rosbridge.gateway import RosbridgeGateway
 from robotside.gateways.scaling.picture_scaling import PictureScaler
 from robotside.serving.fleet_server import FleetServer, RunningServer
+from robotside.serving.station_keys import StationKeys
 from robotside.station.station import Station
 
 __all__ = ["Addresses", "StationServer"]
@@ -46,13 +47,19 @@ class StationServer:
         wall: Callable[[], float],
         addresses: Addresses,
         *,
+        keys: StationKeys | None = None,
         wanted: Callable[[], bool] = lambda: True,
     ) -> None:
-        """`wanted` is asked once a second and ends the serving when it says no."""
+        """`keys` know who may do what; without them everybody may do everything, and nothing is encrypted.
+
+        `wanted` is asked once a second and ends the serving when it says no.
+        """
         self.addresses = addresses
         self.station = station
         """The station that is served."""
-        self.door = StationDoor(station)
+        self.keys = keys
+        """Its certificate, its people and pairing."""
+        self.door = self._door()
         """The door that all its gateways stand behind."""
         self._alone = FleetServer([self], clock, wall, wanted=wanted)
         self._pictures = PictureScaler()
@@ -63,6 +70,14 @@ class StationServer:
         http = HttpGateway(self.door, host, addresses.http_port, self._pictures, lambda: addresses.bridge)
         self._gateways: tuple[Gateway, ...] = (http, self._rosbridge)
         """In the order in which they start."""
+
+    def _door(self) -> StationDoor:
+        if self.keys is None:
+            return StationDoor(self.station)
+        services = self.keys.services(lambda: self.door.connected)
+        door = StationDoor(self.station, self.keys.trust, services)
+        self.keys.trust.on_lost = door.expel
+        return door
 
     async def run(self, ready: Callable[[Addresses], None]) -> None:
         """Serve until `end`; `ready` is called once everything listens. BridgeError when a port is taken."""
@@ -76,6 +91,8 @@ class StationServer:
     async def listening(self) -> AsyncIterator[RunningServer]:
         """Hold its ports for as long as this is open. BridgeError when one is taken."""
         async with AsyncExitStack() as opened:
+            if self.keys is not None:
+                opened.callback(self.keys.close)
             opened.callback(self.door.close)
             opened.push_async_callback(self._pictures.close)
             for gateway in self._gateways:
@@ -87,7 +104,17 @@ class StationServer:
                 endpoints.update(gateway.endpoints())
             self.addresses.note(endpoints)
             beacon = Beacon(self._hello, host=self.addresses.host)
-            yield RunningServer((beacon.run,), beacon.close)
+            if self.keys is None:
+                yield RunningServer((beacon.run,), beacon.close)
+                return
+            keys = self.keys
+            keys.reached_at(self.addresses.bridge)
+
+            async def leave() -> None:
+                keys.end()
+                await beacon.close()
+
+            yield RunningServer((beacon.run, keys.run), leave)
 
     def _hello(self) -> Hello:
         info, driver = self.station.info, self.station.controls.driver
@@ -102,4 +129,5 @@ class StationServer:
             battery=self.station.autonomy.battery,
             driver=driver.name if driver else "",
             boot=self.station.events.boot,
+            key=self.keys.claim if self.keys else "",
         )

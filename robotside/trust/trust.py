@@ -25,7 +25,7 @@ from robotside.trust.people import HANDHELD, MAX_TOKEN, Person, added, make_pers
 from robotside.trust.people_file import PeopleFile, Unkept
 from robotside.trust.permissions import needed_role
 
-__all__ = ["Trust"]
+__all__ = ["CHECK_PERIOD", "Trust"]
 
 log = logging.getLogger(__name__)
 
@@ -36,7 +36,7 @@ MAX_WRONG, WRONG_PERIOD = 5, 60.0
 MAX_LOGGED, LOG_PERIOD = 20, 60.0
 """Lines about wrong keys in as many seconds, whoever shows them."""
 CHECK_PERIOD = 0.5
-"""Between two looks at the file and at who has ended [s]."""
+"""Between two calls of `Trust.step` [s]."""
 SEEN_PERIOD = 60.0
 """Between two writes of who was seen when [s]."""
 
@@ -144,15 +144,13 @@ class Trust:
         self._take(await self._in_worker(self._file.change, partial(_without, id=gone.id)))
         return gone
 
-    async def watch(self) -> None:
-        """Follow the file, and end roles in time, until cancelled."""
-        while True:
-            await asyncio.sleep(CHECK_PERIOD)
-            self.update()
-            if self._now() >= self._next_write:
-                self._next_write = self._now() + SEEN_PERIOD
-                seen = dict(self._seen)
-                self._forget_seen(seen if await self._in_worker(self._write_seen, seen) else {})
+    async def step(self) -> None:
+        """Follow the file, end roles in time, and keep now and then who was seen; call it every `CHECK_PERIOD`."""
+        self.update()
+        if self._now() >= self._next_write:
+            self._next_write = self._now() + SEEN_PERIOD
+            seen = dict(self._seen)
+            self._forget_seen(seen if await self._in_worker(self._write_seen, seen) else {})
 
     def update(self) -> None:
         """Take in what another program has changed in the file, and tell of those whose role has ended."""

@@ -9,9 +9,22 @@ from pathlib import Path
 
 import pytest
 
+from bridge.core.identity import Role
 from robotside.__main__ import main
 from robotside.core.config import BadConfig
-from robotside.options import MAX_ROBOTS, One, UserMistake, configs, ports, read, robots, state
+from robotside.options import (
+    MAX_ROBOTS,
+    One,
+    UserMistake,
+    check_reach,
+    configs,
+    ports,
+    read,
+    robots,
+    state,
+)
+from robotside.trust.people import HANDHELD, added, make_person
+from robotside.trust.people_file import PeopleFile
 from sim.world.world_files import WORLDS
 
 
@@ -180,3 +193,43 @@ def test_a_command_has_its_options_and_its_exit_code(
 def test_a_wrong_option_names_the_help_of_its_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["offer", "--colour"]) == 2
     assert "see python -m robotside" in capsys.readouterr().err
+
+
+class TestReach:
+    """Who listens beyond this machine says first how people are let in."""
+
+    def refused(self, state: Path, *words: str) -> str:
+        with pytest.raises(UserMistake) as mistake:
+            check_reach(read(["serve", *words]), [state])
+        return str(mistake.value)
+
+    @pytest.mark.parametrize("host", ["0.0.0.0", "::", "192.168.1.7", "robot.local", ""])
+    def test_without_anybody_who_is_paired_it_is_refused_with_the_way_out(
+        self, tmp_path: Path, host: str
+    ) -> None:
+        said = self.refused(tmp_path, "--host", host)
+        assert "add --pair" in said
+        assert "or --plain" in said
+
+    def test_this_machine_alone_needs_nothing(self, tmp_path: Path) -> None:
+        for host in ("127.0.0.1", "localhost", "::1", "127.0.0.2"):
+            check_reach(read(["serve", "--host", host]), [tmp_path])
+
+    def test_pairing_or_plain_or_somebody_who_is_paired_lets_it_start(self, tmp_path: Path) -> None:
+        check_reach(read(["serve", "--host", "0.0.0.0", "--pair"]), [tmp_path])
+        check_reach(read(["serve", "--host", "0.0.0.0", "--plain", "watch"]), [tmp_path])
+        made, _ = make_person("Anna", Role.DRIVE, HANDHELD, now=1.0)
+        PeopleFile(tmp_path).change(lambda people: added(people, made))
+        check_reach(read(["serve", "--host", "0.0.0.0"]), [tmp_path])
+        assert str(tmp_path / "other") in self.refused(tmp_path / "other", "--host", "0.0.0.0")
+
+    def test_a_damaged_list_counts_as_nobody(self, tmp_path: Path) -> None:
+        PeopleFile(tmp_path).path.write_bytes(b"{")
+        assert "Nobody is paired" in self.refused(tmp_path, "--host", "0.0.0.0")
+
+    def test_roles_and_files_are_checked(self) -> None:
+        for words in (["--pair", "king"], ["--plain", "none"], ["--certificate", "x"], ["--key", "x"]):
+            with pytest.raises(UserMistake):
+                read(["serve", *words])
+        options = read(["serve", "--pair", "--plain"])
+        assert (options.pair, options.plain) == ("drive", "drive")

@@ -1,0 +1,36 @@
+"""Links as QR codes: for a terminal, a web page and a printer."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import segno
+
+__all__ = ["as_svg", "as_text", "write_png"]
+
+_MODULE_PIXELS = 12
+"""Of a picture for a printer."""
+
+
+def as_text(link: str) -> str:
+    """A QR code of block characters, for a terminal of either background."""
+    out = io.StringIO()
+    _code(link).terminal(out, compact=True)
+    return out.getvalue()
+
+
+def as_svg(link: str) -> str:
+    """A QR code as an SVG element, black on white."""
+    shown: str = _code(link).svg_inline(scale=5, light="white")
+    return shown
+
+
+def write_png(link: str, path: Path) -> None:
+    """Write a QR code as a picture to `path`. Raises OSError."""
+    with path.open("wb") as file:
+        _code(link).save(file, kind="png", scale=_MODULE_PIXELS)
+
+
+def _code(link: str) -> segno.QRCode:
+    return segno.make_qr(link, error="m")
