@@ -142,7 +142,8 @@ class _Fleet:
             config.trust,
             plain=Role.read(self._options.plain) if self._options.plain else None,
         )
-        return StationServer(station, self._clock, self._wall, addresses, keys=keys)
+        origins = self._options.allow_origin
+        return StationServer(station, self._clock, self._wall, addresses, keys=keys, origins=origins)
 
     def _say_ready(self, serving: StationServer) -> None:
         if self._options.pair and serving.keys is not None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import ipaddress
 import math
 import os
 import re
@@ -14,10 +13,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
+from bridge.server.reception.pages import read_origin
 from robotside.commands import audit, erase, pair, people, token
 from robotside.commands.state_directory import base
 from robotside.commands.user_mistake import UserMistake
 from robotside.core.config import DEFAULT_CONFIG, Config, load
+from robotside.gateways.addresses import is_here
 from robotside.trust.people_file import PeopleFile, Unkept
 
 __all__ = [
@@ -29,7 +30,6 @@ __all__ = [
     "UserMistake",
     "check_reach",
     "configs",
-    "is_here",
     "ports",
     "read",
     "robots",
@@ -162,13 +162,19 @@ def _add_trust(serve: argparse.ArgumentParser) -> None:
         help="let programs of other computers in without encryption and without a key, with this role, by default drive; "
         "everybody in the network can be one of them",
     )
+    add(
+        "--allow-origin",
+        action="append",
+        default=[],
+        metavar="URL",
+        help="let web pages of this origin speak to the robot, as http://localhost:8000; may be given several times",
+    )
     add("--certificate", type=Path, metavar="FILE", help="a certificate of your own, in PEM, with --key")
     add("--key", type=Path, metavar="FILE", help="its private key, in PEM, without a password")
 
 
 def _check(options: argparse.Namespace) -> None:
-    if (options.certificate is None) != (options.key is None):
-        raise UserMistake("--certificate and --key go together: give both, or none.")
+    _check_trust(options)
     for name in ("port", "http_port"):
         number = getattr(options, name)
         if not 0 <= number <= 65535:
@@ -184,6 +190,16 @@ def _check(options: argparse.Namespace) -> None:
     unknown = set(filter(None, options.protocols.split(","))) - {"rosbridge", "http"}
     if unknown:
         raise UserMistake(f"There is no protocol {', '.join(sorted(unknown))}; there are rosbridge and http.")
+
+
+def _check_trust(options: argparse.Namespace) -> None:
+    if (options.certificate is None) != (options.key is None):
+        raise UserMistake("--certificate and --key go together: give both, or none.")
+    for origin in options.allow_origin:
+        try:
+            read_origin(origin)
+        except ValueError as problem:
+            raise UserMistake(f"--allow-origin: {problem}") from problem
 
 
 def robots(options: argparse.Namespace) -> list[One]:
@@ -279,11 +295,3 @@ def check_reach(options: argparse.Namespace, states: Sequence[Path]) -> None:
                 f"Nobody is paired with the robot in {state}, so nobody could use it from {options.host}: "
                 "add --pair and scan the QR code with the app, or --plain to let everybody in the network drive."
             )
-
-
-def is_here(host: str) -> bool:
-    """Only this machine reaches what listens on `host`."""
-    try:
-        return ipaddress.ip_address(host).is_loopback
-    except ValueError:
-        return host == "localhost"

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import ipaddress
 import socket
 
-__all__ = ["listening_socket", "url"]
+__all__ = ["is_here", "listening_socket", "url"]
 
 _EVERYWHERE = ("0.0.0.0", "::", "")  # noqa: S104 - compared with, not bound to
 
@@ -23,11 +24,24 @@ def listening_socket(host: str, port: int) -> socket.socket:
     return listener
 
 
-def url(scheme: str, host: str, port: int) -> str:
-    """The URL by which other machines reach a server that listens on `host`; this machine's address for all hosts."""
+def url(scheme: str, host: str, port: int, *, tls: bool = False) -> str:
+    """The URL by which other machines reach a server that listens on `host`; this machine's address for all hosts.
+
+    With `tls` it is `wss` in place of `ws`, but on this machine, where programs need no encryption.
+    """
+    if tls and not is_here(host):
+        scheme += "s"
     if host in _EVERYWHERE:
         host = _own_address()
     return f"{scheme}://[{host}]:{port}" if ":" in host else f"{scheme}://{host}:{port}"
+
+
+def is_here(host: str) -> bool:
+    """Only this machine reaches what listens on `host`."""
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return host == "localhost"
 
 
 def _own_address() -> str:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Callable, Mapping
+from collections.abc import AsyncIterator, Callable, Iterable, Mapping
 from contextlib import AsyncExitStack, asynccontextmanager
 from urllib.parse import urlsplit
 
 from bridge.discovery.beacon import Beacon, Hello
+from bridge.server.reception.pages import PagePolicy
+from bridge.server.reception.reception import anyone
 from robotside.core.clock import RobotClock
 from robotside.door.station_door import StationDoor
 from robotside.gateways.gateway import Gateway
@@ -48,11 +50,12 @@ class StationServer:
         addresses: Addresses,
         *,
         keys: StationKeys | None = None,
+        origins: Iterable[str] = (),
         wanted: Callable[[], bool] = lambda: True,
     ) -> None:
         """`keys` know who may do what; without them everybody may do everything, and nothing is encrypted.
 
-        `wanted` is asked once a second and ends the serving when it says no.
+        Web pages of `origins`, beside its own, may speak to it. `wanted` is asked once a second and ends the serving when it says no.
         """
         self.addresses = addresses
         self.station = station
@@ -64,11 +67,31 @@ class StationServer:
         self._alone = FleetServer([self], clock, wall, wanted=wanted)
         self._pictures = PictureScaler()
         host = addresses.host
-        self._rosbridge = RosbridgeGateway(self.door, host, addresses.port, self._pictures, clock.real)
+        tls, plain_from = (keys.context, keys.plain_from) if keys else (None, anyone)
+        pages = PagePolicy(origins, web_port=lambda: self._http.port)
+        self._rosbridge = RosbridgeGateway(
+            self.door,
+            host,
+            addresses.port,
+            self._pictures,
+            clock.real,
+            tls=tls,
+            plain_from=plain_from,
+            pages=pages,
+        )
         self.server = self._rosbridge.server
         """The rosbridge server."""
-        http = HttpGateway(self.door, host, addresses.http_port, self._pictures, lambda: addresses.bridge)
-        self._gateways: tuple[Gateway, ...] = (http, self._rosbridge)
+        self._http = HttpGateway(
+            self.door,
+            host,
+            addresses.http_port,
+            self._pictures,
+            lambda: addresses.bridge,
+            tls=tls,
+            plain_from=plain_from,
+            pages=pages,
+        )
+        self._gateways: tuple[Gateway, ...] = (self._http, self._rosbridge)
         """In the order in which they start."""
 
     def _door(self) -> StationDoor:

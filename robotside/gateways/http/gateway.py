@@ -50,7 +50,7 @@ class HttpGateway:
         With `tls` browsers may come encrypted, on the same port; `plain_from(host)` says who may come without.
         `pages` may speak to the robot, by default its own; `stop_from_pages` as of `Doorkeeper`.
         """
-        self._host = host
+        self._host, self._is_secure = host, tls is not None
         self.port = port
         """Where it listens; 0 until one was taken."""
         allowed = pages or PagePolicy(web_port=lambda: self.port)
@@ -98,8 +98,8 @@ class HttpGateway:
         return self._reception.front(BrowserConnection(*args, **options))
 
     def endpoints(self) -> Mapping[str, str]:
-        """The URL of the page."""
-        return {"http": url("http", self._host, self.port)}
+        """The URL of the page; `https` where others reach it and it speaks TLS."""
+        return {"http": url("http", self._host, self.port, tls=self._is_secure)}
 
 
 class _WebServer(uvicorn.Server):

@@ -74,8 +74,8 @@ class RosbridgeGateway:
         await self.server.close()
 
     def endpoints(self) -> Mapping[str, str]:
-        """The URL of the WebSocket."""
-        return {"rosbridge": url("ws", self._host, self.port)}
+        """The URL of the WebSocket; `wss` where others reach it and it speaks TLS."""
+        return {"rosbridge": url("ws", self._host, self.port, tls=self._tls is not None)}
 
     def _publish_frame(self, topic: str, msg: Msg) -> None:
         if not isinstance(msg, CompressedImage):

@@ -37,3 +37,11 @@ def test_a_socket_listens_where_it_is_asked_to_and_a_taken_port_fails() -> None:
             pass
         with pytest.raises(OSError, match="in use"):
             listening_socket("127.0.0.1", port)
+
+
+def test_beyond_this_machine_a_server_with_tls_is_reached_by_it() -> None:
+    assert url("ws", "127.0.0.1", 9090, tls=True) == "ws://127.0.0.1:9090"
+    assert url("http", "localhost", 8080, tls=True) == "http://localhost:8080"
+    assert url("ws", "192.168.1.7", 9090, tls=True) == "wss://192.168.1.7:9090"
+    assert url("http", "robot.local", 8080, tls=True) == "https://robot.local:8080"
+    assert url("ws", "192.168.1.7", 9090) == "ws://192.168.1.7:9090"

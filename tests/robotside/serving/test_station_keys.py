@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import asyncio
 import random
+import ssl
 import threading
 import time
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from bridge.client.client import BridgeClient, LinkState, Phase
+from bridge.client.credentials import Credentials
+from bridge.client.pairing import Paired, PairingFailed, pair_by_code, pair_by_link
 from bridge.core.identity import Role
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, GetMeRequest, GetMeResponse
@@ -109,6 +114,85 @@ async def test_a_driver_who_is_removed_by_another_program_stops_within_a_second(
         assert serves.station.controls.driver is None
         assert robot.commands[-1] is None
         assert serves.door.connected == set()
+
+
+async def asked(url: str, paired: Paired) -> GetMeResponse:
+    """Who the robot takes a handheld for that was paired."""
+    arrived = asyncio.Event()
+
+    def note(state: LinkState) -> None:
+        if state.phase is Phase.CONNECTED:
+            arrived.set()
+
+    client = BridgeClient(url, on_state=note, credentials=Credentials(paired.fingerprint, paired.token))
+    running = asyncio.create_task(client.run())
+    await arrived.wait()
+    me = await client.call("/people/me", GetMeRequest(), GetMeResponse)
+    await client.close()
+    await running
+    return me
+
+
+async def test_a_handheld_pairs_by_link_and_is_known_from_then_on(tmp_path: Path) -> None:
+    async with serving(tmp_path, settings=TrustSettings(local_role="none")) as (serves, keys, _):
+        link = PairLink.read(keys.pairing.link(keys.pairing.open(Role.DRIVE)))
+        paired = await pair_by_link(link, "tablet-A")
+        me = await asked(f"wss://127.0.0.1:{serves.addresses.port}", paired)
+        assert (me.id, me.name, me.role, me.proven, me.secure) == (
+            paired.id,
+            "tablet-A",
+            "manage",
+            True,
+            True,
+        )
+        with pytest.raises(PairingFailed, match="Pairing is not open"):
+            await pair_by_link(link, "tablet-B")
+
+
+async def test_a_handheld_pairs_by_code_and_a_wrong_one_does_not(tmp_path: Path) -> None:
+    async with serving(tmp_path, settings=TrustSettings(local_role="none")) as (serves, keys, _):
+        url = f"wss://127.0.0.1:{serves.addresses.port}"
+        offer = keys.pairing.open(Role.DRIVE)
+        with pytest.raises(PairingFailed, match="code is wrong"):
+            await pair_by_code(url, f"{(int(offer.code) + 1) % 1_000_000:06d}", "tablet-A")
+        assert keys.trust.people == ()
+        paired = await pair_by_code(url, offer.code, "tablet-A")
+        assert (await asked(url, paired)).id == paired.id
+
+
+async def test_who_stands_between_with_another_certificate_gets_nothing(tmp_path: Path) -> None:
+    other = own_certificate(tmp_path / "other").context()
+    async with serving(tmp_path / "robot") as (serves, keys, _):
+        trusting = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+        trusting.check_hostname, trusting.verify_mode = False, ssl.CERT_NONE
+        seen: list[bytes] = []
+
+        async def pass_on(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+            while data := await reader.read(65_536):
+                seen.append(data)
+                writer.write(data)
+            writer.close()
+
+        async def stand_between(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+            to_robot = await asyncio.open_connection("127.0.0.1", serves.addresses.port, ssl=trusting)
+            await asyncio.gather(
+                pass_on(reader, to_robot[1]), pass_on(to_robot[0], writer), return_exceptions=True
+            )
+
+        middle = await asyncio.start_server(stand_between, "127.0.0.1", 0, ssl=other)
+        url = f"wss://127.0.0.1:{middle.sockets[0].getsockname()[1]}"
+        offer = keys.pairing.open(Role.DRIVE)
+        with pytest.raises(PairingFailed, match="another computer answers"):
+            await pair_by_code(url, offer.code, "tablet-A")
+        assert offer.digits.encode() not in b"".join(seen)
+        assert keys.trust.people == ()
+        link = PairLink.read(keys.pairing.link(offer))
+        seen.clear()
+        with pytest.raises(PairingFailed):
+            await pair_by_link(replace(link, port=middle.sockets[0].getsockname()[1]), "tablet-A")
+        assert seen == []
+        middle.close()
+        await middle.wait_closed()
 
 
 @pytest.mark.parametrize(
