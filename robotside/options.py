@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 from bridge.server.reception.pages import read_origin
 from robotside.commands import audit, erase, pair, people, token
@@ -76,7 +76,7 @@ def read(argv: Sequence[str] | None) -> argparse.Namespace:
         words.insert(0, "serve")
     about = "The robot's computer. `serve` is optional before options; `serve --help` lists them."
     parser = _Parser(prog="python -m robotside", description=about)
-    commands = parser.add_subparsers(dest="command", required=True)
+    commands: Any = parser.add_subparsers(dest="command", required=True)
     serve = commands.add_parser("serve", help="serve one robot, or several in one simulated world")
     _add_serve(serve)
     _add_trust(serve)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
+from bridge.core.errors import Refused
 from bridge.core.robot_catalogue import Service
 from bridge.core.topics import TOPICS, camera_topics
 from bridge.msgs import Msg
@@ -16,6 +17,7 @@ from robotside.door.door import Door
 from robotside.door.gate import OPEN, Gate
 from robotside.door.offered_topics import OfferedTopics
 from robotside.records.audit_export import csv_lines
+from robotside.records.database.storage import NotWritten
 from robotside.services.audit_trail import AuditTrail
 from robotside.services.catalogue import catalogue
 from robotside.services.command_messages import listener
@@ -77,8 +79,11 @@ class StationDoor(Door):
         return self._station.info
 
     def audit_lines(self) -> Iterator[str]:
-        """The audit log as lines of CSV. The first one may take a second: to be called in a thread of its own."""
-        return csv_lines(self._station.records.audit.rows())
+        """The audit log as lines of CSV, which takes up to a second: to be called in a thread of its own. Raises Refused."""
+        try:
+            return csv_lines(self._station.records.audit.rows())
+        except NotWritten as problem:
+            raise Refused(f"The audit log cannot be read: {problem}") from problem
 
     @property
     def health(self) -> Health:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 import html
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from starlette.applications import Starlette
@@ -37,6 +39,7 @@ SNAPSHOT_TIMEOUT = 2.0
 """How long to wait for a picture [s]."""
 
 _FRESH = {"Cache-Control": "no-store"}
+_AS_FILE = _FRESH | {"Content-Disposition": 'attachment; filename="audit.csv"'}
 _PRIVATE = {
     "Cache-Control": "no-store",
     "X-Frame-Options": "DENY",
@@ -83,6 +86,7 @@ def site(
             Route("/login", pages.login, methods=["POST"]),
             Route("/logout", pages.logout, methods=["POST"]),
             Route("/healthz", pages.health),
+            Route("/audit.csv", pages.audit),
             Route("/snapshot/{name}.jpg", pages.snapshot),
             Route("/stream/{name}.mjpeg", pages.stream),
         ],
@@ -98,6 +102,7 @@ class _Pages:
     ) -> None:
         self._door, self._bridge_url = door, bridge_url
         self._streams, self._sessions = streams, sessions
+        self._reading = asyncio.Lock()  # one reader of the whole audit log at a time
 
     async def page(self, request: Request) -> Response:
         if _is_known(self._door, request):
@@ -107,6 +112,19 @@ class _Pages:
     async def health(self, request: Request) -> Response:
         known = _is_known(self._door, request)
         return JSONResponse({"ok": True, **(self._door.health._asdict() if known else {})}, headers=_FRESH)
+
+    async def audit(self, request: Request) -> Response:
+        self._door.trail.did(_operator(request), "page /audit.csv")
+        async with self._reading:
+            reader = ThreadPoolExecutor(1, "audit")
+            try:
+                text = await asyncio.get_running_loop().run_in_executor(reader, self._audit)
+            finally:
+                reader.shutdown(wait=False)
+        return Response(text, media_type="text/csv", headers=_AS_FILE)
+
+    def _audit(self) -> str:
+        return "".join(self._door.audit_lines())
 
     async def snapshot(self, request: Request) -> Response:
         view = _view(request, self._door)

@@ -21,7 +21,7 @@ from robotside.trust.permissions import needed_role
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
 
-KEYS = {"w.key": Role.WATCH, "n.key": Role.NONE}
+KEYS = {"w.key": Role.WATCH, "n.key": Role.NONE, "m.key": Role.MANAGE}
 
 
 class Gate:
@@ -180,3 +180,17 @@ async def test_a_stream_ends_when_its_viewer_may_nothing_any_more(site: Site) ->
             site.scene.station.bus.publish(CAMERA, CompressedImage(data=b"a secret"))
             assert b"a secret" not in b"".join([chunk async for chunk in chunks])
     assert not site.scene.robot.wanted[CAMERA]
+
+
+async def test_the_audit_log_is_a_file_for_who_manages_and_for_nobody_else(site: Site) -> None:
+    async with site.visit() as stranger, site.visit("w.key") as watching:
+        assert (await stranger.get("/audit.csv")).status_code == 401
+        assert (await watching.get("/audit.csv")).status_code == 403
+    async with site.visit("m.key") as managing:
+        answer = await managing.get("/audit.csv")
+    assert answer.status_code == 200
+    assert answer.headers["content-type"].startswith("text/csv")
+    lines = answer.text.splitlines()
+    assert lines[0].startswith("number,time,person_id,name,role,way")
+    assert any("Person w,watch,http,127.0.0.1,page /audit.csv,refused trust_role" in line for line in lines)
+    assert any("Person m,manage,http,127.0.0.1,page /audit.csv,done" in line for line in lines)
