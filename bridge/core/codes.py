@@ -81,6 +81,16 @@ class Code(StrEnum):
         "driver",
     )
     CONTROL_OBJECTED_LATELY = "control_objected_lately", "The actor has objected lately.", "name", "seconds"
+    CONTROL_OBJECTED_OFTEN = (
+        "control_objected_often",
+        "The driver has objected to the actor too often.",
+        "name",
+    )
+    CONTROL_MANAGER_ASKS = (
+        "control_manager_asks",
+        "The actor manages the robot; a driver cannot object.",
+        "name",
+    )
     CONTROL_NOT_ASKED = "control_not_asked", "No one asks for control."
     MODE_MANUAL = "mode_manual", "The actor chose MANUAL: nothing starts by itself.", "name"
     MODE_UNKNOWN = "mode_unknown", "There is no such mode.", "mode"

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from bridge.core.codes import Code
+from bridge.core.identity import Role
 from bridge.core.link_state import CONTROL_TIMEOUT
 from bridge.core.robot_catalogue import Operator
 from robotside.core.notice import Notice, Problem
@@ -32,6 +33,12 @@ OBJECTION_TIME = 10.0
 
 REQUEST_PAUSE = 30.0
 """Whom a driver objected to may ask the same driver again so long afterwards [s]."""
+
+MAX_REPEATED_OBJECTIONS = 3
+"""So often drivers may object to the same asker within OBJECTION_MEMORY; then control goes over."""
+
+OBJECTION_MEMORY = 600.0
+"""So long an objection is counted [s]."""
 
 NOT_ASKED = Notice(Code.CONTROL_NOT_ASKED, "No one asks for control.")
 
@@ -80,6 +87,8 @@ class Authority:
         self._fell = self.fell_id = ""
         """The name of a driver who fell silent, until `mind` has returned it, and the id of the last one who did."""
         self._refused: dict[tuple[str, str], float] = {}
+        self._objections: dict[str, list[float]] = {}
+        """When drivers objected to an asker lately, by its id [s]."""
 
     @property
     def driver(self) -> Driver | None:
@@ -194,13 +203,31 @@ class Authority:
         return problem
 
     def object(self, client: Operator, now: float) -> Problem:
-        """The driver keeps control; who asked may ask again after AGAIN."""
+        """The driver keeps control; who asked may ask again after REQUEST_PAUSE.
+
+        Not against a manager of the robot, unless the driver is one, and not for ever against the same asker.
+        """
         problem = self._answering(client)
-        if problem or self._driver is None or self._asker is None:
+        driver, asker = self._driver, self._asker
+        if problem or driver is None or asker is None:
             return problem
-        self._refused[self._driver.client_id, self._asker.client_id] = now + REQUEST_PAUSE
+        if asker.client.role(now) is Role.MANAGE and driver.client.role(now) < Role.MANAGE:
+            said = f"{asker.name} manages the robot: control goes over to them."
+            return Notice(Code.CONTROL_MANAGER_ASKS, said, actor_id=asker.client_id, name=asker.name)
+        who = driver.client_id, asker.client_id
+        before = [
+            moment for moment in self._objections.pop(asker.client_id, []) if now - moment < OBJECTION_MEMORY
+        ]
+        if len(before) >= MAX_REPEATED_OBJECTIONS:
+            self._objections[asker.client_id] = before
+            said = f"{asker.name} was refused {len(before)} times lately: control goes over."
+            return Notice(Code.CONTROL_OBJECTED_OFTEN, said, actor_id=asker.client_id, name=asker.name)
+        self._objections[asker.client_id] = [*before, now]
+        self._refused[who] = now + REQUEST_PAUSE
         while len(self._refused) > MAX_OBJECTIONS:
             del self._refused[next(iter(self._refused))]
+        while len(self._objections) > MAX_OBJECTIONS:
+            del self._objections[next(iter(self._objections))]
         self._asker = None
         return ""
 

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import pytest
 
+from bridge.core.identity import Identity, Role
 from bridge.core.link_state import CONTROL_TIMEOUT
 from robotside.control.authority import (
     MAX_OBJECTIONS,
+    MAX_REPEATED_OBJECTIONS,
+    OBJECTION_MEMORY,
     OBJECTION_TIME,
     REQUEST_PAUSE,
     TAKEOVER_SILENCE,
@@ -238,3 +241,56 @@ def test_a_crowd_of_one_name_is_bounded_and_nobody_s_name_too_long(authority: Au
         authority.on_gone(client)
     assert len(names) >= 256
     assert max(map(len, names)) <= 40
+
+
+def asks(authority: Authority, asker: FakeClient, driver: FakeClient, now: float) -> None:
+    asker.last_heard = driver.last_heard = now
+    authority.request(asker, now)
+
+
+def test_objections_to_the_same_asker_run_out(
+    authority: Authority, anna: FakeClient, bert: FakeClient
+) -> None:
+    authority.acquire(anna, 10.0)
+    now = 10.0
+    for _ in range(MAX_REPEATED_OBJECTIONS):
+        asks(authority, bert, anna, now)
+        assert authority.object(anna, now) == ""
+        now += REQUEST_PAUSE
+    asks(authority, bert, anna, now)
+    assert authority.object(anna, now).endswith("control goes over.")
+    anna.last_heard = bert.last_heard = now + OBJECTION_TIME
+    authority.update(now + OBJECTION_TIME)
+    assert authority.holds(bert)
+
+
+def test_objections_that_are_long_ago_are_not_counted(
+    authority: Authority, anna: FakeClient, bert: FakeClient
+) -> None:
+    authority.acquire(anna, 10.0)
+    for number in range(10):
+        now = 10.0 + number * OBJECTION_MEMORY / 2
+        asks(authority, bert, anna, now)
+        assert authority.object(anna, now) == ""
+    assert authority.holds(anna)
+
+
+@pytest.mark.parametrize(
+    ("driver", "asker", "may"),
+    [
+        (Role.DRIVE, Role.DRIVE, True),
+        (Role.DRIVE, Role.MANAGE, False),
+        (Role.MANAGE, Role.MANAGE, True),
+        (Role.MANAGE, Role.DRIVE, True),
+    ],
+)
+def test_a_driver_does_not_object_to_who_manages_the_robot(driver: Role, asker: Role, may: bool) -> None:
+    authority = Authority()
+    anna = FakeClient("anna", 10.0, Identity("", "", driver))
+    bert = FakeClient("bert", 10.0, Identity("", "", asker))
+    authority.acquire(anna, 10.0)
+    authority.request(bert, 10.0)
+    assert (authority.object(anna, 11.0) == "") is may
+    anna.last_heard = bert.last_heard = 10.0 + OBJECTION_TIME
+    authority.update(10.0 + OBJECTION_TIME)
+    assert authority.holds(anna) is may
