@@ -44,7 +44,7 @@ SIMULATED = "sim:"
 class Command(Protocol):
     """A module of `robotside.commands`."""
 
-    def add(self, commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    def add(self, commands: argparse._SubParsersAction[Any]) -> None:
         """Add the command and its options, with its `run(options) -> int` as their default `run`."""
 
 

@@ -77,12 +77,7 @@ class Session:
         self.refusals = FenceRefusals(feeds)
         self.missions = StoredMissions(self)
         self.logbook = Logbook(settings, self.command)
-        self.events = EventIntake(
-            self,
-            client_id,
-            self.logbook,
-            lambda post: self._publish(EVENT, post),
-        )
+        self.events = EventIntake(self, client_id, self.logbook, lambda post: self._publish(EVENT, post))
         self.link_state: LinkState = link.state
         self.ever_connected = False
         self._state_since = now()

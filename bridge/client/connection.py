@@ -9,7 +9,7 @@ import socket
 import struct
 from collections.abc import AsyncIterator, Callable
 from functools import partial
-from typing import Any
+from typing import Any, cast
 from urllib.parse import urlsplit, urlunsplit
 
 from websockets.asyncio.client import ClientConnection, connect
@@ -137,6 +137,12 @@ class Connection:
             self._ws.transport.abort()
 
 
+def _pinned(credentials: Credentials | None) -> type[ClientConnection]:
+    """What makes the connection: the library only calls it, so that it may be more than a class."""
+    make = partial(_PinnedConnection, pin=credentials.fingerprint if credentials else "")
+    return cast("type[ClientConnection]", make)
+
+
 class _PinnedConnection(ClientConnection):
     """A connection that goes on to the handshake only when the other end has the expected certificate.
 
@@ -205,7 +211,7 @@ async def open_connection(
             port=port,
             compression=None,
             proxy=None,
-            create_connection=partial(_PinnedConnection, pin=credentials.fingerprint if credentials else ""),
+            create_connection=_pinned(credentials),
             open_timeout=open_timeout,
             ping_interval=ping_interval,
             ping_timeout=ping_interval and ping_interval * 2,

@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
-from typing import TypeVar
+from typing import NoReturn, TypeVar
 
 from msgspec.structs import replace
 
@@ -29,7 +29,8 @@ __all__ = ["CHECK_PERIOD", "Trust"]
 
 log = logging.getLogger(__name__)
 
-A, R = TypeVar("A"), TypeVar("R")
+A = TypeVar("A")
+R = TypeVar("R")
 
 MAX_WRONG, WRONG_PERIOD = 5, 60.0
 """Wrong keys of one host in as many seconds; after them no further one is looked at."""
@@ -239,7 +240,7 @@ class Trust:
             said = f"Too many wrong keys came from your address: try again in {WRONG_PERIOD:.0f} s."
             raise Refused(Notice(Code.TRUST_ATTEMPTS, said, seconds=WRONG_PERIOD))
 
-    def _refuse(self, address: str, why: str, now: float) -> None:
+    def _refuse(self, address: str, why: str, now: float) -> NoReturn:
         if not self._logged.is_reached(_ALL, now):
             self._logged.note(_ALL, now)
             log.warning("%s showed a key that is %s", address, why)

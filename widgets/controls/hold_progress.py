@@ -23,7 +23,7 @@ MAX_FRAME = 0.1
 class Hold(EventDispatcher):
     """Dispatches `on_held_long` once `hold` was called and `rest` was not for as long as it takes."""
 
-    __events__ = ("on_held_long",)
+    __events__: tuple[str, ...] = ("on_held_long",)
 
     held = NumericProperty(0.0)
     """How much of the hold is over, 0 to 1."""

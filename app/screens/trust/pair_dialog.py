@@ -8,7 +8,7 @@ from typing import Any
 from kivy.core.clipboard import Clipboard
 from kivy.lang import Builder
 from kivy.properties import BooleanProperty, NumericProperty, StringProperty
-from kivy.uix.widget import Widget
+from kivy.uix.textinput import TextInput
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.screens.parts.dialogs import Question
@@ -161,7 +161,7 @@ class PairDialog(Question):
         elif not self.is_link and self.digits < MAX_DIGITS:
             field.text += key
 
-    def _typed(self, field: Widget, text: str) -> None:
+    def _typed(self, field: TextInput, text: str) -> None:
         """Put a blank into the middle of a code, so that it is read as it is said."""
         self.is_link = ":" in text
         plain = "".join(letter for letter in text if letter.isdigit())

@@ -169,7 +169,7 @@ class _Viewer:
         """Send pictures until the viewer is gone or none come any more."""
         self._streams.viewers.add(self)
         work = (self._show(send), _gone(receive), self._ended.wait())
-        tasks = [asyncio.create_task(each) for each in work]  # type: ignore[arg-type]  # of coroutines of any result
+        tasks = [asyncio.create_task(each) for each in work]
         try:
             await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         finally:
