@@ -25,6 +25,7 @@ from websockets.asyncio.client import ClientConnection, connect
 
 from bench.support.rosbridge import flow
 from bench.support.traffic import MESSAGES
+from bridge.client.tls import context
 from bridge.codec import to_json
 
 BURST_TIMEOUT = 20.0
@@ -117,7 +118,8 @@ class Crowd:
             ws.transport.abort()
 
     async def _connected(self) -> ClientConnection:
-        ws = await connect(self._url, compression=None, max_size=None, proxy=None)
+        tls = context() if self._url.startswith("wss") else None
+        ws = await connect(self._url, compression=None, max_size=None, proxy=None, ssl=tls)
         self._open.append(ws)
         return ws
 

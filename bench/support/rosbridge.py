@@ -1,7 +1,8 @@
-"""A rosbridge server in a process of its own, `python -m bench.support.rosbridge ours|naive`, that publishes on command.
+"""A rosbridge server in a process of its own, `python -m bench.support.rosbridge ours|naive|bare [tls] [large]`, that publishes on command.
 
 `naive` is the simplest server that works: the standard library's json, encoded anew for each client, sent by
-`websockets.broadcast`. Prints `{"port": PORT}`; then each line of JSON on the standard input is answered by one:
+`websockets.broadcast`; `bare` is the same with texts that were encoded before. With `tls` it is reached by wss alone, with a
+certificate as robots make it; `large` makes the scan 45 kB. Prints `{"port": PORT}`; then each line of JSON on the standard input is answered by one:
 
 - `{"do": "publish", "topic": T, "count": N, "step": M}`: publishes N messages, M in each step of the loop;
   `{"cpu": SECONDS}` is the process's own time meanwhile and shortly after, less what so long a wait costs it anyhow;
@@ -15,21 +16,25 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
+import ssl
 import sys
+import tempfile
 import time
 from collections.abc import AsyncIterator, Callable, Mapping
+from pathlib import Path
 from typing import Any, Protocol
 
 from websockets.asyncio.connection import broadcast
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
-from bench.support.traffic import MESSAGES
+from bench.support.traffic import LARGE_SCAN, MESSAGES, SCAN
 from bridge.codec import to_json
 from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from bridge.server.server import BridgeServer
 from robotside.door.door import Door
+from robotside.trust.certificate import own_certificate
 
 SETTLE = 0.05
 """After the last message until the time is taken [s]: what waited has left."""
@@ -93,6 +98,22 @@ class Naive:
             broadcast([ws], json.dumps({"op": "publish", "topic": topic, "msg": msg}))
 
 
+class Bare(Naive):
+    """Sends texts that were encoded before."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._texts = {
+            topic: json.dumps({"op": "publish", "topic": topic, "msg": msg})
+            for topic, msg in self._plain.items()
+        }
+
+    def publish(self, topic: str) -> None:
+        """As it is, to each."""
+        for ws in self._watchers.get(topic, ()):
+            broadcast([ws], self._texts[topic])
+
+
 class Commands(list[tuple[float, float]]):
     """When which drive command came."""
 
@@ -107,11 +128,11 @@ def _stop(*_: object) -> CommandResponse:
 
 
 @contextlib.asynccontextmanager
-async def ours(commands: Commands) -> AsyncIterator[Speaker]:
+async def ours(commands: Commands, tls: ssl.SSLContext | None) -> AsyncIterator[Speaker]:
     """Serve with the robot's own table of topics and a STOP."""
     stop = Service("/stop", "pilothouse_msgs/Command", CommandRequest, CommandResponse, _stop)
     server = BridgeServer(Door(services=[stop], on_message=commands.handle))
-    await server.start(port=0)
+    await server.start(port=0, tls=tls)
     try:
         yield Ours(server)
     finally:
@@ -119,10 +140,9 @@ async def ours(commands: Commands) -> AsyncIterator[Speaker]:
 
 
 @contextlib.asynccontextmanager
-async def naive(_: Commands) -> AsyncIterator[Speaker]:
+async def naive(made: Naive, tls: ssl.SSLContext | None) -> AsyncIterator[Speaker]:
     """Serve the simple way."""
-    made = Naive()
-    options: dict[str, Any] = {"compression": None, "max_size": None}
+    options: dict[str, Any] = {"compression": None, "max_size": None, "ssl": tls}
     async with serve(made.serve, "127.0.0.1", 0, **options) as server:
         made.port = next(iter(server.sockets)).getsockname()[1]
         yield made
@@ -152,11 +172,17 @@ async def burst(publish: Callable[[str], None], asked: Mapping[str, Any]) -> flo
     return time.process_time() - began - (began - rested)
 
 
-async def run(kind: str) -> None:
+async def run(kind: str, *, encrypted: bool) -> None:
     """Serve until the standard input ends."""
     commands = Commands()
     flows: list[asyncio.Task[None]] = []
-    async with {"ours": ours, "naive": naive}[kind](commands) as speaker:
+    tls = _certified() if encrypted else None
+    ways = {
+        "ours": lambda: ours(commands, tls),
+        "naive": lambda: naive(Naive(), tls),
+        "bare": lambda: naive(Bare(), tls),
+    }
+    async with ways[kind]() as speaker:
         _print({"port": speaker.port})
         while line := await asyncio.to_thread(sys.stdin.readline):
             asked = json.loads(line)
@@ -176,6 +202,11 @@ async def run(kind: str) -> None:
         await _end(flows)
 
 
+def _certified() -> ssl.SSLContext:
+    with tempfile.TemporaryDirectory() as folder:
+        return own_certificate(Path(folder)).context()
+
+
 async def _end(flows: list[asyncio.Task[None]]) -> None:
     for each in flows:
         each.cancel()
@@ -187,4 +218,6 @@ def _print(value: object) -> None:
 
 
 if __name__ == "__main__":
-    asyncio.run(run(sys.argv[1]))
+    if "large" in sys.argv[2:]:
+        MESSAGES[SCAN] = LARGE_SCAN
+    asyncio.run(run(sys.argv[1], encrypted="tls" in sys.argv[2:]))

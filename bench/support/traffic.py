@@ -20,7 +20,7 @@ from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header, Time
 
-__all__ = ["CAMERA", "MESSAGES", "ODOM", "RATES", "SCAN"]
+__all__ = ["CAMERA", "LARGE_SCAN", "MESSAGES", "ODOM", "RATES", "SCAN"]
 
 ODOM, SCAN, CAMERA = "/odom", "/scan", "/camera/image/compressed"
 RATES = {CAMERA: 30.0, ODOM: 50.0, SCAN: 10.0}
@@ -32,6 +32,18 @@ _header = Header(stamp=Time(1763719200, 123456789), frame_id="odom")
 
 def _diagonal(value: float) -> list[float]:
     return [value if place % 7 == 0 else 0.0 for place in range(36)]
+
+
+def _scan(beams: int) -> LaserScan:
+    return LaserScan(
+        header=_header,
+        angle_min=-math.pi * 0.75,
+        angle_max=math.pi * 0.75,
+        angle_increment=math.pi * 1.5 / beams,
+        range_min=0.1,
+        range_max=30.0,
+        ranges=Float32Array([_dice.uniform(0.5, 29.0) for _ in range(beams)]),
+    )
 
 
 MESSAGES: dict[str, Msg] = {
@@ -50,15 +62,9 @@ MESSAGES: dict[str, Msg] = {
             covariance=_diagonal(0.0023456789012345),
         ),
     ),
-    SCAN: LaserScan(
-        header=_header,
-        angle_min=-math.pi * 0.75,
-        angle_max=math.pi * 0.75,
-        angle_increment=math.pi * 1.5 / 1080,
-        range_min=0.1,
-        range_max=30.0,
-        ranges=Float32Array([_dice.uniform(0.5, 29.0) for _ in range(1080)]),
-    ),
+    SCAN: _scan(1080),
     CAMERA: CompressedImage(header=_header, format="jpeg", data=b"\xff\xd8" + _dice.randbytes(45_100)),
 }
 """An Odometry of 0.9 kB as text, a scan of 1080 beams (20 kB as text) and a picture (45 kB, 60 kB as text)."""
+LARGE_SCAN = _scan(2430)
+"""45 kB as text."""
