@@ -146,6 +146,10 @@ class _Fleet:
         return StationServer(station, self._clock, self._wall, addresses, keys=keys, origins=origins)
 
     def _say_ready(self, serving: StationServer) -> None:
+        if self._options.plain:
+            where, role = serving.addresses, self._options.plain
+            said = f"everybody who reaches ports {where.port} and {where.http_port} may {role} without a key, and read along"
+            print(f"robotside: plain: {said}", file=sys.stderr, flush=True)
         if self._options.pair and serving.keys is not None:
             pairing = serving.keys.pairing
             offer = pairing.open(Role.read(self._options.pair))

@@ -17,7 +17,7 @@ import re
 from dataclasses import dataclass
 from urllib.parse import parse_qsl, quote, urlsplit
 
-__all__ = ["SCHEME", "BadPairing", "PairLink", "confirmations", "sides", "split_code"]
+__all__ = ["SCHEME", "BadPairing", "PairLink", "code_in_groups", "confirmations", "sides", "split_code"]
 
 SCHEME = "pilothouse"
 """Scheme of the links."""
@@ -97,6 +97,11 @@ def split_code(text: str) -> tuple[str, str]:
     ):
         raise BadPairing(f"A code has {CODE_DIGITS} digits, that of a guest {TAG_DIGITS + CODE_DIGITS}.")
     return digits[:-CODE_DIGITS], digits[-CODE_DIGITS:]
+
+
+def code_in_groups(code: str) -> str:
+    """A code as people read it aloud: `123 456`, that of a guest `42 123 456`."""
+    return f"{code[:-6]} {code[-6:-3]} {code[-3:]}".strip()
 
 
 def sides(fingerprint: str) -> tuple[bytes, bytes]:

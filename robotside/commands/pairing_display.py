@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
+from bridge.trust.pairing import code_in_groups
 from robotside.trust.qr import as_text
 
-__all__ = ["code_in_groups", "shown"]
-
-
-def code_in_groups(code: str) -> str:
-    """A code as people read it aloud: `123 456`, of a guest `42 123 456`."""
-    return f"{code[:-6]} {code[-6:-3]} {code[-3:]}".strip()
+__all__ = ["shown"]
 
 
 def shown(robot: str, link: str, code: str, left: float) -> str:

@@ -90,6 +90,7 @@ class StationServer:
             tls=tls,
             plain_from=plain_from,
             pages=pages,
+            pairing=keys.pairing if keys else None,
         )
         self._gateways: tuple[Gateway, ...] = (self._http, self._rosbridge)
         """In the order in which they start."""

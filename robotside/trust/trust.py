@@ -106,9 +106,12 @@ class Trust:
         digest = hashlib.sha256(token.encode(errors="replace")).digest()
         if person is None or not self._has_proven(person, digest):
             self._check_attempts(host, now)
-            if person is None or not self._proves(person, token, secret, digest):
+            if person is None:
                 self._wrong.note(host, now)
-                self._refuse(address, "unknown" if person is None else f"not the key of {person.name}", now)
+                self._refuse(address, "unknown", now)
+            if not self._proves(person, token, secret, digest):
+                self._wrong.note(host, now)
+                self._refuse(address, f"not the key of {person.name}", now)
         if self._has_ended(person, now):
             self._refuse(address, f"of {person.name}, whose role has ended", now)
         self._seen[person.id] = now

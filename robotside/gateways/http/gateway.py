@@ -23,6 +23,7 @@ from robotside.gateways.http.doorkeeper import Doorkeeper
 from robotside.gateways.http.sessions import Sessions
 from robotside.gateways.http.web_site import site
 from robotside.gateways.scaling.picture_scaling import PictureScaler
+from robotside.trust.pairing import Pairing
 
 __all__ = ["HttpGateway"]
 
@@ -44,17 +45,18 @@ class HttpGateway:
         plain_from: Callable[[str], bool] = anyone,
         pages: PagePolicy | None = None,
         stop_from_pages: bool = True,
+        pairing: Pairing | None = None,
     ) -> None:
         """Port 0 takes a free one. The page names `rosbridge_url` to programs.
 
         With `tls` browsers may come encrypted, on the same port; `plain_from(host)` says who may come without.
-        `pages` may speak to the robot, by default its own; `stop_from_pages` as of `Doorkeeper`.
+        `pages` may speak to the robot, by default its own; `stop_from_pages` as of `Doorkeeper`, `pairing` as of `site`.
         """
         self._host, self._is_secure = host, tls is not None
         self.port = port
         """Where it listens; 0 until one was taken."""
         allowed = pages or PagePolicy(web_port=lambda: self.port)
-        own = site(door, rosbridge_url, CameraStreams(door, pictures), Sessions(door, allowed))
+        own = site(door, rosbridge_url, CameraStreams(door, pictures), Sessions(door, allowed), pairing)
         self.site = Doorkeeper(own, door, allowed, stop_from_pages=stop_from_pages)
         """The ASGI application."""
         self._reception = Reception(LIMITS, tls=tls, plain_from=plain_from, scheme="https")

@@ -31,7 +31,9 @@ from robotside.gateways.http.camera_streams import (
     view_of,
 )
 from robotside.gateways.http.doorkeeper import OPERATOR
+from robotside.gateways.http.pairing_part import pairing_part
 from robotside.gateways.http.sessions import Sessions
+from robotside.trust.pairing import Pairing
 
 __all__ = ["site"]
 
@@ -52,7 +54,7 @@ _PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{name}</t
 <style>body{{font-family:sans-serif;max-width:60em;margin:2em auto;padding:0 1em}}
 td,th{{text-align:left;padding:.2em 1em .2em 0}}code{{background:#eee;padding:.1em .3em}}</style>
 <h1>{name}</h1><form method="post" action="/stop"><button style="font-size:1.5em;color:#fff;background:#c00;
-padding:.4em 2em;border:0">STOP</button></form><p>{description}{world}. {state}</p>
+padding:.4em 2em;border:0">STOP</button></form><p>{description}{world}. {state}</p>{pairing}
 <h2>How to reach it</h2><ul>
 <li>rosbridge v2 (roslibjs, roslibpy, Pilothouse): <code>{bridge}</code></li>
 {cameras}<li>STOP, from anywhere and by anyone: <code>curl -X POST</code> to <code>/stop</code></li>
@@ -75,10 +77,14 @@ _CAMERA = """<li>camera {name}: <code>{bridge}/camera/{name}</code>, <a href="/s
 
 
 def site(
-    door: StationDoor, bridge_url: Callable[[], str], streams: CameraStreams, sessions: Sessions
+    door: StationDoor,
+    bridge_url: Callable[[], str],
+    streams: CameraStreams,
+    sessions: Sessions,
+    pairing: Pairing | None = None,
 ) -> Starlette:
-    """The web site of one robot, behind its `Doorkeeper`."""
-    pages = _Pages(door, bridge_url, streams, sessions)
+    """The web site of one robot, behind its `Doorkeeper`; who manages the robot sees how to pair by `pairing`."""
+    pages = _Pages(door, bridge_url, streams, sessions, pairing)
     return Starlette(
         routes=[
             Route("/", pages.page),
@@ -98,15 +104,22 @@ class _Pages:
     """The answers to each path."""
 
     def __init__(
-        self, door: StationDoor, bridge_url: Callable[[], str], streams: CameraStreams, sessions: Sessions
+        self,
+        door: StationDoor,
+        bridge_url: Callable[[], str],
+        streams: CameraStreams,
+        sessions: Sessions,
+        pairing: Pairing | None,
     ) -> None:
-        self._door, self._bridge_url = door, bridge_url
+        self._door, self._bridge_url, self._pairing = door, bridge_url, pairing
         self._streams, self._sessions = streams, sessions
         self._reading = asyncio.Lock()  # one reader of the whole audit log at a time
 
     async def page(self, request: Request) -> Response:
         if _is_known(self._door, request):
-            return HTMLResponse(_page(self._door, self._bridge_url()), headers=_PRIVATE)
+            manages = _operator(request).role(self._door.now()) >= Role.MANAGE
+            part = pairing_part(self._pairing) if manages else ""
+            return HTMLResponse(_page(self._door, self._bridge_url(), part), headers=_PRIVATE)
         return _strangers_page(self._door, "Show the token that you were given to see more.")
 
     async def health(self, request: Request) -> Response:
@@ -230,7 +243,7 @@ async def _broken(_: Request, problem: Exception) -> Response:
     return PlainTextResponse(f"{problem}\n", 502)
 
 
-def _page(door: StationDoor, bridge: str) -> str:
+def _page(door: StationDoor, bridge: str, pairing: str) -> str:
     info, status = door.info, door.last("/task/status")
     cameras = "".join(
         _CAMERA.format(name=html.escape(name), bridge=html.escape(bridge)) for name in info.cameras
@@ -249,6 +262,7 @@ def _page(door: StationDoor, bridge: str) -> str:
         world=html.escape(f" in {info.world}" if info.world else ""),
         state=html.escape((status.reason if isinstance(status, TaskStatus) else "") or "It has no task."),
         bridge=html.escape(bridge),
+        pairing=pairing,
         cameras=cameras,
         topics=topics,
         services=rows,

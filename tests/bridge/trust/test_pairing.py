@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bridge.trust.pairing import BadPairing, PairLink, confirmations, sides, split_code
+from bridge.trust.pairing import BadPairing, PairLink, code_in_groups, confirmations, sides, split_code
 
 PRINT, SECRET = "ab" * 32, "s3cret_of-22-letters--"
 LINK = PairLink("192.168.1.7", 9090, PRINT, SECRET, "Patrol-1 & Co")
@@ -72,3 +72,9 @@ def test_another_certificate_gives_other_sides() -> None:
 
 def test_each_side_and_each_key_confirms_differently() -> None:
     assert len({*confirmations(b"one"), *confirmations(b"two")}) == 4
+
+
+def test_a_code_is_shown_in_groups_and_read_so() -> None:
+    for code, groups in (("123456", "123 456"), ("42123456", "42 123 456")):
+        assert code_in_groups(code) == groups
+        assert "".join(split_code(groups)) == code

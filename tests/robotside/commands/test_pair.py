@@ -10,7 +10,6 @@ import pytest
 from bridge.trust.pairing import PairLink
 from robotside.__main__ import main
 from robotside.commands import pair
-from robotside.commands.pairing_display import code_in_groups
 from robotside.trust.pair_requests import NoRobot, PairAnswer, PairRequest
 
 LINK = PairLink("192.0.2.1", 9090, "ab" * 32, "secret-of-22-letters-x", "Patrol-1").text
@@ -69,7 +68,3 @@ def test_a_picture_that_cannot_be_written_and_a_robot_that_is_not_there_are_one_
     monkeypatch.setattr(pair, "ask", nobody)
     assert main(["pair", "--state", str(tmp_path)]) == 2
     assert capsys.readouterr().err == "robotside: No robot runs.\n"
-
-
-def test_a_code_is_read_in_groups() -> None:
-    assert (code_in_groups("123456"), code_in_groups("42123456")) == ("123 456", "42 123 456")
