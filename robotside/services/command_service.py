@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from bridge.codec import to_json
 from bridge.core.codes import Code
+from bridge.core.identity import public_id
 from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from robotside.core.notice import Notice, coded
@@ -63,7 +64,7 @@ class CommandService:
         def call(client: Operator, asked: CommandRequest) -> CommandResponse | Awaitable[CommandResponse]:
             station = self._station
             station.controls.introduce(client, asked.client_id, asked.client_name)
-            sender = station.controls.id(client)
+            sender = _sender(station, client)
             station.readiness.on_operator_time(asked.stamp)
             done: list[bool] = []
             with station.records.together() as job:
@@ -132,6 +133,16 @@ class CommandService:
             judged = replace(answer, message=f"{answer.message} {UNKEPT_SENTENCE} {job.trouble}")
         self._commands.amend(*key, judged)
         return judged
+
+
+def _sender(station: Station, client: Operator) -> str:
+    """Whose commands are counted together: those of a proven identity, or of one `client_id` on one machine.
+
+    A stranger elsewhere that repeats the ids of a command does not get its answer.
+    """
+    if client.identity.proven:
+        return client.identity.id
+    return f"{public_id(station.controls.id(client))}@{client.address.rpartition(':')[0]}"
 
 
 def _done(action: Action, client: Operator, asked: CommandRequest, done: list[bool]) -> str | CommandResponse:

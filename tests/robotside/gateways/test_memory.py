@@ -103,6 +103,7 @@ async def test_stop_by_one_gateway_holds_for_all(gateway: MemoryGateway, scene: 
 
 async def test_a_command_that_comes_by_two_ways_is_done_once(gateway: MemoryGateway, scene: Scene) -> None:
     order = SetPlaceRequest(command_id="c1", client_id="anna", place=Place(name="Office", x=1.0, y=1.0))
+    scene.anna.address = "memory:anna's first"
     first = await settled(scene.door.call(scene.anna, "/places/set", order))
     again = await settled(gateway.connect("anna").call("/places/set", order))
     assert again == first

@@ -257,6 +257,15 @@ def test_what_one_client_was_answered_is_no_answer_for_another(scene: Scene) -> 
     assert scene.control.driver_id == "D"
 
 
+def test_who_repeats_the_ids_of_a_command_elsewhere_does_not_get_its_answer(scene: Scene) -> None:
+    ids = CommandRequest(command_id="2", client_id="C", client_name="Carl")
+    assert scene.ask("/control/acquire", ids).message == "You have control."
+    thief, again = scene.client("thief"), scene.client("again")
+    thief.address = "192.0.2.66:5000"
+    assert "has control" in scene.refused("/control/acquire", ids, thief)
+    assert scene.ask("/control/acquire", ids, again).message == "You have control.", "the same machine again"
+
+
 @pytest.mark.parametrize(("x", "shown"), [(12.0, "12.0"), (1e6, "1e+06"), (-1e308, "-1e+308")])
 def test_a_place_off_the_map_is_refused_with_what_the_map_holds(scene: Scene, x: float, shown: str) -> None:
     before = scene.station.autonomy.pose_estimator.pose
