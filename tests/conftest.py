@@ -17,6 +17,7 @@ from pathlib import Path
 import pytest
 
 from app.garbage_collector import Collector
+from bridge.core.log_limit import STRANGERS
 from tests import headless
 from tests.apart import Apart
 
@@ -103,3 +104,9 @@ def stage() -> Iterator[headless.Stage]:
     stage = headless.Stage()
     yield stage
     stage.close()
+
+
+@pytest.fixture(autouse=True)
+def counted_anew() -> None:
+    """Log lines of an earlier test are no reason to leave one out."""
+    STRANGERS.forget()

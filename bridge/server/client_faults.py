@@ -7,10 +7,12 @@ import re
 from collections import Counter
 
 from bridge.core.errors import ProtocolError
+from bridge.core.log_limit import STRANGERS
 
 __all__ = ["ClientFaults"]
 
 log = logging.getLogger(__name__)
+log.addFilter(STRANGERS)
 
 _MAX_KINDS = 50
 """Most kinds of faults that are distinguished for one client."""

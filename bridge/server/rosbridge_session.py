@@ -11,6 +11,7 @@ from typing import Any
 from msgspec import UNSET
 
 from bridge.core.errors import ProtocolError, Refused
+from bridge.core.log_limit import STRANGERS
 from bridge.core.robot_catalogue import Operator
 from bridge.protocol import (
     ActionFeedback,
@@ -53,6 +54,7 @@ from bridge.server.topic_operations import TopicOperations
 __all__ = ["RosbridgeSession"]
 
 log = logging.getLogger(__name__)
+log.addFilter(STRANGERS)
 
 _ON_RESERVE = (Auth, CallService, SetLevel)
 """Operations that are heard on a place of the reserve; of calls STOP and the time are answered."""

@@ -27,6 +27,7 @@ from websockets.http11 import Request, Response
 from bridge.core.async_tasks import cancel_all
 from bridge.core.compat import Compat
 from bridge.core.errors import BridgeError
+from bridge.core.log_limit import STRANGERS
 from bridge.core.robot_catalogue import Operator
 from bridge.core.robot_door import RobotDoor
 from bridge.msgs import Msg
@@ -53,6 +54,7 @@ from bridge.server.switchboard import Switchboard
 __all__ = ["BridgeServer"]
 
 log = logging.getLogger(__name__)
+log.addFilter(STRANGERS)
 
 _CAMERA_PATH = re.compile(r"/camera/([\w-]+)/?(?:\?.*)?$")
 _MAX_UNSENT_BYTES = 65536
@@ -276,6 +278,7 @@ class BridgeServer:
         """Check all clients regularly."""
         while True:
             await asyncio.sleep(_CHECK_PERIOD)
+            STRANGERS.flush()
             for client in list(self._clients.values()):
                 client.check_alive()
 

@@ -13,6 +13,7 @@ from msgspec import Raw
 from bridge.codec import to_json
 from bridge.core.async_tasks import cancel_all
 from bridge.core.errors import BridgeError, Refused
+from bridge.core.log_limit import STRANGERS
 from bridge.core.robot_catalogue import Operator
 from bridge.msgs import Msg
 from bridge.protocol import MISSING, CallService, Id, ServiceResponse, arguments, service_and_id
@@ -24,6 +25,7 @@ from bridge.server.server_context import ServerContext
 __all__ = ["ServiceOperations"]
 
 log = logging.getLogger(__name__)
+log.addFilter(STRANGERS)
 
 STOP_SERVICE = "/stop"
 TIME_SERVICE = "/rosapi/get_time"

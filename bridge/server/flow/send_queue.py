@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from bridge.core.errors import ProtocolError
+from bridge.core.log_limit import STRANGERS
 from bridge.server.flow.outgoing_messages import OutgoingMessage, ping_frame
 from bridge.server.flow.priority_lanes import Lane, PriorityLanes, Stream
 from bridge.server.flow.send_window import SendWindow
@@ -16,6 +17,7 @@ from bridge.server.flow.send_window import SendWindow
 __all__ = ["TURN_TIME", "FrameWriter", "SendQueue", "WriteBatch"]
 
 log = logging.getLogger(__name__)
+log.addFilter(STRANGERS)
 
 TURN_TIME = 0.005
 """Longest time for one client before the others have their turn [s]; one frame may hold a thousand operations."""

@@ -13,6 +13,7 @@ from typing import Any
 import uvicorn
 
 from bridge.core.errors import BridgeError
+from bridge.core.log_limit import STRANGERS
 from bridge.server.reception.pages import PagePolicy
 from bridge.server.reception.reception import Reception, anyone
 from robotside.door.station_door import StationDoor
@@ -83,6 +84,7 @@ class HttpGateway:
             lifespan="off",
             access_log=False,
         )
+        logging.getLogger("uvicorn.error").addFilter(STRANGERS)  # a line for each request that is none
         self._server = _WebServer(config)
         self._serving = asyncio.create_task(self._server.serve([self._socket]))
         self._serving.add_done_callback(_log_fault)
