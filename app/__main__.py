@@ -1,4 +1,4 @@
-"""The handheld as a program: `python main.py [ws://HOST:PORT] [--layout NAME] [--screen NAME] [--theme NAME] [--size WxH]`."""
+"""The handheld as a program: `python main.py [ws://HOST:PORT|pilothouse://…] [--layout NAME] [--screen NAME] [--theme NAME] [--size WxH]`."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from typing import NoReturn
 from app.device import is_android
 from app.discovery.known_robots import check_address
 from app.layout import layout as layouts
+from bridge.trust.pairing import SCHEME, PairLink
 
 __all__ = ["main", "prepare", "quieten"]
 
@@ -30,7 +31,12 @@ class _Parser(argparse.ArgumentParser):
 
 def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser = _Parser(prog="main.py", description="Pilothouse: supervise and drive robots.")
-    parser.add_argument("url", nargs="?", help="address of the robot, as in ws://192.168.1.7:9090")
+    parser.add_argument(
+        "url", nargs="?", help="address of the robot, as in ws://192.168.1.7:9090, or its pairing link"
+    )
+    parser.add_argument(
+        "--pair", action="append", default=[], metavar="LINK", help="pair by this link without a question"
+    )
     parser.add_argument(
         "--layout",
         help=f"layout of the drive screen for any robot: a .toml file, {', '.join(layouts.names())}",
@@ -39,7 +45,11 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--theme", choices=THEMES, help="colours; default: the last choice")
     parser.add_argument("--size", help="size of the window [px], as in 412x892")
     arguments = parser.parse_args(argv)
-    if arguments.url is not None:
+    for link in arguments.pair:
+        PairLink.read(link)
+    if arguments.url is not None and arguments.url.startswith(f"{SCHEME}:"):
+        PairLink.read(arguments.url)
+    elif arguments.url is not None:
         arguments.url = check_address(arguments.url)
     layout = arguments.layout
     if layout is not None and not layout.endswith(".toml") and layout not in layouts.names():
@@ -86,7 +96,12 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     try:
         app = PilothouseApp(
-            arguments.url, arguments.screen, arguments.theme, arguments.layout, poll=not is_android()
+            arguments.url,
+            arguments.screen,
+            arguments.theme,
+            arguments.layout,
+            pair=arguments.pair,
+            poll=not is_android(),
         )
     except layouts.LayoutError as mistake:
         print(mistake, file=sys.stderr)

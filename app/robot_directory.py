@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, Protocol
 
 from app.core.settings_store import Settings
 from app.discovery.beacon_listener import HELLO, LATENCY, BeaconListener
-from app.discovery.known_robots import KnownRobots, check_address
+from app.discovery.known_robots import Entry, KnownRobots, check_address
 from app.link.feeds import Post
 from app.robot_trust import RobotTrust
 from app.screens.connect.connect import ConnectScreen
@@ -75,9 +76,12 @@ class RobotDirectory:
 
     def show(self, nearby: BeaconListener) -> None:
         """Bring the cards up to date, and have `nearby` measure the robots on them."""
-        entries = self.robots.entries()
+        entries = self._entries()
         self._app.connect.show_entries(entries, self._client_name)
         nearby.measure(entries)
+
+    def _entries(self) -> list[Entry]:
+        return [replace(entry, trust=self.trust.standing(entry.url)) for entry in self.robots.entries()]
 
     def ask_address(self) -> None:
         """Ask for an address to connect to."""
@@ -101,10 +105,11 @@ class RobotDirectory:
         self._unproven = ""
 
     def forget(self, url: str) -> None:
-        """Take a saved address off the list."""
+        """Take a saved address off the list; a paired robot is not paired any more, which a tap takes back."""
         self.robots.remove(url)
         self._save()
-        self._app.connect.show_entries(self.robots.entries(), self._client_name)
+        self.trust.forget(url)
+        self._app.connect.show_entries(self._entries(), self._client_name)
 
     def _connected(self) -> tuple[str, ...]:
         session = self._app.session

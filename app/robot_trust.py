@@ -8,10 +8,12 @@ from typing import Any, Protocol
 
 from app.discovery.known_robots import KnownRobots
 from app.link.feeds import Post
+from app.screens.connect.connect import ConnectScreen
 from app.screens.trust.pair_dialog import PairDialog
 from app.session.session import Session
-from app.trust.keyring import Keyring, RobotKey, place_of
+from app.trust.keyring import Keyring, RobotKey, host_of, place_of
 from app.trust.pairing_attempts import PAIRING, Attempt, PairingAttempts
+from bridge.discovery.hello import is_loopback
 from bridge.trust.pairing import SCHEME, BadPairing, PairLink, split_code
 
 __all__ = ["RobotTrust"]
@@ -24,6 +26,7 @@ class Host(Protocol):
     """The app, as far as pairing needs it."""
 
     root: Any
+    connect: ConnectScreen
 
     @property
     def robots(self) -> KnownRobots:
@@ -77,9 +80,21 @@ class RobotTrust:
         if session.key is not None:
             self.keys.met(session.key.fingerprint, session.robot.url)
 
-    def forget(self, key: RobotKey) -> None:
-        """Forget a robot here; it goes on knowing this handheld until somebody removes it there."""
-        self.keys.forget(key.fingerprint)
+    def standing(self, url: str) -> str:
+        """How the robot at `url` is reached, as `app.discovery.known_robots.Entry.trust`."""
+        if self.key_for(url) is not None:
+            return "paired"
+        if url.startswith("wss:"):
+            return "stranger"
+        return "" if is_loopback(host_of(url)) else "open"
+
+    def forget(self, url: str) -> None:
+        """Forget the key of a robot; it goes on knowing this handheld until somebody removes it there."""
+        key = self.key_for(url)
+        if key is not None:
+            self.keys.forget(key.fingerprint)
+            said = f"{key.name} is no longer paired with this handheld. Tap to undo."
+            self._app.connect.say(said, "warn", lambda: self.keys.restore(key))
 
     # pairing
 

@@ -23,7 +23,7 @@ free() {
 
 log=$(mktemp)
 "$python" -m robotside serve --robot "sim:$robots" --world "${WORLD:-}" \
-    --port "$(free 9090)" --http-port "$(free 8080)" >"$log" 2>&1 &
+    --port "$(free 9090)" --http-port "$(free 8080)" --pair >"$log" 2>&1 &
 robot=$!
 # SIGTERM lets the robot side bring the robots to rest and end with 0
 trap 'kill -TERM $robot 2>/dev/null || true; wait $robot || true; rm -f "$log"' EXIT
@@ -36,4 +36,7 @@ until [ "$(grep -c '^robotside: ready' "$log")" -ge "$count" ]; do
     sleep 0.1
 done
 grep '^robotside: ready' "$log"
-"$python" main.py
+# each robot says the link by which this handheld pairs with it; one that says none is reached without a key
+pairs=()
+while read -r link; do pairs+=(--pair "$link"); done < <(sed -n 's/^robotside: pair //p' "$log")
+"$python" main.py "${pairs[@]}"

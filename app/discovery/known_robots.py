@@ -99,6 +99,10 @@ class Entry:
     probe: tuple[str, int] | None = None
     """Address that its HELLO came from and port of its web server, to measure a round trip by; None without one."""
 
+    trust: str = ""
+    """`paired`, `stranger` (its link is protected, and this handheld is not paired with it), `open` (what is said to it
+    can be read and changed on its way) or empty within this machine."""
+
     @property
     def state(self) -> str:
         """`live`, `lost` (it was heard and fell silent) or `unheard` (an address that never said HELLO)."""

@@ -14,6 +14,7 @@ from pathlib import Path
 __all__ = ["Inquiry", "Simulator", "available", "command", "inquiry"]
 
 READY = re.compile(r"^robotside: ready\b.*?\bbridge=(\S+)")
+PAIR = re.compile(r"^robotside: pair (\S{1,600})$")
 START_TIMEOUT = 60.0
 """How long it may take until it serves [s]: a first start compiles and draws much."""
 GRACE = 5.0
@@ -29,7 +30,7 @@ def command(robot: str = "sim:patrol", world: str = "") -> list[str]:
     """What starts the robot side on free ports, in the robot's home unless a `world` is said; it works from any folder."""
     serve = [sys.executable, "-m", "robotside", "serve", "--robot", robot]
     where = ["--world", world] if world else []
-    return [*serve, *where, "--port", "0", "--http-port", "0", "--with-parent"]
+    return [*serve, *where, "--port", "0", "--http-port", "0", "--pair", "--with-parent"]
 
 
 def inquiry() -> list[str]:
@@ -64,6 +65,8 @@ class Simulator:
         self._closing = threading.Event()
         self._late = False
         self._urls: list[str] = []
+        self.links: tuple[str, ...] = ()
+        """Links by which its robots can be paired with, as they were said; of a simulator that says none it is empty."""
 
     @property
     def url(self) -> str:
@@ -131,8 +134,11 @@ class Simulator:
         self._end()
 
     def _take(self, line: str, timer: threading.Timer) -> None:
-        if line:
+        if line and not line.startswith("robotside: pair "):
             self._said.append(line)
+        link = PAIR.match(line)
+        if link and len(self.links) < self._robots:
+            self.links = (*self.links, link[1])
         match = READY.match(line)
         if match and not self.url:
             self._urls.append(match[1])

@@ -22,6 +22,14 @@ ROOT = Path(__file__).parents[2]
             ["--layout", "boat"],
             "There is no layout 'boat'; there are: aqua, ardrone, commander, minnow, patrol, scout.",
         ),
+        (
+            ["pilothouse://10.0.0.3"],
+            "This is no pairing link of a robot; one begins with pilothouse:// and is complete.",
+        ),
+        (
+            ["--pair", "ws://10.0.0.3"],
+            "This is no pairing link of a robot; one begins with pilothouse:// and is complete.",
+        ),
         (["--size", "large"], "A size is written as 412x892, not 'large'."),
         (["--colour"], "Unrecognized arguments: --colour."),
     ],

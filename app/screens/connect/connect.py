@@ -30,6 +30,13 @@ HINT = (
 NARROW = 420.0
 """A card narrower than this has no room for the words `driven by` [dp]."""
 
+TRUST = {
+    "paired": ("lock", "Paired", "ok"),
+    "stranger": ("vpn_key", "Not paired", "muted"),
+    "open": ("lock_open", "Not protected", "warn"),
+    "": ("", "", "muted"),
+}
+"""How a robot is reached, to icon, words and role of the colour."""
 LOW, MIDDLE = 0.20, 0.40
 """Below these a battery is empty or getting low, 0 to 1."""
 
@@ -60,11 +67,19 @@ Builder.load_string("""
                 shorten_from: 'right'
             Text:
                 text: root.subtitle
-                role: 'danger' if root.warned else 'muted'
+                role: 'muted'
                 font_size: sp(15)
                 size_hint_y: 1
                 shorten: True
                 shorten_from: 'right'
+        Chip:
+            icon: root.trust_icon
+            text: root.trust_text
+            role: root.trust_role
+            tinted: True
+            edge: dp(10) if root.trust_text else 0
+            opacity: 1 if root.trust_text else 0
+            pos_hint: {'center_y': .5}
         IconButton:
             id: remove
             icon: 'delete'
@@ -74,6 +89,12 @@ Builder.load_string("""
             opacity: 1 if root.saved else 0
             disabled: not root.saved
             on_release: root.dispatch('on_remove')
+    Remark:
+        text: root.warning
+        role: 'danger'
+        font_size: sp(15)
+        size_hint_y: None
+        height: self.texture_size[1] if root.warning else 0
     BoxLayout:
         size_hint_y: None
         height: dp(34)
@@ -160,7 +181,7 @@ Builder.load_string("""
                     spacing: dp(18)
             Grid:
                 id: actions
-                cols: root.columns
+                cols: 3 if root.columns > 1 else 1
                 spacing: dp(18)
                 QuietButton:
                     id: add
@@ -169,6 +190,13 @@ Builder.load_string("""
                     size_hint_x: None
                     width: root.action_width
                     on_release: root.app.robot_list.ask_address()
+                QuietButton:
+                    id: pair
+                    icon: 'qr_code_scanner'
+                    text: 'Pair with a QR code'
+                    size_hint_x: None
+                    width: root.action_width
+                    on_release: root.app.robot_list.trust.ask()
                 QuietButton:
                     id: simulate
                     icon: 'play_circle'
@@ -203,8 +231,8 @@ class RobotCard(Card):
     icon = StringProperty(GENERIC_ICON)
     lost = BooleanProperty(False)
     saved = BooleanProperty(False)
-    warned = BooleanProperty(False)
-    """The line under its name says what is wrong with it."""
+    warning = StringProperty("")
+    """What is wrong with it, as a sentence; empty when nothing is known to be."""
     quiet = BooleanProperty(False)
     """The button offers nothing to look forward to: it tries again."""
     battery_text = StringProperty("—")
@@ -217,6 +245,10 @@ class RobotCard(Card):
     driver_role = StringProperty("ok")
     action = StringProperty("Connect")
     button_height = NumericProperty("52dp")
+    trust_text = StringProperty("")
+    """How it is reached, in a word; empty within this machine."""
+    trust_icon = StringProperty("")
+    trust_role = StringProperty("muted")
     entry = ObjectProperty(None, allownone=True)
     """The robot, as of the list."""
 
@@ -225,10 +257,11 @@ class RobotCard(Card):
         self.entry = entry
         self.icon, self.lost = robot_icon(entry.icon), entry.state == "lost"
         self.title = entry.name or entry.address
-        about = [entry.warning or entry.description or "Saved address"]
-        self.warned = bool(entry.warning)
+        about = [entry.description or "Saved address"]
+        self.warning = entry.warning
         self.subtitle = " · ".join([*about, entry.address] if entry.name else about)
-        self.saved = entry.saved
+        self.saved = entry.saved or entry.trust == "paired"
+        self.trust_icon, self.trust_text, self.trust_role = TRUST[entry.trust]
         self._show_battery(entry)
         self._show_link(entry)
         self._show_driver(entry, me)
@@ -264,6 +297,8 @@ class RobotCard(Card):
         self.driver_icon = "person" if other and self.driver_text == _shortened(entry.driver, 10) else ""
         self.quiet = self.lost
         self.action = "Retry" if self.lost else "Watch" if other and not mine else "Connect"
+        if entry.trust == "stranger" and not self.lost:
+            self.action = "Pair"
 
     def on_connect(self) -> None:
         """The big button was pressed."""
@@ -329,7 +364,9 @@ class ConnectScreen(FloatLayout):
         self.columns = connect_columns(self.width, dp)
         self.edge = (26 if self.width > 600 * dp else 14) * dp
         self.card_width = (self.width - 2 * self.edge - (self.columns - 1) * 18 * dp) / self.columns
-        self.action_width = self.card_width - self.keep_free[1] / self.columns
+        across = 3 if self.columns > 1 else 1
+        room = self.width - 2 * self.edge - (across - 1) * 18 * dp - self.keep_free[1]
+        self.action_width = room / across
         for card in self.cards:
             card.width = self.card_width
 

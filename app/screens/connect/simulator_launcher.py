@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Protocol
 
 from app.core.settings_store import Settings
@@ -24,6 +24,21 @@ IDLE, STARTING, RUNNING = (
 )
 
 
+class Trust(Protocol):
+    """The paired robots, as far as the simulator needs them."""
+
+    def pair_silently(self, links: Iterable[str], then: str = "") -> None:
+        """Pair by links without a question; then connect to `then`."""
+
+
+class RobotList(Protocol):
+    """The list of robots, as far as the simulator needs it."""
+
+    @property
+    def trust(self) -> Trust:
+        """The paired robots."""
+
+
 class Host(Protocol):
     """The app, as far as its simulator needs it."""
 
@@ -33,11 +48,12 @@ class Host(Protocol):
     root: Any
 
     @property
+    def robot_list(self) -> RobotList:
+        """Every robot that can be connected to."""
+
+    @property
     def session(self) -> Session | None:
         """The session with the robot; None while none is wanted."""
-
-    def open(self, url: str) -> None:
-        """Connect to a robot."""
 
 
 class SimulatorLauncher:
@@ -86,6 +102,10 @@ class SimulatorLauncher:
             )
             self._inquiry.start()
 
+    def _pair(self, links: Sequence[str], then: str) -> None:
+        """Pair with its robots, and connect to `then`; empty for none."""
+        self._app.robot_list.trust.pair_silently(links, then)
+
     def start(self, choice: SimulationChoice | None = None) -> None:
         """Start the simulator with what was chosen, the usual robot when nothing was; one that runs is ended."""
         choice = choice or SimulationChoice()
@@ -123,10 +143,9 @@ class SimulatorLauncher:
             self._say(text, "danger")
         elif self.current is not None and self.current.url == text:
             self._show(RUNNING, busy=bool(self._command))
+            self._pair(self.current.links, text if self._count == 1 and self._app.session is None else "")
             if self._count > 1:
                 self._app.connect.say(f"{self._count} simulated robots are ready.", "ok")
-            elif self._app.session is None:
-                self._app.open(text)
 
     def close(self) -> None:
         """End what runs."""

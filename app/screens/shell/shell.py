@@ -30,6 +30,7 @@ from app.screens.shell.reset_card import ResetPrompt
 from app.screens.shell.stop_display import StopDisplay
 from app.screens.shell.task_question import TaskQuestion
 from app.screens.shell.top_bar import TopBar
+from app.screens.trust.people_dialog import PeopleDialog
 from app.session.dashboard import Dashboard
 from app.session.session import Session
 from widgets.core.theme import theme
@@ -137,6 +138,7 @@ class Shell(FloatLayout):
         """Bar, navigation, STOP and what is said over them; the ids of their parts are found here too."""
         self.bar, self.nav, self.notices = TopBar(), Rail(), Notices()
         self.bar.bind(on_back=lambda _: self.app.leave(), on_control=lambda _: self.toggle_control())
+        self.bar.bind(on_people=lambda _: self.parent.add_widget(PeopleDialog(self.session)))
         self.bar.bind(on_mode=lambda _: self.cards.ask_mode(), on_inputs=lambda _: self.app.show_inputs())
         self.nav.bind(on_press=lambda _, name: self._press(name), on_talk=lambda _, down: self._talk(down))
         self._stop = StopDisplay(self.session, self.notices, self.rest)

@@ -23,9 +23,9 @@ from widgets.core.theme import theme
 
 __all__ = ["TopBar"]
 
-PARTS = ("back", "name", "mode", "battery", "link", "satellites", "gap", "inputs", "control")
+PARTS = ("back", "name", "trust", "mode", "battery", "link", "satellites", "gap", "inputs", "control")
 """What it holds, from left to right."""
-NARROW = ("back", "name", "mode", "stack", "inputs")
+NARROW = ("back", "name", "trust", "mode", "stack", "inputs")
 """What a narrow one holds: battery and link are above each other there."""
 STACKED = ("link", "battery")
 """From the upper one down."""
@@ -59,6 +59,17 @@ Builder.load_string("""
         size_hint_x: 1 if root.form == 'tall' else None
         text_size: (self.width, None) if root.form == 'tall' else (root.name_room or None, None)
         width: root.name_room or self.texture_size[0]
+    Chip:
+        id: trust
+        icon: 'lock' if root.protected else 'lock_open'
+        role: 'ok' if root.protected else 'warn'
+        text: '' if root.protected or root.form != 'wide' else 'Not protected'
+        tinted: True
+        spacing: dp(8) if self.text else 0
+        edge: dp(8)
+        pressable: True
+        pos_hint: {'center_y': .5}
+        on_release: root.dispatch('on_people')
     Chip:
         id: mode
         icon: root.mode_icon if root.form != 'tall' else ''
@@ -105,9 +116,9 @@ Builder.load_string("""
 
 
 class TopBar(EdgedBox):
-    """Dispatches `on_back`, `on_mode`, `on_inputs` and `on_control` as they are tapped."""
+    """Dispatches `on_back`, `on_people`, `on_mode`, `on_inputs` and `on_control` as they are tapped."""
 
-    __events__ = ("on_back", "on_control", "on_inputs", "on_mode")
+    __events__ = ("on_back", "on_control", "on_inputs", "on_mode", "on_people")
 
     form = OptionProperty("wide", options=["wide", "short", "tall"])
     """Shape of the window, as in `app.layout.arrange.form`."""
@@ -125,6 +136,8 @@ class TopBar(EdgedBox):
     """The robot tells its position by satellite, or has not yet said what it tells."""
     fix_text = StringProperty("—")
     fix_role = StringProperty("muted")
+    protected = BooleanProperty(True)
+    """Nobody on the way reads or changes what is said: as of `Session.protected`."""
     control_text = StringProperty("")
     control_icon = StringProperty("help")
     control_role = StringProperty("muted")
@@ -139,7 +152,7 @@ class TopBar(EdgedBox):
         for name in ("located", "crowded"):
             self.fbind(name, lambda *_: self.arrange(self.form))
         self._fit = Clock.create_trigger(lambda _: self._fitted(), -1)
-        for name in ("mode", "battery", "link", "satellites", "inputs", "control"):
+        for name in ("trust", "mode", "battery", "link", "satellites", "inputs", "control"):
             self.ids[name].bind(width=self._fit)
         for name in ("width", "form", "robot_name", "located"):
             self.fbind(name, self._fit)
@@ -194,7 +207,7 @@ class TopBar(EdgedBox):
 
     def tick(self, session: Session) -> None:
         """Say how the robot stands now."""
-        self.robot_name = session.robot.name
+        self.robot_name, self.protected = session.robot.name, session.protected
         self.mode_text, self.mode_icon, self.mode_role = standing.mode(session, brief=self.form == "tall")
         self.mode_offered = (
             session.connected and not session.robot.foreign and session.robot.offers("/mode/set")
@@ -220,6 +233,9 @@ class TopBar(EdgedBox):
 
     def on_inputs(self) -> None:
         """The ways in were tapped."""
+
+    def on_people(self) -> None:
+        """The lock was tapped: who has a key of the robot."""
 
     def on_mode(self) -> None:
         """The mode was tapped."""

@@ -56,6 +56,21 @@ def run() -> Iterator[Run]:
         simulator.close()
 
 
+def test_the_links_of_its_robots_are_known_when_they_are_ready_and_shown_to_nobody(run: Run) -> None:
+    """A link is a secret: it does not stand in the sentence of a simulator that failed."""
+    link = "pilothouse://127.0.0.1:4711?c=aa&s=bb&n=Patrol-1"
+    simulator = run.python(f"print('robotside: pair {link}', flush=True); {SERVES}")
+    assert run.next() == ("ready", "ws://127.0.0.1:4711")
+    assert simulator.links == (link,)
+    assert "pilothouse:" not in run.next()[1]
+
+
+def test_one_that_says_no_link_is_ready_all_the_same(run: Run) -> None:
+    simulator = run.python(f"{SERVES}; {WAITS}")
+    assert run.next() == ("ready", "ws://127.0.0.1:4711")
+    assert simulator.links == ()
+
+
 def test_a_program_that_is_not_there_is_said(run: Run) -> None:
     run.run(["/nowhere/python"])
     assert run.next() == ("failed", "The simulator could not be started: No such file or directory.")

@@ -1,0 +1,222 @@
+"""The people whom a robot knows: who they are, what they may do, when they were last there; and letting others in."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.properties import BooleanProperty, StringProperty
+
+import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
+from app.link.channels import ANSWER, Answer
+from app.link.feeds import Post
+from app.screens.parts.dialogs import Question
+from app.session.session import Session
+from bridge.msgs import Msg
+from bridge.msgs.pilothouse_msgs import (
+    GetPeopleRequest,
+    GetPeopleResponse,
+    InviteGuestRequest,
+    InviteGuestResponse,
+    InvitePersonRequest,
+    InvitePersonResponse,
+    Person,
+    RemovePersonRequest,
+    RemovePersonResponse,
+)
+from widgets.parts.buttons import IconButton
+from widgets.parts.rows import ListRow
+
+__all__ = ["PeopleDialog", "seen_text"]
+
+ICONS = {"handheld": "touch_app", "token": "vpn_key", "guest": "person"}
+ROLES = {"watch": "watches", "drive": "drives", "manage": "manages"}
+GUEST_TIME = 3600.0
+"""How long a guest is let in [s]."""
+CONFIRM_TIMEOUT = 4.0
+"""A person is removed by a second tap within this [s]."""
+SERVICES = ("/people/list", "/people/invite", "/people/guest", "/people/remove")
+
+Builder.load_string("""
+<PeopleDialog>:
+    Card:
+        id: card
+        size_hint: None, None
+        width: min(dp(620), root.room[2] - dp(20))
+        height: min(root.room[3] - dp(24), head.height + rows.height + foot.height + invitation.height + 3 * self.spacing + self.padding[1] + self.padding[3])
+        pos: root.room[0] + (root.room[2] - self.width) / 2, root.room[1] + (root.room[3] - self.height) / 2
+        padding: dp(14)
+        spacing: dp(10)
+        Column:
+            id: head
+            spacing: dp(4)
+            Text:
+                text: root.title
+                bold: True
+                font_size: theme.size_title
+                shorten: True
+                shorten_from: 'right'
+            Remark:
+                text: root.problem or root.sentence
+                role: 'danger' if root.problem else 'muted'
+        Column:
+            id: invitation
+            spacing: dp(2)
+            height: self.minimum_height if root.code else 0
+            opacity: 1 if root.code else 0
+            Text:
+                text: root.code
+                bold: True
+                halign: 'center'
+                font_size: sp(38) if root.code else sp(1)
+            Remark:
+                text: root.code_sentence
+        Roll:
+            Column:
+                id: rows
+                spacing: dp(6)
+        BoxLayout:
+            id: foot
+            size_hint_y: None
+            height: theme.target
+            spacing: dp(8)
+            QuietButton:
+                id: close
+                text: 'Close'
+                size_hint_x: .7
+                on_release: root.close()
+            QuietButton:
+                id: guest
+                text: 'Guest, 1 h'
+                disabled: not root.manages
+                on_release: root.invite_guest()
+            PrimaryButton:
+                id: invite
+                text: 'Let in'
+                disabled: not root.manages
+                on_release: root.invite()
+""")
+
+
+def seen_text(person: Person, now: float) -> str:
+    """When a person was last there, in a few words; `now` is the operators' clock [s], NaN where it is not known."""
+    if person.connected:
+        return "here now"
+    since = now - person.last_seen
+    if math.isnan(person.last_seen):
+        return "never here"
+    if math.isnan(since):
+        return ""
+    for length, word in ((86400.0, "d"), (3600.0, "h"), (60.0, "min")):
+        if since >= length:
+            return f"{since / length:.0f} {word} ago"
+    return "just now"
+
+
+class PersonRow(ListRow):
+    """One person, and a button that asks whether to remove it."""
+
+    def __init__(self, person: Person, seen: str, *, mine: bool, manages: bool, on_remove: Any) -> None:
+        super().__init__(whole=True)
+        self.person = person
+        self.icon = ICONS.get(person.kind, "person")
+        self.title = f"{person.name or 'Somebody'}{' · this handheld' if mine else ''}"
+        self.chosen = mine
+        self._detail = ", ".join(part for part in (ROLES.get(person.role, person.role), seen) if part)
+        self.detail = self._detail
+        self._remove = IconButton(icon="delete", role="muted", bare=True, disabled=not manages)
+        self._remove.bind(on_release=lambda _: on_remove(self))
+        self.add_widget(self._remove)
+
+    def arm(self, *, armed: bool) -> None:
+        """Ask whether to remove it, or ask no longer."""
+        self.detail = "Tap again to remove. It cannot come in any more." if armed else self._detail
+        self._remove.role = "danger" if armed else "muted"
+
+
+class PeopleDialog(Question):
+    """Asks the robot who is there, and what the buttons say."""
+
+    wanted = (640.0, 420.0)
+    title = StringProperty("People")
+    sentence = StringProperty("Asking the robot …")
+    problem = StringProperty("")
+    code = StringProperty("")
+    """By which somebody may pair now; empty for none."""
+    code_sentence = StringProperty("")
+    manages = BooleanProperty(False)
+    """The robot lets this handheld see and change who is known."""
+
+    def __init__(self, session: Session, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._session = session
+        self._armed: PersonRow | None = None
+        self._armed_until = -math.inf
+        self.title = f"People of {session.robot.name}"
+        session.listeners.append(self._hear)
+        self._ask("/people/list", GetPeopleRequest(), GetPeopleResponse)
+
+    def _ask(self, service: str, request: Msg, response: type[Msg]) -> None:
+        self._session.link.ask(service, request, response)
+
+    def invite(self) -> None:
+        """Let one more handheld pair."""
+        self._ask("/people/invite", InvitePersonRequest(role="drive"), InvitePersonResponse)
+
+    def invite_guest(self) -> None:
+        """Let somebody in for an hour."""
+        self._ask("/people/guest", InviteGuestRequest(role="drive", duration=GUEST_TIME), InviteGuestResponse)
+
+    def remove(self, row: PersonRow) -> None:
+        """Remove a person at the second tap."""
+        if row is self._armed and self._session.now() < self._armed_until:
+            self._ask("/people/remove", RemovePersonRequest(id=row.person.id), RemovePersonResponse)
+            return
+        if self._armed is not None:
+            self._armed.arm(armed=False)
+        self._armed, self._armed_until = row, self._session.now() + CONFIRM_TIMEOUT
+        row.arm(armed=True)
+
+    def _hear(self, channel: str, post: Post) -> None:
+        answer = post.value
+        if channel != ANSWER or not isinstance(answer, Answer) or answer.service not in SERVICES:
+            return
+        found = answer.message
+        self.problem = answer.problem
+        if isinstance(found, GetPeopleResponse):
+            self._show(found.people)
+        elif isinstance(found, InvitePersonResponse):
+            self._show_code(
+                found.code, "Type this code on the other handheld. It is for one, and for ten minutes."
+            )
+        elif isinstance(found, InviteGuestResponse):
+            self._show_code(found.code, "Type this code on the guest's handheld. It may drive for one hour.")
+        elif isinstance(found, RemovePersonResponse):
+            self._ask("/people/list", GetPeopleRequest(), GetPeopleResponse)
+        elif answer.service == "/people/list":
+            self.manages, self.sentence = False, ""
+
+    def _show(self, people: list[Person]) -> None:
+        self.manages, self._armed = True, None
+        count = len(people)
+        self.sentence = (
+            "Nobody has a key of this robot." if not count else f"{count} with a key of this robot"
+        )
+        self.ids.rows.clear_widgets()
+        now = self._session.link.robot_time()
+        for person in people:
+            mine = person.id == self._session.own_id
+            row = PersonRow(person, seen_text(person, now), mine=mine, manages=True, on_remove=self.remove)
+            self.ids.rows.add_widget(row)
+
+    def _show_code(self, code: str, sentence: str) -> None:
+        digits = "".join(letter for letter in code if letter.isdigit())[:8]
+        self.code = " ".join(digits[start : start + 3] for start in range(0, len(digits), 3))
+        self.code_sentence = sentence
+
+    def close(self) -> None:
+        """Leave the glass, and the session with it."""
+        if self._hear in self._session.listeners:
+            self._session.listeners.remove(self._hear)
+        super().close()
