@@ -127,7 +127,7 @@ def test_a_killed_app_leaves_no_simulator_behind(tmp_path: Path) -> None:
         pid, ready = parent.stdout.readline().split(" ", 1)
         child = psutil.Process(int(pid))
         try:
-            assert ready.startswith("robotside: ready")
+            assert ready.startswith("robotside: pair pilothouse:")
             parent.kill()
             child.wait(PATIENCE)
         finally:

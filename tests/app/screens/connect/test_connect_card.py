@@ -32,7 +32,23 @@ def test_one_that_uses_the_name_of_a_paired_robot_is_told_apart(stage: Any) -> N
     card = stage.show(RobotCard(), size=(440, 200))
     sentence = "Not your paired Patrol-1: another robot uses its name."
     card.show_entry(Entry("ws://10.0.0.3:9090", "Patrol-1", silent=0.1, warning=sentence), ME)
-    assert (card.subtitle, card.warned) == (f"{sentence} · 10.0.0.3", True)
+    assert (card.subtitle, card.warning) == ("Saved address · 10.0.0.3", sentence)
+
+
+@pytest.mark.parametrize(
+    ("trust", "words", "action"),
+    [
+        ("paired", "Paired", "Connect"),
+        ("stranger", "Not paired", "Pair"),
+        ("open", "Not protected", "Connect"),
+        ("", "", "Connect"),
+    ],
+)
+def test_a_card_says_how_its_robot_is_reached(stage: Any, trust: str, words: str, action: str) -> None:
+    card = stage.show(RobotCard(), size=(440, 200))
+    card.show_entry(Entry("wss://10.0.0.3:9090", "Patrol-1", silent=0.1, trust=trust), ME)
+    assert (card.trust_text, card.action, bool(card.trust_icon)) == (words, action, bool(words))
+    assert card.saved == (trust == "paired"), "what is paired can be forgotten"
 
 
 def test_a_long_name_of_who_drives_is_cut_and_stays_on_its_card(stage: Any) -> None:
