@@ -60,7 +60,7 @@ class Trust:
         *,
         plain: Role | None = None,
     ) -> None:
-        """`now` is the operators' clock [s]. Who comes without TLS from elsewhere has the role `plain`, None for a stranger."""
+        """`now` is the operators' clock [s]. Who comes without a key from elsewhere has the role `plain`, None for a stranger."""
         self._file, self._now, self._plain = file, now, plain
         self._local, self._stop_role = Role.read(settings.local_role), Role.read(settings.stop_role)
         self.on_lost: Callable[[Iterable[str]], None] = _ignore
@@ -96,7 +96,8 @@ class Trust:
             return STRANGER
         if _is_loopback(address):
             return Identity("", "", self._local)
-        return Identity("", "", self._plain) if self._plain is not None and not secure else STRANGER
+        # by TLS nobody may less than without it: a handheld that is not paired comes by the address of the HELLO
+        return STRANGER if self._plain is None else Identity("", "", self._plain)
 
     def identify(self, token: str, address: str) -> Identity:
         """Whose token it is; raises Refused, with one sentence for unknown, wrong and ended ones: the log has which."""
