@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 
 from app.garbage_collector import Collector
-from bridge.core.log_limit import STRANGERS
+from bridge.server.reception.log_limit import STRANGERS
 from tests import headless
 from tests.apart import Apart
 

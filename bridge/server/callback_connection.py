@@ -21,8 +21,8 @@ from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode, Frame, Opcode
 from websockets.protocol import Event, State
 
-from bridge.core.log_limit import STRANGERS
 from bridge.server.flow.send_queue import TURN_TIME, WriteBatch
+from bridge.server.reception.log_limit import STRANGERS
 from bridge.server.reception.places import Place
 
 __all__ = ["MessageHandler", "CallbackConnection"]

@@ -7,7 +7,7 @@ import re
 from collections import Counter
 
 from bridge.core.errors import ProtocolError
-from bridge.core.log_limit import STRANGERS
+from bridge.server.reception.log_limit import STRANGERS
 
 __all__ = ["ClientFaults"]
 

@@ -11,7 +11,6 @@ from typing import Any
 from msgspec import UNSET
 
 from bridge.core.errors import ProtocolError, Refused
-from bridge.core.log_limit import STRANGERS
 from bridge.core.robot_catalogue import Operator
 from bridge.protocol import (
     ActionFeedback,
@@ -46,6 +45,7 @@ from bridge.server.flow.priority_lanes import Lane, Stream
 from bridge.server.flow.round_trip import RoundTrip
 from bridge.server.flow.send_queue import TURN_TIME, FrameWriter, SendQueue, WriteBatch
 from bridge.server.reception.credentials import introduce
+from bridge.server.reception.log_limit import STRANGERS
 from bridge.server.reception.places import FULL, Place
 from bridge.server.server_context import ServerContext
 from bridge.server.service_operations import ServiceOperations

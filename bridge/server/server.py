@@ -27,7 +27,6 @@ from websockets.http11 import Request, Response
 from bridge.core.async_tasks import cancel_all
 from bridge.core.compat import Compat
 from bridge.core.errors import BridgeError
-from bridge.core.log_limit import STRANGERS
 from bridge.core.robot_catalogue import Operator
 from bridge.core.robot_door import RobotDoor
 from bridge.msgs import Msg
@@ -42,6 +41,7 @@ from bridge.server.flow.round_trip import PING_PERIOD
 from bridge.server.flow.send_queue import WriteBatch
 from bridge.server.handshakes import Handshakes, address_of
 from bridge.server.node_graph import NodeGraph
+from bridge.server.reception.log_limit import STRANGERS
 from bridge.server.reception.pages import PagePolicy
 from bridge.server.reception.places import Limits
 from bridge.server.reception.reception import Reception, anyone

@@ -13,12 +13,12 @@ from msgspec import Raw
 from bridge.codec import to_json
 from bridge.core.async_tasks import cancel_all
 from bridge.core.errors import BridgeError, Refused
-from bridge.core.log_limit import STRANGERS
 from bridge.core.robot_catalogue import Operator
 from bridge.msgs import Msg
 from bridge.protocol import MISSING, CallService, Id, ServiceResponse, arguments, service_and_id
 from bridge.server.client_services import Peer
 from bridge.server.flow.priority_lanes import Lane
+from bridge.server.reception.log_limit import STRANGERS
 from bridge.server.reception.places import FULL
 from bridge.server.server_context import ServerContext
 

@@ -9,10 +9,10 @@ from collections.abc import Callable
 from typing import Protocol
 
 from bridge.core.errors import ProtocolError
-from bridge.core.log_limit import STRANGERS
 from bridge.server.flow.outgoing_messages import OutgoingMessage, ping_frame
 from bridge.server.flow.priority_lanes import Lane, PriorityLanes, Stream
 from bridge.server.flow.send_window import SendWindow
+from bridge.server.reception.log_limit import STRANGERS
 
 __all__ = ["TURN_TIME", "FrameWriter", "SendQueue", "WriteBatch"]
 

@@ -13,7 +13,7 @@ from typing import Any
 import uvicorn
 
 from bridge.core.errors import BridgeError
-from bridge.core.log_limit import STRANGERS
+from bridge.server.reception.log_limit import STRANGERS
 from bridge.server.reception.pages import PagePolicy
 from bridge.server.reception.reception import Reception, anyone
 from robotside.door.station_door import StationDoor

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from bridge.core import log_limit
-from bridge.core.log_limit import MAX_KINDS, WINDOW, LogLimit
+from bridge.server.reception import log_limit
+from bridge.server.reception.log_limit import MAX_KINDS, WINDOW, LogLimit
 from tests.bridge.peers import peer
 from tests.bridge.wires import Clock, server
 
