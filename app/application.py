@@ -173,7 +173,7 @@ class PilothouseApp(App):
         Window.allow_screensaver = False
         self.pages.on_show = self.corner.tick  # STOP ALL is never where STOP is, not for a frame
         self._list()
-        self.robot_list.trust.pair_silently(self._pair)
+        self.robot_list.trust.begin(self._pair)
         if self._url:
             self.open(self._url)
         elif self._first_screen == "inputs":

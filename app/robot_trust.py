@@ -6,6 +6,9 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, Protocol
 
+from kivy.clock import Clock
+
+from app.device.opened_links import watch_links
 from app.discovery.known_robots import KnownRobots
 from app.link.feeds import Post
 from app.screens.connect.connect import ConnectScreen
@@ -114,6 +117,11 @@ class RobotTrust:
             self.ask(link=PairLink.read(text))
         except BadPairing as mistake:
             self._app.say(str(mistake), "danger")
+
+    def begin(self, links: Iterable[str]) -> None:
+        """Pair by `links` without a question, and ask about each link that the system opens with this app."""
+        self.pair_silently(links)
+        watch_links(lambda link: Clock.schedule_once(lambda _: self.open_link(link)))
 
     def pair_silently(self, links: Iterable[str], then: str = "") -> None:
         """Pair by links of robots that this app or who started it runs, without a question; then connect to `then`.
