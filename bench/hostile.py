@@ -3,10 +3,10 @@
 The robot side is the process that users start, with the simulated patrol robot. Two processes attack its rosbridge socket and its
 web site at the same time over 28 connections, each from an address of its own: garbage and half JSON, wrong types, numbers that are
 none, deep and huge messages, floods of names, fragments, pictures that grow, bytes that claim to be CBOR, wrong tokens, broken frames and
-handshakes (`bench/support/attack/`). A frame counts once the robot has read it, for a pong must come from behind it; a request
+handshakes (`bench/support/attack/`), in plain and by TLS. One process attacks as a stranger, the other with a key that lets it watch. A frame counts once the robot has read it, for a pong must come from behind it; a request
 once it was answered or its connection was ended. None presses STOP or asks for control: whoever asks for STOP gets it, by choice.
 
-The honest client is one more process. It drives, watches /pose, presses STOP again and again, releases it and drives on. The other way is
+The honest client is one more process with a key to drive, by TLS. It drives, watches /pose, presses STOP again and again, releases it and drives on. The other way is
 the same client and robot before the attack begins. Attackers have a lower priority than the robot, as if they had a computer
 of their own. Memory is the resident set of the robot side: *grown* is the median of the last tenth of the attack less that of
 the tenth in its middle.
@@ -16,12 +16,15 @@ from __future__ import annotations
 
 import json
 import statistics
+import subprocess
+import sys
 import tempfile
 import threading
 import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
+from pathlib import Path
 from typing import Any, TextIO
 from urllib.parse import urlsplit
 
@@ -31,6 +34,7 @@ from bench.support.child import Child, child
 from bench.support.figures import Figure, percentile
 from bench.support.harness import Context, Sides
 from bench.support.station import Serving, serving
+from robotside.trust.certificate import own_certificate
 
 __all__ = ["Attacked", "attacked"]
 
@@ -112,14 +116,17 @@ def attacked(frames: int, requests: int, *, calm: float = CALM_TIME, seed: int =
     found = Attacked()
     with ExitStack() as stack:
         log = stack.enter_context(tempfile.TemporaryFile("w+"))
-        robot = stack.enter_context(serving(log=log))
-        honest = stack.enter_context(child("bench.support.attack.honest", robot.url))
-        honest.receive()
+        state = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+        driver, watcher = key(state, "honest", "drive"), key(state, "watcher", "watch")
+        robot = stack.enter_context(serving("robotside", *strict(state), state=str(state), log=log))
+        honest = stack.enter_context(child("bench.support.attack.honest"))
+        pin = own_certificate(state).fingerprint
+        honest.ask({"url": robot.url.replace("ws://", "wss://"), "pin": pin, "token": driver})
         time.sleep(SETTLING)
         honest.ask({})
         time.sleep(calm)
         found.calm = honest.ask({})
-        _attack(found, robot, frames, requests, seed)
+        _attack(found, robot, frames, requests, seed, ("", watcher))
         found.meanwhile = honest.ask({})
         time.sleep(SETTLING)
         found.ended = robot.child.process.poll()
@@ -127,12 +134,27 @@ def attacked(frames: int, requests: int, *, calm: float = CALM_TIME, seed: int =
     return found
 
 
+def key(state: Path, name: str, role: str) -> str:
+    """A key of the robot that keeps its records in `state`, made as users do."""
+    command = [sys.executable, "-m", "robotside", "token", name, "--role", role, "--state", str(state)]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
+
+
+def strict(state: Path) -> tuple[str, str]:
+    """Options of a robot side on which also programs of its own computer are strangers."""
+    config = state / "robot.toml"
+    config.write_text('[trust]\nlocal_role = "none"\n')
+    return "--config", str(config)
+
+
 def _lines(log: TextIO) -> list[str]:
     log.seek(0)
     return log.read().splitlines()
 
 
-def _attack(found: Attacked, robot: Serving, frames: int, requests: int, seed: int) -> None:
+def _attack(
+    found: Attacked, robot: Serving, frames: int, requests: int, seed: int, tokens: Sequence[str]
+) -> None:
     process = psutil.Process(robot.child.process.pid)
     found.memory_before = process.memory_info().rss / 1e6
     began = time.monotonic()
@@ -141,8 +163,9 @@ def _attack(found: Attacked, robot: Serving, frames: int, requests: int, seed: i
             stack.enter_context(child("bench.support.attack.attacker", niceness=NICENESS))
             for _ in range(ATTACKERS)
         ]
-        for number, attacker in enumerate(attackers):
-            attacker.send(_order(robot, number, -(-frames // ATTACKERS), -(-requests // ATTACKERS), seed))
+        for number, (attacker, token) in enumerate(zip(attackers, tokens, strict=True)):
+            order = _order(robot, number, -(-frames // ATTACKERS), -(-requests // ATTACKERS), seed)
+            attacker.send({**order, "token": token})
         results: list[Mapping[str, int]] = []
         readers = [threading.Thread(target=_follow, args=(each, results)) for each in attackers]
         for reader in readers:

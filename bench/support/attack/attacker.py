@@ -1,7 +1,7 @@
 """Attackers of a robot side in a process of their own, `python -m bench.support.attack.attacker`.
 
 One line of JSON on the standard input says what to do: `{"host": H, "bridge": PORT, "http": PORT, "frames": N, "requests": M,
-"seed": S, "first": A, "tls": BOOL, "token": T}`. Each connection comes from an address of its own (127.0.0.A and on; other hosts than
+"seed": S, "first": A, "token": T}`. Three of ten connections are by TLS, and each comes from an address of its own (127.0.0.A and on; other hosts than
 loopback see the machine's own). A line `{"frames": …, "requests": …, "connections": …, "refused": …}` follows each second, with
 `"done": true` the last one.
 
@@ -15,7 +15,6 @@ import asyncio
 import contextlib
 import json
 import random
-import ssl
 import sys
 from collections.abc import Awaitable, Callable, Mapping
 from typing import Any
@@ -26,12 +25,15 @@ from websockets.uri import parse_uri
 
 from bench.support.attack.frames import BREAKING, hostile
 from bench.support.attack.requests import hostile_handshake, hostile_request
+from bridge.client.tls import context
 
 __all__ = ["Attack"]
 
 WEBSOCKETS, BROWSERS = 10, 4
 """Connections at a time in one process."""
 BATCH = 100
+TLS_SHARE = 0.3
+"""Of the connections."""
 BREAKING_SHARE = 0.15
 """Of the batches that end with bytes after which a connection is of no use."""
 ANSWER_TIMEOUT = 5.0
@@ -51,7 +53,7 @@ class Attack:
     def __init__(self, asked: Mapping[str, Any]) -> None:
         self._asked = asked
         self._rng = random.Random(asked["seed"])
-        self._context = _unpinned() if asked.get("tls") else None
+        self._context = context()
         self._places = 0
         self.count = {"frames": 0, "requests": 0, "connections": 0, "refused": 0, "unanswered": 0}
 
@@ -77,8 +79,9 @@ class Attack:
         host = self._asked["host"]
         local = (place, 0) if host.startswith("127.") else None
         self.count["connections"] += 1
+        tls = self._context if self._rng.random() < TLS_SHARE else None
         async with asyncio.timeout(ANSWER_TIMEOUT):
-            return await asyncio.open_connection(host, port, ssl=self._context, local_addr=local)
+            return await asyncio.open_connection(host, port, ssl=tls, local_addr=local)
 
     async def _socket(self, place: str) -> None:
         """One connection to the rosbridge socket: floods it, or does not even shake hands."""
@@ -134,7 +137,7 @@ class _Talk:
         cls, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, asked: Mapping[str, Any]
     ) -> _Talk:
         """Shake hands. EOFError when that is refused."""
-        scheme = "wss" if asked.get("tls") else "ws"
+        scheme = "ws" if writer.get_extra_info("ssl_object") is None else "wss"
         talk = cls(reader, writer, f"{scheme}://{asked['host']}:{asked['bridge']}")
         request = talk._protocol.connect()
         if asked.get("token"):
@@ -192,13 +195,6 @@ async def _answer(reader: asyncio.StreamReader) -> bool:
         await reader.readexactly(int(lengths[0]))
         return True
     return False
-
-
-def _unpinned() -> ssl.SSLContext:
-    """For who does not care whom it attacks."""
-    context = ssl.create_default_context()
-    context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
-    return context
 
 
 async def _report(attack: Attack) -> None:
