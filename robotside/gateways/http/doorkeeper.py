@@ -80,7 +80,7 @@ class Doorkeeper:
         """Who asks. A wrong token raises Refused, but who presses STOP needs none; a cookie that ended counts for nothing."""
         trusted = verdict.trusted and not verdict.refusal
         by_hand = [] if asked.stops and verdict.refusal else asked.headers(b"authorization")
-        shown = cookie(asked.headers(b"cookie"), self._pages.cookie_name) if trusted else ""
+        shown = cookie(asked.headers(b"cookie"), self._pages.cookie_name) if verdict.own else ""
         try:
             if token := bearer(by_hand):
                 return self._enter(asked, token, trusted)
