@@ -154,6 +154,30 @@ def test_what_is_neither_code_nor_link_reaches_no_robot(
     assert not attempts.asked
 
 
+@pytest.mark.parametrize("size", [(412, 892), (892, 412), (1280, 800), (1920, 1200)])
+def test_the_question_fits_every_glass_with_keys_for_a_thumb(
+    glass: Glass, attempts: Attempts, size: tuple[int, int]
+) -> None:
+    window, root = glass.stage.window, glass.app.root
+    before = tuple(window.size)
+    window.size = root.size = size
+    try:
+        glass.app.open("wss://127.0.0.1:9")
+        asks = dialog(glass)
+        asks.problem = "That is not the code of this robot; after five wrong ones there is a pause."
+        glass.stage.frames(6)
+        card = asks.ids.card
+        assert card.x >= 0
+        assert card.y >= 0
+        assert card.right <= size[0]
+        assert card.top <= size[1]
+        assert all(min(key.size) >= 48 for key in asks.ids.pad.children)
+        assert len({key.pos[0] for key in asks.ids.pad.children}) == asks.ids.pad.cols
+        asks.close()
+    finally:
+        window.size = root.size = before
+
+
 def test_a_code_needs_a_robot(glass: Glass, attempts: Attempts) -> None:
     glass.app.robot_list.trust.ask()
     dialog(glass).ids.field.text = "493017"
