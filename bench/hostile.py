@@ -61,6 +61,8 @@ REPEATS = 1
 
 ATTACKERS = 2
 """Processes."""
+ROUNDS = 2
+"""Of the honest client, which lasts as long as the attack at least."""
 ADDRESSES = 20
 """Of loopback that one process may use."""
 NICENESS = 10
@@ -91,7 +93,7 @@ class Attacked:
     def __init__(self) -> None:
         self.calm: Mapping[str, Any] = {}
         """Report of the honest client before."""
-        self.meanwhile: Mapping[str, Any] = {}
+        self.meanwhile: dict[str, Any] = {}
         """Its report of the attack."""
         self.count: Counter[str] = Counter()
         """What the attackers did."""
@@ -126,8 +128,7 @@ def attacked(frames: int, requests: int, *, calm: float = CALM_TIME, seed: int =
         honest.ask({})
         time.sleep(calm)
         found.calm = honest.ask({})
-        _attack(found, robot, frames, requests, seed, ("", watcher))
-        found.meanwhile = honest.ask({})
+        _attack(found, robot, honest, (frames, requests, seed), ("", watcher))
         time.sleep(SETTLING)
         found.ended = robot.child.process.poll()
         found.log = _lines(log)
@@ -153,8 +154,9 @@ def _lines(log: TextIO) -> list[str]:
 
 
 def _attack(
-    found: Attacked, robot: Serving, frames: int, requests: int, seed: int, tokens: Sequence[str]
+    found: Attacked, robot: Serving, honest: Child, attack: tuple[int, int, int], tokens: Sequence[str]
 ) -> None:
+    frames, requests, seed = attack
     process = psutil.Process(robot.child.process.pid)
     found.memory_before = process.memory_info().rss / 1e6
     began = time.monotonic()
@@ -166,16 +168,42 @@ def _attack(
         for number, (attacker, token) in enumerate(zip(attackers, tokens, strict=True)):
             order = _order(robot, number, -(-frames // ATTACKERS), -(-requests // ATTACKERS), seed)
             attacker.send({**order, "token": token})
-        results: list[Mapping[str, int]] = []
-        readers = [threading.Thread(target=_follow, args=(each, results)) for each in attackers]
+        counts: list[dict[str, int]] = [{} for _ in attackers]
+        readers = [
+            threading.Thread(target=_follow, args=each) for each in zip(attackers, counts, strict=True)
+        ]
         for reader in readers:
             reader.start()
-        while any(reader.is_alive() for reader in readers):
+        rounds = 0
+        while not (
+            rounds >= ROUNDS and _total(counts)["frames"] >= frames and _total(counts)["requests"] >= requests
+        ):
+            time.sleep(SAMPLE_PERIOD)
             found.memory.append(process.memory_info().rss / 1e6)
-            readers[0 if readers[0].is_alive() else -1].join(SAMPLE_PERIOD)
-    for result in results:
-        found.count.update({name: value for name, value in result.items() if name != "done"})
+            _add(found.meanwhile, honest.ask({}))
+            rounds = found.meanwhile["rounds"]
+        for attacker in attackers:
+            attacker.send({})
+        for reader in readers:
+            reader.join()
+    found.count = _total(counts)
     found.seconds = time.monotonic() - began
+
+
+def _total(counts: Sequence[Mapping[str, int]]) -> Counter[str]:
+    total: Counter[str] = Counter()
+    for each in counts:
+        total.update({name: value for name, value in each.items() if name != "done"})
+    return total
+
+
+def _add(report: dict[str, Any], more: Mapping[str, Any]) -> None:
+    """Add what an honest client saw since the last report."""
+    for name, value in more.items():
+        if name == "gap":
+            report[name] = max(report.get(name, 0.0), value)
+        else:
+            report[name] = report[name] + value if name in report else value
 
 
 def _order(robot: Serving, number: int, frames: int, requests: int, seed: int) -> dict[str, Any]:
@@ -191,12 +219,10 @@ def _order(robot: Serving, number: int, frames: int, requests: int, seed: int) -
     }
 
 
-def _follow(attacker: Child, results: list[Mapping[str, int]]) -> None:
-    while True:
-        count = json.loads(attacker.line())
-        if count.get("done"):
-            results.append(count)
-            return
+def _follow(attacker: Child, count: dict[str, int]) -> None:
+    """Take in what an attacker says of itself until it is done."""
+    while not count.get("done"):
+        count.update(json.loads(attacker.line()))
 
 
 def _honest(report: Mapping[str, Any]) -> dict[str, float]:
@@ -214,7 +240,7 @@ def _honest(report: Mapping[str, Any]) -> dict[str, float]:
 def _figures(found: Attacked) -> dict[str, float]:
     if found.ended is not None:
         raise RuntimeError(f"The robot side ended with {found.ended} under attack: {found.log[-20:]}")
-    for line in found.meanwhile["refused"]:
+    for line in found.meanwhile["refused"][-5:]:
         print(f"  the honest client was refused: {line}")
     for line in found.tracebacks:
         print(f"  {line}")

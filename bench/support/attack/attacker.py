@@ -2,7 +2,8 @@
 
 One line of JSON on the standard input says what to do: `{"host": H, "bridge": PORT, "http": PORT, "frames": N, "requests": M,
 "seed": S, "first": A, "token": T}`. Three of ten connections are by TLS, and each comes from an address of its own (127.0.0.A and on; other hosts than
-loopback see the machine's own). A line `{"frames": …, "requests": …, "connections": …, "refused": …}` follows each second, with
+loopback see the machine's own). It goes on beyond these numbers until a second line
+comes. A line `{"frames": …, "requests": …, "connections": …, "refused": …}` follows each second, with
 `"done": true` the last one.
 
 A frame counts when the robot has read it: a ping goes behind every hundred, and its pong must come, or the robot has ended the
@@ -55,10 +56,12 @@ class Attack:
         self._rng = random.Random(asked["seed"])
         self._context = context()
         self._places = 0
+        self.enough = False
+        """It may end as soon as all was sent."""
         self.count = {"frames": 0, "requests": 0, "connections": 0, "refused": 0, "unanswered": 0}
 
     async def run(self) -> None:
-        """Until all frames and requests were sent."""
+        """Until all frames and requests were sent, and that is enough."""
         async with asyncio.TaskGroup() as group:
             for _ in range(WEBSOCKETS):
                 group.create_task(self._until("frames", self._socket))
@@ -68,12 +71,15 @@ class Attack:
     async def _until(self, counted: str, attack: Callable[[str], Awaitable[None]]) -> None:
         place = f"127.0.0.{self._asked['first'] + self._places}"
         self._places += 1
-        while self.count[counted] < self._asked[counted]:
+        while self._going_on(counted):
             try:
                 await attack(place)
             except (OSError, EOFError, asyncio.IncompleteReadError, TimeoutError):
                 self.count["refused"] += 1
                 await asyncio.sleep(REFUSED_PAUSE)
+
+    def _going_on(self, counted: str) -> bool:
+        return not self.enough or self.count[counted] < self._asked[counted]
 
     async def _open(self, place: str, port: int) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
         host = self._asked["host"]
@@ -93,7 +99,7 @@ class Attack:
                 await _ended(reader, HOLD_TIME)
                 return
             talk = await _Talk.begin(reader, writer, self._asked)
-            while self.count["frames"] < self._asked["frames"]:
+            while self._going_on("frames"):
                 data, number = hostile(self._rng, BATCH)
                 self.count["frames"] += await talk.send(data, number)
                 if self._rng.random() < BREAKING_SHARE:
@@ -203,13 +209,19 @@ async def _report(attack: Attack) -> None:
         print(json.dumps(attack.count), flush=True)
 
 
+async def _listen(attack: Attack) -> None:
+    await asyncio.to_thread(sys.stdin.readline)
+    attack.enough = True
+
+
 async def _main() -> None:
     attack = Attack(json.loads(sys.stdin.readline()))
-    reporting = asyncio.create_task(_report(attack))
+    beside = [asyncio.create_task(_report(attack)), asyncio.create_task(_listen(attack))]
     try:
         await attack.run()
     finally:
-        reporting.cancel()
+        for task in beside:
+            task.cancel()
     print(json.dumps({**attack.count, "done": True}), flush=True)
 
 
