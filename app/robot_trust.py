@@ -16,6 +16,7 @@ from app.screens.trust.pair_dialog import PairDialog
 from app.session.session import Session
 from app.trust.keyring import Keyring, RobotKey, host_of, place_of
 from app.trust.pairing_attempts import PAIRING, Attempt, PairingAttempts
+from bridge.client.credentials import Credentials
 from bridge.discovery.hello import is_loopback
 from bridge.trust.pairing import SCHEME, BadPairing, PairLink, split_code
 
@@ -67,6 +68,11 @@ class RobotTrust:
     def key_for(self, url: str) -> RobotKey | None:
         """The key of the robot that is expected at `url`; None where it is not paired."""
         return self.keys.find(url, self._app.robots.claim(url))
+
+    def credentials(self, url: str, claim: str) -> Credentials | None:
+        """The credentials for the paired robot that is expected at `url` or makes that claim; None for any other."""
+        key = self.keys.find(url, claim)
+        return key.credentials if key else None
 
     def asks_first(self, url: str) -> bool:
         """Ask on the glass to pair where nothing else is possible: `url` is a link, or reached by TLS and not paired."""

@@ -115,6 +115,16 @@ def test_a_paired_robot_is_not_asked_about_again(glass: Glass, robot: FakeRobot)
         glass.app.leave()
 
 
+def test_stop_all_reaches_a_paired_robot_by_its_key(glass: Glass, robot: FakeRobot) -> None:
+    with tls(robot) as port:
+        url = f"ws://127.0.0.1:{port}"
+        glass.app.robot_list.trust.keys.add(paired(port))
+        glass.app.robots.add(url)
+        glass.app.fleet.press(glass.app.robots.entries())
+        glass.until(lambda: any(name == "/stop" for name, _ in robot.asked), "no STOP")
+        glass.app.fleet.let_go()
+
+
 def test_another_robot_at_a_paired_robots_address_is_said_and_no_screens_come(
     glass: Glass, robot: FakeRobot
 ) -> None:
