@@ -100,7 +100,8 @@ class TileReader:
         try:
             with closing(self.connect()) as file:
                 row = file.execute(
-                    "SELECT tile_data FROM tiles WHERE zoom_level = ? AND tile_column = ? AND tile_row = ?", key
+                    "SELECT tile_data FROM tiles WHERE zoom_level = ? AND tile_column = ? AND tile_row = ?",
+                    key,
                 ).fetchone()
             return row and self._decode(row[0])
         except Exception as fault:  # noqa: BLE001 - decoders raise what they like at a damaged picture
@@ -121,5 +122,6 @@ def decoded(data: object) -> ImageData:
     ext = "png" if kind == "png" else "jpg"
     able = next(each for each in ImageLoader.loaders if each.can_load_memory() and ext in each.extensions())
     loaded = able(f"tile.{ext}", ext=ext, rawdata=io.BytesIO(data), inline=True, nocache=True, keep_data=True)
-    (pixels,) = loaded._data  # noqa: SLF001 - the public way makes a texture, which only the UI thread may
+    pixels: ImageData = loaded._data[0]  # noqa: SLF001 - the public way makes a texture, which only the UI thread may
+    pixels.source = None  # a texture would keep the file for it
     return pixels
