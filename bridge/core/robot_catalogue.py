@@ -56,8 +56,9 @@ class Operator:
         """Ends its connection, since it may nothing any more; set by its gateway."""
 
     def role(self, now: float) -> Role:
-        """What it may do at `now` [s, operators' clock]."""
-        return self.identity.role if now < self.identity.ends else Role.NONE
+        """What it may do at `now` [s, operators' clock]; a role that ends is over where NaN is the time."""
+        identity = self.identity
+        return identity.role if identity.ends == math.inf or now < identity.ends else Role.NONE
 
     def __repr__(self) -> str:
         return f"Operator({self.id!r}, {self.address!r})"
