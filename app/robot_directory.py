@@ -116,9 +116,15 @@ class RobotDirectory:
 
     def forget(self, url: str) -> None:
         """Take a saved address off the list; a paired robot is not paired any more, which a tap takes back."""
-        self.robots.remove(url)
+        kept = self.robots.remove(url)
         self._save()
-        self.trust.forget(url)
+        self.trust.forget(url, lambda: self._restore(url, kept))
+        self._app.connect.show_entries(self._entries(), self._client_name)
+
+    def _restore(self, url: str, kept: dict[str, str] | None) -> None:
+        if kept is not None:
+            self.robots.restore(url, kept)
+            self._save()
         self._app.connect.show_entries(self._entries(), self._client_name)
 
     def _connected(self) -> tuple[str, ...]:
