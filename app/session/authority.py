@@ -35,7 +35,8 @@ class Line(Protocol):
 class ControlledRobot(Protocol):
     """The session with one robot, as far as control needs it."""
 
-    client_id: str
+    own_id: str
+    """The id by which the robot publishes this handheld."""
     feeds: Feeds
     robot: RobotProfile
 
@@ -99,12 +100,12 @@ class Authority:
             return "unknown"
         if not status.driver_id and not status.driver:
             return "free"
-        return "mine" if status.driver_id == session.client_id else "other"
+        return "mine" if status.driver_id == session.own_id else "other"
 
     @property
     def asking(self) -> bool:
         """This handheld asks somebody else for control."""
-        return self.who == "other" and self.status.requested_by_id == self._session.client_id
+        return self.who == "other" and self.status.requested_by_id == self._session.own_id
 
     @property
     def asked(self) -> bool:
@@ -179,7 +180,7 @@ class Authority:
     def _report(self, status: ControlStatus) -> None:
         before, self._before = self._before, status
         news = self._end(before, status) or self._beginning(before, status)
-        mine = status.driver_id == self._session.client_id
+        mine = status.driver_id == self._session.own_id
         if mine:
             news = news or self._regained()
             self._held, self._away = True, False
@@ -200,7 +201,7 @@ class Authority:
 
     def _beginning(self, before: ControlStatus, status: ControlStatus) -> tuple[str, str] | None:
         """Who watches is told that somebody asks; who asks or is asked has a card for it."""
-        me = self._session.client_id
+        me = self._session.own_id
         fresh = status.requested_by_id if status.requested_by_id != before.requested_by_id else ""
         if not fresh or me in (fresh, status.driver_id):
             return None
@@ -208,7 +209,7 @@ class Authority:
 
     def _end(self, before: ControlStatus, status: ControlStatus) -> tuple[str, str] | None:
         """What became of somebody's asking."""
-        me, asker = self._session.client_id, before.requested_by_id
+        me, asker = self._session.own_id, before.requested_by_id
         if not asker or status.requested_by_id == asker:
             return None
         if status.driver_id == asker:

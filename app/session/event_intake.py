@@ -35,10 +35,10 @@ class EventIntake:
     """Events of one robot. Everything here happens in the UI thread."""
 
     def __init__(
-        self, robot: Robot, client_id: str, logbook: Logbook, publish: Callable[[Post], object]
+        self, robot: Robot, own_id: str, logbook: Logbook, publish: Callable[[Post], object]
     ) -> None:
-        """`client_id` is this handheld's; `publish` is called with each event that is new."""
-        self._robot, self._client_id = robot, client_id
+        """By `own_id` the robot publishes this handheld; `publish` is called with each event that is new."""
+        self._robot, self._own_id = robot, own_id
         self._logbook, self._publish = logbook, publish
         self.shown = False
         """Screens show events as they come."""
@@ -47,7 +47,7 @@ class EventIntake:
 
     def on_event(self, post: Post) -> None:
         """An event came."""
-        event = own_event(post.value, self._client_id, self._gave_stop(post.value))
+        event = own_event(post.value, self._own_id, self._gave_stop(post.value))
         if self._logbook.add(event):
             post = replace(post, value=event)
             if not self.shown:
@@ -56,7 +56,7 @@ class EventIntake:
 
     def word_task(self, post: Post) -> Post:
         """A post of `/task/status` with its reason in our words."""
-        return replace(post, value=own_reason(post.value, self._client_id))
+        return replace(post, value=own_reason(post.value, self._own_id))
 
     def _gave_stop(self, event: Event) -> str:
         """What gave the STOP of which a fresh `event` tells, where it is the one that was asked for here; else empty."""

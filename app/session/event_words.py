@@ -30,12 +30,12 @@ _REASONS: Mapping[str, str] = {**_EVENTS, Code.TASK_STOPPED: _EVENTS[Code.STOP_P
 """The same where they stand for why a task is as it is."""
 
 
-def own_event(event: Event, client_id: str, gave_stop: str = "") -> Event:
-    """`event` as it reads on the handheld with this `client_id`.
+def own_event(event: Event, own_id: str, gave_stop: str = "") -> Event:
+    """`event` as it reads on the handheld that the robot publishes by `own_id`.
 
     `gave_stop` says what gave its STOP, as of `command_origin.gave_stop`; empty for a hand on a button.
     """
-    words = _EVENTS.get(event.code) if client_id and event.actor_id == client_id else None
+    words = _EVENTS.get(event.code) if own_id and event.actor_id == own_id else None
     if words is None:
         return event
     if event.code == Code.STOP_PRESSED:
@@ -44,7 +44,7 @@ def own_event(event: Event, client_id: str, gave_stop: str = "") -> Event:
     return replace(event, text=words, level="info" if event.code == Code.TASK_STOPPED else event.level)
 
 
-def own_reason(status: TaskStatus, client_id: str) -> TaskStatus:
-    """`status` with its reason as it reads on the handheld with this `client_id`."""
-    words = _REASONS.get(status.code) if client_id and status.actor_id == client_id else None
+def own_reason(status: TaskStatus, own_id: str) -> TaskStatus:
+    """`status` with its reason as it reads on the handheld that the robot publishes by `own_id`."""
+    words = _REASONS.get(status.code) if own_id and status.actor_id == own_id else None
     return status if words is None else replace(status, reason=words)

@@ -66,7 +66,7 @@ class Session:
         """Called when anything that pushes the stick has to let go."""
         self.robot = RobotProfile(feeds, link.url)
         self.robot_stop = RobotStop(
-            self.robot, feeds, now, client_id, drives=lambda: self.link.drive_topic is not None
+            self.robot, feeds, now, self.own_id, drives=lambda: self.link.drive_topic is not None
         )
         self.authority = Authority(self, wants_control=wants_control)
         self.cameras = CameraChoice(self.robot)
@@ -77,7 +77,7 @@ class Session:
         self.refusals = FenceRefusals(feeds)
         self.missions = StoredMissions(self)
         self.logbook = Logbook(settings, self.command)
-        self.events = EventIntake(self, client_id, self.logbook, lambda post: self._publish(EVENT, post))
+        self.events = EventIntake(self, self.own_id, self.logbook, lambda post: self._publish(EVENT, post))
         self.link_state: LinkState = link.state
         self.ever_connected = False
         self._state_since = now()
@@ -91,7 +91,7 @@ class Session:
 
     @property
     def own_id(self) -> str:
-        """The public id of this handheld at that robot."""
+        """The public id by which that robot publishes this handheld."""
         return self.key.id if self.key else public_id(self.client_id)
 
     @property

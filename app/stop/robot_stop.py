@@ -32,14 +32,14 @@ class RobotStop:
         robot: StoppableRobot,
         feeds: Feeds,
         now: Callable[[], float],
-        client_id: str,
+        own_id: str,
         drives: Callable[[], bool],
     ) -> None:
-        """`now` is our clock [s]; `drives` says that the robot has a topic to drive it by."""
+        """`now` is our clock [s]; by `own_id` the robot publishes this handheld; `drives` says that the robot has a topic to drive it by."""
         self._robot, self._feeds, self._drives = robot, feeds, drives
         self.local = LocalStop(now)
         """STOP of a robot that has none of its own."""
-        self._state = StopState(now, client_id)
+        self._state = StopState(now, own_id)
         self._connected = False
 
     @property

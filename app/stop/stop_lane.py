@@ -19,6 +19,7 @@ from app.stop.stop_state import StopState
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.client.credentials import Credentials
 from bridge.core.errors import BridgeError
+from bridge.core.identity import public_id
 from bridge.core.topic_choice import drive_message
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
@@ -108,18 +109,12 @@ class StopLane:
         """`now` is our clock [s]; `client_id` and `client_name` are who this handheld is to the robot.
 
         With `credentials` only the robot with that key is asked, and what another machine says at `url` counts for nothing.
-        One that does not know this handheld any more is stopped all the same: STOP is anybody's.
         """
         self._now = now
         self._credentials = credentials
         self._proven = ""
         self._client = connect(
-            url,
-            on_state=self._on_state,
-            now=now,
-            backoff=BACKOFF,
-            credentials=credentials,
-            even_unknown=True,
+            url, on_state=self._on_state, now=now, backoff=BACKOFF, credentials=credentials
         )
         self._commands = Commands(
             self._client.call,
@@ -133,7 +128,7 @@ class StopLane:
         self._zero = LocalStop(now)
         self._wanted, self._done = asyncio.Event(), asyncio.Event()
         self._identity: tuple[str, str, Time] | None = None
-        self._stopping = StopState(now, client_id)
+        self._stopping = StopState(now, (credentials.id if credentials else "") or public_id(client_id))
         self._stopping.reach(False)
         self._reached = False
         self._offer: Capabilities | None = None

@@ -120,9 +120,9 @@ def silence(seconds: float) -> str:
 class StopState:
     """Notes what is heard of the STOP of a robot that has one, over whatever link."""
 
-    def __init__(self, now: Callable[[], float], client_id: str) -> None:
-        """`now` is our clock [s]; `client_id` is who this handheld is to the robot."""
-        self._now, self._id = now, client_id
+    def __init__(self, now: Callable[[], float], own_id: str) -> None:
+        """`now` is our clock [s]; by `own_id` the robot publishes this handheld."""
+        self._now, self._id = now, own_id
         self._status: ControlStatus | None = None
         self._early: ControlStatus | None = None
         """Heard over a new connection before that is known to stand."""

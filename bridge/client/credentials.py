@@ -28,6 +28,11 @@ class Credentials:
     name: str = ""
     """The robot's name, for sentences; empty when it is not known."""
 
+    @property
+    def id(self) -> str:
+        """The public id by which the robot knows this client; empty before pairing."""
+        return self.token.partition(".")[0]
+
     def __post_init__(self) -> None:
         """Check the form: the token becomes part of an HTTP header."""
         if _FINGERPRINT.fullmatch(self.fingerprint) is None:

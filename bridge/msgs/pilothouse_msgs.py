@@ -194,8 +194,8 @@ class CommandResponse(Msg, frozen=True, gc=False):
     code: str = ""
     """Code of the reason, as in docs/bridge.md, such as stop_is_pressed; empty where it was accepted."""
     actor_id: str = ""
-    """The client_id that the reason is about, such as the one with control; empty without one, or when it
-    is not known.
+    """The public id of the client that the reason is about, such as the one with control; empty without
+    one, or when it is not known.
     """
     parameters: list[KeyValue] = []
     """Values in the reason, by the keys of the code."""
@@ -353,19 +353,21 @@ class ControlStatus(Msg, frozen=True, gc=False):
     driver: str = ""
     """Name of the client that has control; empty when it is free."""
     driver_id: str = ""
-    """The client_id that acquired it."""
+    """The public id of the client that acquired it."""
     stopped: bool = False
     """STOP is latched: nothing moves until it is released."""
     stopped_by: str = ""
     """Name of the client that pressed STOP."""
     stopped_by_id: str = ""
-    """The client_id that pressed it; empty when it gave none, or before the robot's last start."""
+    """The public id of the client that pressed it; empty when it gave none, or before the robot's last
+    start.
+    """
     at_rest: bool = True
     """The wheels stand still, as measured."""
     requested_by: str = ""
     """Name of the client that asks the driver for control; empty without one."""
     requested_by_id: str = ""
-    """The client_id that asks for it."""
+    """The public id of the client that asks for it."""
     handover: Time = Time()
     """When control changes hands unless the driver objects, operators' clock; 0 without a request."""
     speed_cap: float = 1.0
@@ -452,7 +454,7 @@ class Event(Msg, frozen=True, gc=False):
     code: str = ""
     """The kind of event, a code of docs/bridge.md, as in stop_pressed; empty without one."""
     actor_id: str = ""
-    """The client_id that caused it; empty without one, or when it is not known."""
+    """The public id of the client that caused it; empty without one, or when it is not known."""
     parameters: list[KeyValue] = []
     """Values in the sentence, by the keys of the code."""
 
@@ -645,7 +647,7 @@ class TaskRun(Msg, frozen=True, gc=False):
     code: str = ""
     """Code of the reason, as in docs/bridge.md; empty without one."""
     actor_id: str = ""
-    """The client_id that the reason is about; empty without one, or when it is not known."""
+    """The public id of the client that the reason is about; empty without one, or when it is not known."""
     parameters: list[KeyValue] = []
     """Values in the reason, by the keys of the code."""
 
@@ -757,8 +759,8 @@ class GetMissionResponse(Msg, frozen=True, gc=False):
     code: str = ""
     """Code of the reason, as in docs/bridge.md, such as stop_is_pressed; empty where it was accepted."""
     actor_id: str = ""
-    """The client_id that the reason is about, such as the one with control; empty without one, or when it
-    is not known.
+    """The public id of the client that the reason is about, such as the one with control; empty without
+    one, or when it is not known.
     """
     parameters: list[KeyValue] = []
     """Values in the reason, by the keys of the code."""
@@ -1816,6 +1818,6 @@ class TaskStatus(Msg, frozen=True, gc=False):
     code: str = ""
     """Code of the reason, as in docs/bridge.md; empty without one."""
     actor_id: str = ""
-    """The client_id that the reason is about; empty without one, or when it is not known."""
+    """The public id of the client that the reason is about; empty without one, or when it is not known."""
     parameters: list[KeyValue] = []
     """Values in the reason, by the keys of the code."""

@@ -76,7 +76,6 @@ class RosbridgeSession:
         self.protocol = ServerSession(context.compat)
         """The state of the protocol: subscriptions, advertisements, pending calls and goals."""
         self.operator = operator
-        self._batch = batch
         self.queue = SendQueue(writer, batch, operator.address)
         self._context = context
         self._place = place
@@ -158,7 +157,7 @@ class RosbridgeSession:
 
     def resume(self) -> bool:
         """Handle more of what `on_message` left; False when there is still more."""
-        until = self._clock() + TURN_TIME * self._batch.share
+        until = self._clock() + TURN_TIME
         while self._unhandled:
             self._handle(self._unhandled.popleft())
             if self._clock() >= until:

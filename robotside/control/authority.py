@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from bridge.core.codes import Code
-from bridge.core.identity import Role
+from bridge.core.identity import Role, public_id
 from bridge.core.link_state import CONTROL_TIMEOUT
 from bridge.core.robot_catalogue import Operator
 from robotside.core.notice import Notice, Problem
@@ -60,6 +60,7 @@ class Driver:
     """Who has control."""
 
     client_id: str
+    """The public id, as of `Authority.id`."""
     name: str
     client: Operator
 
@@ -103,9 +104,15 @@ class Authority:
     def introduce(self, client: Operator, client_id: str, name: str) -> None:
         """Remember what `client` calls itself, cut to a readable line; empty words change nothing.
 
-        The second id of a name is called `name (2)`.
+        Only a one-way hash of the `client_id` is kept, because whoever repeats it counts as the same client. Who proved
+        an identity is known by that, whatever it calls itself. The second id of a name is called `name (2)`.
         """
-        client_id, name = plain(client_id, MAX_ID_LENGTH), plain(name, MAX_NAME_LENGTH)
+        identity = client.identity
+        if identity.proven:
+            called = plain(identity.name, MAX_NAME_LENGTH)
+            self._names[client.id] = identity.id, self._apart(identity.id, called)
+            return
+        client_id, name = public_id(plain(client_id, MAX_ID_LENGTH)), plain(name, MAX_NAME_LENGTH)
         known_id, known_name = self._identity(client)
         client_id, name = client_id or known_id, name or known_name
         own = client_id != client.id  # else there is nothing to tell it by the next time
@@ -132,7 +139,7 @@ class Authority:
         return self._identity(client)[1]
 
     def id(self, client: Operator) -> str:
-        """The `client_id` that `client` gave, or one for its connection."""
+        """The public id of `client`: the one it proved, else a hash of the `client_id` it gave, else one of its connection."""
         return self._identity(client)[0]
 
     def holds(self, client: Operator) -> bool:
@@ -278,7 +285,11 @@ class Authority:
             self._asker = None
 
     def _identity(self, client: Operator) -> tuple[str, str]:
-        return self._names.get(client.id, (client.id, f"a client at {client.address}"))
+        known = self._names.get(client.id, (client.id, f"a client at {client.address}"))
+        identity = client.identity
+        if identity.proven and known[0] != identity.id:
+            return identity.id, plain(identity.name, MAX_NAME_LENGTH)  # it proved it later than it spoke
+        return known
 
 
 def _held(held: Driver, advice: str) -> Notice:

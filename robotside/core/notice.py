@@ -31,7 +31,7 @@ class Notice(str):
     code: str
     """As of `bridge.core.codes`; empty only for a text of another program that has none."""
     actor_id: str
-    """The `client_id` of the client that caused it, or that it is about; empty for none, and when it is not known."""
+    """The public id of the client that caused it, or that it is about; empty for none, and when it is not known."""
     parameters: Mapping[str, str]
     """Its parameters, by the keys of its code."""
 

@@ -16,6 +16,7 @@ from msgspec import structs
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.core.address import host_and_port
 from bridge.core.errors import BridgeError, NotConnected
+from bridge.core.identity import public_id
 from bridge.core.network_thread import NetworkThread
 from bridge.core.topic_choice import drive_message
 from bridge.core.topics import CAMERA
@@ -82,6 +83,7 @@ class ForeignLink:
         """The last command did not leave this machine: there is no connection, or too much waits in it."""
         self._sent_at = -math.inf
         self._id = f"robotside-{secrets.token_hex(4)}"
+        self._public_id = public_id(self._id)
         self._name = f"the robot side on {plain(platform.node(), 20) or 'a computer'}"
         self._network = NetworkThread(f"link to {url}")
         self._network.start(self._client.run())
@@ -212,7 +214,7 @@ class ForeignLink:
 
     def _hear(self, topic: str, msg: Msg) -> None:
         if isinstance(msg, ControlStatus):
-            others = msg.driver_id not in ("", self._id)
+            others = msg.driver_id not in ("", self._public_id)
             self._mine = msg.stopped and msg.stopped_by == self._name
             self._busy = msg.mode == "AUTO" and not others
             expected = self._mine and self._pressed
@@ -221,7 +223,7 @@ class ForeignLink:
             )
             if self._mine and self._releases and not self._pressed:
                 self._work(self._unstop())
-            if msg.stopped and msg.driver_id == self._id and not self._mine:
+            if msg.stopped and msg.driver_id == self._public_id and not self._mine:
                 # only who has control may release STOP, and that is done where it was pressed
                 self._begin("/control/release")
         else:

@@ -75,9 +75,7 @@ ACTIONS = frozenset({"/task/run"})
 REPEAT_PERIOD = 10.0
 """The same again within this is counted, and recorded once [s]."""
 MAX_REPEATED = 100
-"""Entries whose repetition is counted; beyond, all of one verb count together, whoever asks."""
-SEVERAL = "several"
-"""Stands for the names of those that are counted together."""
+"""Entries whose repetition is counted."""
 MAX_EACH = 10
 """Of them of one person or host; what comes beyond is counted by its verb."""
 MAX_OPERATION = 100
@@ -110,7 +108,7 @@ class AuditTrail:
         if f"{verb} {service}" in READ_ONLY:
             return
         code = "" if getattr(answer, "success", True) else getattr(answer, "code", "") or "failed"
-        claimed = getattr(request, "client_id", ""), getattr(request, "client_name", "")
+        claimed = public_id(getattr(request, "client_id", "")), getattr(request, "client_name", "")
         said = f"{_summary(service, request)} {_new_person(service, answer)}".strip()
         self._add(operator, f"{verb} {service}", f"refused {code}" if code else "done", said, claimed)
 
@@ -187,13 +185,13 @@ class AuditTrail:
     def _entry(
         self, operator: Operator, operation: str, outcome: str, parameters: str, claimed: tuple[str, str]
     ) -> Entry:
-        """What an operator did; `claimed` are the id and the name that it gives itself."""
+        """What an operator did; `claimed` are its public id and the name that it gives itself."""
         who = operator.identity
         called = who.name if who.proven or not claimed[1] else f"{claimed[1]}{UNPROVEN}"
         return Entry(
             plain(operation, MAX_OPERATION),
             outcome,
-            who.id or public_id(claimed[0]),
+            who.id or claimed[0],
             called,
             operator.role(self._clock()).word,
             operator.way,
@@ -210,11 +208,6 @@ class AuditTrail:
             if key not in self._repeated and sum(each[2] == whose for each in self._repeated) >= MAX_EACH:
                 entry = replace(entry, operation=entry.operation.partition(" ")[0], parameters="")
                 key = (entry.operation, entry.outcome, whose)
-            if key not in self._repeated and len(self._repeated) >= MAX_REPEATED:
-                entry = Entry(
-                    entry.operation.partition(" ")[0], entry.outcome, "", SEVERAL, "", entry.way, "", ""
-                )
-                key = (entry.operation, entry.outcome, "")
             if key in self._repeated:
                 self._repeated[key].more += 1
                 return
@@ -224,7 +217,7 @@ class AuditTrail:
     def _tell_repeated(self, now: float) -> None:
         while self._repeated:
             oldest = next(iter(self._repeated.values()))
-            if oldest.until > now:
+            if oldest.until > now and len(self._repeated) < MAX_REPEATED:
                 return
             self._repeated.popitem(last=False)
             if oldest.more:

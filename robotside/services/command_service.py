@@ -10,7 +10,6 @@ from msgspec.structs import replace
 
 from bridge.codec import to_json
 from bridge.core.codes import Code
-from bridge.core.identity import public_id
 from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from robotside.core.notice import Notice, coded
@@ -142,7 +141,7 @@ def _sender(station: Station, client: Operator) -> str:
     """
     if client.identity.proven:
         return client.identity.id
-    return f"{public_id(station.controls.id(client))}@{client.address.rpartition(':')[0]}"
+    return f"{station.controls.id(client)}@{client.address.rpartition(':')[0]}"
 
 
 def _done(action: Action, client: Operator, asked: CommandRequest, done: list[bool]) -> str | CommandResponse:

@@ -12,7 +12,7 @@ from typing import Any
 
 import msgspec
 
-from bridge.core.identity import Identity, Role
+from bridge.core.identity import Identity, Role, public_id
 from bridge.core.network_thread import NetworkThread
 from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs import Msg
@@ -262,7 +262,7 @@ class FakeRobot:
         return call
 
     def _become(self, name: str, request: Any) -> None:
-        now, who = self.control, (request.client_id, request.client_id)
+        now, who = self.control, (request.client_id, public_id(request.client_id))
         asker = (now.requested_by, now.requested_by_id)
         changes: dict[str, Any] = {
             "/stop": {"stopped": True, "mode": "STOPPED"},

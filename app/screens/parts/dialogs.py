@@ -142,8 +142,6 @@ class Question(Modal, FloatLayout):
         if self._over is not None:
             self._over.bind(children=self._placing)
         self._place()
-        if parent is None:  # another page takes it away, too
-            self.dispatch("on_close")
 
     def _place(self, *_: object) -> None:
         kept = [Rect(*stop.pos, *stop.size) for stop in self._stops]
@@ -158,9 +156,10 @@ class Question(Modal, FloatLayout):
         """Leave the glass."""
         if self.parent is not None:
             self.parent.remove_widget(self)
+            self.dispatch("on_close")
 
     def on_close(self) -> None:
-        """It was answered or cancelled, or another page came."""
+        """It was answered or cancelled."""
 
     def on_touch_down(self, touch: Any) -> bool:
         """Nothing behind the question gets a finger, but STOP before all else; one beside the card cancels."""
@@ -193,6 +192,7 @@ class AddressDialog(Question):
         else:
             self.close()
 
-    def on_close(self) -> None:
-        """The keyboard leaves the glass with it."""
+    def close(self) -> None:
+        """Leave the glass, and the keyboard with it."""
         self.ids.field.focus = False
+        super().close()

@@ -38,8 +38,8 @@ class ControlCards:
         """There is no room now for what can wait."""
         self.alone = False
         """There is room for one card, as on a phone: the others wait until it is answered or gone."""
-        self.handover = HandoverCard(me=session.client_id)
-        self.mode, self.paused, self.cap = ModeCard(), PausedCard(client_id=session.client_id), SpeedCap()
+        self.handover = HandoverCard(me=session.own_id)
+        self.mode, self.paused, self.cap = ModeCard(), PausedCard(client_id=session.own_id), SpeedCap()
         self._closed = self._pause_asked = False
         for card in (self.handover, self.mode, self.cap):
             dashboard.bind(card, "/control/status", fresh=False)

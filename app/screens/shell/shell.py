@@ -164,7 +164,6 @@ class Shell(FloatLayout):
         self.wishes.close()
         for screen in self.screens.values():
             screen.leave()
-            screen.end()
 
     # navigation
 

@@ -3,8 +3,6 @@
 from collections.abc import Callable
 from typing import Any
 
-from kivy.core.image import ImageData
-
 class Texture:
     mag_filter: str
     min_filter: str
@@ -20,8 +18,6 @@ class Texture:
         callback: Callable[[Texture], Any] | None = None,
         icolorfmt: str | None = None,
     ) -> Texture: ...
-    @staticmethod
-    def create_from_data(im: ImageData, mipmap: bool = False) -> Texture: ...
     @property
     def id(self) -> int: ...
     @property

@@ -13,6 +13,7 @@ from app.core.command_origin import origins
 from app.intents.intent_executor import ALONE, IntentExecutor
 from app.intents.intents import INTENTS
 from bridge.client.client import LinkState, Phase
+from bridge.core.identity import public_id
 from bridge.msgs.pilothouse_msgs import ControlStatus, LightState, RobotInfo, TaskOrder, TaskStatus
 from tests.app.session.test_layout_actions import SERVICES, Asked
 
@@ -62,7 +63,7 @@ class Robot(Asked):
         )
         self.acting = IntentExecutor(self)
         self.tell("/robot/info", RAY)
-        self.tell("/control/status", ControlStatus(driver="me", driver_id="me"))
+        self.tell("/control/status", ControlStatus(driver="me", driver_id=public_id("me")))
         self.tell("/task/status", TaskStatus(state="IDLE"))
         session.mission.add(1.0, 2.0)
 
@@ -151,7 +152,9 @@ def test_there_is_no_patrol_without_points(robot: Robot) -> None:
 @pytest.mark.parametrize("intent", ["resume", "patrol", "go_home", "hold"])
 def test_nothing_sets_out_while_stop_is_pressed(robot: Robot, intent: str) -> None:
     robot.task("PAUSED" if intent == "resume" else "IDLE")
-    robot.tell("/control/status", ControlStatus(driver="me", driver_id="me", stopped=True, at_rest=True))
+    robot.tell(
+        "/control/status", ControlStatus(driver="me", driver_id=public_id("me"), stopped=True, at_rest=True)
+    )
     assert robot.acting.why_not(intent) == "STOP is pressed; release it first."
 
 

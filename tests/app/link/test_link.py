@@ -16,6 +16,7 @@ from app.link.feeds import Feeds, Mailbox, Post
 from app.link.link import Link
 from app.session.logbook import marks
 from app.session.session import Session
+from bridge.core.identity import public_id
 from bridge.core.network_thread import NetworkThread
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, Mission, Waypoint
@@ -225,7 +226,7 @@ def test_stop_is_repeated_while_the_robot_does_not_rest_until_it_is_let_go(
     operator.until(lambda: operator.session.control == "mine")
     operator.link.stop()
     operator.until(lambda: "/stop" in robot.services())
-    held = {"driver": "tablet", "driver_id": "me"}
+    held = {"driver": "tablet", "driver_id": public_id("me")}
     robot.publish("/control/status", ControlStatus(mode="STOPPED", stopped=True, at_rest=False, **held))
     operator.until(lambda: operator.session.robot_stop.latched)
     asked = robot.services().count("/stop")

@@ -13,6 +13,7 @@ from app.link.feeds import Feeds, Post
 from app.screens.shell import status_text as standing
 from app.session.session import Session
 from bridge.client.client import LinkState, Phase
+from bridge.core.identity import public_id
 from bridge.msgs.pilothouse_msgs import ControlStatus
 from bridge.msgs.std_msgs import Time
 from tests.bridge.wires import Clock
@@ -20,7 +21,7 @@ from tests.bridge.wires import Clock
 DROPPED = LinkState(Phase.WAITING, "The robot does not answer.", 1, 2.0)
 BACK = LinkState(Phase.CONNECTED, "", 0, 0.0)
 FREE = ControlStatus()
-MINE = ControlStatus(driver="tablet", driver_id="me")
+MINE = ControlStatus(driver="tablet", driver_id=public_id("me"))
 BOBS = ControlStatus(driver="Bob", driver_id="b")
 
 
@@ -104,7 +105,7 @@ def test_a_robot_that_cannot_be_asked_is_taken_as_before(watch: Watch) -> None:
 
 
 def test_who_asks_sees_how_long_still_and_can_take_it_back(watch: Watch) -> None:
-    watch.told(watch.asks(BOBS, "tablet", "me"))
+    watch.told(watch.asks(BOBS, "tablet", public_id("me")))
     watch.clock.time += 2.5
     assert watch.authority.asking
     assert watch.authority.left == pytest.approx(7.5)
@@ -150,7 +151,7 @@ def test_who_handed_control_over_does_not_take_it_again_by_itself(watch: Watch) 
 )
 def test_who_asked_is_told_the_end_of_it(watch: Watch, end: ControlStatus, news: tuple[str, str]) -> None:
     watch.told(BOBS)
-    watch.told(watch.asks(BOBS, "tablet", "me"))
+    watch.told(watch.asks(BOBS, "tablet", public_id("me")))
     watch.told(end)
     assert watch.news == [news]
 
@@ -198,14 +199,14 @@ def test_control_that_lapsed_and_came_back_is_said_in_its_place(watch: Watch) ->
 @pytest.mark.parametrize("then", ["FREE", "CAROL", "ASKED"])
 def test_what_was_told_is_past_as_soon_as_control_changes_again(watch: Watch, then: str) -> None:
     watch.told(BOBS)
-    watch.told(watch.asks(BOBS, "tablet", "me"))
+    watch.told(watch.asks(BOBS, "tablet", public_id("me")))
     watch.told(BOBS)
     watch.told(BOBS)
     assert (watch.news, watch.past) == ([("Bob keeps control.", "info")], 2), "heard, and asked for"
     later = {
         "FREE": FREE,
         "CAROL": ControlStatus(driver="Carol", driver_id="c"),
-        "ASKED": watch.asks(BOBS, "tablet", "me"),
+        "ASKED": watch.asks(BOBS, "tablet", public_id("me")),
     }
     watch.told(later[then])
     assert watch.past == 3

@@ -17,6 +17,7 @@ from app.link.feeds import Feeds, Post
 from app.session.layout_actions import ACTIONS, LayoutActions
 from app.session.session import Session
 from bridge.client.client import LinkState, Phase
+from bridge.core.identity import public_id
 from bridge.msgs.pilothouse_msgs import ControlStatus, LightState, RobotInfo, TaskStatus
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
 from widgets.core.icons import ICONS
@@ -59,7 +60,7 @@ class Asked:
         )
         self.actions = LayoutActions([Line(what) for what in ACTIONS], self.session, self)
         self.tell("/robot/info", AQUA)
-        self.tell("/control/status", ControlStatus(driver="us", driver_id="me"))
+        self.tell("/control/status", ControlStatus(driver="us", driver_id=public_id("me")))
 
     def tell(self, topic: str, message: Any) -> None:
         self.session.deliver(topic, Post(message, 100.0, 1))
@@ -124,7 +125,7 @@ def test_a_slide_never_ends_what_it_began(asked: Asked) -> None:
     assert (slide().text, slide().able) == ("Resume surfacing", True)
     assert asked.actions.confirm("task.surface") == "resume"
     assert asked.commands == [("resume", {})]
-    asked.tell("/control/status", ControlStatus(driver_id="me", stopped=True))
+    asked.tell("/control/status", ControlStatus(driver_id=public_id("me"), stopped=True))
     assert not slide().able
 
 
@@ -135,7 +136,8 @@ def test_home_is_gone_to_whatever_it_does(asked: Asked) -> None:
 
 
 @pytest.mark.parametrize(
-    "control", [ControlStatus(driver="Anna", driver_id="other"), ControlStatus(driver_id="me", stopped=True)]
+    "control",
+    [ControlStatus(driver="Anna", driver_id="other"), ControlStatus(driver_id=public_id("me"), stopped=True)],
 )
 def test_no_task_is_started_without_control_or_while_stop_is_pressed(
     asked: Asked, control: ControlStatus

@@ -15,6 +15,7 @@ from app.link.feeds import Feeds, Post
 from app.session.session import Session
 from app.stop.stop_state import REST_TIMEOUT
 from bridge.client.client import LinkState, Phase
+from bridge.core.identity import public_id
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskStatus
 from tests.bridge.wires import Clock
 
@@ -127,7 +128,7 @@ def test_a_robot_side_that_cannot_reach_its_robot_has_not_stopped_it(watch: Watc
 
 def test_who_else_pressed_stop_is_said_though_it_has_the_same_name(tmp_path: Path) -> None:
     watch = Watch(tmp_path)
-    for client_id, said in (("other", "Pressed by tablet."), ("me", "")):
+    for client_id, said in (("other", "Pressed by tablet."), (public_id("me"), "")):
         status = ControlStatus(stopped=True, stopped_by="tablet", stopped_by_id=client_id)
         watch.session.deliver("/control/status", Post(status, watch.clock.time, 1))
         assert watch.session.robot_stop.sentence == said
@@ -168,13 +169,13 @@ def test_what_paused_the_task_and_gave_stop_is_told_as_done_here(watch: Watch) -
     other = TaskStatus(task_id=1, state="PAUSED", reason=reason, code="task_paused", actor_id="other")
     watch.session.deliver("/task/status", Post(other, watch.clock(), 1))
     assert watch.session.feeds.latest("/task/status").reason == "Paused by vm (2)."
-    mine = TaskStatus(task_id=1, state="PAUSED", reason=reason, code="task_paused", actor_id="me")
+    mine = TaskStatus(task_id=1, state="PAUSED", reason=reason, code="task_paused", actor_id=public_id("me"))
     watch.session.deliver("/task/status", Post(mine, watch.clock(), 1))
     assert watch.session.feeds.latest("/task/status").reason == "You paused."
     shaken = Outcome("stop", "1", "accepted", origin=Origin("shake", 0.97, said="left-right"))
     watch.session.deliver(OUTCOME, Post(shaken, watch.clock(), 1))
     text = "STOP pressed by vm (2)."
-    stop = Event(id=1, kind="stop", level="alarm", text=text, code="stop_pressed", actor_id="me")
+    stop = Event(id=1, kind="stop", level="alarm", text=text, code="stop_pressed", actor_id=public_id("me"))
     watch.session.deliver(EVENT, Post(stop, watch.clock(), 1))
     assert watch.session.logbook.events[-1].text == "A shake gave STOP: “left-right”, 97 % sure."
 

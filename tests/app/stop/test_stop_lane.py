@@ -15,6 +15,7 @@ from app.stop.stop_lane import StopLane
 from bridge.client.client import LinkState, Phase
 from bridge.client.credentials import Credentials
 from bridge.core.errors import NoReply, NotConnected, Refused
+from bridge.core.identity import public_id
 from bridge.msgs.geometry_msgs import Twist, TwistStamped, TwistWithCovariance
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import CommandResponse, ControlStatus, RobotInfo
@@ -42,22 +43,14 @@ class Robot:
         self.status = ControlStatus(at_rest=False)
         self.credentials: Credentials | None = None
         """By which its client goes."""
-        self.knows_key = True
         self._closed = asyncio.Event()
         self._on_state: Callable[[LinkState], None] = lambda _: None
 
     def client(
-        self,
-        url: str,
-        *,
-        on_state: Callable[[LinkState], None],
-        credentials: Credentials | None,
-        even_unknown: bool = False,
-        **_: Any,
+        self, url: str, *, on_state: Callable[[LinkState], None], credentials: Credentials | None, **_: Any
     ) -> Robot:
         self._on_state = on_state
         self.credentials = credentials
-        self.there = self.there and (self.knows_key or even_unknown)
         return self
 
     async def run(self) -> None:
@@ -325,7 +318,7 @@ async def test_who_pressed_is_said_of_another_and_not_of_oneself(robot: Robot) -
         robot.tell(stopped=True, at_rest=True)
         await asyncio.sleep(0.2)
         assert lane.report.sentence == "Pressed by tablet (2)."
-        robot.by_id = "me"
+        robot.by_id = public_id("me")
         robot.tell(stopped=True, at_rest=True)
         await asyncio.sleep(0.2)
         assert (lane.report.phase, lane.report.sentence) == ("stopped", "")
@@ -407,16 +400,6 @@ async def test_a_paired_robot_is_proven_from_the_first_connection_on(robot):
         robot.vanish()
         await asyncio.sleep(1.0)
         assert lane.report.proven == key.fingerprint
-
-
-@story
-async def test_a_robot_that_does_not_know_the_handheld_any_more_is_stopped_all_the_same(robot):
-    """A guest whose hour is over, or who was removed, stands beside it: STOP is anybody's."""
-    robot.there, robot.knows_key = True, False
-    async with pressed(robot, Credentials("ab" * 32, "me.secret", "Fake-1")) as lane:
-        await asyncio.sleep(1.0)
-        assert "/stop" in [service for _, service in robot.asked]
-        assert lane.report.phase == "stopped"
 
 
 @story

@@ -31,3 +31,8 @@ def test_a_malformed_fingerprint_is_refused(wrong):
 def test_a_token_that_would_break_out_of_its_header_is_refused(wrong):
     with pytest.raises(ValueError, match="printable ASCII"):
         Credentials(KEY, wrong)
+
+
+def test_the_public_id_of_a_client_is_in_its_token() -> None:
+    assert Credentials("0" * 64, "f00d.secret").id == "f00d"
+    assert Credentials("0" * 64).id == ""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from bridge.core.identity import Identity, Role
+from bridge.core.identity import Identity, Role, public_id
 from bridge.core.link_state import CONTROL_TIMEOUT
 from robotside.control.authority import (
     MAX_OBJECTIONS,
@@ -202,9 +202,9 @@ def test_who_introduces_itself_with_empty_words_is_called_as_before(
     authority: Authority, anna: FakeClient, empty: str
 ) -> None:
     authority.introduce(anna, empty, empty)
-    assert (authority.id(anna), authority.name(anna)) == ("tablet-anna", "Anna")
+    assert (authority.id(anna), authority.name(anna)) == (public_id("tablet-anna"), "Anna")
     authority.introduce(anna, "", "Anna's phone")
-    assert (authority.id(anna), authority.name(anna)) == ("tablet-anna", "Anna's phone")
+    assert (authority.id(anna), authority.name(anna)) == (public_id("tablet-anna"), "Anna's phone")
 
 
 def test_of_ever_more_objections_the_oldest_is_forgotten(authority: Authority, anna: FakeClient) -> None:
@@ -294,3 +294,34 @@ def test_a_driver_does_not_object_to_who_manages_the_robot(driver: Role, asker: 
     anna.last_heard = bert.last_heard = 10.0 + OBJECTION_TIME
     authority.update(10.0 + OBJECTION_TIME)
     assert authority.holds(anna) is may
+
+
+def test_who_repeats_a_published_id_is_not_taken_for_its_owner(
+    authority: Authority, anna: FakeClient
+) -> None:
+    authority.acquire(anna, NOW)
+    thief = FakeClient("thief", NOW)
+    authority.introduce(thief, authority.id(anna), "Anna")
+    thief.last_heard = NOW + TAKEOVER_SILENCE + 0.5
+    assert "Anna has control" in authority.acquire(thief, thief.last_heard)
+    again = FakeClient("again", thief.last_heard)
+    authority.introduce(again, "tablet-anna", "Anna")
+    assert authority.acquire(again, again.last_heard) == "", "who knows the client_id itself comes back"
+
+
+def test_who_proved_an_identity_is_known_by_it_whatever_it_says(
+    authority: Authority, anna: FakeClient
+) -> None:
+    authority.acquire(anna, NOW)
+    proven = FakeClient("proven", NOW + TAKEOVER_SILENCE + 0.5)
+    proven.identity = Identity("f00d", "Carl", Role.DRIVE, proven=True)
+    authority.introduce(proven, "tablet-anna", "Anna")
+    assert (authority.id(proven), authority.name(proven)) == ("f00d", "Carl")
+    assert "Anna has control" in authority.acquire(proven, proven.last_heard)
+
+
+def test_who_proves_an_identity_after_it_has_spoken_is_known_by_it_from_then_on(
+    authority: Authority, anna: FakeClient
+) -> None:
+    anna.identity = Identity("f00d", "Anna's phone", Role.DRIVE, proven=True)
+    assert (authority.id(anna), authority.name(anna)) == ("f00d", "Anna's phone")

@@ -12,6 +12,7 @@ import random
 from hypothesis import HealthCheck, settings, strategies
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
+from bridge.core.identity import public_id
 from bridge.core.link_state import CONTROL_TIMEOUT
 from bridge.core.robot_catalogue import Operator
 from bridge.msgs.geometry_msgs import Twist
@@ -30,6 +31,8 @@ from tests.robotside.gateways.in_process import Client, Gateways
 NAMES = ("anna", "bert", "carl")
 WHO = strategies.sampled_from(NAMES)
 TICK = 1 / 60
+WHOSE = {public_id(name): name for name in NAMES}
+"""Who has a public id."""
 
 
 class Operators(RuleBasedStateMachine):
@@ -65,7 +68,7 @@ class Operators(RuleBasedStateMachine):
         return client
 
     def _driver(self) -> str:
-        return self.controls.driver.client_id if self.controls.driver else ""
+        return WHOSE[self.controls.driver.client_id] if self.controls.driver else ""
 
     @rule(who=WHO)
     def acquire(self, who: str) -> None:
@@ -87,7 +90,7 @@ class Operators(RuleBasedStateMachine):
         problem = self._ask("request", client)
         assert self._driver() == (before or who)
         asker = self.controls.asker
-        assert problem or self.controls.holds(client) or (asker and asker.client_id == who)
+        assert problem or self.controls.holds(client) or (asker and WHOSE[asker.client_id] == who)
 
     @rule(who=WHO)
     def grant(self, who: str) -> None:
@@ -95,7 +98,7 @@ class Operators(RuleBasedStateMachine):
         problem = self._ask("grant", client)
         if not problem:
             assert asker is not None
-            assert (before, self._driver()) == (who, asker.client_id)
+            assert (before, self._driver()) == (who, WHOSE[asker.client_id])
         else:
             assert self._driver() == before
         self._tick()
@@ -217,7 +220,7 @@ class Operators(RuleBasedStateMachine):
         driver = self.controls.driver
         assert self.controls.driving
         assert driver is not None
-        assert driver.client.id == self.moved_by or driver.client_id == self.moved_by.split("-")[0]
+        assert driver.client.id == self.moved_by or WHOSE[driver.client_id] == self.moved_by.split("-")[0]
         assert self.now - self.valid <= VALID_TIME
 
     @invariant()

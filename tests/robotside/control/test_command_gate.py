@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from bridge.core.identity import public_id
 from bridge.core.link_state import CONTROL_TIMEOUT
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import RobotInfo
@@ -59,7 +60,7 @@ def test_the_first_valid_drive_command_takes_free_control(controls: CommandGate,
     controls.drive(anna, AHEAD, 10.0)
     driver = controls.driver
     assert driver is not None
-    assert (driver.client_id, driver.name) == ("tablet-1", "Anna's tablet")
+    assert (driver.client_id, driver.name) == (public_id("tablet-1"), "Anna's tablet")
 
 
 def test_somebody_else_is_refused_with_the_drivers_name(

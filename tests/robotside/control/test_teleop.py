@@ -7,6 +7,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
+from bridge.core.identity import public_id
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import CommandRequest, SetModeRequest, SetOptionRequest, TaskOrder, Waypoint
 from robotside.control.command_gate import STOP_SENTENCE
@@ -43,7 +44,7 @@ def test_everyone_sees_who_asks_for_control_and_when_it_goes_over(scene: Scene) 
     said = ask(scene, "/control/request", bert)
     assert said == "Anna is asked; you have control in 10 s unless Anna objects."
     assert (scene.control.driver, scene.control.requested_by) == ("Anna", "Bert")
-    assert scene.control.requested_by_id == "tablet-bert"
+    assert scene.control.requested_by_id == public_id("tablet-bert")
     assert scene.control.handover.seconds == pytest.approx(scene.clock + 10.0, abs=1e-3)
     scene.run(10.1)
     assert (scene.control.driver, scene.control.requested_by) == ("Bert", "")

@@ -6,11 +6,13 @@ from pathlib import Path
 
 import pytest
 
+from bridge.core.identity import public_id
 from bridge.msgs.pilothouse_msgs import CommandRequest, Event, StartTaskRequest, TaskOrder, TaskStatus
 from tests.fakes import FakeRobot
 from tests.robotside.scene import SQUARE, Scene
 
 ANNA, BERT = {"client_id": "a1", "client_name": "tablet"}, {"client_id": "b2", "client_name": "tablet"}
+ANNA_ID, BERT_ID = public_id("a1"), public_id("b2")
 
 
 @pytest.fixture(autouse=True)
@@ -29,17 +31,17 @@ def named(msg: Event | TaskStatus) -> dict[str, str]:
 
 def test_of_two_of_one_name_the_id_tells_who_it_was(scene: Scene) -> None:
     taken = told(scene, "control_taken")
-    assert (taken.text, taken.actor_id, named(taken)) == ("tablet has control.", "a1", {"name": "tablet"})
+    assert (taken.text, taken.actor_id, named(taken)) == ("tablet has control.", ANNA_ID, {"name": "tablet"})
     scene.ask("/stop", CommandRequest(**BERT), scene.client("bert"))
     pressed = told(scene, "stop_pressed")
-    assert (pressed.text, pressed.actor_id) == ("STOP pressed by tablet (2).", "b2")
+    assert (pressed.text, pressed.actor_id) == ("STOP pressed by tablet (2).", BERT_ID)
     assert named(pressed) == {"name": "tablet (2)"}
-    assert scene.control.stopped_by_id == "b2"
+    assert scene.control.stopped_by_id == BERT_ID
 
 
 def test_a_refusal_says_why_and_about_whom(scene: Scene) -> None:
     answer = scene.ask("/control/acquire", CommandRequest(**BERT), scene.client("bert"))
-    assert (answer.code, answer.actor_id) == ("control_held", "a1")
+    assert (answer.code, answer.actor_id) == ("control_held", ANNA_ID)
     scene.ask("/stop", CommandRequest(**ANNA))
     assert scene.ask("/task/go_home", CommandRequest(**ANNA)).code == "stop_is_pressed"
     late = CommandRequest(**ANNA, stamp=scene.clock - 60.0, valid_for=5.0)
@@ -61,7 +63,7 @@ def test_why_a_task_is_paused_stands_in_its_status_until_it_goes_on(scene: Scene
     assert (scene.task.reason, scene.task.code, scene.task.actor_id) == (
         "Paused by tablet.",
         "task_paused",
-        "a1",
+        ANNA_ID,
     )
     scene.ask("/task/resume", CommandRequest(**ANNA))
     scene.run(1.0)

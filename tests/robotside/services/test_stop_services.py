@@ -9,6 +9,7 @@ from typing import Any
 import msgspec
 import pytest
 
+from bridge.core.identity import public_id
 from bridge.msgs.arrays import Int32Array
 from bridge.msgs.geometry_msgs import (
     Point,
@@ -51,7 +52,7 @@ def test_stop_is_obeyed_from_anyone_and_latched(scene: Scene) -> None:
     assert answer.success
     assert scene.robot.commands[-1] is None
     assert (scene.control.mode, scene.control.stopped_by) == ("STOPPED", "Bert")
-    assert scene.control.stopped_by_id == "b"
+    assert scene.control.stopped_by_id == public_id("b")
     scene.drive(Twist.planar(0.3, 0.0))
     assert scene.robot.commands[-1] is None
     assert "STOP is pressed" in scene.events("command")[-1]
@@ -254,7 +255,7 @@ def test_what_one_client_was_answered_is_no_answer_for_another(scene: Scene) -> 
     assert scene.ask("/control/acquire", counted).message == "You have control."
     scene.ask("/control/release", counted)
     scene.ask("/control/acquire", CommandRequest(command_id="2", client_id="D"), scene.client("bert"))
-    assert scene.control.driver_id == "D"
+    assert scene.control.driver_id == public_id("D")
 
 
 def test_who_repeats_the_ids_of_a_command_elsewhere_does_not_get_its_answer(scene: Scene) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from bridge.codec import to_json
+from bridge.core.identity import public_id
 from bridge.core.topics import TOPICS
 from bridge.msgs.geometry_msgs import (
     Point,
@@ -188,7 +189,7 @@ def test_what_others_call_things_is_cut_wherever_it_is_kept(scene: Scene) -> Non
     long = "A\n\u202e" + "b" * 900_000
     shown = "A " + "b" * 38
     scene.ask("/control/acquire", CommandRequest(client_id="c" * 900_000, client_name=long))
-    assert (scene.control.driver, len(scene.control.driver_id)) == (shown, 64)
+    assert (scene.control.driver, scene.control.driver_id) == (shown, public_id("c" * 64))
     scene.set(Waypoint(4.0, 0.0, name=long), home=[Waypoint(0.0, 0.0, name=long)])
     assert {
         place.name
@@ -202,7 +203,7 @@ def test_what_others_call_things_is_cut_wherever_it_is_kept(scene: Scene) -> Non
 
 def test_stop_is_still_pressed_after_the_computer_died_and_says_so(scene: Scene, tmp_path: Path) -> None:
     scene.ask("/stop", CommandRequest(client_id="a", client_name="Anna"))
-    assert scene.control.stopped_by_id == "a"
+    assert scene.control.stopped_by_id == public_id("a")
     again = Scene(FakeRobot(), tmp_path)
     assert (again.control.mode, again.control.stopped_by) == ("STOPPED", "Anna")
     assert again.control.stopped_by_id == "", "only the name is kept"

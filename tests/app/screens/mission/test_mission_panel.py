@@ -16,6 +16,7 @@ from app.link.feeds import Feeds, Post
 from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.client.client import LinkState, Phase
+from bridge.core.identity import public_id
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskProgress, TaskStatus
 from tests.headless import Stage
 
@@ -162,8 +163,8 @@ def test_with_stop_pressed_nothing_that_moves_can_be_asked_for(
 @pytest.mark.parametrize(
     ("driver", "who", "said"),
     [
-        ("tablet", "me", "You have control."),
-        ("tablet (2)", "me", "You have control."),
+        ("tablet", public_id("me"), "You have control."),
+        ("tablet (2)", public_id("me"), "You have control."),
         ("Ben", "other", "Ben has control."),
         ("tablet", "other", "tablet has control."),
     ],

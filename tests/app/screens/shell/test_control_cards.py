@@ -6,6 +6,7 @@ from typing import Any
 
 from app.inputs.occlusion import covered
 from app.layout.arrange import Rect
+from bridge.core.identity import public_id
 from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.pilothouse_msgs import Check, Checklist, ControlStatus, TaskStatus
 from bridge.msgs.std_msgs import Time
@@ -47,7 +48,7 @@ def anna_asks(glass: Glass, robot: FakeRobot) -> Any:
 
 
 def paused(glass: Glass, robot: FakeRobot, name: str, client_id: str) -> Any:
-    """The card once the stick of `name`, who has that `client_id`, has paused the task."""
+    """The card once the stick of `name`, who is published by that `client_id`, has paused the task."""
     robot.publish("/task/status", PATROL)
     glass.until(lambda: glass.app.session.running and not glass.app.shell.cards.paused.open, "not running")
     tell(robot, mode="PAUSED", driver=f"{glass.app.client_name} (2)")
@@ -161,7 +162,7 @@ def test_with_stop_pressed_or_another_driving_the_mode_is_not_to_be_changed(
 
 
 def test_taking_the_stick_pauses_the_task_and_offers_to_resume_it(driving: Glass, robot: FakeRobot) -> None:
-    card = paused(driving, robot, f"{driving.app.client_name} (2)", driving.app.client_id)
+    card = paused(driving, robot, f"{driving.app.client_name} (2)", public_id(driving.app.client_id))
     assert cards(driving) == ["Patrol is paused"]
     assert card.said == "You took the stick."
     stick = driving.app.screens["drive"].stick

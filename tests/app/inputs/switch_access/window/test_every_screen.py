@@ -12,6 +12,7 @@ from app.inputs.switch_access.window.targets import WindowTargets
 from app.intents.intents import Heard
 from app.screens.inputs.study.form_view import FormView
 from app.screens.shell.key_help import HelpCard, toggle_help
+from bridge.core.identity import public_id
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo, TaskStatus
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
@@ -137,7 +138,7 @@ def asked(app: Any) -> ControlStatus:
     return ControlStatus(
         mode="MANUAL",
         driver=app.client_name,
-        driver_id=app.client_id,
+        driver_id=public_id(app.client_id),
         requested_by="Anna",
         requested_by_id="a",
     )
