@@ -286,12 +286,14 @@ def check_reach(options: argparse.Namespace, states: Sequence[Path]) -> None:
     if options.pair or options.plain or is_here(options.host):
         return
     for state in states:
+        file = PeopleFile(state)
         try:
-            known = PeopleFile(state).read()
+            known = file.read()
         except Unkept as problem:
             raise UserMistake(str(problem)) from problem
         if not known:
+            damaged = f"{file.problem} " if file.problem else ""
             raise UserMistake(
-                f"Nobody is paired with the robot in {state}, so nobody could use it from {options.host}: "
+                f"{damaged}Nobody is paired with the robot in {state}, so nobody could use it from {options.host}: "
                 "add --pair and scan the QR code with the app, or --plain to let everybody in the network drive."
             )

@@ -77,12 +77,13 @@ def own_certificate(state: Path) -> Certificate:
     path = state / FILE_NAME
     try:
         pem = path.read_bytes()
-        path.chmod(0o600)
     except FileNotFoundError:
         return _kept(path, "")
     except OSError as error:
         why = (error.strerror or str(error)).lower()
         return _made(f"The robot's certificate cannot be read ({why}): it has another one until it can.")
+    with suppress(OSError):  # a read-only disk leaves it as it is; the robot goes on as the one that it was
+        path.chmod(0o600)
     try:
         return _read(pem, pem, str(path))
     except BadCertificate:

@@ -223,9 +223,11 @@ class TestReach:
         check_reach(read(["serve", "--host", "0.0.0.0"]), [tmp_path])
         assert str(tmp_path / "other") in self.refused(tmp_path / "other", "--host", "0.0.0.0")
 
-    def test_a_damaged_list_counts_as_nobody(self, tmp_path: Path) -> None:
+    def test_a_damaged_list_counts_as_nobody_and_that_is_said(self, tmp_path: Path) -> None:
         PeopleFile(tmp_path).path.write_bytes(b"{")
-        assert "Nobody is paired" in self.refused(tmp_path, "--host", "0.0.0.0")
+        said = self.refused(tmp_path, "--host", "0.0.0.0")
+        assert "Nobody is paired" in said
+        assert "The list of people was damaged and is at" in said
 
     def test_roles_and_files_are_checked(self) -> None:
         for words in (["--pair", "king"], ["--plain", "none"], ["--certificate", "x"], ["--key", "x"]):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import ssl
 import stat
@@ -57,6 +58,20 @@ def test_only_its_owner_may_read_the_key(tmp_path: Path) -> None:
     file.chmod(0o644)
     own_certificate(tmp_path)
     assert stat.S_IMODE(file.stat().st_mode) == 0o600
+
+
+def test_it_is_the_same_on_a_disk_that_has_become_read_only(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Else every handheld would take the robot for another one, and not even STOP it."""
+    before = own_certificate(tmp_path)
+
+    def refuse(*_: object, **__: object) -> None:
+        raise OSError(errno.EROFS, "Read-only file system")
+
+    monkeypatch.setattr(Path, "chmod", refuse)
+    monkeypatch.setattr(Path, "replace", refuse)
+    assert own_certificate(tmp_path) == before
 
 
 def test_browsers_on_this_machine_find_their_name_in_it(tmp_path: Path) -> None:
