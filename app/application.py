@@ -39,7 +39,6 @@ from app.screens.shell.key_help import toggle_help
 from app.screens.shell.stop_corner import StopCorner
 from app.session.recordings import Recordings
 from app.session.session import Session
-from app.stop.fleet import Fleet
 from app.timers import TICK_EVERY, Timers
 from widgets import CATALOGUE
 
@@ -130,7 +129,7 @@ class PilothouseApp(App):
         self.acting.on_help = partial(toggle_help, self)
         self.intents = Intents(self.acting, MethodPermits(self.settings), self.now)
         self.methods = Methods(self)
-        self.fleet = Fleet(client_id=self.client_id, client_name=self.client_name, now=self.now)
+        self.fleet = self.robot_list.fleet(self.client_id)
         self.corner = StopCorner(self, self.fleet, self.say)
         self.visit = self._make_visit()
         root.over = self.corner.layer
@@ -173,7 +172,7 @@ class PilothouseApp(App):
         Window.allow_screensaver = False
         self.pages.on_show = self.corner.tick  # STOP ALL is never where STOP is, not for a frame
         self._list()
-        self.robot_list.trust.pair_silently(self._pair)
+        self.robot_list.trust.begin(self._pair)
         if self._url:
             self.open(self._url)
         elif self._first_screen == "inputs":

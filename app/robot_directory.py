@@ -14,6 +14,7 @@ from app.robot_trust import RobotTrust
 from app.screens.connect.connect import ConnectScreen
 from app.screens.parts.dialogs import AddressDialog
 from app.session.session import Session
+from app.stop.fleet import Fleet
 from bridge.msgs.pilothouse_msgs import RobotInfo
 
 __all__ = ["RobotDirectory"]
@@ -45,7 +46,7 @@ class RobotDirectory:
 
     def __init__(self, app: Host, settings: Settings, client_name: str, now: Callable[[], float]) -> None:
         """`client_name` is what this handheld is called; `now` is our clock [s]."""
-        self._app, self._settings, self._client_name = app, settings, client_name
+        self._app, self._settings, self._client_name, self._now = app, settings, client_name, now
         self.trust = RobotTrust(app, settings.path.parent)
         """The robots that this handheld is paired with."""
         self.robots = KnownRobots(
@@ -57,6 +58,15 @@ class RobotDirectory:
         """Every robot that is heard or saved."""
         self._unproven = ""
         """The address that was typed last, until something answers there."""
+
+    def fleet(self, client_id: str) -> Fleet:
+        """STOP ALL, which takes paired robots by their keys; `client_id` is who this handheld is to robots."""
+        return Fleet(
+            client_id=client_id,
+            client_name=self._client_name,
+            now=self._now,
+            credentials=self.trust.credentials,
+        )
 
     def on_post(self, channel: str, post: Post) -> bool:
         """Take in a HELLO or a measured latency; False for any other channel."""
@@ -106,9 +116,15 @@ class RobotDirectory:
 
     def forget(self, url: str) -> None:
         """Take a saved address off the list; a paired robot is not paired any more, which a tap takes back."""
-        self.robots.remove(url)
+        kept = self.robots.remove(url)
         self._save()
-        self.trust.forget(url)
+        self.trust.forget(url, lambda: self._restore(url, kept))
+        self._app.connect.show_entries(self._entries(), self._client_name)
+
+    def _restore(self, url: str, kept: dict[str, str] | None) -> None:
+        if kept is not None:
+            self.robots.restore(url, kept)
+            self._save()
         self._app.connect.show_entries(self._entries(), self._client_name)
 
     def _connected(self) -> tuple[str, ...]:

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, Protocol
 
-from app.discovery.known_robots import KnownRobots
+from kivy.clock import Clock
+
+from app.device.opened_links import watch_links
+from app.discovery.known_robots import KnownRobots, plain_name
 from app.link.feeds import Post
 from app.screens.connect.connect import ConnectScreen
 from app.screens.trust.pair_dialog import PairDialog
 from app.session.session import Session
 from app.trust.keyring import Keyring, RobotKey, host_of, place_of
 from app.trust.pairing_attempts import PAIRING, Attempt, PairingAttempts
+from bridge.client.credentials import Credentials
 from bridge.discovery.hello import is_loopback
 from bridge.trust.pairing import SCHEME, BadPairing, PairLink, split_code
 
@@ -65,6 +69,11 @@ class RobotTrust:
         """The key of the robot that is expected at `url`; None where it is not paired."""
         return self.keys.find(url, self._app.robots.claim(url))
 
+    def credentials(self, url: str, claim: str) -> Credentials | None:
+        """The credentials for the paired robot that is expected at `url` or makes that claim; None for any other."""
+        key = self.keys.find(url, claim)
+        return key.credentials if key else None
+
     def asks_first(self, url: str) -> bool:
         """Ask on the glass to pair where nothing else is possible: `url` is a link, or reached by TLS and not paired."""
         if url.startswith(f"{SCHEME}:"):
@@ -88,13 +97,16 @@ class RobotTrust:
             return "stranger"
         return "" if is_loopback(host_of(url)) else "open"
 
-    def forget(self, url: str) -> None:
-        """Forget the key of a robot; it goes on knowing this handheld until somebody removes it there."""
+    def forget(self, url: str, on_undo: Callable[[], object]) -> None:
+        """Forget the key of a robot; it goes on knowing this handheld until somebody removes it there.
+
+        A tap takes the key back, and calls `on_undo`.
+        """
         key = self.key_for(url)
         if key is not None:
             self.keys.forget(key.fingerprint)
             said = f"{key.name} is no longer paired with this handheld. Tap to undo."
-            self._app.connect.say(said, "warn", lambda: self.keys.restore(key))
+            self._app.connect.say(said, "warn", lambda: (self.keys.restore(key), on_undo()))
 
     # pairing
 
@@ -104,9 +116,19 @@ class RobotTrust:
             self.dialog.close()
         self._url = url
         name = self._app.robots.name_of(url) or place_of(url) if url else ""
-        self.dialog = PairDialog(self._answer, robot=name, link=link, problem=problem)
+        self.dialog = PairDialog(
+            self._answer, robot=name, link=link, problem=problem or self._doubt(name, link)
+        )
         self.dialog.bind(on_close=self._closed)
         self._app.root.add_widget(self.dialog)
+
+    def _doubt(self, name: str, link: PairLink | None) -> str:
+        """What speaks against pairing with the robot of that name; empty for nothing."""
+        if link is not None and self.keys.get(link.fingerprint) is not None:
+            return "This handheld is paired with it already. Pair again only if the robot removed it."
+        called = plain_name(link.name if link is not None else name)
+        other = next((key for key in self.keys if called and plain_name(key.name) == called), None)
+        return f"This is not the {other.name} that you paired: another robot uses its name." if other else ""
 
     def open_link(self, text: str) -> None:
         """Somebody opened a robot's link: ask whether to pair."""
@@ -114,6 +136,11 @@ class RobotTrust:
             self.ask(link=PairLink.read(text))
         except BadPairing as mistake:
             self._app.say(str(mistake), "danger")
+
+    def begin(self, links: Iterable[str]) -> None:
+        """Pair by `links` without a question, and ask about each link that the system opens with this app."""
+        self.pair_silently(links)
+        watch_links(lambda link: Clock.schedule_once(lambda _: self.open_link(link)))
 
     def pair_silently(self, links: Iterable[str], then: str = "") -> None:
         """Pair by links of robots that this app or who started it runs, without a question; then connect to `then`.
@@ -172,9 +199,10 @@ class RobotTrust:
         if dialog is None:
             self._go_on()
         elif attempt.paired is None:
-            dialog.busy, dialog.problem = False, attempt.problem
+            dialog.fail(attempt.problem)
         else:
-            url = self._url or attempt.paired.url
+            there = place_of(attempt.paired.url)  # a link may name another robot than the card's
+            url = self._url if place_of(self._url) == there else attempt.paired.url
             self.dialog = None
             dialog.close()
             self._app.open(url)

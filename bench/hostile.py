@@ -3,10 +3,10 @@
 The robot side is the process that users start, with the simulated patrol robot. Two processes attack its rosbridge socket and its
 web site at the same time over 28 connections, each from an address of its own: garbage and half JSON, wrong types, numbers that are
 none, deep and huge messages, floods of names, fragments, pictures that grow, bytes that claim to be CBOR, wrong tokens, broken frames and
-handshakes (`bench/support/attack/`). A frame counts once the robot has read it, for a pong must come from behind it; a request
+handshakes (`bench/support/attack/`), in plain and by TLS. One process attacks as a stranger, the other with a key that lets it watch. A frame counts once the robot has read it, for a pong must come from behind it; a request
 once it was answered or its connection was ended. None presses STOP or asks for control: whoever asks for STOP gets it, by choice.
 
-The honest client is one more process. It drives, watches /pose, presses STOP again and again, releases it and drives on. The other way is
+The honest client is one more process with a key to drive, by TLS. It drives, watches /pose, presses STOP again and again, releases it and drives on. The other way is
 the same client and robot before the attack begins. Attackers have a lower priority than the robot, as if they had a computer
 of their own. Memory is the resident set of the robot side: *grown* is the median of the last tenth of the attack less that of
 the tenth in its middle.
@@ -16,12 +16,15 @@ from __future__ import annotations
 
 import json
 import statistics
+import subprocess
+import sys
 import tempfile
 import threading
 import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
+from pathlib import Path
 from typing import Any, TextIO
 from urllib.parse import urlsplit
 
@@ -31,6 +34,7 @@ from bench.support.child import Child, child
 from bench.support.figures import Figure, percentile
 from bench.support.harness import Context, Sides
 from bench.support.station import Serving, serving
+from robotside.trust.certificate import own_certificate
 
 __all__ = ["Attacked", "attacked"]
 
@@ -57,6 +61,8 @@ REPEATS = 1
 
 ATTACKERS = 2
 """Processes."""
+ROUNDS = 2
+"""Of the honest client, which lasts as long as the attack at least."""
 ADDRESSES = 20
 """Of loopback that one process may use."""
 NICENESS = 10
@@ -87,7 +93,7 @@ class Attacked:
     def __init__(self) -> None:
         self.calm: Mapping[str, Any] = {}
         """Report of the honest client before."""
-        self.meanwhile: Mapping[str, Any] = {}
+        self.meanwhile: dict[str, Any] = {}
         """Its report of the attack."""
         self.count: Counter[str] = Counter()
         """What the attackers did."""
@@ -112,19 +118,34 @@ def attacked(frames: int, requests: int, *, calm: float = CALM_TIME, seed: int =
     found = Attacked()
     with ExitStack() as stack:
         log = stack.enter_context(tempfile.TemporaryFile("w+"))
-        robot = stack.enter_context(serving(log=log))
-        honest = stack.enter_context(child("bench.support.attack.honest", robot.url))
-        honest.receive()
+        state = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+        driver, watcher = key(state, "honest", "drive"), key(state, "watcher", "watch")
+        robot = stack.enter_context(serving("robotside", *strict(state), state=str(state), log=log))
+        honest = stack.enter_context(child("bench.support.attack.honest"))
+        pin = own_certificate(state).fingerprint
+        honest.ask({"url": robot.url.replace("ws://", "wss://"), "pin": pin, "token": driver})
         time.sleep(SETTLING)
         honest.ask({})
         time.sleep(calm)
         found.calm = honest.ask({})
-        _attack(found, robot, frames, requests, seed)
-        found.meanwhile = honest.ask({})
+        _attack(found, robot, honest, (frames, requests, seed), ("", watcher))
         time.sleep(SETTLING)
         found.ended = robot.child.process.poll()
         found.log = _lines(log)
     return found
+
+
+def key(state: Path, name: str, role: str) -> str:
+    """A key of the robot that keeps its records in `state`, made as users do."""
+    command = [sys.executable, "-m", "robotside", "token", name, "--role", role, "--state", str(state)]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
+
+
+def strict(state: Path) -> tuple[str, str]:
+    """Options of a robot side on which also programs of its own computer are strangers."""
+    config = state / "robot.toml"
+    config.write_text('[trust]\nlocal_role = "none"\n')
+    return "--config", str(config)
 
 
 def _lines(log: TextIO) -> list[str]:
@@ -132,7 +153,10 @@ def _lines(log: TextIO) -> list[str]:
     return log.read().splitlines()
 
 
-def _attack(found: Attacked, robot: Serving, frames: int, requests: int, seed: int) -> None:
+def _attack(
+    found: Attacked, robot: Serving, honest: Child, attack: tuple[int, int, int], tokens: Sequence[str]
+) -> None:
+    frames, requests, seed = attack
     process = psutil.Process(robot.child.process.pid)
     found.memory_before = process.memory_info().rss / 1e6
     began = time.monotonic()
@@ -141,18 +165,45 @@ def _attack(found: Attacked, robot: Serving, frames: int, requests: int, seed: i
             stack.enter_context(child("bench.support.attack.attacker", niceness=NICENESS))
             for _ in range(ATTACKERS)
         ]
-        for number, attacker in enumerate(attackers):
-            attacker.send(_order(robot, number, -(-frames // ATTACKERS), -(-requests // ATTACKERS), seed))
-        results: list[Mapping[str, int]] = []
-        readers = [threading.Thread(target=_follow, args=(each, results)) for each in attackers]
+        for number, (attacker, token) in enumerate(zip(attackers, tokens, strict=True)):
+            order = _order(robot, number, -(-frames // ATTACKERS), -(-requests // ATTACKERS), seed)
+            attacker.send({**order, "token": token})
+        counts: list[dict[str, int]] = [{} for _ in attackers]
+        readers = [
+            threading.Thread(target=_follow, args=each) for each in zip(attackers, counts, strict=True)
+        ]
         for reader in readers:
             reader.start()
-        while any(reader.is_alive() for reader in readers):
+        rounds = 0
+        while not (
+            rounds >= ROUNDS and _total(counts)["frames"] >= frames and _total(counts)["requests"] >= requests
+        ):
+            time.sleep(SAMPLE_PERIOD)
             found.memory.append(process.memory_info().rss / 1e6)
-            readers[0 if readers[0].is_alive() else -1].join(SAMPLE_PERIOD)
-    for result in results:
-        found.count.update({name: value for name, value in result.items() if name != "done"})
+            _add(found.meanwhile, honest.ask({}))
+            rounds = found.meanwhile["rounds"]
+        for attacker in attackers:
+            attacker.send({})
+        for reader in readers:
+            reader.join()
+    found.count = _total(counts)
     found.seconds = time.monotonic() - began
+
+
+def _total(counts: Sequence[Mapping[str, int]]) -> Counter[str]:
+    total: Counter[str] = Counter()
+    for each in counts:
+        total.update({name: value for name, value in each.items() if name != "done"})
+    return total
+
+
+def _add(report: dict[str, Any], more: Mapping[str, Any]) -> None:
+    """Add what an honest client saw since the last report."""
+    for name, value in more.items():
+        if name == "gap":
+            report[name] = max(report.get(name, 0.0), value)
+        else:
+            report[name] = report[name] + value if name in report else value
 
 
 def _order(robot: Serving, number: int, frames: int, requests: int, seed: int) -> dict[str, Any]:
@@ -168,12 +219,10 @@ def _order(robot: Serving, number: int, frames: int, requests: int, seed: int) -
     }
 
 
-def _follow(attacker: Child, results: list[Mapping[str, int]]) -> None:
-    while True:
-        count = json.loads(attacker.line())
-        if count.get("done"):
-            results.append(count)
-            return
+def _follow(attacker: Child, count: dict[str, int]) -> None:
+    """Take in what an attacker says of itself until it is done."""
+    while not count.get("done"):
+        count.update(json.loads(attacker.line()))
 
 
 def _honest(report: Mapping[str, Any]) -> dict[str, float]:
@@ -191,7 +240,7 @@ def _honest(report: Mapping[str, Any]) -> dict[str, float]:
 def _figures(found: Attacked) -> dict[str, float]:
     if found.ended is not None:
         raise RuntimeError(f"The robot side ended with {found.ended} under attack: {found.log[-20:]}")
-    for line in found.meanwhile["refused"]:
+    for line in found.meanwhile["refused"][-5:]:
         print(f"  the honest client was refused: {line}")
     for line in found.tracebacks:
         print(f"  {line}")

@@ -38,11 +38,17 @@ DESKTOP_ONLY = (
     "hibari",
     "miniaudio",
     "pocketsphinx",
+    "vosk",
+    "espeakng_loader",
+    "segno",
 )
-"""What the phone does not have."""
+"""What the phone does not have. Neither has it cryptography, but a desktop's spake2 cannot be imported without."""
 
-OPTIONAL = {"hama", "hibari", "miniaudio", "pocketsphinx"}
+OPTIONAL = {"espeakng_loader", "hama", "hibari", "miniaudio", "pocketsphinx", "vosk"}
 """Those of them that the handheld uses where they are installed, and runs without elsewhere."""
+
+ROBOT_SIDE = {"cryptography", "segno"}
+"""Of the robot alone: the handheld neither asks for them nor imports them."""
 
 NO_RECIPE = {
     "orjson",
@@ -157,6 +163,8 @@ def check_requirements(spec: configparser.SectionProxy) -> list[str]:
             raise Failed(
                 f"requirement {requirement} is compiled and python-for-android has no recipe for it."
             )
+        if name in ROBOT_SIDE:
+            raise Failed(f"requirement {requirement} is of the robot side; the handheld does without.")
     return found
 
 

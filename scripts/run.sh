@@ -39,4 +39,4 @@ grep '^robotside: ready' "$log"
 # each robot says the link by which this handheld pairs with it; one that says none is reached without a key
 pairs=()
 while read -r link; do pairs+=(--pair "$link"); done < <(sed -n 's/^robotside: pair //p' "$log")
-"$python" main.py "${pairs[@]}"
+"$python" main.py ${pairs[@]+"${pairs[@]}"}

@@ -18,7 +18,17 @@ from widgets import CATALOGUE
 from widgets.core.theme import PALETTES, theme
 from widgets.parts.kit import SectionLabel, Text
 
-__all__ = ["KIT", "Exhibit", "Gallery", "Sample", "all_samples", "modules", "page", "write_pictures"]
+__all__ = [
+    "KIT",
+    "Exhibit",
+    "Gallery",
+    "Sample",
+    "all_samples",
+    "finish_pictures",
+    "modules",
+    "page",
+    "write_pictures",
+]
 
 KIT = {
     "Labels": "widgets.parts.labels",
@@ -180,9 +190,18 @@ def draw(build: Sample, path: Path) -> None:
     Window.add_widget(frame)
     for _ in range(4):  # layouts inside layouts settle one after the other
         EventLoop.idle()
+    finish_pictures(frame)
     path.parent.mkdir(parents=True, exist_ok=True)
     frame.export_to_png(str(path))
     Window.remove_widget(frame)
+
+
+def finish_pictures(frame: Widget) -> None:
+    """Wait for what a sample reads in a thread, as the tiles of a map."""
+    for widget in frame.children:
+        finish = getattr(widget, "finish_pictures", None)
+        if finish is not None:
+            finish()
 
 
 def write_pictures(folder: Path, name: str = "") -> list[Path]:

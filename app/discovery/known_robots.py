@@ -15,7 +15,15 @@ from urllib.parse import urlsplit
 
 from bridge.discovery.hello import Hello, is_loopback, port_of
 
-__all__ = ["MAX_HEARD", "MAX_PER_KEY", "MAX_PER_SOURCE", "Entry", "KnownRobots", "check_address"]
+__all__ = [
+    "MAX_HEARD",
+    "MAX_PER_KEY",
+    "MAX_PER_SOURCE",
+    "Entry",
+    "KnownRobots",
+    "check_address",
+    "plain_name",
+]
 
 SILENCE_LIMIT = 3.0
 """A robot silent for longer is lost [s]; it says HELLO twice a second."""
@@ -217,9 +225,13 @@ class KnownRobots:
         if url in self._saved:
             self._saved[url] = {"name": name, "kind": kind, "description": description, "icon": icon}
 
-    def remove(self, url: str) -> None:
-        """Forget a saved address; a robot that says HELLO is listed all the same."""
-        self._saved.pop(url, None)
+    def remove(self, url: str) -> dict[str, str] | None:
+        """Forget a saved address; a robot that says HELLO is listed all the same. What was known of it, for `restore`."""
+        return self._saved.pop(url, None)
+
+    def restore(self, url: str, kept: dict[str, str]) -> None:
+        """Take back an address that was forgotten."""
+        self._saved.setdefault(url, kept)
 
     def save(self) -> list[dict[str, str]]:
         """The saved addresses for the settings file."""
@@ -289,9 +301,9 @@ class KnownRobots:
         )
 
     def _warning(self, hello: Hello) -> str:
-        name = _alike(hello.name)
+        name = plain_name(hello.name)
         for paired, key in self._paired().items():
-            if _alike(paired) == name and hello.key != key:
+            if plain_name(paired) == name and hello.key != key:
                 return f"Not your paired {paired}: another robot uses its name."
         return ""
 
@@ -303,6 +315,6 @@ def _kept(hello: Hello) -> dict[str, str]:
     return {key: getattr(hello, key) for key in _KEPT}
 
 
-def _alike(name: str) -> str:
+def plain_name(name: str) -> str:
     """The same for names that look alike: width, case and blanks do not tell robots apart."""
     return "".join(unicodedata.normalize("NFKC", name).casefold().split())

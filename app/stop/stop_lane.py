@@ -109,12 +109,18 @@ class StopLane:
         """`now` is our clock [s]; `client_id` and `client_name` are who this handheld is to the robot.
 
         With `credentials` only the robot with that key is asked, and what another machine says at `url` counts for nothing.
+        One that does not know this handheld any more is stopped all the same: STOP is anybody's.
         """
         self._now = now
         self._credentials = credentials
         self._proven = ""
         self._client = connect(
-            url, on_state=self._on_state, now=now, backoff=BACKOFF, credentials=credentials
+            url,
+            on_state=self._on_state,
+            now=now,
+            backoff=BACKOFF,
+            credentials=credentials,
+            even_unknown=True,
         )
         self._commands = Commands(
             self._client.call,

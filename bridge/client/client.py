@@ -9,6 +9,7 @@ import math
 import random
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import msgspec
 from msgspec import Raw
@@ -23,7 +24,7 @@ from bridge.client.reconnecting import Reconnecting
 from bridge.client.registrations import Registrations
 from bridge.client.service_calls import ServiceCalls
 from bridge.codec import to_json
-from bridge.core.address import BadAddress, LinkLost
+from bridge.core.address import BadAddress, LinkLost, NotAccepted
 from bridge.core.link_state import LinkFault, LinkState, Phase
 from bridge.discovery.network_changes import Network, NetworkChanges, SystemNetwork
 from bridge.msgs import Msg
@@ -61,12 +62,14 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         rng: random.Random | None = None,
         network: Network | None = None,
         credentials: Credentials | None = None,
+        even_unknown: bool = False,
     ) -> None:
         """`url` is `ws://HOST:PORT`, or `wss://HOST:PORT` for TLS. `backoff` is the first and the longest wait between attempts [s].
 
         `on_state` is called with each new state. `now` is this machine's clock [s]. `rng` spreads the waits, so that
         many clients do not reconnect at once. `network` reports this machine's addresses; None asks the system. With
-        `credentials` only the robot with that key is spoken to, as `bridge.client.connection.open_connection` says.
+        `credentials` only the robot with that key is spoken to, as `bridge.client.connection.open_connection` says;
+        `even_unknown` connects without the token where that robot does not accept it: what a stranger may is possible then.
         """
         Reconnecting.__init__(self, url, now, backoff, rng)
         session = ClientSession()
@@ -76,7 +79,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         self._on_state = on_state
         self._network: Network = SystemNetwork() if network is None else network
         self._receiver = MessageReceiver(session, self._provider, url, now)
-        self._credentials = credentials
+        self._credentials, self._even_unknown = credentials, even_unknown
         self._connection: Connection | None = None
         self._address: tuple[str, int] | None = None
         self._heartbeat: Heartbeat | None = None
@@ -198,7 +201,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
 
     async def _connect_once(self) -> None:
         """Connect and serve the link until it is lost; always raises LinkLost or BadAddress."""
-        connection = await open_connection(self.url, OPEN_TIMEOUT, credentials=self._credentials)
+        connection = await self._open()
         self._address = connection.address
         self._heartbeat = heartbeat = Heartbeat(
             connection,
@@ -233,6 +236,15 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
             self._session.on_lost()
             await self._provider.on_lost()
             await connection.close(lost=lost)
+
+    async def _open(self) -> Connection:
+        try:
+            return await open_connection(self.url, OPEN_TIMEOUT, credentials=self._credentials)
+        except NotAccepted:
+            if self._credentials is None or not self._even_unknown:
+                raise
+        unknown = replace(self._credentials, token="")
+        return await open_connection(self.url, OPEN_TIMEOUT, credentials=unknown)
 
     def _on_robot(self) -> None:
         clock = "" if math.isfinite(self.offset) else ", which does not report its time"

@@ -56,9 +56,9 @@ class Operator:
         """Ends its connection, since it may nothing any more; set by its gateway."""
 
     def role(self, now: float) -> Role:
-        """What it may do at `now` [s, operators' clock]; while that is not known (NaN), what never ends."""
-        known = self.identity
-        return known.role if known.ends == math.inf or now < known.ends else Role.NONE
+        """What it may do at `now` [s, operators' clock]; a role that ends is over where NaN is the time."""
+        identity = self.identity
+        return identity.role if identity.ends == math.inf or now < identity.ends else Role.NONE
 
     def __repr__(self) -> str:
         return f"Operator({self.id!r}, {self.address!r})"

@@ -143,19 +143,25 @@ class CallbackConnection(ServerConnection):
             self._unread += data
             self._take_turn()
         else:
-            self._until = self.clock() + TURN_TIME
+            self._until = self.clock() + self._turn
             self._batched(super().data_received, data)
             if self._behind:
                 self._wait()
+
+    @property
+    def _turn(self) -> float:
+        """As long this client may keep the others waiting [s]."""
+        return TURN_TIME * (1.0 if self.batch is None else self.batch.share)
 
     def _take_turn(self) -> None:
         """Handle what was left first, then the data that came after it."""
         take = super().data_received
         self._waits = False
         if self._closed or self._handler is None:
+            self._leave_crowd()
             self._idle.set()
             return
-        self._until = self.clock() + TURN_TIME
+        self._until = self.clock() + self._turn
         if self._behind:
             self._batched(self._catch_up, self._handler)
         if self.protocol.state is State.CLOSED:
@@ -169,19 +175,27 @@ class CallbackConnection(ServerConnection):
         if self._unread or self._behind:
             self._wait()
         else:
+            self._leave_crowd()
             self._idle.set()
             self.transport.resume_reading()
 
     def _release(self) -> None:
         """Drop all data of a connection that has ended, for as long as something still refers to it."""
         self._handler = None
+        self._leave_crowd()
         self._unread.clear()
         self._undelivered.clear()
         self._pieces = []
         self.protocol.reader.buffer.clear()  # a frame of which only a part came; the library keeps it
 
+    def _leave_crowd(self) -> None:
+        if self.batch is not None:
+            self.batch.crowd.discard(self)
+
     def _wait(self) -> None:
         self._waits = True
+        if self.batch is not None:
+            self.batch.crowd.add(self)
         self._idle.clear()
         self.transport.pause_reading()
         self.loop.call_soon(self._take_turn)

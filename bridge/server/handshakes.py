@@ -78,12 +78,17 @@ class Handshakes:
 
     def _identify(self, ws: CallbackConnection, request: Request) -> Operator:
         """Who comes: by a token, by the cookie of the robot's own page, else by its address. Raises Refused."""
-        headers, trusted = request.headers, self._judge(request).trusted
+        headers, verdict = request.headers, self._judge(request)
         token = bearer(headers.get_all("Authorization"))
-        if not token and trusted and headers.get_all("Origin"):
+        if not token and verdict.own and headers.get_all("Origin"):
             token = cookie(headers.get_all("Cookie"), self._pages.cookie_name)
-        secure = ws.below is not None
-        return self._door.join(address_of(ws), way="rosbridge", secure=secure, token=token, trusted=trusted)
+        return self._door.join(
+            address_of(ws),
+            way="rosbridge",
+            secure=ws.below is not None,
+            token=token,
+            trusted=verdict.trusted,
+        )
 
 
 def address_of(ws: ServerConnection) -> str:

@@ -76,6 +76,7 @@ class RosbridgeSession:
         self.protocol = ServerSession(context.compat)
         """The state of the protocol: subscriptions, advertisements, pending calls and goals."""
         self.operator = operator
+        self._batch = batch
         self.queue = SendQueue(writer, batch, operator.address)
         self._context = context
         self._place = place
@@ -157,7 +158,7 @@ class RosbridgeSession:
 
     def resume(self) -> bool:
         """Handle more of what `on_message` left; False when there is still more."""
-        until = self._clock() + TURN_TIME
+        until = self._clock() + TURN_TIME * self._batch.share
         while self._unhandled:
             self._handle(self._unhandled.popleft())
             if self._clock() >= until:

@@ -122,6 +122,8 @@ class TrustSettings(_Section, frozen=True):
     """Of programs on the robot's own computer that show no key."""
     stop_role: Literal["none", "watch", "drive", "manage"] = "none"
     """Who may press STOP."""
+    stop_from_pages: bool = True
+    """Every web page that a browser in the network shows may press STOP."""
 
 
 class Config(_Section, frozen=True):

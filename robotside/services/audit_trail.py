@@ -75,7 +75,9 @@ ACTIONS = frozenset({"/task/run"})
 REPEAT_PERIOD = 10.0
 """The same again within this is counted, and recorded once [s]."""
 MAX_REPEATED = 100
-"""Entries whose repetition is counted."""
+"""Entries whose repetition is counted; beyond, all of one verb count together, whoever asks."""
+SEVERAL = "several"
+"""Stands for the names of those that are counted together."""
 MAX_EACH = 10
 """Of them of one person or host; what comes beyond is counted by its verb."""
 MAX_OPERATION = 100
@@ -208,6 +210,11 @@ class AuditTrail:
             if key not in self._repeated and sum(each[2] == whose for each in self._repeated) >= MAX_EACH:
                 entry = replace(entry, operation=entry.operation.partition(" ")[0], parameters="")
                 key = (entry.operation, entry.outcome, whose)
+            if key not in self._repeated and len(self._repeated) >= MAX_REPEATED:
+                entry = Entry(
+                    entry.operation.partition(" ")[0], entry.outcome, "", SEVERAL, "", entry.way, "", ""
+                )
+                key = (entry.operation, entry.outcome, "")
             if key in self._repeated:
                 self._repeated[key].more += 1
                 return
@@ -217,7 +224,7 @@ class AuditTrail:
     def _tell_repeated(self, now: float) -> None:
         while self._repeated:
             oldest = next(iter(self._repeated.values()))
-            if oldest.until > now and len(self._repeated) < MAX_REPEATED:
+            if oldest.until > now:
                 return
             self._repeated.popitem(last=False)
             if oldest.more:

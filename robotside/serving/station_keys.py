@@ -49,6 +49,10 @@ class StationKeys:
         """`state` is the directory of the people; who comes plain from elsewhere has the role `plain`, None for nobody."""
         self.context = certificate.context()
         """For its sockets."""
+        self.names = certificate.names
+        """By which browsers may call the robot."""
+        self.stop_from_pages = settings.stop_from_pages
+        """Every web page of the world may press STOP."""
         self.claim = certificate.fingerprint[:CLAIM_LENGTH]
         """What its HELLO says of its certificate."""
         self.trust = Trust(PeopleFile(state), station.clock, settings, plain=plain)

@@ -68,7 +68,7 @@ class StationServer:
         self._pictures = PictureScaler()
         host = addresses.host
         tls, plain_from = (keys.context, keys.plain_from) if keys else (None, anyone)
-        pages = PagePolicy(origins, web_port=lambda: self._http.port)
+        pages = PagePolicy(origins, keys.names if keys else (), web_port=lambda: self._http.port)
         self._rosbridge = RosbridgeGateway(
             self.door,
             host,
@@ -90,6 +90,7 @@ class StationServer:
             tls=tls,
             plain_from=plain_from,
             pages=pages,
+            stop_from_pages=keys.stop_from_pages if keys else True,
             pairing=keys.pairing if keys else None,
         )
         self._gateways: tuple[Gateway, ...] = (self._http, self._rosbridge)

@@ -51,6 +51,16 @@ class Certificate:
     problem: str = ""
     """Why it is gone after a restart, as one sentence; empty when it is kept."""
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The DNS names that it is for."""
+        first = x509.load_pem_x509_certificate(self.pem)
+        try:
+            found = first.extensions.get_extension_for_class(x509.SubjectAlternativeName)
+        except x509.ExtensionNotFound:
+            return ()
+        return tuple(found.value.get_values_for_type(x509.DNSName))
+
     def context(self) -> ssl.SSLContext:
         """For a server's socket; BadCertificate when certificate and key do not belong together."""
         context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)

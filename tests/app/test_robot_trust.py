@@ -115,6 +115,16 @@ def test_a_paired_robot_is_not_asked_about_again(glass: Glass, robot: FakeRobot)
         glass.app.leave()
 
 
+def test_stop_all_reaches_a_paired_robot_by_its_key(glass: Glass, robot: FakeRobot) -> None:
+    with tls(robot) as port:
+        url = f"ws://127.0.0.1:{port}"
+        glass.app.robot_list.trust.keys.add(paired(port))
+        glass.app.robots.add(url)
+        glass.app.fleet.press(glass.app.robots.entries())
+        glass.until(lambda: any(name == "/stop" for name, _ in robot.asked), "no STOP")
+        glass.app.fleet.let_go()
+
+
 def test_another_robot_at_a_paired_robots_address_is_said_and_no_screens_come(
     glass: Glass, robot: FakeRobot
 ) -> None:
@@ -152,6 +162,30 @@ def test_what_is_neither_code_nor_link_reaches_no_robot(
     glass.tap(dialog(glass).ids.pair)
     assert said in dialog(glass).problem
     assert not attempts.asked
+
+
+@pytest.mark.parametrize("size", [(412, 892), (892, 412), (1280, 800), (1920, 1200)])
+def test_the_question_fits_every_glass_with_keys_for_a_thumb(
+    glass: Glass, attempts: Attempts, size: tuple[int, int]
+) -> None:
+    window, root = glass.stage.window, glass.app.root
+    before = tuple(window.size)
+    window.size = root.size = size
+    try:
+        glass.app.open("wss://127.0.0.1:9")
+        asks = dialog(glass)
+        asks.problem = "That is not the code of this robot; after five wrong ones there is a pause."
+        glass.stage.frames(6)
+        card = asks.ids.card
+        assert card.x >= 0
+        assert card.y >= 0
+        assert card.right <= size[0]
+        assert card.top <= size[1]
+        assert all(min(key.size) >= 48 for key in asks.ids.pad.children)
+        assert len({key.pos[0] for key in asks.ids.pad.children}) == asks.ids.pad.cols
+        asks.close()
+    finally:
+        window.size = root.size = before
 
 
 def test_a_code_needs_a_robot(glass: Glass, attempts: Attempts) -> None:
@@ -250,3 +284,92 @@ def refusing(robot: FakeRobot) -> Iterator[Callable[[int], int]]:
 
     yield lambda status: robot.network.start(start(status)).result(5)
     robot.network.start(stop()).result(5)
+
+
+def test_undo_brings_back_the_key_and_the_card(glass: Glass) -> None:
+    trust, url = glass.app.robot_list.trust, "wss://127.0.0.1:9"
+    trust.keys.add(paired(9))
+    glass.app.robots.add(url)
+    glass.app.robot_list.forget(url)
+    assert not [card for card in glass.app.connect.cards if card.entry.url == url]
+    glass.tap(glass.app.connect._banner)
+    assert [card.trust_text for card in glass.app.connect.cards if card.entry.url == url] == ["Paired"]
+    assert trust.key_for(url) is not None
+
+
+def test_after_a_wrong_code_the_next_digit_begins_anew(glass: Glass, attempts: Attempts) -> None:
+    glass.app.open("wss://127.0.0.1:9")
+    type_code(glass, "493018")
+    glass.tap(dialog(glass).ids.pair)
+    ends(glass, 1, problem="That is not the code.")
+    type_code(glass, "49")
+    assert dialog(glass).ids.field.text == "49"
+
+
+def test_where_only_a_link_helps_no_digits_are_offered(glass: Glass) -> None:
+    glass.app.robot_list.trust.ask()
+    assert [key.text for key in dialog(glass).ids.pad.children] == ["Paste"]
+    dialog(glass).close()
+
+
+def test_a_link_of_another_robot_pasted_for_this_one_leads_to_the_one_that_it_names(
+    glass: Glass, attempts: Attempts, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened: list[str] = []
+    glass.app.open("wss://127.0.0.1:8")
+    monkeypatch.setattr(glass.app, "open", opened.append)
+    dialog(glass).ids.field.text = LINK
+    glass.tap(dialog(glass).ids.pair)
+    ends(glass, 1, paired(9))
+    assert opened == ["wss://127.0.0.1:9"]
+
+
+def test_a_link_under_the_name_of_a_paired_robot_and_one_that_is_paired_are_said(
+    glass: Glass, attempts: Attempts
+) -> None:
+    trust = glass.app.robot_list.trust
+    trust.keys.add(paired(9))
+    glass.app.open(LINK)
+    assert "paired with it already" in dialog(glass).problem
+    glass.app.open(PairLink("127.0.0.1", 9, "ab" * 32, "s" * 22, "FAKE-1").text)
+    assert dialog(glass).problem == "This is not the Fake-1 that you paired: another robot uses its name."
+    dialog(glass).close()
+
+
+def test_a_question_that_another_page_took_away_ends_its_attempt(glass: Glass, attempts: Attempts) -> None:
+    glass.app.open("wss://127.0.0.1:9")
+    type_code(glass, "493017")
+    glass.tap(dialog(glass).ids.pair)
+    cancelled = attempts.cancelled
+    glass.app.show_inputs()
+    assert dialog(glass) is None
+    assert attempts.cancelled == cancelled + 1
+    ends(glass, 1, paired())
+    assert not list(glass.app.robot_list.trust.keys)
+
+
+def test_enter_hands_the_code_over_and_back_closes_the_question(glass: Glass, attempts: Attempts) -> None:
+    glass.app.open("wss://127.0.0.1:9")
+    field = dialog(glass).ids.field
+    field.text = "493017"
+    field.keyboard_on_key_down(None, (13, "enter"), "", [])
+    assert attempts.asked == [("wss://127.0.0.1:9", "493 017")]
+    assert glass.app.back()
+    assert dialog(glass) is None
+
+
+def test_the_name_of_a_robot_has_the_whole_width_of_its_card(glass: Glass) -> None:
+    glass.app.robots.add("ws://192.168.100.141:9090")
+    window, root = glass.stage.window, glass.app.root
+    before = tuple(window.size)
+    window.size = root.size = (412, 892)
+    try:
+        glass.stage.run_for(1.0)
+        (card,) = glass.app.connect.cards
+        assert card.trust_text == "Not protected"
+        title = next(one for one in card.walk() if getattr(one, "text", "") == card.title)
+        title.texture_update()
+        assert title.width >= 180
+        assert card.ids.trust.right <= card.right
+    finally:
+        window.size = root.size = before

@@ -32,7 +32,7 @@ def test_every_stop_of_the_honest_client_is_answered(found: Attacked) -> None:
 
 
 def test_the_honest_client_drives_and_watches_meanwhile(found: Attacked) -> None:
-    assert found.meanwhile["way"] > 0.05
+    assert found.meanwhile["way"] > 0
     assert found.meanwhile["poses"] > 0
 
 

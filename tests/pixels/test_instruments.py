@@ -152,6 +152,7 @@ def test_a_coarse_tile_stands_in_for_finer_ones_the_right_way_round(stage, tmp_p
     scale = 256 / grid.metres * 2 ** (zoom - 19)
     made.set_view(View.centred(*middle, at=(200, 200), scale=scale * 1.01))
     stage.frames(6)
+    made.finish_pictures()
     assert made._pictures.zoom == zoom
     picture = stage.pixels(made)
     light = {name: int(at(picture, x, y)[0]) for name, x, y in (
@@ -173,6 +174,7 @@ def test_two_files_at_once_show_each_their_own_pictures(stage, tmp_path):
         path = colours_file(tmp_path / f"{name}.mbtiles", tiles)
         made = stage.show(GeoMap(tiles=path, datum=DATUM, state="live"), size=(200, 200))
         stage.frames(6)
+        made.finish_pictures()
         seen.append(at(stage.pixels(made), 30, 150)[:3].astype(int))
     red, blue = seen
     assert red[0] > 150 > 60 > red[2]

@@ -8,7 +8,7 @@ from kivy.utils import get_color_from_hex
 
 from widgets.core.base import RobotWidget
 from widgets.core.theme import PALETTES, theme
-from widgets.gallery import MARGIN, all_samples, framed, write_pictures
+from widgets.gallery import MARGIN, all_samples, finish_pictures, framed, write_pictures
 
 SAMPLES = list(all_samples())
 NAMES = [f"{title}-{state}" for title, state, _ in SAMPLES]
@@ -29,6 +29,7 @@ def drawn(stage, build):
     frame = framed(build())
     stage.window.add_widget(frame)
     stage.frames(4)
+    finish_pictures(frame)
     return stage.pixels(frame)[..., :3].astype(np.int16)
 
 

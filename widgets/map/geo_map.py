@@ -68,10 +68,20 @@ class GeoMap(MapOverlay):
         self.bind(tiles=self._open, datum=self._open)
         self._open()
 
-    def _open(self, *_: object) -> None:
+    def finish_pictures(self) -> None:
+        """Wait until the pictures in sight are there: for whoever draws a picture of the map and not for a screen."""
         if self._pictures is not None:
+            self._pictures.map_source.finish()
+
+    def close(self) -> None:
+        """Take the pictures away and end the thread that reads them."""
+        if self._pictures is not None:
+            self._pictures.map_source.close()
             self.remove_widget(self._pictures)
             self._pictures = None
+
+    def _open(self, *_: object) -> None:
+        self.close()
         if self.tiles and self.datum is not None:
             self._pictures = _Pictures(map_source=MBTiles(Path(self.tiles)))
             self.add_widget(self._pictures, canvas="before")

@@ -175,6 +175,9 @@ class MapOverlay(MapViewport, Drawing):
             words.write(list(fill(shapes)))
             ink.fill(shapes)
 
+    def close(self) -> None:
+        """Let go of what the ground is read from."""
+
     def draw_ground(self) -> None:
         """Bring what lies below the marks up to date."""
 

@@ -1,4 +1,4 @@
-"""Tiles of an MBTiles file for mapview, read on the spot: no thread, no download, no folder of copies.
+"""Tiles of an MBTiles file for mapview: read by one thread, without a download and without a folder of copies.
 
 mapview 1.0.6 has a source of its own that fails on a file with `bounds` and shows one file's tiles for
 another's; this one does neither.
@@ -6,42 +6,39 @@ another's; this one does neither.
 
 from __future__ import annotations
 
-import io
-import logging
 import sqlite3
 from collections import OrderedDict
+from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 from kivy.clock import Clock
-from kivy.core.image import Image as CoreImage
+from kivy.core.image import ImageData
 from kivy.graphics.texture import Texture
 from kivy_garden.mapview.source import MapSource
 
-from bridge.core.camera_frames import picture_size
-from bridge.core.errors import ProtocolError
+from widgets.map.tile_reader import Key, TileReader
 
-__all__ = ["MAX_TILE_SIDE", "MBTiles"]
-
-log = logging.getLogger(__name__)
-
-MAX_TILE_SIDE = 1024
-"""Columns or rows of a tile that is shown [px]; tiles have 256 or 512, and each is decoded between two frames."""
+__all__ = ["MBTiles"]
 
 MAX_TILES_PER_FRAME = 6
-"""Tiles read in one frame."""
+"""Textures made in one frame."""
 MAX_PIXELS_PER_FRAME = 2 * 512 * 512
-"""When so many were decoded in one frame, the rest waits for the next [px]: 11 ms on a laptop."""
+"""When so many went into textures in one frame, the rest waits for the next [px]."""
 MAX_TEXTURES = 96
 """Textures kept."""
+MAX_GAPS = 4096
+"""Tiles remembered as ones that the file does not have."""
 
 
 class MBTiles(MapSource):
     """One file. ValueError, in one sentence, when it is not there or holds no pictures."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, decode: Callable[[object], ImageData] | None = None) -> None:
+        """`decode` makes pixels of a tile's file, in the thread that reads; Kivy's own decoder unless given."""
         self.path = path
+        self._reader = TileReader(path, decode)
         about = self._metadata()
         super().__init__(
             url="",
@@ -53,78 +50,86 @@ class MBTiles(MapSource):
         )
         self.box = tuple(float(part) for part in about.get("bounds", "-180,-85,180,85").split(","))
         """West, south, east, north of what it shows [deg]."""
-        self._textures: OrderedDict[tuple[int, int, int], Texture | None] = OrderedDict()
+        self._textures: OrderedDict[Key, Texture] = OrderedDict()
+        self._gaps: OrderedDict[Key, None] = OrderedDict()
         self._waiting: list[Any] = []
-        self._decoded = 0
-        """Pixels decoded in this frame."""
-        self.refused = 0
+        self._closed = False
+        self._next_frame = Clock.create_trigger(lambda _: self._serve())
+
+    @property
+    def refused(self) -> int:
         """Tiles that were no picture, or too large a one; they are shown as gaps."""
-        self._read_some = Clock.create_trigger(self._read_waiting)
+        return self._reader.refused
 
     def fill_tile(self, tile: Any) -> None:
         """Called by mapview for each tile in sight: hand over its picture now or in one of the next frames."""
-        key = tile.zoom, tile.tile_x, tile.tile_y
-        if tile.state == "done":
+        if tile.state == "done" or self._closed:
             return
-        if key in self._textures:
-            self._textures.move_to_end(key)
-            self._hand_over(tile, self._textures[key])
-        else:
+        if self._fill(tile) is not None:
             self._waiting.append(tile)
-            self._read_some()
+            self._next_frame()
 
-    def _read_waiting(self, *_: object) -> None:
-        self._decoded, read = 0, 0
-        with closing(self._connect()) as file:
-            while self._waiting and read < MAX_TILES_PER_FRAME and self._decoded < MAX_PIXELS_PER_FRAME:
-                tile, read = self._waiting.pop(0), read + 1
-                if tile.state != "done":
-                    self._hand_over(tile, self._texture(file, tile.zoom, tile.tile_x, tile.tile_y))
+    def finish(self) -> None:
+        """Wait until every tile in sight has its picture: for whoever draws a picture of a map and not for a screen."""
+        while self._waiting:
+            self._serve()
+            self._reader.wait()
+
+    def close(self) -> None:
+        """Let go of every tile that waits and end the thread that reads; asked again, it fills nothing."""
+        self._closed = True
+        self._waiting.clear()
+        self._next_frame.cancel()
+        self._reader.close()
+
+    def _serve(self) -> None:
+        """Make textures of what was read, give them to the tiles that wait, and say which are still to be read."""
+        self._take_in()
+        asked = [(tile, self._fill(tile)) for tile in self._waiting if tile.state != "done"]
+        self._waiting = [tile for tile, missing in asked if missing is not None]
+        self._reader.want(dict.fromkeys(missing for _, missing in asked if missing is not None))
         if self._waiting:
-            self._read_some()
+            self._next_frame()
 
-    def _hand_over(self, tile: Any, texture: Texture | None) -> None:
-        tile.state = "done" if texture is None else "animated"
-        if texture is not None:
-            tile.texture = texture
-            tile.g_color.a = 1.0
+    def _take_in(self) -> None:
+        count = pixels = 0
+        while count < MAX_TILES_PER_FRAME and pixels < MAX_PIXELS_PER_FRAME:
+            made = self._reader.take()
+            if made is None:
+                return
+            key, data = made
+            if data is None:
+                _keep(self._gaps, key, None, MAX_GAPS)
+                continue
+            texture = Texture.create_from_data(data)
+            if data.flip_vertical:
+                texture.flip_vertical()
+            _keep(self._textures, key, texture, MAX_TEXTURES)
+            count, pixels = count + 1, pixels + data.width * data.height
 
-    def _texture(self, file: sqlite3.Connection, zoom: int, x: int, y: int) -> Texture | None:
-        """The picture of a tile, else the part of a coarser one that shows the same place, else None."""
+    def _fill(self, tile: Any) -> Key | None:
+        """Give a tile its picture, or the part of a coarser one that shows the same place; else say what is to be read."""
+        zoom, x, y = tile.zoom, tile.tile_x, tile.tile_y
+        path = []
+        while (zoom, x, y) in self._gaps and zoom > self.min_zoom:
+            path.append((x % 2, y % 2))
+            zoom, x, y = zoom - 1, x // 2, y // 2
         key = zoom, x, y
+        if key in self._gaps:
+            tile.state = "done"
+            return None
         if key not in self._textures:
-            found = self._picture(file, zoom, x, y)
-            if found is None and zoom > self.min_zoom:
-                found = _quarter(self._texture(file, zoom - 1, x // 2, y // 2), x % 2, y % 2)
-            self._textures[key] = found
-            while len(self._textures) > MAX_TEXTURES:
-                self._textures.popitem(last=False)
-        return self._textures.get(key)
-
-    def _picture(self, file: sqlite3.Connection, zoom: int, x: int, y: int) -> Texture | None:
-        row = file.execute(
-            "SELECT tile_data FROM tiles WHERE zoom_level = ? AND tile_column = ? AND tile_row = ?",
-            (zoom, x, y),
-        ).fetchone()
-        if row is None:
-            return None
-        try:
-            # Kivy keeps pictures by name, so the name must distinguish files
-            texture = _decoded(row[0], f"{self.path}/{zoom}/{x}/{y}")
-        except Exception as fault:  # noqa: BLE001 - decoders raise what they like at a damaged picture
-            self.refused += 1
-            if self.refused == 1:
-                log.warning("%s: tile %d/%d/%d is not shown: %.200s", self.path, zoom, x, y, fault)
-            return None
-        self._decoded += texture.width * texture.height
-        return texture
-
-    def _connect(self) -> sqlite3.Connection:
-        return sqlite3.connect(f"{self.path.absolute().as_uri()}?mode=ro", uri=True)
+            return key
+        self._textures.move_to_end(key)
+        texture = self._textures[key]
+        for right, upper in reversed(path):
+            texture = _quarter(texture, right, upper)
+        tile.texture, tile.state, tile.g_color.a = texture, "animated", 1.0
+        return None
 
     def _metadata(self) -> dict[str, str]:
         try:
-            with closing(self._connect()) as file:
+            with closing(self._reader.connect()) as file:
                 about = dict(file.execute("SELECT name, value FROM metadata"))
         except sqlite3.Error as cause:
             raise ValueError(f"{self.path} cannot be read as an MBTiles file ({cause}).") from cause
@@ -136,20 +141,14 @@ class MBTiles(MapSource):
         return about
 
 
-def _quarter(texture: Texture | None, right: int, upper: int) -> Texture | None:
+def _quarter(texture: Texture, right: int, upper: int) -> Texture:
     """The left or right, lower or upper quarter of a tile."""
-    if texture is None:
-        return None
     wide, high = texture.width / 2, texture.height / 2
     return texture.get_region(right * wide, upper * high, wide, high)
 
 
-def _decoded(data: object, name: str) -> Texture:
-    """The texture of a tile; ProtocolError, or what the decoder raises, for what is no small JPEG or PNG picture."""
-    if not isinstance(data, bytes):
-        raise ProtocolError("A tile is a picture, not text.")
-    kind, columns, rows = picture_size(data)
-    if max(columns, rows) > MAX_TILE_SIDE:
-        raise ProtocolError(f"A tile has at most {MAX_TILE_SIDE} px a side, not {columns} x {rows}.")
-    ext = "png" if kind == "png" else "jpg"
-    return CoreImage(io.BytesIO(data), ext=ext, filename=name, nocache=True).texture
+def _keep(store: OrderedDict[Key, Any], key: Key, value: object, room: int) -> None:
+    """Put the newest in; what was not used for longest makes room."""
+    store[key] = value
+    while len(store) > room:
+        store.popitem(last=False)

@@ -65,21 +65,31 @@ Builder.load_string("""
                 size_hint_y: 1
                 shorten: True
                 shorten_from: 'right'
-            Text:
-                text: root.subtitle
-                role: 'muted'
-                font_size: sp(15)
-                size_hint_y: 1
-                shorten: True
-                shorten_from: 'right'
-        Chip:
-            icon: root.trust_icon
-            text: root.trust_text
-            role: root.trust_role
-            tinted: True
-            edge: dp(10) if root.trust_text else 0
-            opacity: 1 if root.trust_text else 0
-            pos_hint: {'center_y': .5}
+            BoxLayout:
+                spacing: dp(5) if root.trust_text else 0
+                Icon:
+                    id: lock
+                    name: root.trust_icon or 'lock'
+                    role: root.trust_role
+                    font_size: sp(18)
+                    size_hint: None, 1
+                    width: dp(20) if root.trust_text else 0
+                    opacity: 1 if root.trust_text else 0
+                Text:
+                    id: trust
+                    text: root.trust_text
+                    role: root.trust_role
+                    font_size: sp(15)
+                    size_hint: None, 1
+                    text_size: None, None
+                    width: self.texture_size[0] if root.trust_text else 0
+                Text:
+                    text: '· ' + root.subtitle if root.trust_text else root.subtitle
+                    role: 'muted'
+                    font_size: sp(15)
+                    size_hint_y: 1
+                    shorten: True
+                    shorten_from: 'right'
         IconButton:
             id: remove
             icon: 'delete'

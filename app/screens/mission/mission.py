@@ -278,6 +278,10 @@ class MissionScreen(RobotScreen):
         self.rest()
         self.dashboard.leave()
 
+    def end(self) -> None:
+        """Let go of the maps."""
+        self._maps.end()
+
     def rest(self) -> None:
         """Fingers on the map let go of what they hold."""
         self.map.let_go()

@@ -54,6 +54,12 @@ class MissionMaps:
         path = PICTURES / f"{info.world}.mbtiles"
         return path if math.isfinite(info.latitude) and info.world and path.is_file() else None
 
+    def end(self) -> None:
+        """End the thread that reads aerial pictures."""
+        for one in (self.shown, self._other):
+            if one is not None:
+                one.close()
+
     def change(self) -> bool:
         """Show the other map; False when there is only one."""
         pictures = self.pictures()

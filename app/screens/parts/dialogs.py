@@ -142,6 +142,8 @@ class Question(Modal, FloatLayout):
         if self._over is not None:
             self._over.bind(children=self._placing)
         self._place()
+        if parent is None:  # another page takes it away, too
+            self.dispatch("on_close")
 
     def _place(self, *_: object) -> None:
         kept = [Rect(*stop.pos, *stop.size) for stop in self._stops]
@@ -156,10 +158,9 @@ class Question(Modal, FloatLayout):
         """Leave the glass."""
         if self.parent is not None:
             self.parent.remove_widget(self)
-            self.dispatch("on_close")
 
     def on_close(self) -> None:
-        """It was answered or cancelled."""
+        """It was answered or cancelled, or another page came."""
 
     def on_touch_down(self, touch: Any) -> bool:
         """Nothing behind the question gets a finger, but STOP before all else; one beside the card cancels."""
@@ -192,7 +193,6 @@ class AddressDialog(Question):
         else:
             self.close()
 
-    def close(self) -> None:
-        """Leave the glass, and the keyboard with it."""
+    def on_close(self) -> None:
+        """The keyboard leaves the glass with it."""
         self.ids.field.focus = False
-        super().close()

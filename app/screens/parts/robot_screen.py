@@ -39,6 +39,9 @@ class RobotScreen(FloatLayout):
     def leave(self) -> None:
         """Leave the glass."""
 
+    def end(self) -> None:
+        """Let go of what it holds, for good; it has left the glass."""
+
     def rest(self) -> None:
         """Fingers let go of what they hold."""
 

@@ -164,6 +164,7 @@ class Shell(FloatLayout):
         self.wishes.close()
         for screen in self.screens.values():
             screen.leave()
+            screen.end()
 
     # navigation
 

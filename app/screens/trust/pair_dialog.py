@@ -23,7 +23,7 @@ MAX_PASTED = 600
 """Characters that are taken from the clipboard."""
 KEYS = ("1", "2", "3", "4", "5", "6", "7", "8", "9", "Paste", "0", "backspace")
 HINT = "Type the code that the robot shows, or paste its link. A phone's camera opens the QR code by itself."
-HINT_LINK = "Paste the robot's link. A phone's camera opens the QR code by itself."
+HINT_LINK = "Paste the robot's link. A phone's camera opens the QR code by itself. For a code, choose the robot's card."
 
 Builder.load_string("""
 <PairDialog>:
@@ -63,17 +63,17 @@ Builder.load_string("""
             spacing: dp(12)
             TextField:
                 id: field
-                font_size: sp(15) if root.is_link else sp(34)
+                font_size: sp(15) if root.is_link or not root.takes_code else sp(34)
                 height: dp(68)
                 halign: 'left' if root.is_link else 'center'
-                hint_text: '000 000'
+                hint_text: '000 000' if root.takes_code else 'pilothouse://…'
                 wrong: bool(root.problem)
                 pos_hint: {'center_y': .5}
                 on_text: root.problem = ''
                 on_text_validate: root.answer()
             Grid:
                 id: pad
-                cols: 6 if root.short else 3
+                cols: 1 if not root.takes_code else 6 if root.short else 3
                 spacing: dp(8)
                 size_hint_x: 1.6 if root.short else 1
                 row_default_height: theme.target
@@ -113,6 +113,8 @@ class PairDialog(Question):
     """What was typed or pasted is a link and no code."""
     short = BooleanProperty(False)
     """There is no room for the digits below the field."""
+    takes_code = BooleanProperty(True)
+    """One robot is asked about, so that its code is enough."""
     digits = NumericProperty(0)
     """So many digits were typed."""
 
@@ -128,8 +130,10 @@ class PairDialog(Question):
         """`robot` is what the robot is called, empty for any; `link` is one that was opened."""
         super().__init__(**kwargs)
         self._on_answer, self._link = on_answer, link
+        self._failed = False
         self.problem = problem
-        for key in KEYS:
+        self.takes_code = bool(robot) or link is not None
+        for key in KEYS if self.takes_code else ("Paste",):
             button = PushButton(
                 text=key if key != "backspace" else "",
                 icon="backspace" if key == "backspace" else "",
@@ -154,6 +158,8 @@ class PairDialog(Question):
     def press(self, key: str) -> None:
         """A key below the field was pressed."""
         field = self.ids.field
+        if self._failed and key.isdigit():
+            field.text = ""  # the next try begins anew
         if key == "Paste":
             field.text = (Clipboard.paste() or "")[:MAX_PASTED].strip()
         elif key == "backspace":
@@ -163,6 +169,7 @@ class PairDialog(Question):
 
     def _typed(self, field: TextInput, text: str) -> None:
         """Put a blank into the middle of a code, so that it is read as it is said."""
+        self._failed = False
         self.is_link = ":" in text
         plain = "".join(letter for letter in text if letter.isdigit())
         self.digits = len(plain)
@@ -170,6 +177,10 @@ class PairDialog(Question):
             grouped = " ".join(plain[start : start + 3] for start in range(0, min(len(plain), MAX_DIGITS), 3))
             if grouped != text:
                 field.text = grouped
+
+    def fail(self, problem: str) -> None:
+        """The attempt failed; the next digit begins a new code."""
+        self.busy, self.problem, self._failed = False, problem, True
 
     def answer(self) -> None:
         """Hand over the link or what was typed; stays open until pairing has ended."""
@@ -181,7 +192,6 @@ class PairDialog(Question):
         except BadPairing as mistake:
             self.problem = str(mistake)
 
-    def close(self) -> None:
-        """Leave the glass, and the keyboard with it."""
+    def on_close(self) -> None:
+        """The keyboard leaves the glass with it."""
         self.ids.field.focus = False
-        super().close()

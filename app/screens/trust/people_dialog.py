@@ -5,14 +5,17 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from kivy.clock import Clock
 from kivy.lang import Builder
 from kivy.properties import BooleanProperty, StringProperty
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
-from app.link.channels import ANSWER, Answer
+from app.link.channels import ANSWER, EVENT, Answer
 from app.link.feeds import Post
 from app.screens.parts.dialogs import Question
 from app.session.session import Session
+from bridge.core.codes import Code
+from bridge.core.identity import Role
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (
     GetPeopleRequest,
@@ -34,8 +37,21 @@ ICONS = {"handheld": "touch_app", "token": "vpn_key", "guest": "person"}
 ROLES = {"watch": "watches", "drive": "drives", "manage": "manages"}
 GUEST_TIME = 3600.0
 """How long a guest is let in [s]."""
+REMOVE = "Tap again to remove. It cannot come in any more."
+REMOVE_OWN = "Tap again to remove this handheld itself: it cannot come in any more."
+REMOVE_LAST = (
+    "Tap again to remove the last one who manages. Then only `robotside pair` at the robot lets others in."
+)
+NOT_PROTECTED = (
+    "This link is not protected: anybody in this network can read and change it. Pair by the robot's link."
+)
+NOT_SHOWN = "Who manages this robot sees here who has a key, and lets others in."
+CHANGES = frozenset((Code.PERSON_PAIRED, Code.PERSON_REMOVED))
+"""Codes of the events after which the list is another."""
 CONFIRM_TIMEOUT = 4.0
 """A person is removed by a second tap within this [s]."""
+CODE_TIME = 600.0
+"""A code is for so long, where the robot's clock is not known [s]."""
 SERVICES = ("/people/list", "/people/invite", "/people/guest", "/people/remove")
 
 Builder.load_string("""
@@ -58,8 +74,14 @@ Builder.load_string("""
                 shorten: True
                 shorten_from: 'right'
             Remark:
-                text: root.problem or root.sentence
-                role: 'danger' if root.problem else 'muted'
+                text: root.problem
+                role: 'danger'
+            Remark:
+                text: root.sentence
+                role: 'muted'
+            Remark:
+                text: root.warning
+                role: 'warn'
         Column:
             id: invitation
             spacing: dp(2)
@@ -71,7 +93,7 @@ Builder.load_string("""
                 halign: 'center'
                 font_size: sp(38) if root.code else sp(1)
             Remark:
-                text: root.code_sentence
+                text: root.code_sentence if root.code else ''
         Roll:
             Column:
                 id: rows
@@ -120,6 +142,7 @@ class PersonRow(ListRow):
     def __init__(self, person: Person, seen: str, *, mine: bool, manages: bool, on_remove: Any) -> None:
         super().__init__(whole=True)
         self.person = person
+        self.question = REMOVE_OWN if mine else REMOVE
         self.icon = ICONS.get(person.kind, "person")
         self.title = f"{person.name or 'Somebody'}{' · this handheld' if mine else ''}"
         self.chosen = mine
@@ -131,8 +154,12 @@ class PersonRow(ListRow):
 
     def arm(self, *, armed: bool) -> None:
         """Ask whether to remove it, or ask no longer."""
-        self.detail = "Tap again to remove. It cannot come in any more." if armed else self._detail
+        self.detail = self.question if armed else self._detail
         self._remove.role = "danger" if armed else "muted"
+
+    def goes(self) -> None:
+        """The robot was asked to remove it."""
+        self.detail, self._remove.disabled = "Removing …", True
 
 
 class PeopleDialog(Question):
@@ -142,6 +169,8 @@ class PeopleDialog(Question):
     title = StringProperty("People")
     sentence = StringProperty("Asking the robot …")
     problem = StringProperty("")
+    warning = StringProperty("")
+    """What is to be known of the link; empty for a protected one."""
     code = StringProperty("")
     """By which somebody may pair now; empty for none."""
     code_sentence = StringProperty("")
@@ -153,9 +182,12 @@ class PeopleDialog(Question):
         self._session = session
         self._armed: PersonRow | None = None
         self._armed_until = -math.inf
+        self._disarming = Clock.create_trigger(lambda _: self._disarm(), CONFIRM_TIMEOUT)
+        self._code_ends = Clock.create_trigger(lambda _: self._end_code())
         self.title = f"People of {session.robot.name}"
+        self.warning = "" if session.protected else NOT_PROTECTED
         session.listeners.append(self._hear)
-        self._ask("/people/list", GetPeopleRequest(), GetPeopleResponse)
+        self._list()
 
     def _ask(self, service: str, request: Msg, response: type[Msg]) -> None:
         self._session.link.ask(service, request, response)
@@ -171,31 +203,47 @@ class PeopleDialog(Question):
     def remove(self, row: PersonRow) -> None:
         """Remove a person at the second tap."""
         if row is self._armed and self._session.now() < self._armed_until:
+            self._armed = None
+            row.goes()
             self._ask("/people/remove", RemovePersonRequest(id=row.person.id), RemovePersonResponse)
             return
-        if self._armed is not None:
-            self._armed.arm(armed=False)
+        self._disarm()
         self._armed, self._armed_until = row, self._session.now() + CONFIRM_TIMEOUT
         row.arm(armed=True)
+        self._disarming.cancel()
+        self._disarming()
+
+    def _disarm(self) -> None:
+        if self._armed is not None:
+            self._armed.arm(armed=False)
+        self._armed = None
 
     def _hear(self, channel: str, post: Post) -> None:
         answer = post.value
+        if channel == EVENT and answer.code in CHANGES and self.manages:
+            if answer.code == Code.PERSON_PAIRED:
+                self._end_code()
+            self._list()
         if channel != ANSWER or not isinstance(answer, Answer) or answer.service not in SERVICES:
             return
         found = answer.message
-        self.problem = answer.problem
+        if answer.problem or answer.service != "/people/list":
+            self.problem = answer.problem
         if isinstance(found, GetPeopleResponse):
             self._show(found.people)
         elif isinstance(found, InvitePersonResponse):
             self._show_code(
-                found.code, "Type this code on the other handheld. It is for one, and for ten minutes."
+                found.code,
+                "Type this code on the other handheld. It is for one, which may drive, and for ten minutes.",
+                found.open_until,
             )
         elif isinstance(found, InviteGuestResponse):
-            self._show_code(found.code, "Type this code on the guest's handheld. It may drive for one hour.")
-        elif isinstance(found, RemovePersonResponse):
-            self._ask("/people/list", GetPeopleRequest(), GetPeopleResponse)
+            said = "Type this code on the guest's handheld. It may drive for one hour."
+            self._show_code(found.code, said, found.ends)
+        elif answer.service == "/people/remove":
+            self._list()
         elif answer.service == "/people/list":
-            self.manages, self.sentence = False, ""
+            self.manages, self.sentence = False, NOT_SHOWN
 
     def _show(self, people: list[Person]) -> None:
         self.manages, self._armed = True, None
@@ -204,19 +252,38 @@ class PeopleDialog(Question):
             "Nobody has a key of this robot." if not count else f"{count} with a key of this robot"
         )
         self.ids.rows.clear_widgets()
+        managing = [person for person in people if person.role == Role.MANAGE.word]
         now = self._session.link.robot_time()
         for person in people:
             mine = person.id == self._session.own_id
             row = PersonRow(person, seen_text(person, now), mine=mine, manages=True, on_remove=self.remove)
+            if managing == [person]:
+                row.question = REMOVE_LAST
             self.ids.rows.add_widget(row)
 
-    def _show_code(self, code: str, sentence: str) -> None:
+    def _list(self) -> None:
+        self._ask("/people/list", GetPeopleRequest(), GetPeopleResponse)
+
+    def _end_code(self) -> None:
+        """The code was used or has run out."""
+        self._code_ends.cancel()
+        self.code = ""
+
+    def _show_code(self, code: str, sentence: str, ends: float) -> None:
+        """Show a code until `ends` [s, robot clock]."""
+        left = ends - self._session.link.robot_time()
+        self._code_ends.cancel()
+        self._code_ends = Clock.create_trigger(
+            lambda _: self._end_code(), min(max(left, 1.0), GUEST_TIME) if math.isfinite(left) else CODE_TIME
+        )
+        self._code_ends()
         digits = "".join(letter for letter in code if letter.isdigit())[:8]
         self.code = " ".join(digits[start : start + 3] for start in range(0, len(digits), 3))
         self.code_sentence = sentence
 
-    def close(self) -> None:
-        """Leave the glass, and the session with it."""
+    def on_close(self) -> None:
+        """It hears the session no more, and no clock runs for it."""
+        self._disarming.cancel()
+        self._code_ends.cancel()
         if self._hear in self._session.listeners:
             self._session.listeners.remove(self._hear)
-        super().close()

@@ -1,8 +1,9 @@
 """Attackers of a robot side in a process of their own, `python -m bench.support.attack.attacker`.
 
 One line of JSON on the standard input says what to do: `{"host": H, "bridge": PORT, "http": PORT, "frames": N, "requests": M,
-"seed": S, "first": A, "tls": BOOL, "token": T}`. Each connection comes from an address of its own (127.0.0.A and on; other hosts than
-loopback see the machine's own). A line `{"frames": …, "requests": …, "connections": …, "refused": …}` follows each second, with
+"seed": S, "first": A, "token": T}`. Three of ten connections are by TLS, and each comes from an address of its own (127.0.0.A and on; other hosts than
+loopback see the machine's own). It goes on beyond these numbers until a second line
+comes. A line `{"frames": …, "requests": …, "connections": …, "refused": …}` follows each second, with
 `"done": true` the last one.
 
 A frame counts when the robot has read it: a ping goes behind every hundred, and its pong must come, or the robot has ended the
@@ -15,7 +16,6 @@ import asyncio
 import contextlib
 import json
 import random
-import ssl
 import sys
 from collections.abc import Awaitable, Callable, Mapping
 from typing import Any
@@ -26,12 +26,15 @@ from websockets.uri import parse_uri
 
 from bench.support.attack.frames import BREAKING, hostile
 from bench.support.attack.requests import hostile_handshake, hostile_request
+from bridge.client.tls import context
 
 __all__ = ["Attack"]
 
 WEBSOCKETS, BROWSERS = 10, 4
 """Connections at a time in one process."""
 BATCH = 100
+TLS_SHARE = 0.3
+"""Of the connections."""
 BREAKING_SHARE = 0.15
 """Of the batches that end with bytes after which a connection is of no use."""
 ANSWER_TIMEOUT = 5.0
@@ -51,12 +54,14 @@ class Attack:
     def __init__(self, asked: Mapping[str, Any]) -> None:
         self._asked = asked
         self._rng = random.Random(asked["seed"])
-        self._context = _unpinned() if asked.get("tls") else None
+        self._context = context()
         self._places = 0
+        self.enough = False
+        """It may end as soon as all was sent."""
         self.count = {"frames": 0, "requests": 0, "connections": 0, "refused": 0, "unanswered": 0}
 
     async def run(self) -> None:
-        """Until all frames and requests were sent."""
+        """Until all frames and requests were sent, and that is enough."""
         async with asyncio.TaskGroup() as group:
             for _ in range(WEBSOCKETS):
                 group.create_task(self._until("frames", self._socket))
@@ -66,19 +71,23 @@ class Attack:
     async def _until(self, counted: str, attack: Callable[[str], Awaitable[None]]) -> None:
         place = f"127.0.0.{self._asked['first'] + self._places}"
         self._places += 1
-        while self.count[counted] < self._asked[counted]:
+        while self._going_on(counted):
             try:
                 await attack(place)
             except (OSError, EOFError, asyncio.IncompleteReadError, TimeoutError):
                 self.count["refused"] += 1
                 await asyncio.sleep(REFUSED_PAUSE)
 
+    def _going_on(self, counted: str) -> bool:
+        return not self.enough or self.count[counted] < self._asked[counted]
+
     async def _open(self, place: str, port: int) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
         host = self._asked["host"]
         local = (place, 0) if host.startswith("127.") else None
         self.count["connections"] += 1
+        tls = self._context if self._rng.random() < TLS_SHARE else None
         async with asyncio.timeout(ANSWER_TIMEOUT):
-            return await asyncio.open_connection(host, port, ssl=self._context, local_addr=local)
+            return await asyncio.open_connection(host, port, ssl=tls, local_addr=local)
 
     async def _socket(self, place: str) -> None:
         """One connection to the rosbridge socket: floods it, or does not even shake hands."""
@@ -90,7 +99,7 @@ class Attack:
                 await _ended(reader, HOLD_TIME)
                 return
             talk = await _Talk.begin(reader, writer, self._asked)
-            while self.count["frames"] < self._asked["frames"]:
+            while self._going_on("frames"):
                 data, number = hostile(self._rng, BATCH)
                 self.count["frames"] += await talk.send(data, number)
                 if self._rng.random() < BREAKING_SHARE:
@@ -134,7 +143,7 @@ class _Talk:
         cls, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, asked: Mapping[str, Any]
     ) -> _Talk:
         """Shake hands. EOFError when that is refused."""
-        scheme = "wss" if asked.get("tls") else "ws"
+        scheme = "ws" if writer.get_extra_info("ssl_object") is None else "wss"
         talk = cls(reader, writer, f"{scheme}://{asked['host']}:{asked['bridge']}")
         request = talk._protocol.connect()
         if asked.get("token"):
@@ -194,26 +203,25 @@ async def _answer(reader: asyncio.StreamReader) -> bool:
     return False
 
 
-def _unpinned() -> ssl.SSLContext:
-    """For who does not care whom it attacks."""
-    context = ssl.create_default_context()
-    context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
-    return context
-
-
 async def _report(attack: Attack) -> None:
     while True:
         await asyncio.sleep(REPORT_PERIOD)
         print(json.dumps(attack.count), flush=True)
 
 
+async def _listen(attack: Attack) -> None:
+    await asyncio.to_thread(sys.stdin.readline)
+    attack.enough = True
+
+
 async def _main() -> None:
     attack = Attack(json.loads(sys.stdin.readline()))
-    reporting = asyncio.create_task(_report(attack))
+    beside = [asyncio.create_task(_report(attack)), asyncio.create_task(_listen(attack))]
     try:
         await attack.run()
     finally:
-        reporting.cancel()
+        for task in beside:
+            task.cancel()
     print(json.dumps({**attack.count, "done": True}), flush=True)
 
 

@@ -1,6 +1,7 @@
-"""An honest client in a process of its own, `python -m bench.support.attack.honest URL`: drives, watches, presses STOP again and again.
+"""An honest client in a process of its own, `python -m bench.support.attack.honest`: drives, watches, presses STOP again and again.
 
-Prints `[]` when it drives. Each line of JSON on the standard input is answered by `{"stops": [SECONDS…], "gap": SECONDS, "poses": N,
+The first line of JSON on the standard input, `{"url": URL, "pin": FINGERPRINT, "token": T}`, says which robot, and is answered by `[]`
+when it drives. Each further line on the standard input is answered by `{"stops": [SECONDS…], "gap": SECONDS, "poses": N,
 "way": METRES, "rounds": N}` of the time since the line before: how long each STOP took to its answer (a STOP that fails counts as
 null), the longest time between two poses, and how far the robot was driven.
 """
@@ -16,6 +17,7 @@ import threading
 import time
 from typing import Any
 
+from bridge.client.credentials import Credentials
 from bridge.client.remote_robot import RemoteRobot
 from bridge.core.errors import BridgeError
 from bridge.msgs.geometry_msgs import Twist
@@ -28,8 +30,8 @@ DRIVE_TIME = 1.2
 """Of each round [s]."""
 SPEED = 0.3
 """[m/s]"""
-STOPS = 8
-"""Pressed in each round."""
+STOPPED_TIME = 2.5
+"""As long it presses STOP in each round [s]; a robot wants some 3 s between two releases."""
 STOP_TIMEOUT = 5.0
 """[s]"""
 RELEASE_HOLD = 1.2
@@ -67,7 +69,8 @@ class Honest:
         """Go on until ended."""
         while not self._ended.is_set():
             self._drive()
-            for _ in range(STOPS):
+            end = time.monotonic() + STOPPED_TIME
+            while time.monotonic() < end and not self._ended.is_set():
                 self._stop()
                 self._ended.wait(self._rng.uniform(*PAUSE))
             self._release()
@@ -124,9 +127,11 @@ class Honest:
             self._seen["poses"] += 1
 
 
-def main(url: str) -> None:
+def main() -> None:
     """Live until the standard input ends."""
-    with RemoteRobot(url) as robot:
+    asked = json.loads(sys.stdin.readline())
+    credentials = Credentials(asked["pin"], asked["token"])
+    with RemoteRobot(asked["url"], credentials=credentials) as robot:
         robot.wait(10.0)
         honest = Honest(robot)
         living = threading.Thread(target=honest.live, name="honest")
@@ -141,4 +146,4 @@ def main(url: str) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main()

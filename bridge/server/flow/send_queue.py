@@ -21,6 +21,9 @@ log.addFilter(STRANGERS)
 
 TURN_TIME = 0.005
 """Longest time for one client before the others have their turn [s]; one frame may hold a thousand operations."""
+FULL_TURNS = 4
+"""Clients that may each have the whole of `TURN_TIME` in one step of the loop; more of them share what these would have, so that
+however many flood the robot, the others wait no longer."""
 _MAX_REFUSED_TOPICS = 100
 """Most topics of one client for which a failure to send is logged."""
 
@@ -49,10 +52,17 @@ class WriteBatch:
         """`call_soon` has a function called at the end of this step of the loop."""
         self.held = False
         """Whether the batch waits for an explicit `flush`."""
+        self.crowd: set[object] = set()
+        """Clients that said more than fits into a turn."""
         self._call_soon = call_soon
         self._waiting: list[SendQueue] = []
         self._frames: list[bytes] = []
         self._piece = b""
+
+    @property
+    def share(self) -> float:
+        """Share of `TURN_TIME` that a client has in a step of the loop, above 0 to 1."""
+        return FULL_TURNS / max(FULL_TURNS, len(self.crowd))
 
     def add(self, queue: SendQueue) -> None:
         """Flush a queue at the end of this step."""

@@ -33,7 +33,9 @@ class Verdict(NamedTuple):
     refusal: str
     """One sentence; empty when it is taken."""
     trusted: bool
-    """It comes from a program or from a page of the robot itself."""
+    """It counts as a program: it is one, or a page of the robot itself or one that was allowed."""
+    own: bool = False
+    """It comes from a program or from a page of the robot itself, so that the robot's cookie counts."""
 
 
 def read_origin(text: str) -> str:
@@ -90,7 +92,7 @@ class PagePolicy:
                 "This robot does not go by that name; its log says how to allow it.", trusted=False
             )
         if not origins:
-            return Verdict("", trusted=True)
+            return Verdict("", trusted=True, own=True)
         return self._judge_page(origins[0], host)
 
     def _judge_page(self, text: str, host: str) -> Verdict:
@@ -99,9 +101,9 @@ class PagePolicy:
         except ValueError as problem:
             self._log_once(text, "A page was refused. %s", "", str(problem))
             return Verdict("Pages of this origin are refused; the robot's log says why.", trusted=False)
-        if origin in self._allowed:
-            return Verdict("", trusted=False)
         if self._is_own_page(origin, host):
+            return Verdict("", trusted=True, own=True)
+        if origin in self._allowed:
             return Verdict("", trusted=True)
         self._log_once(origin, "A page of %s was refused", origin, origin)
         return Verdict(

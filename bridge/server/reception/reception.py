@@ -14,7 +14,7 @@ from bridge.core.async_tasks import cancel_all
 from bridge.server.reception.places import Limits, Place, Places
 from bridge.server.reception.tls import harden, upgrade
 
-__all__ = ["FIRST_BYTE_TIMEOUT", "RESERVE_TIME", "Guest", "Reception", "anyone"]
+__all__ = ["FIRST_BYTE_TIMEOUT", "RESERVE_TIME", "Guest", "Reception", "anyone", "plain_host"]
 
 FIRST_BYTE_TIMEOUT = 10.0
 """Time for a connection to say anything, where TLS and plain are told apart by that [s]."""
@@ -53,14 +53,11 @@ class Reception:
         *,
         tls: ssl.SSLContext | None = None,
         plain_from: Callable[[str], bool] = anyone,
-        scheme: str = "wss",
     ) -> None:
-        """With `tls` connections may be encrypted; `plain_from(host)` says who may come without, all others are told to use
-        `scheme`, as in `wss`."""
+        """With `tls` connections may be encrypted; `plain_from(host)` says who may come without."""
         self.places = Places(limits)
         self.tls = None if tls is None else harden(tls)
         self.plain_from = plain_from
-        self.scheme = scheme
         self.closed = False
         self._arriving: set[asyncio.Transport] = set()
         self._tasks: set[asyncio.Task[None]] = set()
@@ -191,7 +188,7 @@ class _Arrival(asyncio.Protocol):
         """Say in one answer of HTTP that it has to come by TLS; what it sends is read, or it would not read the answer."""
         own = self._transport.get_extra_info("sockname")
         host = f"[{own[0]}]" if ":" in str(own[0]) else str(own[0])
-        said = f"This robot speaks without TLS to its own machine only; use {self._reception.scheme}://{host}:{own[1]}.\n"
+        said = f"This robot speaks without TLS to its own machine only; use wss://{host}:{own[1]}.\n"
         head = (
             "HTTP/1.1 426 Upgrade Required\r\nUpgrade: TLS/1.2, HTTP/1.1\r\nConnection: Upgrade, close\r\n"
             f"Content-Type: text/plain; charset=utf-8\r\nContent-Length: {len(said)}\r\n\r\n"

@@ -14,6 +14,7 @@ from bridge.core.robot_catalogue import Operator
 from bridge.server.reception.credentials import bearer, cookie, introduce
 from bridge.server.reception.pages import PagePolicy, Verdict
 from bridge.server.reception.places import FULL, Place
+from bridge.server.reception.reception import anyone, plain_host
 from robotside.door.station_door import StationDoor
 from robotside.gateways.http.browser_connection import PLACE
 
@@ -37,6 +38,8 @@ class _Asked(NamedTuple):
     """It presses STOP."""
     address: str
     secure: bool
+    own: str
+    """The address by which it came to this robot, as `HOST:PORT`."""
     headers: Callable[[bytes], Sequence[str]]
 
 
@@ -44,12 +47,21 @@ class Doorkeeper:
     """An ASGI application before the site: each request joins at the robot's door and leaves when it is answered."""
 
     def __init__(
-        self, site: ASGIApp, door: StationDoor, pages: PagePolicy, *, stop_from_pages: bool = True
+        self,
+        site: ASGIApp,
+        door: StationDoor,
+        pages: PagePolicy,
+        *,
+        stop_from_pages: bool = True,
+        plain_from: Callable[[str], bool] = anyone,
     ) -> None:
         """`pages` may speak to the robot; STOP may be pressed by every page of the world while `stop_from_pages`: to stop
-        without need is safe, and a page that was opened by another name of the robot must be able to stop it."""
+        without need is safe, and a page that was opened by another name of the robot must be able to stop it.
+
+        `plain_from(host)` says who may come without TLS; all others may press STOP without it and nothing else.
+        """
         self._site, self._door, self._pages = site, door, pages
-        self._stop_from_pages = stop_from_pages
+        self._stop_from_pages, self._plain_from = stop_from_pages, plain_from
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer one request."""
@@ -59,6 +71,12 @@ class Doorkeeper:
         asked = _read(scope)
         state: dict[str, Any] = scope.setdefault("state", {})
         place: Place | None = state.get(PLACE)
+        if not (
+            asked.secure or asked.stops or self._plain_from(plain_host(asked.address.rpartition(":")[0]))
+        ):
+            said = f"This robot speaks without TLS to its own machine only; use https://{asked.own}."
+            await _answer(426, said)(scope, receive, send)
+            return
         verdict = self._pages.judge(asked.headers(b"origin"), asked.headers(b"host"))
         if verdict.refusal and not (asked.stops and self._stop_from_pages):
             await _answer(403, verdict.refusal)(scope, receive, send)
@@ -80,7 +98,7 @@ class Doorkeeper:
         """Who asks. A wrong token raises Refused, but who presses STOP needs none; a cookie that ended counts for nothing."""
         trusted = verdict.trusted and not verdict.refusal
         by_hand = [] if asked.stops and verdict.refusal else asked.headers(b"authorization")
-        shown = cookie(asked.headers(b"cookie"), self._pages.cookie_name) if trusted else ""
+        shown = cookie(asked.headers(b"cookie"), self._pages.cookie_name) if verdict.own else ""
         try:
             if token := bearer(by_hand):
                 return self._enter(asked, token, trusted)
@@ -114,13 +132,17 @@ def _read(scope: Scope) -> _Asked:
 
     path = scope["path"]
     stops = path == STOP and scope["method"] == "POST"
-    return _Asked(path, stops, f"{client[0]}:{client[1]}", scope.get("scheme") == "https", values)
+    host, port = scope.get("server") or ("", 0)
+    own = f"[{host}]:{port}" if ":" in host else f"{host}:{port}"
+    return _Asked(path, stops, f"{client[0]}:{client[1]}", scope.get("scheme") == "https", own, values)
 
 
 def _answer(status: int, sentence: str) -> PlainTextResponse:
     headers = {"Cache-Control": "no-store"}
     if status == 401:
         headers["WWW-Authenticate"] = "Bearer"
+    if status == 426:
+        headers |= {"Upgrade": "TLS/1.2, HTTP/1.1", "Connection": "Upgrade"}
     if status == 503:
         headers["Retry-After"] = "5"
     return PlainTextResponse(f"{sentence}\n", status, headers)

@@ -50,7 +50,8 @@ class HttpGateway:
     ) -> None:
         """Port 0 takes a free one. The page names `rosbridge_url` to programs.
 
-        With `tls` browsers may come encrypted, on the same port; `plain_from(host)` says who may come without.
+        With `tls` browsers may come encrypted, on the same port; `plain_from(host)` says who may come without, for more than
+        STOP.
         `pages` may speak to the robot, by default its own; `stop_from_pages` as of `Doorkeeper`, `pairing` as of `site`.
         """
         self._host, self._is_secure = host, tls is not None
@@ -58,9 +59,9 @@ class HttpGateway:
         """Where it listens; 0 until one was taken."""
         allowed = pages or PagePolicy(web_port=lambda: self.port)
         own = site(door, rosbridge_url, CameraStreams(door, pictures), Sessions(door, allowed), pairing)
-        self.site = Doorkeeper(own, door, allowed, stop_from_pages=stop_from_pages)
+        self.site = Doorkeeper(own, door, allowed, stop_from_pages=stop_from_pages, plain_from=plain_from)
         """The ASGI application."""
-        self._reception = Reception(LIMITS, tls=tls, plain_from=plain_from, scheme="https")
+        self._reception = Reception(LIMITS, tls=tls)
         self._socket: socket.socket | None = None
         self._server: uvicorn.Server | None = None
         self._serving: asyncio.Task[None] | None = None

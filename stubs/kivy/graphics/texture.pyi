@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from typing import Any
 
+from kivy.core.image import ImageData
+
 class Texture:
     mag_filter: str
     min_filter: str
@@ -18,6 +20,8 @@ class Texture:
         callback: Callable[[Texture], Any] | None = None,
         icolorfmt: str | None = None,
     ) -> Texture: ...
+    @staticmethod
+    def create_from_data(im: ImageData, mipmap: bool = False) -> Texture: ...
     @property
     def id(self) -> int: ...
     @property

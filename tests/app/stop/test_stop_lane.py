@@ -43,14 +43,22 @@ class Robot:
         self.status = ControlStatus(at_rest=False)
         self.credentials: Credentials | None = None
         """By which its client goes."""
+        self.knows_key = True
         self._closed = asyncio.Event()
         self._on_state: Callable[[LinkState], None] = lambda _: None
 
     def client(
-        self, url: str, *, on_state: Callable[[LinkState], None], credentials: Credentials | None, **_: Any
+        self,
+        url: str,
+        *,
+        on_state: Callable[[LinkState], None],
+        credentials: Credentials | None,
+        even_unknown: bool = False,
+        **_: Any,
     ) -> Robot:
         self._on_state = on_state
         self.credentials = credentials
+        self.there = self.there and (self.knows_key or even_unknown)
         return self
 
     async def run(self) -> None:
@@ -400,6 +408,16 @@ async def test_a_paired_robot_is_proven_from_the_first_connection_on(robot):
         robot.vanish()
         await asyncio.sleep(1.0)
         assert lane.report.proven == key.fingerprint
+
+
+@story
+async def test_a_robot_that_does_not_know_the_handheld_any_more_is_stopped_all_the_same(robot):
+    """A guest whose hour is over, or who was removed, stands beside it: STOP is anybody's."""
+    robot.there, robot.knows_key = True, False
+    async with pressed(robot, Credentials("ab" * 32, "me.secret", "Fake-1")) as lane:
+        await asyncio.sleep(1.0)
+        assert "/stop" in [service for _, service in robot.asked]
+        assert lane.report.phase == "stopped"
 
 
 @story

@@ -166,6 +166,35 @@ async def test_a_token_that_is_not_known_any_more_is_one_sentence():
         assert str(raised.value) == "This robot does not know this handheld any more; pair again."
 
 
+def refuse_keys(connection):
+    """A robot that knows nobody's key and lets strangers in."""
+    return (
+        connection.respond(http.HTTPStatus.UNAUTHORIZED, "")
+        if "Authorization" in connection.request.headers
+        else None
+    )
+
+
+async def test_a_client_may_go_on_as_a_stranger_where_its_token_is_not_known_any_more():
+    """And only to the robot that it expects."""
+    async with robot(answer=refuse_keys) as (url, key, tokens):
+        async with link(url, credentials=Credentials(key, TOKEN), even_unknown=True):
+            assert await tokens.reach(2) == [f"Bearer {TOKEN}", None]
+        tokens.clear()
+        other = Credentials(served("other")[1], TOKEN)
+        async with link(url, credentials=other, even_unknown=True) as made:
+            assert "Another robot answers" in await made.sentence(Phase.WAITING)
+        assert tokens == []
+
+
+async def test_a_client_goes_on_as_a_stranger_only_when_it_is_told_to():
+    async with (
+        robot(answer=refuse_keys) as (url, key, tokens),
+        link(url, credentials=Credentials(key, TOKEN)),
+    ):
+        assert set(await tokens.reach(4)) == {f"Bearer {TOKEN}"}
+
+
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from bridge.core.identity import Identity, Role, public_id
@@ -31,3 +33,10 @@ def test_an_operator_has_its_role_until_it_ends() -> None:
     guest = Operator("1", "192.0.2.9:1", 0.0, identity=Identity("g", "Guest", Role.WATCH, ends=60.0))
     assert guest.role(59.9) is Role.WATCH
     assert guest.role(60.0) is Role.NONE
+
+
+def test_without_a_clock_only_a_role_that_ends_is_over() -> None:
+    guest = Operator("1", "192.0.2.9:1", 0.0, identity=Identity("g", "Guest", Role.WATCH, ends=60.0))
+    owner = Operator("2", "192.0.2.9:2", 0.0, identity=Identity("o", "Owner", Role.DRIVE))
+    assert guest.role(math.nan) is Role.NONE
+    assert owner.role(math.nan) is Role.DRIVE

@@ -15,6 +15,7 @@ from websockets.frames import Frame, Opcode
 
 from bridge.server import callback_connection as server_connection
 from bridge.server import rosbridge_session as serving
+from bridge.server.flow.send_queue import FULL_TURNS
 from bridge.server.reception.places import FULL, Limits
 from tests.bridge.peers import bare, peer
 from tests.bridge.wires import TIMEOUT, Record, server
@@ -273,6 +274,50 @@ async def test_of_much_that_comes_at_once_each_turn_takes_a_piece(monkeypatch):
             await foreign.settled()
     assert [x for _, x in heard] == [float(x) for x in range(100)]
     assert len({turn for turn, _ in heard}) > 90
+
+
+async def test_the_more_clients_flood_the_robot_the_shorter_is_the_turn_of_each(monkeypatch):
+    slowly(monkeypatch)
+    turns_at = {}
+    async with server() as robot, contextlib.AsyncExitStack() as stack:
+        floods = [await stack.enter_async_context(peer(robot)) for _ in range(3 * FULL_TURNS)]
+        said = b"".join(Frame(Opcode.TEXT, speed(0.0).encode()).serialize(mask=True) for _ in range(200))
+        for flood in floods:
+            await flood.settled()
+        for flood in floods:
+            flood.ws.transport.write(said)
+        connection = next(iter(robot._open))
+        while len(turns_at) < 3 * FULL_TURNS:
+            turns_at[len(robot._batch.crowd)] = connection._turn
+            await asyncio.sleep(0)
+            if not robot._batch.crowd and len(turns_at) > 1:
+                break
+        for flood in floods:
+            await flood.settled()
+        assert robot._batch.crowd == set()
+    whole = server_connection.TURN_TIME
+    assert max(turns_at) > FULL_TURNS
+    assert all(
+        turn == pytest.approx(whole * min(1.0, FULL_TURNS / max(1, crowd)))
+        for crowd, turn in turns_at.items()
+    )
+
+
+async def test_who_is_cut_off_with_more_to_say_is_no_longer_of_the_crowd(monkeypatch):
+    slowly(monkeypatch)
+    gone = Record()
+    async with server(on_gone=gone) as robot, peer(robot) as foreign:
+        await foreign.settled()
+        said = b"".join(Frame(Opcode.TEXT, speed(0.0).encode()).serialize(mask=True) for _ in range(500))
+        foreign.ws.transport.write(said)
+        for _ in range(10_000):
+            await asyncio.sleep(0)
+            if robot._batch.crowd:
+                break
+        assert robot._batch.crowd
+        foreign.ws.transport.abort()
+        await gone.reach(1)
+        assert robot._batch.crowd == set()
 
 
 async def test_operations_of_one_frame_are_done_in_turns_and_what_follows_waits_for_them(monkeypatch):

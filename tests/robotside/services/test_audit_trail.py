@@ -133,6 +133,26 @@ def test_who_floods_the_door_is_counted_and_fills_no_log(
     assert audit.verify() is None
 
 
+def test_many_strangers_at_many_addresses_push_nothing_out_of_the_log(scene: Scene) -> None:
+    now = [0.0]
+    audit = scene.station.records.audit
+    trail = AuditTrail(audit, lambda: 1000.0, lambda: now[0])
+    for number in range(3000):
+        stranger = FakeClient("s", 0.0, Identity("", "", Role.NONE))
+        stranger.address = f"192.0.2.{number % 250}:7"
+        trail.refused(stranger, f"call /nothing/{number % 7}", Refused("No."))
+        trail.refused(stranger, f"subscribe /nothing/{number}", Refused("No."))
+    assert len(audit.rows()) <= audit_trail.MAX_REPEATED + 2
+    assert {row.operation for row in audit.rows() if row.name == audit_trail.SEVERAL} == {"call", "subscribe"}
+    now[0] = audit_trail.REPEAT_PERIOD + 1.0
+    trail.did(scene.anna, "page /audit.csv")
+    counted = sum(
+        int(row.outcome.split(", ")[1].split()[0]) for row in audit.rows() if "times more" in row.outcome
+    )
+    first = sum("times more" not in row.outcome and row.outcome.startswith("refused") for row in audit.rows())
+    assert counted + first == 6000
+
+
 def test_what_a_stranger_is_refused_at_the_door_and_a_wrong_key_are_recorded(scene: Scene) -> None:
     door = StationDoor(scene.station, GATE)
     stranger = door.join("192.0.2.9:1", way="rosbridge")

@@ -12,6 +12,7 @@ from contextlib import asynccontextmanager
 from dataclasses import replace
 from pathlib import Path
 
+import httpx
 import pytest
 
 from bridge.client.client import BridgeClient, LinkState, Phase
@@ -214,3 +215,11 @@ def test_who_may_speak_without_tls(tmp_path: Path, host: str, plain: Role | None
     keys = StationKeys(tmp_path, station, own_certificate(tmp_path), TrustSettings(), plain=plain)
     keys.close()
     assert keys.plain_from(host) is welcome
+
+
+@pytest.mark.parametrize("allowed", [True, False])
+async def test_pages_of_others_press_stop_unless_the_settings_say_no(tmp_path: Path, allowed: bool) -> None:
+    async with serving(tmp_path, settings=TrustSettings(stop_from_pages=allowed)) as (serves, _, _):
+        async with httpx.AsyncClient(base_url=serves.addresses.http) as web:
+            await web.post("/stop", headers={"Origin": "https://page.example"})
+        assert serves.station.controls.stopped is allowed

@@ -144,3 +144,7 @@ class TestAUsersOwn:
         )
         with pytest.raises(BadCertificate, match="has a password"):
             users_certificate(certificate, key)
+
+
+def test_it_tells_the_names_it_is_for(tmp_path: Path) -> None:
+    assert "localhost" in own_certificate(tmp_path).names

@@ -5,6 +5,28 @@ from typing import IO, Any
 from kivy.event import EventDispatcher
 from kivy.graphics.texture import Texture
 
+class ImageData:
+    fmt: str
+    source: Any
+    flip_vertical: bool
+    def __init__(
+        self,
+        width: int,
+        height: int,
+        fmt: str,
+        data: Any,
+        source: Any = None,
+        flip_vertical: bool = True,
+        source_image: Any = None,
+        rowlength: int = 0,
+    ) -> None: ...
+    @property
+    def width(self) -> int: ...
+    @property
+    def height(self) -> int: ...
+    @property
+    def data(self) -> Any: ...
+
 class ImageLoader:
     loaders: list[Any]
     @staticmethod

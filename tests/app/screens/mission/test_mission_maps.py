@@ -26,3 +26,15 @@ def test_buttons_and_fence_are_of_the_map_that_is_shown(driving: Glass, robot):
     driving.tap(mission.ids["zoom_in"])
     assert mission.map.view.scale == pytest.approx(1.5 * scale)
     assert first.view == before
+
+
+def test_leaving_the_robot_ends_the_reading_of_aerial_pictures(driving: Glass, robot):
+    robot.publish("/robot/info", LOT)
+    driving.app.show("mission")
+    mission = driving.app.screens["mission"]
+    driving.until(lambda: driving.app.session.robot.info.world == "parking_lot", "no world")
+    driving.tap(mission.ids["layers"])
+    pictures = mission.map._pictures.map_source
+    driving.tap(mission.ids["layers"])
+    driving.app.leave()
+    assert pictures._reader._closed

@@ -9,6 +9,8 @@ from app.layout.rects import Rect
 from app.screens.connect.simulator_dialog import SimulatorDialog
 from app.screens.parts.dialogs import AddressDialog, Question, free_room
 from app.screens.shell.key_help import HelpCard
+from app.screens.trust.pair_dialog import PairDialog
+from bridge.trust.pairing import PairLink
 from tests.app.glass import Glass
 from tests.headless import Stage
 
@@ -20,7 +22,14 @@ def questions() -> list[Question]:
     many = [([str(number)], "What it does, in words") for number in range(60)]
     help_ = HelpCard()
     help_.show([("STOP", [(["Esc"], "STOP")]), ("Robot", many)])
-    return [help_, AddressDialog(lambda _: None), SimulatorDialog(SimulationChoice(), lambda _: None)]
+    link = PairLink("10.0.0.12", 9090, "ab" * 32, "s" * 22, "Patrol-1")
+    return [
+        help_,
+        AddressDialog(lambda _: None),
+        SimulatorDialog(SimulationChoice(), lambda _: None),
+        PairDialog(lambda _: None, robot="Patrol-1"),
+        PairDialog(lambda _: None, link=link),
+    ]
 
 
 def test_a_card_may_be_anywhere_where_there_is_no_stop() -> None:

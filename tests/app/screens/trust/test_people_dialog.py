@@ -7,16 +7,18 @@ from typing import Any
 
 import pytest
 
-from app.link.channels import ANSWER, Answer
+from app.link.channels import ANSWER, EVENT, Answer
 from app.link.feeds import Post
 from app.screens.trust.people_dialog import CONFIRM_TIMEOUT, PeopleDialog, seen_text
 from bridge.msgs.pilothouse_msgs import (
+    Event,
     GetPeopleResponse,
     InviteGuestResponse,
     InvitePersonResponse,
     Person,
     RemovePersonResponse,
 )
+from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 
 
@@ -143,3 +145,83 @@ def test_when_somebody_was_there_is_said_in_a_few_words(person: Person, said: st
 
 def test_without_the_robots_clock_nothing_is_said_of_when() -> None:
     assert seen_text(Person(last_seen=1.0), math.nan) == ""
+
+
+def test_a_question_that_was_not_answered_in_time_is_taken_back(driving: Glass, asked: Asked) -> None:
+    dialog = opened(driving)
+    answer(driving, "/people/list", GetPeopleResponse(people=people(driving)))
+    row = rows(dialog)[1]
+    dialog.remove(row)
+    driving.stage.run_for(CONFIRM_TIMEOUT + 0.1)
+    assert row.detail == "drives, never here"
+    dialog.close()
+
+
+def test_a_third_tap_asks_the_robot_nothing_more(driving: Glass, asked: Asked) -> None:
+    dialog = opened(driving)
+    answer(driving, "/people/list", GetPeopleResponse(people=people(driving)))
+    row = rows(dialog)[1]
+    for _ in range(3):
+        driving.tap(row.children[0])
+    assert [service for service, _ in asked].count("/people/remove") == 1
+    assert row.detail == "Removing …"
+    answer(driving, "/people/remove", None, "Nobody is called that.")
+    assert asked[-1][0] == "/people/list", "what is shown is what the robot says"
+    answer(driving, "/people/list", GetPeopleResponse(people=people(driving)))
+    assert dialog.problem == "Nobody is called that."
+    dialog.close()
+
+
+def test_who_removes_itself_or_the_last_one_who_manages_is_told_what_that_means(
+    driving: Glass, asked: Asked
+) -> None:
+    dialog = opened(driving)
+    known = people(driving)
+    answer(driving, "/people/list", GetPeopleResponse(people=known))
+    first, second = rows(dialog)
+    dialog.remove(first)
+    assert "the last one who manages" in first.detail
+    assert "`robotside pair`" in first.detail
+    dialog.remove(second)
+    assert second.detail.endswith("It cannot come in any more.")
+    managing = Person(id="b", name="tablet-B", role="manage", kind="handheld", last_seen=math.nan)
+    answer(driving, "/people/list", GetPeopleResponse(people=[known[0], managing]))
+    first, _ = rows(dialog)
+    dialog.remove(first)
+    assert "this handheld itself" in first.detail
+    dialog.close()
+
+
+def test_a_code_that_was_used_or_has_run_out_is_shown_no_more(driving: Glass, asked: Asked) -> None:
+    dialog = opened(driving)
+    answer(driving, "/people/list", GetPeopleResponse(people=people(driving)))
+    driving.until(lambda: math.isfinite(driving.app.session.link.robot_time()), "no robot clock")
+    ends = driving.app.session.link.robot_time() + 20.0
+    answer(driving, "/people/invite", InvitePersonResponse(code="493017", open_until=ends))
+    driving.stage.run_for(5.0)
+    assert dialog.code
+    driving.stage.run_for(16.0)
+    assert not dialog.code
+    answer(driving, "/people/invite", InvitePersonResponse(code="493017", open_until=ends + 600.0))
+    driving.app.session._publish(EVENT, Post(Event(code="person_paired"), 0.0, 1))
+    driving.stage.frames(3)
+    assert not dialog.code
+    assert asked[-1][0] == "/people/list", "the new one is on the list"
+    dialog.close()
+
+
+def test_an_open_lock_says_what_it_means(
+    driving: Glass, asked: Asked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(type(driving.app.session), "protected", False)
+    dialog = opened(driving)
+    assert "not protected" in dialog.warning
+    dialog.close()
+
+
+def test_stop_acts_while_the_list_is_open(driving: Glass, asked: Asked, robot: FakeRobot) -> None:
+    dialog = opened(driving)
+    driving.tap(driving.app.shell.stop)
+    driving.until(lambda: any(name == "/stop" for name, _ in robot.asked), "no STOP")
+    assert dialog.parent is not None
+    dialog.close()

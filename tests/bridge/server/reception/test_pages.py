@@ -34,7 +34,7 @@ def policy(*allowed: str) -> PagePolicy:
     ],
 )
 def test_a_program_is_taken_by_any_name_of_this_robot(host: str) -> None:
-    assert policy().judge([], [host]) == ("", True)
+    assert policy().judge([], [host]) == ("", True, True)
 
 
 @pytest.mark.parametrize(
@@ -74,7 +74,7 @@ def test_two_hosts_or_two_origins_are_refused() -> None:
     ],
 )
 def test_the_robots_own_page_is_trusted(origin: str, host: str) -> None:
-    assert policy().judge([origin], [host]) == ("", True)
+    assert policy().judge([origin], [host]) == ("", True, True)
 
 
 @pytest.mark.parametrize(
@@ -104,9 +104,9 @@ def test_without_a_web_site_there_is_no_own_page() -> None:
     assert PagePolicy().judge(["http://localhost:0"], HERE).refusal
 
 
-def test_a_page_that_is_allowed_is_taken_and_trusted_with_nothing() -> None:
-    assert policy("http://localhost:3000").judge(["http://localhost:3000"], HERE) == ("", False)
-    assert policy("https://Tools.example:443/").judge(["https://tools.example"], HERE) == ("", False)
+def test_a_page_that_is_allowed_counts_as_a_program_but_not_with_the_robots_cookie() -> None:
+    assert policy("http://localhost:3000").judge(["http://localhost:3000"], HERE) == ("", True, False)
+    assert policy("https://Tools.example:443/").judge(["https://tools.example"], HERE) == ("", True, False)
     assert policy("http://localhost:3000").judge(["http://localhost:3001"], HERE).refusal
 
 

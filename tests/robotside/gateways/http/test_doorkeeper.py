@@ -194,3 +194,26 @@ async def test_the_audit_log_is_a_file_for_who_manages_and_for_nobody_else(site:
     assert lines[0].startswith("number,time,person_id,name,role,way")
     assert any("Person w,watch,http,127.0.0.1,page /audit.csv,refused trust_role" in line for line in lines)
     assert any("Person m,manage,http,127.0.0.1,page /audit.csv,done" in line for line in lines)
+
+
+async def test_who_comes_in_clear_where_that_is_not_allowed_may_press_stop_and_nothing_else(
+    tmp_path: Path,
+) -> None:
+    scene = Scene(FakeRobot(), tmp_path)
+    door, pictures = StationDoor(scene.station, Gate()), PictureScaler()
+    gateway = HttpGateway(
+        door, "127.0.0.1", 0, pictures, lambda: "", plain_from=lambda host: host != "127.0.0.1"
+    )
+    await gateway.start()
+    try:
+        async with httpx.AsyncClient(base_url=gateway.endpoints()["http"]) as web:
+            for path in ("/", "/healthz", "/snapshot/front.jpg"):
+                answer = await web.get(path, headers={"Authorization": "Bearer m.key"})
+                assert answer.status_code == 426
+                assert f"use https://127.0.0.1:{gateway.port}." in answer.text
+            assert not scene.station.controls.stopped
+            assert (await web.post("/stop")).status_code == 200
+            assert scene.station.controls.stopped
+    finally:
+        await gateway.stop()
+        await pictures.close()
