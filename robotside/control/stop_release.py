@@ -30,7 +30,7 @@ PRESSED_SINCE = Notice(Code.STOP_PRESSED_SINCE, "STOP was pressed after this req
 
 NOT_HELD = Notice(
     Code.STOP_NOT_HELD,
-    f"STOP stays: hold Release for {MIN_HOLD_TIME:.0f} s (/stop/hold, then /stop/release).",
+    f"STOP stays: hold Release for {MIN_HOLD_TIME:.0f} s, or call /stop/release again after {MIN_HOLD_TIME:.0f} to {MAX_HOLD_TIME:.0f} s.",
 )
 
 

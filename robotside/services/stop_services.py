@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs.pilothouse_msgs import CommandRequest
-from robotside.control.stop_release import MIN_HOLD_TIME, PRESSED_SINCE
+from robotside.control.stop_release import MIN_HOLD_TIME, NOT_HELD, PRESSED_SINCE
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.services.command_service import CommandService
@@ -65,7 +65,10 @@ class _StopOrders:
         return f"Hold Release for {MIN_HOLD_TIME:.0f} s."
 
     def release_stop(self, client: Operator, asked: CommandRequest) -> str:
-        """Unlatch STOP after a hold, unless it was pressed after that was asked for: the release was late on its way."""
+        """Unlatch STOP after a hold, unless it was pressed after that was asked for: the release was late on its way.
+
+        Without a hold this begins one, for clients that know no other service.
+        """
         station = self._station
         controls = station.controls
         if not controls.stopped:
@@ -77,6 +80,8 @@ class _StopOrders:
         if asked.stamp < controls.stop_given:
             raise Refusal(PRESSED_SINCE)
         problem = station.stop.holds.objection(client.id, controls.stop_given, station.clock())
+        if problem is NOT_HELD:
+            self.hold(client, asked)
         if problem:
             raise Refusal(problem)
         problem = controls.acquire(client, station.clock())

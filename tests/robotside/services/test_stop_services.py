@@ -109,6 +109,17 @@ def test_without_a_hold_of_a_second_stop_stays(scene: Scene) -> None:
     assert not scene.control.stopped
 
 
+def test_a_release_without_a_hold_begins_one_so_that_two_of_them_release_stop(scene: Scene) -> None:
+    scene.ask("/stop")
+    assert "call /stop/release again after 1 to 5 s" in scene.refused("/stop/release")
+    assert "longer" in scene.refused("/stop/release"), "at once is no hold"
+    scene.run(MIN_HOLD_TIME + 0.05)
+    assert scene.ask("/stop/release").success
+    scene.ask("/stop")
+    assert "lately" in scene.refused("/stop/release"), "the pause after a release holds for this hold too"
+    assert scene.control.stopped
+
+
 def test_a_hold_is_of_one_operator_and_over_after_a_while(scene: Scene) -> None:
     bert = scene.client("bert")
     scene.ask("/stop")
