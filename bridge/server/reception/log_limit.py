@@ -34,7 +34,7 @@ class LogLimit(logging.Filter):
         self._kinds: dict[tuple[str, str], _Kind] = {}
 
     def filter(self, record: logging.LogRecord) -> bool:
-        """Whether the line is written."""
+        """Whether the line is written; what is no printable character in it is written as its escape: a line is one line."""
         now, key = self._clock(), (record.name, str(record.msg)[:200])
         if key not in self._kinds and len(self._kinds) >= MAX_KINDS:
             key = ("", "")
@@ -45,7 +45,12 @@ class LogLimit(logging.Filter):
         if kind is None:
             kind = self._kinds[key] = _Kind(now)
         kind.count += 1
-        return kind.count <= self._max_lines
+        if kind.count > self._max_lines:
+            return False
+        text = record.getMessage()
+        if not text.isprintable():
+            record.msg, record.args = "%s", (_printable(text),)
+        return True
 
     def flush(self) -> None:
         """Log the number of lines that were left out in windows that are over; to be called every second or so."""
@@ -64,6 +69,10 @@ class LogLimit(logging.Filter):
         if left_out > 0:
             log = logging.getLogger(__name__)
             log.warning("%d more lines of %s within %g s: %s", left_out, key[0] or "others", WINDOW, key[1])
+
+
+def _printable(text: str) -> str:
+    return "".join(each if each.isprintable() else each.encode("unicode_escape").decode() for each in text)
 
 
 STRANGERS = LogLimit()

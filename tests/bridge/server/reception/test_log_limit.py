@@ -49,6 +49,18 @@ def test_the_first_of_a_kind_are_written_and_the_rest_counted(
     assert lines(caplog) == ["bad request 10"]
 
 
+def test_nobody_writes_lines_of_its_own_or_commands_the_terminal(
+    limited: tuple[logging.Logger, LogLimit], caplog: pytest.LogCaptureFixture
+) -> None:
+    log, _ = limited
+    log.warning("%s is refused", "/\n2026 root logged in\x1b[2J\u202e\ud800")
+    log.warning("50 % is é")
+    assert lines(caplog) == [
+        "/\\n2026 root logged in\\x1b[2J\\u202e\\ud800 is refused",
+        "50 % is é",
+    ]
+
+
 def test_a_new_window_begins_with_the_number_of_what_was_left_out(
     limited: tuple[logging.Logger, LogLimit], clock: Clock, caplog: pytest.LogCaptureFixture
 ) -> None:
