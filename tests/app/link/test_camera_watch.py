@@ -21,7 +21,9 @@ class Stream:
 
     open: list[str] = []
 
-    def __init__(self, url: str, on_frame: Callable[[Frame, float], None]) -> None:
+    def __init__(
+        self, url: str, on_frame: Callable[[Frame, float], None], credentials: object = None
+    ) -> None:
         self.url = url
 
     async def run(self) -> None:
