@@ -57,7 +57,9 @@ class StopRecord:
             self._waiting.discard(future)
 
     def _tried(self) -> None:
-        """What was noted is on the disk or could not be written."""
+        """What was noted is on the disk or could not be written; a newer note may be on its way still."""
+        if self._records.stop_pending:
+            return
         for future in self._waiting:
             if not future.done():
                 future.set_result(None)

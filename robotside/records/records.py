@@ -119,8 +119,15 @@ class Records:
 
     @property
     def stop_kept(self) -> bool:
-        """That STOP is pressed or released is on the disk as it is."""
+        """That STOP is pressed or released is on the disk as it is, and nothing on its way there says otherwise meanwhile."""
+        if self.stop_pending:
+            return False
         return bool(self._ledger.stored("facts").get("stopped by")) == bool(self.stopped_by)
+
+    @property
+    def stop_pending(self) -> bool:
+        """That STOP is pressed or released is on its way to the disk."""
+        return self._ledger.memory.is_pending("facts", "stopped by")
 
     def note_stop(self, by: str, after: Callable[[], object] | None = None) -> None:
         """Note who pressed STOP, or with an empty name that it was released; `after` is called once it was tried."""

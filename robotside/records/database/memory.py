@@ -35,6 +35,10 @@ class RowMemory:
         """An order about one of the `tables` was not tried yet."""
         return any(put.table in tables for job in self._pending for put in job.orders)
 
+    def is_pending(self, table: str, key: Key) -> bool:
+        """A change of that row was not tried yet."""
+        return any((put.table, put.key) == (table, key) for job in self._pending for put in job.puts)
+
     def put(self, job: Job) -> None:
         """Note that `job` is on its way; its rows were `apply`n already."""
         self._pending.append(job)

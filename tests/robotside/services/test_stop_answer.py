@@ -8,6 +8,7 @@ import pytest
 
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
+from tests.fakes import FakeClient
 from tests.robotside.slow import FULL, Slow
 
 
@@ -60,6 +61,27 @@ async def test_a_stop_by_who_has_no_session_is_answered_as_late(slow: Slow) -> N
     assert (await task).message == "Stopped."
     late = asyncio.ensure_future(slow.door.stop("a browser"))
     assert (await late).message == "Stopped.", "it is on the disk already"
+
+
+async def test_a_stop_right_after_a_release_is_answered_when_it_is_saved_and_not_by_what_is_there_of_the_one_before(
+    slow: Slow,
+) -> None:
+    task = await pressed(slow)
+    slow.write()
+    await task
+    client = FakeClient("anna", slow.clock)
+    slow.door.call(client, "/stop/hold", CommandRequest(client_name="Anna"))
+    slow.clock += 1.5
+    slow.door.call(client, "/stop/release", CommandRequest(client_name="Anna"))
+    assert not slow.station.controls.stopped
+    task = await pressed(slow)
+    slow.disk.answer("")  # the release, which is older
+    await asyncio.sleep(0)
+    assert not task.done()
+    slow.write()
+    assert (await task).message == "Stopped."
+    slow.restart()
+    assert slow.station.controls.stopped_by == "Anna"
 
 
 async def test_who_gives_up_waiting_leaves_nothing_behind_and_stop_pressed(slow: Slow) -> None:
