@@ -68,7 +68,8 @@ async def theirs(port: int) -> AsyncIterator[Callable[[Twist], Awaitable[None]]]
     topic.advertise()
 
     async def send(twist: Twist) -> None:
-        topic.publish(Message({"linear": {"x": twist.linear.x}, "angular": {"z": twist.angular.z}}))
+        if ros.is_connected:
+            topic.publish(Message({"linear": {"x": twist.linear.x}, "angular": {"z": twist.angular.z}}))
 
     try:
         yield send
