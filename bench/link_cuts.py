@@ -12,8 +12,8 @@ twist on to the same robots and checks neither its age nor who is gone; these ar
 
 **Clients**, all the other cuts: 21 robots that weigh nothing, in three processes, are driven at the same time by our client with its stamps, by a plain
 WebSocket without any, and by roslibpy. The stick is held on after the cut. A link ends by RST; or nothing passes any more and what waited comes late; or
-the robot alone hears nothing; or nothing passes for 0.35 to 1.1 s, then all at once, while the stick is still held. Late is a cut after which the robot was
-moved by a command that was given after the cut, or by any later than 300 ms after it was given: a stick has to be heard at zero first.
+the robot alone hears nothing; or nothing passes for 0.35 to 1.1 s, then all at once, while the stick is still held. A late motion is one
+by a command that was given after the cut, or any after the robot had come to rest: a stick has to be heard at zero first.
 """
 
 from __future__ import annotations
@@ -52,6 +52,7 @@ FIGURES = (
         for figure in (
             Figure(f"cuts_{client}", "", f"of them {what}"),
             Figure(f"late_{client}", "", f"{what}: late motions", 0.0),
+            Figure(f"slow_{client}", "%", f"{what}: a command was in force for over 300 ms", 0.0),
             Figure(f"longest_{client}", "ms", f"{what}: the longest time that a command was in force", 300.0),
         )
     ),
@@ -88,7 +89,7 @@ def both(count: int) -> dict[str, float]:
     vehicles = run(min(VEHICLE_CUTS, count), ours)
     found = many(max(0, count - VEHICLE_CUTS))
     for each in found:
-        if each.late:
+        if each.late or each.slow:
             print(f"  {each}")
     named = {name: value for client in CLIENT_NAMES for name, value in of_client(found, client).items()}
     return {**vehicles, **named, "cuts": vehicles["cuts"] + len(found)}
@@ -103,6 +104,7 @@ def of_client(found: Sequence[ManyCut], client: str) -> dict[str, float]:
     return {
         f"cuts_{client}": len(its),
         f"late_{client}": sum(each.late for each in its),
+        f"slow_{client}": sum(each.slow for each in its) / max(1, len(its)) * 100,
         f"longest_{client}": max((each.longest for each in its), default=math.nan) * 1e3,
     }
 

@@ -14,7 +14,7 @@ import re
 import sys
 import threading
 import time
-from collections.abc import AsyncIterator, Awaitable, Callable, Iterator, Mapping
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -36,7 +36,7 @@ from bench.support.station import serving
 from bench.support.wire import Wire, wire
 from bridge.msgs.geometry_msgs import Twist
 
-__all__ = ["CLIENTS", "HOWS", "ManyCut", "late_of", "many", "robots", "theirs"]
+__all__ = ["CLIENTS", "HOWS", "ManyCut", "many", "moved_again", "robots", "theirs"]
 
 SPEED = 0.6
 """[m/s]"""
@@ -102,10 +102,18 @@ class ManyCut:
     old: int
     """How often something moved it that was given after the cut."""
 
+    again: int = 0
+    """How often something moved it that had come to rest after the cut."""
+
     @property
     def late(self) -> bool:
-        """Something moved it too late."""
-        return self.old > 0 or not self.longest <= COMMAND_LIFETIME
+        """It moved once more, by whatever was given before or after the cut."""
+        return self.old > 0 or self.again > 0
+
+    @property
+    def slow(self) -> bool:
+        """A command was in force for longer than it may, as on a computer that has no time for its robot."""
+        return not self.longest <= COMMAND_LIFETIME
 
 
 @contextmanager
@@ -187,7 +195,19 @@ async def one(
             await asyncio.sleep(REST_TIME)
     found = judge(told[first:], given, hard=how == "reset", severed=severed)
     obeyed = any(line[0] == "drive" and line[2] for line in told[first:])
-    return ManyCut(client, how, obeyed, found.longest, found.zero, found.old)
+    again = moved_again(told[first:], severed)
+    return ManyCut(client, how, obeyed, found.longest, found.zero, found.old, again)
+
+
+def moved_again(told: Sequence[Line], severed: float) -> int:
+    """How often the port was told to move after it was told to rest after the moment of the cut [s]."""
+    rests, count = False, 0
+    for line in told:
+        if line[0] == "stop" or not line[2]:
+            rests = rests or line[1] > severed
+        else:
+            count += rests
+    return count
 
 
 async def _hold(send: Callable[[Twist], Awaitable[None]], given: dict[int, float], way: float) -> None:
@@ -207,11 +227,6 @@ async def _sever(link: Wire, how: str) -> float:
     else:
         link.freeze(upward_only=how == "deaf")
     return time.monotonic()
-
-
-def late_of(found: list[ManyCut], client: str) -> list[ManyCut]:
-    """Those of a client that moved too late."""
-    return [each for each in found if each.client == client and each.late]
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ import math
 import pytest
 
 from bench.support.cuts import CODE, Cut, judge
+from bench.support.many_cuts import moved_again
 
 GIVEN = {1: 10.0, 2: 10.05}
 
@@ -54,3 +55,9 @@ def test_rest_and_way_are_by_its_odometry_after_the_last_command() -> None:
     found = judged(drive(10.07, 2), ("stop", 10.3), *speeds)
     assert found.rest == pytest.approx(0.1)
     assert found.way == pytest.approx(0.5 * 0.3)
+
+
+def test_motion_after_the_rest_that_follows_a_cut_is_late_and_no_other() -> None:
+    before = [drive(9.5, 1), ("stop", 9.7), drive(9.9, 1), drive(10.1, 1)]
+    assert moved_again([*before, ("stop", 10.3)], severed=10.0) == 0
+    assert moved_again([*before, drive(10.3, 2, 0.0), drive(10.4, 2), drive(10.5, 3)], severed=10.0) == 2

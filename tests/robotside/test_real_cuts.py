@@ -25,4 +25,4 @@ def test_no_client_that_holds_its_stick_moves_the_robot_after_the_cut() -> None:
         (client, how) for client in CLIENTS for how in HOWS
     }
     assert all(each.obeyed and each.zero < math.inf for each in found)
-    assert not [each for each in found if each.old]
+    assert not [each for each in found if each.late]
