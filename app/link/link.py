@@ -25,6 +25,7 @@ from app.link.feeds import Mailbox
 from app.link.link_health import LinkHealth
 from app.link.subscriptions import Peek, Sources
 from app.link.task_set import TaskSet
+from bridge.client.ask_as_stranger import even_as_stranger
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.client.credentials import Credentials
 from bridge.core.camera_frames import Frame
@@ -66,7 +67,7 @@ class Link:
         self._client = client = BridgeClient(url, on_state=self._on_state, now=now, credentials=credentials)
         self._tasks = TaskSet()
         self.commands = Commands(
-            client.call,
+            even_as_stranger(client, credentials, "/stop"),
             posts.queue(OUTCOME),
             now=now,
             robot_time=client.robot_time,

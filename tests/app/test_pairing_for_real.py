@@ -9,13 +9,17 @@ from pathlib import Path
 import pytest
 
 from app.discovery.simulator_process import Simulator, command
+from app.link.feeds import Mailbox
+from app.link.link import Link
 from bridge.client import BridgeClient
 from bridge.client.client import Phase
 from bridge.client.credentials import Credentials
 from bridge.client.pairing import PairingFailed, pair_by_code, pair_by_link
 from bridge.core.identity import Role
 from bridge.core.link_state import LinkFault
+from bridge.core.network_thread import NetworkThread
 from bridge.msgs.pilothouse_msgs import (
+    ControlStatus,
     GetMeRequest,
     GetMeResponse,
     InvitePersonRequest,
@@ -84,3 +88,32 @@ async def test_a_robot_pairs_by_link_then_by_code_and_forgets(served: Simulator)
         await client.call("/people/remove", RemovePersonRequest(id=second.id), RemovePersonResponse)
     async with Connected(served.url, Credentials(second.fingerprint, second.token)) as (_, fault):
         assert fault is LinkFault.NOT_ACCEPTED
+    await stop_without_a_key(served.url, Credentials(second.fingerprint, second.token), key)
+
+
+async def stop_without_a_key(url: str, removed: Credentials, manager: Credentials) -> None:
+    """Who was removed and stands beside the robot presses STOP: it is anybody's."""
+    stopped, woken, loop = asyncio.Event(), asyncio.Event(), asyncio.get_running_loop()
+    box = Mailbox(lambda: loop.call_soon_threadsafe(woken.set))
+
+    def note(status: ControlStatus, _: float) -> None:
+        if status.stopped:
+            stopped.set()
+
+    network = NetworkThread()
+    left = Link(url, box, network, client_id="b", client_name="B", credentials=removed)
+    async with Connected(url, manager) as (client, _):
+        client.subscribe("/control/status", ControlStatus, note)
+        left.start()
+        try:
+            async with asyncio.timeout(PATIENCE):
+                while left.state.fault is not LinkFault.NOT_ACCEPTED:
+                    await woken.wait()
+                    woken.clear()
+                    box.drain()
+                assert not stopped.is_set()
+                left.stop()
+                await stopped.wait()
+        finally:
+            left.close()
+            network.close()
