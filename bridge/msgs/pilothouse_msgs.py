@@ -904,7 +904,7 @@ class InviteGuestResponse(Msg, frozen=True, gc=False):
     """What `InviteGuest` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/InviteGuestResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "string", "float64")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "string", "float64", "string[]")
     UNITS: ClassVar[dict[str, str]] = {"ends": "s"}
     link: str = ""
     """Link for the QR code."""
@@ -912,6 +912,10 @@ class InviteGuestResponse(Msg, frozen=True, gc=False):
     """Eight digits for people."""
     ends: float = 0.0
     """When the role ends [s], operators' clock."""
+    qr_rows: list[str] = []
+    """Rows of the QR code of the link from the top, each of 0 (light) and 1 (dark), without the quiet
+    zone.
+    """
 
 
 class InvitePersonRequest(Msg, frozen=True, gc=False):
@@ -927,7 +931,7 @@ class InvitePersonResponse(Msg, frozen=True, gc=False):
     """What `InvitePerson` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/InvitePersonResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "string", "float64")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "string", "float64", "string[]")
     UNITS: ClassVar[dict[str, str]] = {"open_until": "s"}
     link: str = ""
     """Link for the QR code."""
@@ -935,6 +939,10 @@ class InvitePersonResponse(Msg, frozen=True, gc=False):
     """Six digits for people."""
     open_until: float = 0.0
     """When it ends [s], operators' clock."""
+    qr_rows: list[str] = []
+    """Rows of the QR code of the link from the top, each of 0 (light) and 1 (dark), without the quiet
+    zone.
+    """
 
 
 class LightState(Msg, frozen=True, gc=False):

@@ -39,6 +39,7 @@ from robotside.trust.pairing import Offer, Pairing
 from robotside.trust.people import Person as Kept
 from robotside.trust.people import checked_name
 from robotside.trust.people_file import Unkept
+from robotside.trust.qr import as_rows
 from robotside.trust.trust import Trust
 
 __all__ = ["people_services"]
@@ -184,7 +185,8 @@ class _People:
         except Refusal as refusal:
             raise Refused(refusal.notice) from refusal
         self._opened(offer, "a guest")
-        return InviteGuestResponse(self._pairing.link(offer), offer.code, offer.ends)
+        link = self._pairing.link(offer)
+        return InviteGuestResponse(link, offer.code, offer.ends, as_rows(link))
 
     def invite(self, client: Operator, asked: InvitePersonRequest) -> InvitePersonResponse:
         """Open pairing for a handheld."""
@@ -194,7 +196,8 @@ class _People:
         except Refusal as refusal:
             raise Refused(refusal.notice) from refusal
         self._opened(offer, "a handheld")
-        return InvitePersonResponse(self._pairing.link(offer), offer.code, offer.open_until)
+        link = self._pairing.link(offer)
+        return InvitePersonResponse(link, offer.code, offer.open_until, as_rows(link))
 
     def _opened(self, offer: Offer, who: str) -> None:
         said = f"Pairing is open for {who} that may {offer.role.word}."

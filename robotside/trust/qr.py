@@ -1,4 +1,4 @@
-"""Links as QR codes: for a terminal, a web page and a printer."""
+"""Links as QR codes: for a terminal, a web page, a printer and a handheld."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 import segno
 
-__all__ = ["as_svg", "as_text", "write_png"]
+__all__ = ["as_rows", "as_svg", "as_text", "write_png"]
 
 _MODULE_PIXELS = 12
 """Of a picture for a printer."""
@@ -24,6 +24,11 @@ def as_svg(link: str) -> str:
     """A QR code as an SVG element, black on white."""
     shown: str = _code(link).svg_inline(scale=5, light="white")
     return shown
+
+
+def as_rows(link: str) -> list[str]:
+    """Rows of a QR code from the top, each of 0 (light) and 1 (dark), without the quiet zone."""
+    return ["".join("1" if dark else "0" for dark in row) for row in _code(link).matrix]
 
 
 def write_png(link: str, path: Path) -> None:

@@ -75,14 +75,15 @@ Builder.load_string("""
                     size_hint: None, 1
                     width: dp(20) if root.trust_text else 0
                     opacity: 1 if root.trust_text else 0
-                Text:
+                Label:
                     id: trust
                     text: root.trust_text
-                    role: root.trust_role
+                    font_name: theme.font
                     font_size: sp(15)
+                    color: theme.roles[root.trust_role]
+                    disabled_color: self.color
                     size_hint: None, 1
-                    text_size: None, None
-                    width: self.texture_size[0] if root.trust_text else 0
+                    width: self.texture_size[0]
                 Text:
                     text: '· ' + root.subtitle if root.trust_text else root.subtitle
                     role: 'muted'

@@ -7,7 +7,7 @@ from typing import Any
 
 from kivy.clock import Clock
 from kivy.lang import Builder
-from kivy.properties import BooleanProperty, StringProperty
+from kivy.properties import BooleanProperty, ListProperty, NumericProperty, StringProperty
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.link.channels import ANSWER, EVENT, Answer
@@ -29,6 +29,7 @@ from bridge.msgs.pilothouse_msgs import (
     RemovePersonResponse,
 )
 from widgets.parts.buttons import IconButton
+from widgets.parts.qr_code import QrCode  # noqa: F401 - its rule draws what is used here
 from widgets.parts.rows import ListRow
 
 __all__ = ["PeopleDialog", "seen_text"]
@@ -45,6 +46,10 @@ REMOVE_LAST = (
 NOT_PROTECTED = (
     "This link is not protected: anybody in this network can read and change it. Pair by the robot's link."
 )
+BY_CODE = "Scan it with the other handheld's camera, or type the code there. For one, which may drive; for ten minutes."
+GUEST_BY_CODE = (
+    "Scan it with the guest's camera, or type the code there. For one, which may drive; for one hour."
+)
 NOT_SHOWN = "Who manages this robot sees here who has a key, and lets others in."
 CHANGES = frozenset((Code.PERSON_PAIRED, Code.PERSON_REMOVED))
 """Codes of the events after which the list is another."""
@@ -56,17 +61,19 @@ SERVICES = ("/people/list", "/people/invite", "/people/guest", "/people/remove")
 
 Builder.load_string("""
 <PeopleDialog>:
+    short: root.room[3] < dp(520)
+    qr_side: max(dp(120), min(dp(330), root.room[2] - dp(60), root.room[3] - head.height - foot.height - (dp(84) if root.short else dp(190))))
     Card:
         id: card
         size_hint: None, None
         width: min(dp(620), root.room[2] - dp(20))
-        height: min(root.room[3] - dp(24), head.height + rows.height + foot.height + invitation.height + 3 * self.spacing + self.padding[1] + self.padding[3])
+        height: min(root.room[3] - dp(24), head.height + (0 if root.code else rows.height) + foot.height + invitation.height + 3 * self.spacing + self.padding[1] + self.padding[3])
         pos: root.room[0] + (root.room[2] - self.width) / 2, root.room[1] + (root.room[3] - self.height) / 2
         padding: dp(14)
         spacing: dp(10)
         Column:
             id: head
-            spacing: dp(4)
+            spacing: dp(2)
             Text:
                 text: root.title
                 bold: True
@@ -82,19 +89,32 @@ Builder.load_string("""
             Remark:
                 text: root.warning
                 role: 'warn'
-        Column:
+        BoxLayout:
             id: invitation
-            spacing: dp(2)
+            orientation: 'horizontal' if root.short else 'vertical'
+            size_hint_y: None
             height: self.minimum_height if root.code else 0
             opacity: 1 if root.code else 0
-            Text:
-                text: root.code
-                bold: True
-                halign: 'center'
-                font_size: sp(38) if root.code else sp(1)
-            Remark:
-                text: root.code_sentence if root.code else ''
+            spacing: dp(10) if root.code else 0
+            QrCode:
+                id: qr
+                size_hint: None, None
+                rows: root.qr_rows
+                size: (root.qr_side, root.qr_side) if root.code and root.qr_rows else (0, 0)
+                pos_hint: {'center_x': .5, 'center_y': .5}
+            Column:
+                spacing: dp(2)
+                pos_hint: {'center_x': .5, 'center_y': .5}
+                Text:
+                    text: root.code
+                    bold: True
+                    halign: 'center'
+                    font_size: sp(38) if root.code else sp(1)
+                Remark:
+                    text: root.code_sentence if root.code else ''
+                    halign: 'center'
         Roll:
+            id: roll
             Column:
                 id: rows
                 spacing: dp(6)
@@ -105,9 +125,9 @@ Builder.load_string("""
             spacing: dp(8)
             QuietButton:
                 id: close
-                text: 'Close'
+                text: 'Done' if root.code else 'Close'
                 size_hint_x: .7
-                on_release: root.close()
+                on_release: root.leave()
             QuietButton:
                 id: guest
                 text: 'Guest, 1 h'
@@ -174,12 +194,18 @@ class PeopleDialog(Question):
     code = StringProperty("")
     """By which somebody may pair now; empty for none."""
     code_sentence = StringProperty("")
+    qr_rows = ListProperty()
+    """Of the link by which the same may pair, as in `widgets.parts.qr_code`."""
+    qr_side = NumericProperty(0)
+    """[px]"""
+    short = BooleanProperty(False)
+    """There is no room for the code below its picture."""
     manages = BooleanProperty(False)
     """The robot lets this handheld see and change who is known."""
 
     def __init__(self, session: Session, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self._session = session
+        self._session, self._roll = session, self.ids.roll.__self__
         self._armed: PersonRow | None = None
         self._armed_until = -math.inf
         self._disarming = Clock.create_trigger(lambda _: self._disarm(), CONFIRM_TIMEOUT)
@@ -232,14 +258,9 @@ class PeopleDialog(Question):
         if isinstance(found, GetPeopleResponse):
             self._show(found.people)
         elif isinstance(found, InvitePersonResponse):
-            self._show_code(
-                found.code,
-                "Type this code on the other handheld. It is for one, which may drive, and for ten minutes.",
-                found.open_until,
-            )
+            self._show_code(found, BY_CODE, found.open_until)
         elif isinstance(found, InviteGuestResponse):
-            said = "Type this code on the guest's handheld. It may drive for one hour."
-            self._show_code(found.code, said, found.ends)
+            self._show_code(found, GUEST_BY_CODE, found.ends)
         elif answer.service == "/people/remove":
             self._list()
         elif answer.service == "/people/list":
@@ -267,9 +288,11 @@ class PeopleDialog(Question):
     def _end_code(self) -> None:
         """The code was used or has run out."""
         self._code_ends.cancel()
-        self.code = ""
+        self.code, self.qr_rows = "", []
 
-    def _show_code(self, code: str, sentence: str, ends: float) -> None:
+    def _show_code(
+        self, offer: InvitePersonResponse | InviteGuestResponse, sentence: str, ends: float
+    ) -> None:
         """Show a code until `ends` [s, robot clock]."""
         left = ends - self._session.link.robot_time()
         self._code_ends.cancel()
@@ -277,9 +300,23 @@ class PeopleDialog(Question):
             lambda _: self._end_code(), min(max(left, 1.0), GUEST_TIME) if math.isfinite(left) else CODE_TIME
         )
         self._code_ends()
-        digits = "".join(letter for letter in code if letter.isdigit())[:8]
+        digits = "".join(letter for letter in offer.code if letter.isdigit())[:8]
         self.code = " ".join(digits[start : start + 3] for start in range(0, len(digits), 3))
-        self.code_sentence = sentence
+        self.code_sentence, self.qr_rows = sentence, offer.qr_rows
+
+    def on_code(self, *_: object) -> None:
+        """The list gives way to a code."""
+        if self.code and self._roll.parent is not None:
+            self.ids.card.remove_widget(self._roll)
+        elif not self.code and self._roll.parent is None:
+            self.ids.card.add_widget(self._roll, index=1)
+
+    def leave(self) -> None:
+        """Back to the list, or off the glass."""
+        if self.code:
+            self._end_code()
+        else:
+            self.close()
 
     def on_close(self) -> None:
         """It hears the session no more, and no clock runs for it."""

@@ -34,6 +34,7 @@ from robotside.services.people_services import people_services
 from robotside.trust.pairing import Pairing
 from robotside.trust.people_file import PeopleFile, Unkept
 from robotside.trust.permissions import PERMISSIONS
+from robotside.trust.qr import as_rows
 from robotside.trust.trust import Trust
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
@@ -256,6 +257,7 @@ async def test_who_manages_invites_a_handheld_with_the_role_it_chooses(robot: Ro
     owner = robot.join((await robot.paired("owner")).token)
     offer = await robot.call(owner, "/people/invite", InvitePersonRequest("watch"))
     assert offer.open_until == robot.scene.clock + 600.0
+    assert offer.qr_rows == as_rows(offer.link)
     link = PairLink.read(offer.link)
     answer = await robot.call(robot.join(), "/pair/scan", PairScanRequest(link.secret, "b"))
     assert answer.role == "watch"
@@ -266,6 +268,7 @@ async def test_who_manages_invites_a_handheld_with_the_role_it_chooses(robot: Ro
 async def test_a_guest_watches_for_an_hour_unless_told_otherwise(robot: Robot) -> None:
     owner = robot.join((await robot.paired("owner")).token)
     offer = await robot.call(owner, "/people/guest", InviteGuestRequest())
+    assert offer.qr_rows == as_rows(offer.link)
     key, stranger = await robot.typed(offer.code)
     answer = await robot.call(stranger, "/pair/finish", PairFinishRequest(confirmations(key)[0], "visitor"))
     assert (answer.role, answer.ends) == ("watch", offer.ends) == ("watch", robot.scene.clock + 3600.0)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+import segno
 from PIL import Image
 
-from robotside.trust.qr import as_svg, as_text, write_png
+from robotside.trust.qr import as_rows, as_svg, as_text, write_png
 
 LINK = "pilothouse://192.168.1.7:9090?c=" + "ab" * 32 + "&s=secret-of-22-letters-x&n=Patrol-1"
 
@@ -28,3 +29,14 @@ def test_a_printer_has_it_as_a_picture(tmp_path: Path) -> None:
         assert picture.width == picture.height > 400
     with pytest.raises(OSError, match="."):
         write_png(LINK, tmp_path / "none" / "qr.png")
+
+
+def test_a_handheld_has_it_as_rows_that_are_the_codes_own_modules() -> None:
+    rows = as_rows(LINK)
+    assert [[int(module) for module in row] for row in rows] == [
+        list(row) for row in segno.make_qr(LINK, error="m").matrix
+    ]
+    finder = ["1111111", "1000001", "1011101", "1011101", "1011101", "1000001", "1111111"]
+    assert [row[:7] for row in rows[:7]] == finder
+    assert [row[-7:] for row in rows[:7]] == finder
+    assert [row[:7] for row in rows[-7:]] == finder
