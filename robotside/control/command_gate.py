@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Operator
@@ -15,7 +16,7 @@ from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.control.authority import Authority
 from robotside.control.command_expiry import HOLD_TIME, VALID_TIME, CommandExpiry
 from robotside.control.latency_speed_cap import UNMEASURED_SHARE, LatencySpeedCap
-from robotside.control.neutral_interlock import LET_GO_SENTENCE, NeutralInterlock
+from robotside.control.neutral_interlock import LET_GO_SENTENCE, NeutralInterlock, Origin
 from robotside.core.notice import Notice, Problem
 from robotside.motion.manoeuvres import Order, at_rest, finite, paced
 
@@ -91,7 +92,7 @@ class CommandGate(Authority):
     def on_gone(self, client: Operator) -> bool:
         """Forget a client whose socket closed, and the drive command it `drives` by; True when it had control."""
         self._expiry.forget(client)
-        self._sticks.forget(client.id)
+        self._sticks.forget(client.id, self._origin(client))
         if self.drives(client):
             self._giver = None
         return super().on_gone(client)
@@ -129,7 +130,9 @@ class CommandGate(Authority):
         moving = not at_rest(order)
         said = self._fault(client, order, now, stamp)
         given = now if stamp is None or math.isnan(stamp) else stamp
-        counts = not finite(order) or self._sticks.on_command(client.id, moving, given, now)
+        counts = not finite(order) or self._sticks.on_command(
+            client.id, moving, given, now, partial(self._origin, client)
+        )
         if not said and (moving or not (auto or trouble or self.stopped)):
             said = trouble or self._refusal(client, now, counts)
             if not said:
@@ -181,6 +184,11 @@ class CommandGate(Authority):
         """End the drive command in force: the robot was stopped otherwise, and no stick counts before it was at rest."""
         self.hold()
         self._sticks.void_all()
+
+    def _origin(self, client: Operator) -> Origin:
+        """Where the commands of `client` come from, over this connection and the next."""
+        name = self.id(client)
+        return Origin(client.address.rpartition(":")[0], "" if name == client.id else name)
 
     def _refusal(self, client: Operator, now: float, counts: bool) -> Problem:
         """Why a sound command of `client` is not obeyed; empty when it is, and then it has control."""

@@ -404,11 +404,15 @@ def test_a_zero_that_was_overtaken_does_not_stand_for_rest(controls: CommandGate
     assert controls.drive(anna, AHEAD, 10.1, stamp=10.1).said == LET_GO_SENTENCE
 
 
-def test_who_went_leaves_no_stick_behind(controls: CommandGate, anna: FakeClient) -> None:
+def test_who_went_with_a_held_stick_is_heard_at_zero_when_back(
+    controls: CommandGate, anna: FakeClient
+) -> None:
     controls.drive(anna, AHEAD, 10.0)
-    controls.halt()
     controls.on_gone(anna)
-    assert controls.drive(anna, AHEAD, 10.1).order == AHEAD
+    again = FakeClient("anna's next connection")
+    assert controls.drive(again, AHEAD, 10.1).said == LET_GO_SENTENCE
+    controls.drive(again, REST, 10.2)
+    assert controls.drive(again, AHEAD, 10.3).order == AHEAD
 
 
 def test_a_stick_at_rest_is_not_scolded_while_stopped(controls: CommandGate, anna: FakeClient) -> None:
