@@ -10,10 +10,20 @@ from kivy.core.window import Window
 
 from app.inputs.switch_access.window.targets import WindowTargets
 from app.intents.intents import Heard
+from app.link.channels import ANSWER, Answer
+from app.link.feeds import Post
 from app.screens.inputs.study.form_view import FormView
 from app.screens.shell.key_help import HelpCard, toggle_help
+from app.screens.trust.people_dialog import PeopleDialog
 from bridge.core.identity import public_id
-from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo, TaskStatus
+from bridge.msgs.pilothouse_msgs import (
+    ControlStatus,
+    GetPeopleResponse,
+    InvitePersonResponse,
+    Person,
+    RobotInfo,
+    TaskStatus,
+)
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 from tests.app.inputs.switch_access.window.probing import bound, box, taken
@@ -181,5 +191,36 @@ def test_whatever_takes_a_finger_is_reached_by_switches(
         driving.stage.frames(3)
         walk.check(f"{form}, simulator", driving.app.simulating.dialog.ids.card)
         assert walk.seen >= KINDS, KINDS - walk.seen
+    finally:
+        Window.size = before
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_pairing_and_the_people_of_a_robot_are_reached_by_switches(
+    form: str, driving: Glass, robot: FakeRobot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = Window.size
+    monkeypatch.setattr(Window, "create_window", lambda *_: None)
+    Window.size = FORMS[form]
+    driving.app.root.size = FORMS[form]
+    try:
+        walk = Walk(driving, robot)
+        known = [Person(id=f"{one}", name=f"tablet-{one}", role="manage") for one in range(2)]
+        people = PeopleDialog(driving.app.session)
+        driving.app.root.add_widget(people)
+        for service, answer in (
+            ("/people/list", GetPeopleResponse(people=known)),
+            ("/people/invite", InvitePersonResponse(code="493017", open_until=1e12)),
+        ):
+            people._hear(ANSWER, Post(Answer(service, answer, ""), 0.0, 1))
+            walk.check(f"{form}, {service}", people.ids.card)
+        people.close()
+        driving.app.leave()
+        trust = driving.app.robot_list.trust
+        trust.ask("wss://127.0.0.1:9")
+        walk.check(f"{form}, code", trust.dialog.ids.card)
+        trust.ask()
+        walk.check(f"{form}, link", trust.dialog.ids.card)
+        trust.dialog.close()
     finally:
         Window.size = before
