@@ -1,7 +1,7 @@
 """A robot side under attack by a million hostile frames and a hundred thousand HTTP requests, while an honest client drives it.
 
 The robot side is the process that users start, with the simulated patrol robot. Two processes attack its rosbridge socket and its
-web site at the same time over 28 connections, each from an address of its own: garbage and half JSON, wrong types, numbers that are
+web site at the same time over 52 connections, each from an address of its own: garbage and half JSON, wrong types, numbers that are
 none, deep and huge messages, floods of names, fragments, pictures that grow, bytes that claim to be CBOR, wrong tokens, broken frames and
 handshakes (`bench/support/attack/`), in plain and by TLS. One process attacks as a stranger, the other with a key that lets it watch. A frame counts once the robot has read it, for a pong must come from behind it; a request
 once it was answered or its connection was ended. None presses STOP or asks for control: whoever asks for STOP gets it, by choice.
@@ -63,7 +63,7 @@ ATTACKERS = 2
 """Processes."""
 ROUNDS = 2
 """Of the honest client, which lasts as long as the attack at least."""
-ADDRESSES = 20
+ADDRESSES = 40
 """Of loopback that one process may use."""
 NICENESS = 10
 CALM_TIME = 60.0

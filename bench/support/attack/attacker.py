@@ -30,7 +30,7 @@ from bridge.client.tls import context
 
 __all__ = ["Attack"]
 
-WEBSOCKETS, BROWSERS = 10, 4
+WEBSOCKETS, BROWSERS = 10, 16
 """Connections at a time in one process."""
 BATCH = 100
 TLS_SHARE = 0.3
