@@ -1,6 +1,6 @@
 """A robot side that patrols for hours with honest clients of every kind: what it holds, every ten seconds.
 
-`python -m bench soak --hours 8`; Ctrl-C ends it with what there is. The robot side is the one that users start, with the
+`python -m bench soak --hours 8`; Ctrl-C or SIGTERM ends it with what there is. The robot side is the one that users start, with the
 simulated patrol robot; its clients (`bench/support/soak/visitors.py`) are ours, roslibpy, browsers that read the camera and pages, three that
 come and go for ever, one that reads slowly, and the patrol is ordered again whenever it has ended. Samples go to
 `out/bench/soak.csv` as they are taken, the curves to `out/bench/soak.png` every five minutes.
@@ -14,6 +14,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import signal
 import statistics
 import threading
 import time
@@ -98,7 +99,7 @@ def soak(seconds: float, out: Path, period: float = SAMPLE_PERIOD) -> dict[str, 
             child("bench.support.soak.visitors", robot.url, robot.site, own_session=True)
         )
         visitors.receive()
-        with suppress(KeyboardInterrupt):
+        with suppress(KeyboardInterrupt), _ended_by_either():
             for row in _samples(robot, visitors, seconds, period, faults):
                 rows.append(row)
                 _write(out, rows)
@@ -110,6 +111,19 @@ def soak(seconds: float, out: Path, period: float = SAMPLE_PERIOD) -> dict[str, 
     for fault in faults[-20:]:
         print(f"  {fault}")
     return figures(rows) | {"faults": float(len(faults)), "tracebacks": float(tracebacks)}
+
+
+@contextmanager
+def _ended_by_either() -> Iterator[None]:
+    """SIGTERM ends it as Ctrl-C does, and Ctrl-C also where a shell has it ignored in the background."""
+    before = {
+        each: signal.signal(each, signal.default_int_handler) for each in (signal.SIGINT, signal.SIGTERM)
+    }
+    try:
+        yield
+    finally:
+        for each, handler in before.items():
+            signal.signal(each, handler)
 
 
 def _samples(
