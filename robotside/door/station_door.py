@@ -101,8 +101,8 @@ class StationDoor(Door):
         """The newest message of a topic, None when there was none."""
         return self._station.bus.last(topic)
 
-    async def stop(self, who: str) -> CommandResponse:
-        """Press STOP for `who`, who has no session; no success while the robot may not have obeyed.
+    async def stop(self, who: str, address: str = "") -> CommandResponse:
+        """Press STOP for `who`, who has no session, at `address`; no success while the robot may not have obeyed.
 
         STOP acts and is published at once; the answer comes when it is saved, or a moment later and says that it is not.
         """
@@ -112,7 +112,8 @@ class StationDoor(Door):
             except Refusal as refusal:
                 answer = CommandResponse(False, refusal.notice, **coded(refusal.notice))
             self._station.publish_control()
-            self.trail.stopped(who, "http", outcome="done" if answer.success else f"refused {answer.code}")
+            outcome = "done" if answer.success else f"refused {answer.code}"
+            self.trail.stopped(who, "http", address, outcome)
         later = stop_answer(self._station, answer)
         return later if isinstance(later, CommandResponse) else await later
 

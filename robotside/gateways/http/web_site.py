@@ -198,11 +198,12 @@ async def _stop(door: StationDoor, request: Request) -> tuple[str, int]:
 
     Who proved who it is presses under its own name; another name is repeated with the address that it came from.
     """
-    identity = _operator(request).identity
+    operator = _operator(request)
+    identity = operator.identity
     name = plain(request.query_params.get("name", ""), MAX_NAME_LENGTH)
     where = request.client.host if request.client else "an unknown address"
     who = f"{name} at {where} (not proven)" if name else f"a browser at {where}"
-    answer = await door.stop(identity.name if identity.proven else who)
+    answer = await door.stop(identity.name if identity.proven else who, operator.address)
     return f"{answer.message}\n", 200 if answer.success else 503
 
 

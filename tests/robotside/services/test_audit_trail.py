@@ -172,7 +172,7 @@ def test_what_a_stranger_is_refused_at_the_door_and_a_wrong_key_are_recorded(sce
 
 
 async def test_stop_without_a_session_is_recorded(scene: Scene) -> None:
-    await scene.door.stop("Ben")
+    await scene.door.stop("Ben", "192.0.2.9:1")
     (row,) = rows(scene)
     assert (row.operation, row.outcome, row.name, row.way) == ("stop", "done", "Ben (not proven)", "http")
 
