@@ -106,7 +106,12 @@ class RobotTrust:
         if key is not None:
             self.keys.forget(key.fingerprint)
             said = f"{key.name} is no longer paired with this handheld. Tap to undo."
-            self._app.connect.say(said, "warn", lambda: (self.keys.restore(key), on_undo()))
+
+            def undo() -> None:
+                self.keys.restore(key)
+                on_undo()
+
+            self._app.connect.say(said, "warn", undo)
 
     # pairing
 
