@@ -35,8 +35,6 @@ class Line(Protocol):
 class ControlledRobot(Protocol):
     """The session with one robot, as far as control needs it."""
 
-    own_id: str
-    """The id by which the robot publishes this handheld."""
     feeds: Feeds
     robot: RobotProfile
 
@@ -53,6 +51,10 @@ class ControlledRobot(Protocol):
 
     def rest(self) -> None:
         """Tell the robot to rest; the stick must be pushed anew."""
+
+    @property
+    def own_id(self) -> str:
+        """The id by which the robot publishes this handheld."""
 
 
 class Authority:
