@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs the rings of tests, those that draw in processes of their own, and closes with one line that sums them up.
-#   scripts/test.sh [fast]      fast: what needs neither drawing nor long simulation
+#   scripts/test.sh [fast|slow] fast: what needs neither drawing nor long simulation; slow: the ring of long explorations alone
 set -uo pipefail
 cd "$(dirname "$0")/.."
 python=${PYTHON:-.venv/bin/python}
@@ -25,11 +25,14 @@ ring() {
 present() { compgen -G "$1" >/dev/null; }
 
 if [ "${1:-}" = fast ]; then
-    ring logic --ignore=tests/sim --ignore=tests/robotside --ignore=tests/clients
+    ring logic --ignore=tests/sim --ignore=tests/robotside --ignore=tests/clients --ignore=tests/slow
+elif [ "${1:-}" = slow ]; then
+    ring slow -n 2 --dist worksteal tests/slow
 else
-    ring logic -n 2 --dist loadscope
+    ring logic -n 2 --dist loadscope --ignore=tests/slow
     present 'tests/pixels/test_*.py' && ring pixels -n 2 tests/pixels
     present 'tests/e2e/test_*.py' && ring e2e -n 2 --dist loadfile tests/e2e
+    present 'tests/slow/test_*.py' && ring slow -n 2 --dist worksteal tests/slow
 fi
 "$python" scripts/sum_up.py "$reports"
 exit $status
