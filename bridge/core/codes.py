@@ -64,6 +64,7 @@ class Code(StrEnum):
     PERSON_PAIRED = "person_paired", "The actor was paired.", "name", "role"
     PERSON_REMOVED = "person_removed", "A person was removed; its key opens nothing.", "name"
     PAIRING_OPENED = "pairing_opened", "Pairing is open for somebody.", "role"
+    TRUST_PLAIN = "trust_plain", "Everybody in the network is let in without a key.", "role"
 
     # control
 

@@ -10,9 +10,11 @@ from contextlib import suppress
 from pathlib import Path
 from urllib.parse import urlsplit
 
+from bridge.core.codes import Code
 from bridge.core.identity import Role
 from bridge.core.robot_catalogue import Service
 from robotside.core.config import TrustSettings
+from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.services.people_services import people_services
 from robotside.station.station import Station
@@ -46,7 +48,10 @@ class StationKeys:
         *,
         plain: Role | None = None,
     ) -> None:
-        """`state` is the directory of the people; who comes plain from elsewhere has the role `plain`, None for nobody."""
+        """`state` is the directory of the people; who comes from elsewhere without a key has the role `plain`, None for none.
+
+        Of such a role everybody is told by an event: handhelds that are paired would not notice it.
+        """
         self.context = certificate.context()
         """For its sockets."""
         self.names = certificate.names
@@ -63,6 +68,9 @@ class StationKeys:
         self._requests = PairRequests(state, self._answer)
         self._station = station
         self._ended, self._failed = asyncio.Event(), False
+        if plain is not None:
+            said = f"Everybody in the network may {plain.word} without a key."
+            station.events.say("control", Notice(Code.TRUST_PLAIN, said, role=plain.word), "warn")
 
     def services(self, connected: Callable[[], set[str]]) -> Iterable[Service]:
         """Those of people; `connected` gives the ids of who is there."""

@@ -87,7 +87,7 @@ class Trust:
 
     @property
     def plain_role(self) -> Role | None:
-        """Of who comes without TLS from elsewhere; None where nobody may."""
+        """Of who comes from elsewhere without a key, by TLS or not; None where nobody has one."""
         return self._plain
 
     def admit(self, address: str, *, secure: bool, trusted: bool) -> Identity:

@@ -18,6 +18,7 @@ import pytest
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.client.credentials import Credentials
 from bridge.client.pairing import Paired, PairingFailed, pair_by_code, pair_by_link
+from bridge.core.codes import Code
 from bridge.core.identity import Role
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, GetMeRequest, GetMeResponse
@@ -223,3 +224,15 @@ async def test_pages_of_others_press_stop_unless_the_settings_say_no(tmp_path: P
         async with httpx.AsyncClient(base_url=serves.addresses.http) as web:
             await web.post("/stop", headers={"Origin": "https://page.example"})
         assert serves.station.controls.stopped is allowed
+
+
+OPEN_TO_ALL = ("warn", "Everybody in the network may drive without a key.")
+
+
+@pytest.mark.parametrize(("plain", "told"), [(None, []), (Role.DRIVE, [OPEN_TO_ALL])])
+async def test_an_event_tells_that_everybody_is_let_in_without_a_key(
+    tmp_path: Path, plain: Role | None, told: list[tuple[str, str]]
+) -> None:
+    async with serving(tmp_path, plain=plain) as (serves, _, _):
+        events = serves.station.events.since(0, "")
+        assert [(each.level, each.text) for each in events if each.code == Code.TRUST_PLAIN] == told
