@@ -172,6 +172,22 @@ class TestACode:
             robot.begun(offer.code)
         robot.begun(offer.code, address="192.0.2.10:1")
 
+    def test_of_one_host_two_are_under_way_at_most_and_those_of_others_stay(self, robot: Robot) -> None:
+        offer = robot.pairing.open(Role.DRIVE)
+        other = robot.begun(offer.code, connection="other", address="192.0.2.10:1")
+        keys = {each: robot.begun(offer.code, connection=each) for each in ("first", "second", "third")}
+        with pytest.raises(Refused, match=CLOSED):
+            robot.pairing.finish("first", confirmations(keys["first"])[0])
+        own, robots = confirmations(other)
+        assert robot.pairing.finish("other", own) == (offer, robots)
+
+    def test_a_try_that_is_not_ended_within_a_minute_is_over(self, robot: Robot) -> None:
+        offer = robot.pairing.open(Role.DRIVE)
+        key = robot.begun(offer.code)
+        robot.clock += 60.0
+        with pytest.raises(Refused, match=CLOSED):
+            robot.pairing.finish("c", confirmations(key)[0])
+
     def test_a_try_ends_when_pairing_closes_or_another_was_paired(self, robot: Robot) -> None:
         offer = robot.pairing.open(Role.DRIVE)
         one, two = (robot.begun(offer.code, connection=each) for each in ("one", "two"))
