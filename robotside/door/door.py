@@ -117,7 +117,7 @@ class Door:
             if self._trail:
                 self._trail.unknown(address, way, refusal)
             raise
-        identity = known or self._gate.admit(address, secure=secure, trusted=trusted)
+        identity = known or self._gate.admit(address, trusted=trusted)
         number = str(next(self._numbers))
         operator = Operator(number, address, self.now(), identity=identity, way=way, secure=secure)
         self._operators.add(operator)

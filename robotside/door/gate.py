@@ -17,11 +17,10 @@ __all__ = ["OPEN", "Gate", "check_role"]
 class Gate(Protocol):
     """Knows the people of a robot."""
 
-    def admit(self, address: str, *, secure: bool, trusted: bool) -> Identity:
+    def admit(self, address: str, *, trusted: bool) -> Identity:
         """Who a client from `address`, `HOST:PORT`, is that shows no token.
 
-        `secure` is whether it came by TLS; one that is not `trusted` may be a web page and never counts as a program of
-        this machine.
+        One that is not `trusted` may be a web page and never counts as a program of this machine.
         """
 
     def identify(self, token: str, address: str) -> Identity:
@@ -34,7 +33,7 @@ class Gate(Protocol):
 class _Open:
     """Lets everybody in: for a robot that only this process reaches."""
 
-    def admit(self, address: str, *, secure: bool, trusted: bool) -> Identity:
+    def admit(self, address: str, *, trusted: bool) -> Identity:
         return Identity("", "", Role.MANAGE)
 
     def identify(self, token: str, address: str) -> Identity:

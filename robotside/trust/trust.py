@@ -90,8 +90,8 @@ class Trust:
         """Of who comes from elsewhere without a key, by TLS or not; None where nobody has one."""
         return self._plain
 
-    def admit(self, address: str, *, secure: bool, trusted: bool) -> Identity:
-        """Who a client without a token is: somebody on this machine, a plain program where allowed, or a stranger."""
+    def admit(self, address: str, *, trusted: bool) -> Identity:
+        """Who a client without a token is: somebody on this machine, anybody where that is allowed, or a stranger."""
         if not trusted:
             return STRANGER
         if _is_loopback(address):

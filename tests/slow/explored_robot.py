@@ -93,7 +93,7 @@ class _Disk:
 class _People:
     """The gate: whose token it is, and the product's own table of roles."""
 
-    def admit(self, address: str, *, secure: bool, trusted: bool) -> Identity:
+    def admit(self, address: str, *, trusted: bool) -> Identity:
         return STRANGER
 
     def identify(self, token: str, address: str) -> Identity:

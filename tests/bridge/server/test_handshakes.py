@@ -22,10 +22,10 @@ class Gate:
     """Knows a few tokens; of all others a program of this machine may drive and nobody else anything."""
 
     def __init__(self) -> None:
-        self.admitted: list[tuple[bool, bool]] = []
+        self.admitted: list[bool] = []
 
-    def admit(self, address: str, *, secure: bool, trusted: bool) -> Identity:
-        self.admitted.append((secure, trusted))
+    def admit(self, address: str, *, trusted: bool) -> Identity:
+        self.admitted.append(trusted)
         return Identity("", "", Role.DRIVE) if trusted else STRANGER
 
     def identify(self, token: str, address: str) -> Identity:
@@ -122,7 +122,7 @@ async def test_an_allowed_page_is_let_in_as_a_program_is_and_not_by_the_robots_c
             assert [operator.identity.id for operator in robot.operators].count("w") == 0
     finally:
         await robot.close()
-    assert gate.admitted == [(False, True), (False, True), (False, True)]
+    assert gate.admitted == [True, True, True]
 
 
 async def test_a_camera_is_shown_to_those_who_may_watch_it() -> None:

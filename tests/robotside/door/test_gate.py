@@ -20,7 +20,7 @@ KEYS = {"w": Role.WATCH, "d": Role.DRIVE, "m": Role.MANAGE}
 class OneKeyEach:
     """Knows one person of each role; everybody else is a stranger."""
 
-    def admit(self, address: str, *, secure: bool, trusted: bool) -> Identity:
+    def admit(self, address: str, *, trusted: bool) -> Identity:
         return STRANGER
 
     def identify(self, token: str, address: str) -> Identity:

@@ -56,26 +56,23 @@ def house(tmp_path: Path) -> Iterator[House]:
 class TestWithoutAKey:
     def test_a_program_of_this_machine_may_manage(self, house: House) -> None:
         for address in (HERE, "::1:7", "[::1]:7", "::ffff:127.0.0.1:7", "127.8.8.8:1"):
-            for secure in (True, False):
-                who = house.trust.admit(address, secure=secure, trusted=True)
-                assert who == Identity("", "", Role.MANAGE)
+            assert house.trust.admit(address, trusted=True) == Identity("", "", Role.MANAGE)
 
     def test_a_web_page_on_this_machine_is_a_stranger(self, house: House) -> None:
-        assert house.trust.admit(HERE, secure=True, trusted=False) is STRANGER
+        assert house.trust.admit(HERE, trusted=False) is STRANGER
 
     def test_somebody_elsewhere_is_a_stranger(self, house: House) -> None:
         for address in (FAR, "localhost.evil.example:1", "unknown:0", "2001:db8::1:9", ""):
-            assert house.trust.admit(address, secure=False, trusted=True) is STRANGER
+            assert house.trust.admit(address, trusted=True) is STRANGER
 
     def test_the_setting_lowers_what_a_program_of_this_machine_may(self, tmp_path: Path) -> None:
         house = House(tmp_path, local_role="none")
-        assert house.trust.admit(HERE, secure=False, trusted=True).role is Role.NONE
+        assert house.trust.admit(HERE, trusted=True).role is Role.NONE
 
     def test_plain_programs_have_the_role_that_was_given_on_purpose(self, tmp_path: Path) -> None:
         house = House(tmp_path, plain=Role.WATCH)
-        assert house.trust.admit(FAR, secure=False, trusted=True).role is Role.WATCH
-        assert house.trust.admit(FAR, secure=True, trusted=True).role is Role.WATCH
-        assert house.trust.admit(FAR, secure=False, trusted=False) is STRANGER
+        assert house.trust.admit(FAR, trusted=True).role is Role.WATCH
+        assert house.trust.admit(FAR, trusted=False) is STRANGER
 
 
 class TestAKey:

@@ -63,7 +63,7 @@ class OneRole:
     def __init__(self, role: Role) -> None:
         self.role = role
 
-    def admit(self, address: str, *, secure: bool, trusted: bool) -> Identity:
+    def admit(self, address: str, *, trusted: bool) -> Identity:
         return Identity("", "", self.role)
 
     def identify(self, token: str, address: str) -> Identity:
