@@ -151,8 +151,8 @@ def _add_trust(serve: argparse.ArgumentParser) -> None:
         nargs="?",
         const="drive",
         choices=roles,
-        help="open pairing for ten minutes and one handheld, with this role, by default drive; the first one ever has "
-        "manage. Of several robots each shows a link of its own",
+        help="open pairing for ten minutes and one handheld, with this role, by default drive; where no "
+        "handheld is known it has manage. Of several robots each shows a link of its own",
     )
     add(
         "--plain",

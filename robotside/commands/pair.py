@@ -27,7 +27,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "--role",
         choices=("watch", "drive", "manage"),
         default="drive",
-        help="default: drive; the first has manage",
+        help="default: drive; where no handheld is known it has manage",
     )
     guest = commands.add_parser("guest", help="open pairing for a guest, whose role ends by itself")
     guest.add_argument("--role", choices=("watch", "drive"), default="watch", help="default: watch")

@@ -127,7 +127,7 @@ class Trust:
     async def add(self, name: str, role: Role, kind: str, ends: float = math.inf) -> tuple[Person, str]:
         """A new person and its token, once it is kept; Refusal for a bad name, or where there is no room. Raises Unkept.
 
-        The first handheld that a robot ever knows is its owner: it has the role manage.
+        A handheld of a robot that knows none is its owner: it has the role manage.
         """
         made, token = make_person(name, role, kind, now=self._now(), ends=ends)
 
