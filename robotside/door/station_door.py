@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from bridge.core.errors import Refused
-from bridge.core.robot_catalogue import Service
+from bridge.core.robot_catalogue import Operator, Service
 from bridge.core.topics import TOPICS, camera_topics
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import CommandResponse, RobotInfo
@@ -17,6 +17,7 @@ from robotside.door.door import Door
 from robotside.door.gate import OPEN, Gate
 from robotside.door.offered_topics import OfferedTopics
 from robotside.records.audit_export import csv_lines
+from robotside.records.database.audit_rows import UNPROVEN
 from robotside.records.database.storage import NotWritten
 from robotside.services.audit_trail import AuditTrail
 from robotside.services.catalogue import catalogue
@@ -101,19 +102,24 @@ class StationDoor(Door):
         """The newest message of a topic, None when there was none."""
         return self._station.bus.last(topic)
 
-    async def stop(self, who: str, address: str = "") -> CommandResponse:
-        """Press STOP for `who`, who has no session, at `address`; no success while the robot may not have obeyed.
+    async def stop(self, operator: Operator, name: str = "") -> CommandResponse:
+        """Press STOP for `operator`, who has no session and calls itself `name`; no success while the robot may not have obeyed.
+
+        Who proved who it is presses under its own name; another name is repeated with the address that it came from.
 
         STOP acts and is published at once; the answer comes when it is saved, or a moment later and says that it is not.
         """
+        who, where = operator.identity, operator.address.rpartition(":")[0]
+        said = f"{name} at {where}{UNPROVEN}" if name else f"a browser at {where}"
+        called, id = (who.name, who.id) if who.proven else (said, "")
         with self._station.records.together():
             try:
-                answer = CommandResponse(True, press_stop(self._station, who))
+                answer = CommandResponse(True, press_stop(self._station, called, id))
             except Refusal as refusal:
                 answer = CommandResponse(False, refusal.notice, **coded(refusal.notice))
             self._station.publish_control()
             outcome = "done" if answer.success else f"refused {answer.code}"
-            self.trail.stopped(who, "http", address, outcome)
+            self.trail.stopped(operator, name, outcome)
         later = stop_answer(self._station, answer)
         return later if isinstance(later, CommandResponse) else await later
 

@@ -63,6 +63,7 @@ COUNTED = frozenset(
         "call /pair/finish",
         "call /pair/scan",
         "call /stop",
+        "stop",
         *(f"publish {topic}" for topic in PUBLISHED),
     }
 )
@@ -157,10 +158,9 @@ class AuditTrail:
         host = _host(address)
         self._note(Entry("auth", f"refused {_code(error)}", role=Role.NONE.word, way=way, address=host), host)
 
-    def stopped(self, name: str, way: str, address: str = "", outcome: str = "done") -> None:
-        """STOP was pressed by somebody without a session, who says to be called so."""
-        called = f"{name}{UNPROVEN}" if name else ""
-        self._note(Entry("stop", outcome, "", called, Role.NONE.word, way, _host(address)), _host(address))
+    def stopped(self, operator: Operator, name: str, outcome: str) -> None:
+        """STOP was pressed by an operator without a session, who calls itself `name`."""
+        self._add(operator, "stop", outcome, "", ("", name))
 
     def control(self, driver: Driver | None) -> None:
         """Who has control now, None when nobody has; what is driven is not recorded message by message."""

@@ -194,16 +194,9 @@ def _may_watch(door: StationDoor, request: Request) -> bool:
 
 
 async def _stop(door: StationDoor, request: Request) -> tuple[str, int]:
-    """Press STOP for any client; one sentence and the status.
-
-    Who proved who it is presses under its own name; another name is repeated with the address that it came from.
-    """
-    operator = _operator(request)
-    identity = operator.identity
+    """Press STOP for any client; one sentence and the status."""
     name = plain(request.query_params.get("name", ""), MAX_NAME_LENGTH)
-    where = request.client.host if request.client else "an unknown address"
-    who = f"{name} at {where} (not proven)" if name else f"a browser at {where}"
-    answer = await door.stop(identity.name if identity.proven else who, operator.address)
+    answer = await door.stop(_operator(request), name)
     return f"{answer.message}\n", 200 if answer.success else 503
 
 

@@ -22,7 +22,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskOrder,
 )
 from robotside.gateways.gateway import Gateway
-from tests.fakes import FakeRobot
+from tests.fakes import FakeClient, FakeRobot
 from tests.robotside.gateways.memory import MemoryClient, MemoryGateway
 from tests.robotside.scene import Scene
 
@@ -97,7 +97,7 @@ async def test_stop_by_one_gateway_holds_for_all(gateway: MemoryGateway, scene: 
     assert (answer.success, scene.robot.at_rest, scene.station.controls.stopped_by) == (True, True, "Carl")
     scene.drive(FULL)
     assert scene.robot.at_rest
-    assert (await scene.door.stop("a browser")).success
+    assert (await scene.door.stop(FakeClient())).success
     assert scene.station.controls.stopped_by == "Carl"
 
 

@@ -172,9 +172,18 @@ def test_what_a_stranger_is_refused_at_the_door_and_a_wrong_key_are_recorded(sce
 
 
 async def test_stop_without_a_session_is_recorded(scene: Scene) -> None:
-    await scene.door.stop("Ben", "192.0.2.9:1")
-    (row,) = rows(scene)
-    assert (row.operation, row.outcome, row.name, row.way) == ("stop", "done", "Ben (not proven)", "http")
+    stranger, known = Operator("1", "192.0.2.9:1", 0.0, way="http"), anna(scene)
+    known.way = "http"
+    await scene.door.stop(stranger, "Ben")
+    await scene.door.stop(known, "Somebody else")
+    assert scene.station.controls.stopped_by == "Ben at 192.0.2.9 (not proven)"
+    assert [
+        (row.operation, row.outcome, row.person_id, row.name, row.role, row.way, row.address)
+        for row in rows(scene)
+    ] == [
+        ("stop", "done", "", "Ben (not proven)", "none", "http", "192.0.2.9"),
+        ("stop", "done", "id-7", "Anna", "drive", "http", "192.0.2.1"),
+    ]
 
 
 async def test_stop_stops_though_the_audit_log_is_broken(

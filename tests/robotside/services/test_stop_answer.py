@@ -53,13 +53,13 @@ async def test_a_disk_that_fails_meanwhile_is_in_the_answer(slow: Slow) -> None:
 
 
 async def test_a_stop_by_who_has_no_session_is_answered_as_late(slow: Slow) -> None:
-    task = asyncio.ensure_future(slow.door.stop("a browser"))
+    task = asyncio.ensure_future(slow.door.stop(FakeClient()))
     await asyncio.sleep(0)
     assert slow.station.controls.stopped
     assert not task.done()
     slow.write()
     assert (await task).message == "Stopped."
-    late = asyncio.ensure_future(slow.door.stop("a browser"))
+    late = asyncio.ensure_future(slow.door.stop(FakeClient()))
     assert (await late).message == "Stopped.", "it is on the disk already"
 
 

@@ -122,6 +122,9 @@ async def test_who_proved_who_it_is_stops_under_its_own_name(site: Site) -> None
     async with site.visit("w.key") as web:
         await web.post("/stop?name=Somebody+else")
     assert site.stopped_by == "Person w"
+    assert site.scene.station.controls.stopped_by_id == "w"
+    (row,) = (each for each in site.scene.station.records.audit.rows() if each.operation == "stop")
+    assert (row.person_id, row.name, row.role) == ("w", "Person w", "watch")
 
 
 @pytest.mark.parametrize(
