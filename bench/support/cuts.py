@@ -109,6 +109,7 @@ async def cut(port: int, told: list[Line], kind: Kind, driver: Driver, rng: rand
     first = len(told)
     given: dict[int, float] = {}
     async with wire(port) as link, driver(link.port) as send:
+        await send(Twist())  # the link before was cut with the stick pushed: this one is heard at zero first
         on_way = kind.speed / kind.acceleration + rng.uniform(0.2, 0.2 + 4 * PERIOD)
         cutting = asyncio.create_task(_sever(link, on_way, hard=hard))
         end = time.monotonic() + on_way + BLIND_TIME

@@ -175,9 +175,17 @@ def _give_up(grip: Grip) -> None:
 
 
 def release(session: Any) -> None:
-    """Hold Release as a finger does."""
-    session.hold_stop()
-    Clock.schedule_once(lambda _: session.release_stop(), RELEASE_DURATION)
+    """Hold Release, and again when the robot had to wait since the release before."""
+
+    def hold(_: float) -> bool:
+        if session.robot_stop.phase != "stopped":
+            return False
+        session.hold_stop()
+        Clock.schedule_once(lambda _: session.release_stop(), RELEASE_DURATION)
+        return True
+
+    hold(0.0)
+    Clock.schedule_interval(hold, 2 * RELEASE_DURATION)
 
 
 def _escape(grip: Grip) -> None:

@@ -46,7 +46,9 @@ class Peer:
         self._listening = asyncio.create_task(self._listen())
 
     async def _listen(self) -> None:
-        while line := await self._process.stdout.readline():
+        while (line := await self._process.stdout.readline()).endswith(
+            b"\n"
+        ):  # one that is killed leaves a part
             told = json.loads(line)
             if "number" in told:
                 self._answers[told["number"]] = told["answer"]

@@ -96,6 +96,7 @@ class Trial:
         client = scene.client("phone")
         start = scene.clock
         self.robot.pose = (0.0, 0.0, 0.0)
+        scene.drive(Twist(), client, None)  # the hand before went with its stick pushed
         end = start + cut.after
         valid, moved = -math.inf, False
         for moment, given in (*cut.arrivals(start, rng), (end + 2.0, math.nan)):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from kivy.graphics import Color, Rectangle
+from kivy.graphics import Color, InstructionGroup, Rectangle
 from kivy.graphics.texture import Texture
 from kivy.properties import ListProperty
 from kivy.uix.widget import Widget
@@ -29,6 +29,8 @@ class QrCode(Widget):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
+        self._code = InstructionGroup()
+        self.canvas.add(self._code)
         self.bind(rows=self._draw, pos=self._draw, size=self._draw)
         self._draw()
 
@@ -40,7 +42,7 @@ class QrCode(Widget):
         return count if whole and count <= MAX_MODULES else 0
 
     def _draw(self, *_: object) -> None:
-        self.canvas.clear()
+        self._code.clear()
         count = self.modules
         if not count:
             return
@@ -50,11 +52,10 @@ class QrCode(Widget):
             return
         field, code = module * across, module * count
         left, low = round(self.center_x - field / 2), round(self.center_y - field / 2)
-        with self.canvas:
-            Color(1, 1, 1, 1)
-            Rectangle(pos=(left, low), size=(field, field))
-            inner = left + QUIET_ZONE * module, low + QUIET_ZONE * module
-            Rectangle(pos=inner, size=(code, code), texture=self._texture(count))
+        inner = left + QUIET_ZONE * module, low + QUIET_ZONE * module
+        self._code.add(Color(1, 1, 1, 1))
+        self._code.add(Rectangle(pos=(left, low), size=(field, field)))
+        self._code.add(Rectangle(pos=inner, size=(code, code), texture=self._texture(count)))
 
     def _texture(self, count: int) -> Texture:
         light = np.array([[letter == "0" for letter in row] for row in self.rows], np.uint8) * 255
