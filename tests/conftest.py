@@ -15,11 +15,16 @@ from collections.abc import AsyncIterator, Generator, Iterator
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from app.garbage_collector import Collector
 from bridge.server.reception.log_limit import STRANGERS
 from tests import headless
 from tests.apart import Apart
+
+# a machine that is busy otherwise fails no property: no time counts
+settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("untimed")
 
 HERE = Path(__file__).parent
 DRAWING = ("pixels", "e2e")

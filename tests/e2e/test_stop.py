@@ -23,6 +23,9 @@ def somebody_drives(url: str) -> Iterator[None]:
     enough = threading.Event()
 
     def push(robot: RemoteRobot) -> None:
+        robot.publish(
+            "/cmd_vel", Twist()
+        )  # who came from this machine before may have gone with its stick pushed
         while not enough.wait(PERIOD):
             robot.publish("/cmd_vel", Twist.planar(0.4, 0.0))
 
