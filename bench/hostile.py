@@ -51,7 +51,7 @@ FIGURES = (
     Figure("stop_p50", "ms", "STOP to its answer, median", against=CALM),
     Figure("stop_p99", "ms", "the same, 99 of 100", 300, against=CALM),
     Figure("gap", "ms", "longest time without a /pose", 300, against=CALM),
-    Figure("way", "m", "driven by the honest client meanwhile", better="more", against=CALM),
+    Figure("way", "m", "driven by the honest client meanwhile", better="more"),
     Figure("memory_before", "MB", "resident before"),
     Figure("memory_mid", "MB", "resident in the middle"),
     Figure("memory_end", "MB", "resident at the end"),
@@ -81,7 +81,8 @@ def prepare(context: Context) -> Iterator[Sides]:
 
     def ours() -> Mapping[str, float]:
         found = attacked(int(context.count("frames")), int(context.count("requests")))
-        calm.update(_honest(found.calm))
+        before = _honest(found.calm)
+        calm.update({name: before[name] for name in ("stop_p50", "stop_p99", "gap")})
         return _figures(found)
 
     yield Sides(ours, lambda: calm)

@@ -5,7 +5,8 @@ simulated patrol robot; its clients (`bench/support/soak/visitors.py`) are ours,
 come and go for ever, one that reads slowly, and the patrol is ordered again whenever it has ended. Samples go to
 `out/bench/soak.csv` as they are taken, the curves to `out/bench/soak.png` every five minutes.
 
-Whether something grows is told by the slope of a straight line through twelve stretches of the run without its first tenth;
+Whether something grows is told by the slope of a straight line through twelve stretches of the run without its first half
+hour (of a shorter run without its first half);
 certain is as much of it as is above twice its standard error.
 """
 
@@ -41,7 +42,7 @@ FIGURES = (
     Figure("samples", "", "samples"),
     Figure("memory_first", "MB", "resident, median of the first tenth"),
     Figure("memory_last", "MB", "resident, median of the last tenth"),
-    Figure("memory_slope", "MB/h", "slope of the resident memory without the first tenth"),
+    Figure("memory_slope", "MB/h", "slope of the resident memory once warm"),
     Figure("memory_doubt", "MB/h", "its standard error"),
     Figure("memory_grows", "MB/h", "growth of the resident memory that is certain", 1.0),
     Figure("blocks_grows", "1/h", "growth of Python's blocks of memory that is certain"),
@@ -64,8 +65,9 @@ DRAW_PERIOD = 300.0
 """[s]"""
 ORDER_PERIOD = 60.0
 """Between two looks whether it still patrols [s]."""
-WARM_SHARE = 0.1
-"""Of the run, left out of slopes."""
+WARM_TIME = 1800.0
+"""Left out of slopes, but no more than half of the run [s]: some 29 min lie between two full rounds of Python's collector, and before the
+first one is over the memory has not been as full as it gets."""
 
 Row = dict[str, float]
 """One sample."""
@@ -158,7 +160,7 @@ def _follow(robot: Child, counts: dict[str, float]) -> None:
 def _keep_patrolling(robot: Serving, faults: list[str]) -> None:
     try:
         status = httpx.get(f"{robot.site}/healthz", timeout=10.0).json()
-        if status["state"] != "running":
+        if status["state"] != "RUNNING":
             patrol(robot.url)
     except (httpx.HTTPError, BridgeError) as fault:
         faults.append(f"patrol: {fault!r}")
@@ -217,7 +219,8 @@ def figures(rows: Sequence[Row]) -> dict[str, float]:
     if not rows:
         return {}
     tenth = max(1, len(rows) // 10)
-    warm = rows[int(len(rows) * WARM_SHARE) :]
+    warm = [row for row in rows if row["seconds"] > WARM_TIME]
+    warm = warm if len(warm) >= len(rows) / 2 else rows[len(rows) // 2 :]
     hours = [row["seconds"] / 3600 for row in warm]
     memory = trend(hours, [row["memory"] for row in warm])
     return {

@@ -60,6 +60,11 @@ class Cut:
     """How often something moved it that was given only after the cut."""
 
     @property
+    def obeyed(self) -> bool:
+        """It moved at all before the link was cut."""
+        return self.longest > 0
+
+    @property
     def missed(self) -> bool:
         """Something moved it too late."""
         return not self.longest <= COMMAND_LIFETIME
@@ -111,6 +116,7 @@ async def cut(port: int, told: list[Line], kind: Kind, driver: Driver, rng: rand
     async with wire(port) as link, driver(link.port) as send:
         await send(Twist())  # the link before was cut with the stick pushed: this one is heard at zero first
         on_way = kind.speed / kind.acceleration + rng.uniform(0.2, 0.2 + 4 * PERIOD)
+        await send(Twist())  # a stick is heard at zero before it drives
         cutting = asyncio.create_task(_sever(link, on_way, hard=hard))
         end = time.monotonic() + on_way + BLIND_TIME
         while time.monotonic() < end:
@@ -160,7 +166,7 @@ def judge(
     """
     moves = [_moving(line) for line in told if line[0] in ("drive", "stop")]
     longest, last, zero = 0.0, math.nan, math.inf
-    for (at, code), (until, _) in zip(moves, [*moves[1:], (math.inf, 0)], strict=True):
+    for (at, code), (until, _) in itertools.pairwise([*moves, (math.inf, 0)]):
         if code:
             last = given[code]
             longest = max(longest, at - last, until - last)

@@ -26,6 +26,12 @@ def test_zero_counts_from_when_the_last_command_was_given() -> None:
     assert not found.missed
 
 
+def test_a_robot_that_was_never_driven_has_not_obeyed() -> None:
+    assert not judged().obeyed
+    assert not judged(("stop", 10.0)).obeyed
+    assert judged(drive(10.07, 2), ("stop", 10.3)).obeyed
+
+
 def test_a_twist_that_only_turns_is_rest() -> None:
     assert judged(drive(10.07, 2), drive(10.3, 2, 0.0)).zero == pytest.approx(0.25)
 

@@ -44,8 +44,8 @@ def test_of_a_short_series_nothing_is_said() -> None:
 
 
 def test_what_is_taken_at_the_start_is_no_growth() -> None:
-    """The first tenth is left out."""
-    rows = [row(number * 10.0, 100.0 if number < 30 else 200.0) for number in range(360)]
+    """The first half hour is left out, of a shorter run the first half."""
+    rows = [row(number * 10.0, 100.0 if number < 170 else 200.0) for number in range(360)]
     found = figures(rows)
     assert (found["memory_first"], found["memory_last"]) == (100.0, 200.0)
     assert found["memory_grows"] == 0.0
