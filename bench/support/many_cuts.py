@@ -94,7 +94,7 @@ class ManyCut:
     client: str
     how: str
     obeyed: bool
-    """The robot moved before the link was cut."""
+    """The robot moved before the link was cut; on a computer that has no time for it everything may come too late."""
     longest: float
     """As long after it was given a command was in force, or obeyed at all, at most [s]."""
     zero: float
