@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -23,11 +24,11 @@ def somebody_drives(url: str) -> Iterator[None]:
     enough = threading.Event()
 
     def push(robot: RemoteRobot) -> None:
-        robot.publish(
-            "/cmd_vel", Twist()
-        )  # who came from this machine before may have gone with its stick pushed
-        while not enough.wait(PERIOD):
-            robot.publish("/cmd_vel", Twist.planar(0.4, 0.0))
+        for number in itertools.count():
+            # let go now and then: after a pause of this machine a held stick would count no more
+            robot.publish("/cmd_vel", Twist.planar(0.4 if number % 20 else 0.0, 0.0))
+            if enough.wait(PERIOD):
+                return
 
     with RemoteRobot(url) as robot:
         robot.wait()
