@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import ipaddress
 import logging
 from collections.abc import Callable, Iterable
 from contextlib import suppress
@@ -22,7 +21,7 @@ from robotside.trust.certificate import Certificate
 from robotside.trust.pair_requests import PairAnswer, PairRequest, PairRequests
 from robotside.trust.pairing import Offer, Pairing
 from robotside.trust.people_file import PeopleFile
-from robotside.trust.trust import CHECK_PERIOD, Trust
+from robotside.trust.trust import CHECK_PERIOD, Trust, is_own_machine
 
 __all__ = ["StationKeys"]
 
@@ -86,14 +85,7 @@ class StationKeys:
 
     def plain_from(self, host: str) -> bool:
         """Who comes from `host` may speak without TLS: programs of this machine, others where that was allowed."""
-        if self.trust.plain_role is not None:
-            return True
-        try:
-            found = ipaddress.ip_address(host.partition("%")[0])
-        except ValueError:
-            return False
-        mapped = found.ipv4_mapped if isinstance(found, ipaddress.IPv6Address) else None
-        return (mapped or found).is_loopback
+        return self.trust.plain_role is not None or is_own_machine(host)
 
     def reached_at(self, url: str) -> None:
         """The rosbridge socket listens at `url`; pairing links name it."""

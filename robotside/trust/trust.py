@@ -25,7 +25,7 @@ from robotside.trust.people import HANDHELD, MAX_TOKEN, Person, added, make_pers
 from robotside.trust.people_file import PeopleFile, Unkept
 from robotside.trust.permissions import needed_role
 
-__all__ = ["CHECK_PERIOD", "Trust"]
+__all__ = ["CHECK_PERIOD", "Trust", "is_own_machine"]
 
 log = logging.getLogger(__name__)
 
@@ -94,7 +94,7 @@ class Trust:
         """Who a client without a token is: somebody on this machine, anybody where that is allowed, or a stranger."""
         if not trusted:
             return STRANGER
-        if _is_loopback(address):
+        if is_own_machine(address.rpartition(":")[0].strip("[]")):
             return Identity("", "", self._local)
         # by TLS nobody may less than without it: a handheld that is not paired comes by the address of the HELLO
         return STRANGER if self._plain is None else Identity("", "", self._plain)
@@ -266,10 +266,10 @@ def _has_lost(before: Person, after: Person | None) -> bool:
     return Role.read(after.role) < Role.read(before.role)
 
 
-def _is_loopback(address: str) -> bool:
-    host = address.rpartition(":")[0].strip("[]").partition("%")[0]
+def is_own_machine(host: str) -> bool:
+    """Whether a client from `host`, an IP address with or without its zone, runs on the robot's own computer."""
     try:
-        found = ipaddress.ip_address(host)
+        found = ipaddress.ip_address(host.partition("%")[0])
     except ValueError:
         return False
     mapped = found.ipv4_mapped if isinstance(found, ipaddress.IPv6Address) else None
