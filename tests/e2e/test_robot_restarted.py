@@ -73,6 +73,8 @@ def test_a_damaged_database_and_a_disk_that_takes_nothing_are_said_on_the_glass(
         # from now on its files cannot grow
         resource.prlimit(robot.pid, resource.RLIMIT_FSIZE, (1, resource.RLIM_INFINITY))
         session.send_mission()
+        # of this mission, not of something else that the robot writes: while it is under way it is not sent again
+        glass.until(lambda: says(glass, "Refused: send the mission", "nothing was stored"), "its refusal")
         glass.until(lambda: says(glass, "The disk", "nothing was stored"), "that nothing was stored")
         assert session.mission.dirty
         resource.prlimit(robot.pid, resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY,) * 2)
