@@ -39,6 +39,7 @@ def test_a_killed_and_restarted_robot_is_found_again_with_draft_mission_and_the_
             os.kill(robot.pid, signal.SIGKILL)
             glass.until(lambda: not session.connected, "the app to notice")
             assert len(session.mission.draft.points) == 3
+            old = session.feeds.latest("/pose")
             robot.close()
             robot = serve(tmp_path, port)
             glass.until(lambda: session.connected, "the app to reconnect by itself", 10.0)
@@ -49,6 +50,10 @@ def test_a_killed_and_restarted_robot_is_found_again_with_draft_mission_and_the_
             )
             cut = session.feeds.latest("/task/status")
             assert (cut.task_id, cut.state) == (task, "INTERRUPTED"), "nothing goes on by itself"
+            glass.until(
+                lambda: all(session.feeds.latest("/pose") is not one for one in (None, old)),
+                "the robot to find where it is",
+            )
             glass.tap("Resume")
             glass.until(lambda: session.feeds.latest("/task/status").state == "RUNNING", "it to go on")
             assert session.feeds.latest("/task/status").task_id == task
