@@ -46,7 +46,7 @@ class Scene:
         return self.glass.hand
 
     @contextmanager
-    def step(self, name: str) -> Iterator[Callable[[str, Any, bool], bool]]:
+    def step(self, name: str) -> Iterator[Callable[..., bool]]:
         """A step of the report; gives what notes an expectation. The picture is taken when it ends, however it does.
 
         Raises Enough after the last step to play.

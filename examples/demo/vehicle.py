@@ -56,7 +56,8 @@ def open_profile(scene: Scene, robot: str) -> Wait:
         yield from glass.press("Drive", kind="NavButton")
         live = yield from glass.soon(lambda: glass.all("Video") and not waiting(scene), 10)
         seconds = time.monotonic() - started
-        check(f"every widget of the screen lives within {LIVE:g} s", seconds, bool(live) and seconds <= LIVE)
+        check("every widget of the screen lives", waiting(scene), bool(live))
+        check(f"it does within {LIVE:g} s", seconds, seconds <= LIVE, timed=True)
         lacking = sorted(name for name in wanted if not glass.all(name))
         check(f"the screen is that of {robot}, nothing lacks", lacking, not lacking)
         yield from glass.pause(1.0)

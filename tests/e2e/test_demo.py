@@ -28,8 +28,9 @@ def test_the_demo_finds_the_robot_and_sends_it_a_mission(tmp_path):
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=120)
     summary = json.loads((tmp_path / "summary.json").read_text())
     # how fast it is depends on who else uses this machine: that is for the benchmarks to judge
-    failures = [failure for failure in summary["failures"] if "within" not in failure]
-    assert not failures, done.stdout + done.stderr
+    checks = [check for step in summary["steps"] for check in step["checks"]]
+    slow = [check for check in checks if check["timed"] and not check["ok"]]
+    assert len(summary["failures"]) == len(slow), done.stdout + done.stderr
     assert done.returncode == (1 if summary["failures"] else 0)
     assert [step["name"] for step in summary["steps"]][-1] == "sent"
     for step in summary["steps"]:

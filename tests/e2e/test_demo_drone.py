@@ -21,8 +21,10 @@ def test_a_drone_stays_on_the_ground_when_its_slide_is_let_go_early(tmp_path):
         timeout=120,
     )
     summary = json.loads((tmp_path / "summary.json").read_text())
-    failures = [failure for failure in summary["failures"] if "within" not in failure]
-    assert not failures, done.stdout + done.stderr
+    # how fast it is depends on who else uses this machine: that is for the benchmarks to judge
+    checks = [check for step in summary["steps"] for check in step["checks"]]
+    slow = [check for check in checks if check["timed"] and not check["ok"]]
+    assert len(summary["failures"]) == len(slow), done.stdout + done.stderr
     steps = [step["name"] for step in summary["steps"]]
     assert steps == ["connect-screen", "connected", "profile", "let-go"]
     assert (summary["robot"], summary["world"]) == ("ardrone", "parking_lot")

@@ -24,7 +24,7 @@ def test_a_story_that_held_ends_with_0(report, capsys):
     summary = json.loads((report.folder / "summary.json").read_text())
     assert summary["ok"] is True
     assert summary["steps"][0]["checks"] == [
-        {"expected": "the robot is listed [s]", "measured": 0.512, "ok": True}
+        {"expected": "the robot is listed [s]", "measured": 0.512, "ok": True, "timed": False}
     ]
     assert (report.folder / summary["steps"][0]["picture"]).exists()
     assert "ok    1 connect" in capsys.readouterr().out
