@@ -103,6 +103,8 @@ class CameraDecoder:
         self.bad = 0
         """Frames that were no picture, or too large a one."""
         self._said_at = -math.inf
+        self._last: tuple[bytes, tuple[int, int, bytes]] | None = None
+        """The file that was decoded last, and what came of it."""
 
     def show(self, frame: Frame, received: float) -> None:
         """Decode a frame that came at `received` [s], our clock; a newer one takes its place in the queue."""
@@ -117,8 +119,7 @@ class CameraDecoder:
         if self._decode is None:
             self._decode = best_decoder()
         try:
-            picture_size(frame.jpeg)
-            width, height, rgba = self._decode(frame.jpeg)
+            width, height, rgba = self._pixels(frame.jpeg, self._decode)
         except ProtocolError as error:
             self._refuse(str(error), received)
             return
@@ -127,6 +128,14 @@ class CameraDecoder:
             return
         picture = Picture(frame.seq, frame.stamp, width, height, rgba, (frame.width, frame.height))
         self._mailbox.post(PICTURE, picture, received, urgent=True)
+
+    def _pixels(self, file: bytes, decode: Decoder) -> tuple[int, int, bytes]:
+        """The file as pixels; those of the last one for the very same file, which a camera gives that sees the same."""
+        if self._last is None or self._last[0] is not file:
+            self._last = None
+            picture_size(file)
+            self._last = file, decode(file)
+        return self._last[1]
 
     def _refuse(self, sentence: str, received: float, error: Exception | None = None) -> None:
         self.bad += 1

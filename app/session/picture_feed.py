@@ -71,12 +71,19 @@ class PictureFeed:
         self._refusal = ""
         """Why the picture after the newest was not decoded."""
         self._watched: str | None = None
+        self._taken = math.nan
+        """Stamp of the newest picture [s], robot clock."""
 
     def show(
         self, picture: Picture, received: float, shell: PictureFrame | None, session: Session | None
     ) -> None:
-        """Put a decoded picture on the screen that is on the glass; without a `shell` there is none."""
-        self._newest, self._refusal = received, ""
+        """Put a decoded picture on the screen that is on the glass; without a `shell` there is none.
+
+        One with the stamp of the last is that picture once more: it is no fresher than it was.
+        """
+        if not picture.stamp or picture.stamp != self._taken:
+            self._newest = received
+        self._taken, self._refusal = picture.stamp, ""
         screen = shell.shown if shell is not None else None
         if screen is None:
             return
@@ -117,3 +124,4 @@ class PictureFeed:
     def forget(self) -> None:
         """The robot is left: there is no picture and nothing is watched."""
         self._watched, self._newest, self._refusal = None, math.nan, ""
+        self._taken = math.nan

@@ -12,7 +12,7 @@ from bridge.client.connection import Connection, open_connection
 from bridge.client.credentials import Credentials
 from bridge.client.reconnecting import Reconnecting
 from bridge.core.address import BadAddress, LinkLost
-from bridge.core.camera_frames import Frame, unpack
+from bridge.core.camera_frames import ASKS_FOR_SAME, Frame, unpack
 from bridge.core.errors import ProtocolError
 from bridge.core.link_state import LinkFault
 
@@ -37,7 +37,8 @@ class CameraStream(Reconnecting):
         credentials: Credentials | None = None,
     ) -> None:
         """`url` is `ws://HOST:PORT/camera/NAME`; `on_frame(frame, received)` is called for each picture, `received`
-        by `now()` [s]. `credentials` are as in `bridge.client.connection.open_connection`."""
+        by `now()` [s]; one that came out the same as the last has the same `jpeg` object. `credentials` are as in
+        `bridge.client.connection.open_connection`."""
         super().__init__(url, now, backoff, rng)
         self._credentials = credentials
         self._on_frame = on_frame
@@ -49,7 +50,10 @@ class CameraStream(Reconnecting):
             attempt, fault = attempt + 1, LinkFault.NONE
             try:
                 connection = await open_connection(
-                    self.url, OPEN_TIMEOUT, ping_interval=2.0, credentials=self._credentials
+                    f"{self.url}?{ASKS_FOR_SAME}",
+                    OPEN_TIMEOUT,
+                    ping_interval=2.0,
+                    credentials=self._credentials,
                 )
                 attempt = 0
                 await self._watch(connection)
@@ -62,11 +66,13 @@ class CameraStream(Reconnecting):
             await asyncio.sleep(self.wait_before(max(1, attempt), fault))
 
     async def _watch(self, connection: Connection) -> None:
+        frame: Frame | None = None
         try:
             async for raw in connection.messages():
                 try:
-                    frame = unpack(raw)
+                    frame = unpack(raw, frame)
                 except ProtocolError as error:
+                    frame = None  # a later header alone may stand for the picture that this was meant to be
                     log.debug("%s: %s", self.url, error)
                     continue
                 connection.send(f"ack {frame.seq}")

@@ -3,6 +3,9 @@
 Header, big-endian: `PHF1`, sequence number (uint32), stamp (float64), width (uint32), height (uint32). The receiver
 answers each with the text `ack SEQ`.
 
+A receiver whose path ends in `?same=1` takes a header alone, which begins with `PHS1`, for the picture before it on the same
+connection: the camera took another one at that stamp, and it came out the same.
+
 A picture that somebody else made is checked by `picture_size` before a decoder sees it: some kilobytes can ask for all memory.
 """
 
@@ -13,7 +16,20 @@ from dataclasses import dataclass
 
 from bridge.core.errors import ProtocolError
 
-__all__ = ["MAX_PIXELS", "MAX_SIDE", "Frame", "pack", "picture_size", "sequence", "unpack"]
+__all__ = [
+    "ASKS_FOR_SAME",
+    "MAX_PIXELS",
+    "MAX_SIDE",
+    "Frame",
+    "pack",
+    "pack_same",
+    "picture_size",
+    "sequence",
+    "unpack",
+]
+
+ASKS_FOR_SAME = "same=1"
+"""In the query of a camera's path: the receiver knows the header that stands for the same picture."""
 
 MAX_SIDE = 8192
 """Columns or rows of a picture that is decoded."""
@@ -24,6 +40,7 @@ MAX_SCANS = 100
 
 _HEADER = struct.Struct(">4sIdII")
 _MAGIC = b"PHF1"
+_SAME = b"PHS1"
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,8 +63,22 @@ def pack(seq: int, stamp: float, jpeg: bytes, width: int, height: int) -> bytes:
     return _HEADER.pack(_MAGIC, seq & 0xFFFFFFFF, stamp, width, height) + jpeg
 
 
-def unpack(raw: bytes) -> Frame:
-    """The frame in one binary message; ProtocolError for anything else."""
+def pack_same(frame: Frame) -> bytes:
+    """The header that says that `frame` has the same picture as the one sent before it."""
+    return _HEADER.pack(_SAME, frame.seq & 0xFFFFFFFF, frame.stamp, frame.width, frame.height)
+
+
+def unpack(raw: bytes, before: Frame | None = None) -> Frame:
+    """The frame in one binary message; ProtocolError for anything else.
+
+    `before` is the newest frame of the same connection, whose very JPEG one with the same picture has. Without it, or with a
+    stamp that is no later, such a message proves no new picture, and is refused.
+    """
+    if raw[:4] == _SAME and len(raw) == _HEADER.size:
+        _, seq, stamp, width, height = _HEADER.unpack(raw)
+        if before is None or not stamp > before.stamp:
+            raise ProtocolError("The camera repeats a picture that it has not sent before.")
+        return Frame(seq, stamp, width, height, before.jpeg)
     _check(raw)
     _, seq, stamp, width, height = _HEADER.unpack_from(raw)
     return Frame(seq, stamp, width, height, raw[_HEADER.size :])

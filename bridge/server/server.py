@@ -25,6 +25,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
 from bridge.core.async_tasks import cancel_all
+from bridge.core.camera_frames import ASKS_FOR_SAME
 from bridge.core.compat import Compat
 from bridge.core.errors import BridgeError
 from bridge.core.robot_catalogue import Operator
@@ -290,7 +291,8 @@ class BridgeServer:
                 client.measure_round_trip()
 
     async def _serve_camera(self, ws: ServerConnection, camera: str) -> None:
-        watcher = CameraSocket(ws, coarsest=self._levels.coarsest)
+        query = ws.request.path.partition("?")[2].split("&") if ws.request else []
+        watcher = CameraSocket(ws, coarsest=self._levels.coarsest, knows_same=ASKS_FOR_SAME in query)
         self._switchboard.watch(watcher, camera)
         try:
             await watcher.run()

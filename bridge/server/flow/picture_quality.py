@@ -46,9 +46,10 @@ FRAME_PERIOD = 1 / 15
 
 class _Sent(NamedTuple):
     seq: int
-    bytes: int
     level: int
     at: float
+    same: bool = False
+    """A header alone: the same picture as before, whose bytes are at the watcher already."""
 
 
 class PictureQuality:
@@ -80,8 +81,13 @@ class PictureQuality:
 
     def on_sent(self, seq: int, size: int, level: int, now: float) -> None:
         """Note that picture number `seq` of `size` bytes was sent at `level`."""
-        self._under_way.append(_Sent(seq, size, level, now))
+        self._under_way.append(_Sent(seq, level, now))
         self._sizes[level] = size
+        self._last = now
+
+    def on_same_sent(self, seq: int, level: int, now: float) -> None:
+        """Note that picture number `seq` went out as a header alone, as the same as one sent at `level`."""
+        self._under_way.append(_Sent(seq, level, now, same=True))
         self._last = now
 
     def on_ack(self, seq: int, now: float) -> bool:
@@ -102,7 +108,7 @@ class PictureQuality:
         return max(fewest, min(most, 1 + math.ceil(self.base / FRAME_PERIOD)))
 
     def _judge(self, sent: _Sent, latency: float, now: float) -> None:
-        if sent.level == COARSEST:
+        if sent.same or sent.level == COARSEST:
             self._bases.append(latency)
             self.base = min(self._bases)
         else:
@@ -112,6 +118,9 @@ class PictureQuality:
         self.pause = wanted if wanted > self.pause else (self.pause + wanted) / 2
         if sent.level != self.level:
             return  # says nothing about the level that is sent now
+        if sent.same:
+            self._finer(now)  # nothing moves, so a finer picture that comes late holds up no other
+            return
         self._excesses.append(excess)
         usual = median([*self._excesses, *[0.0] * (RECENT_COUNT - len(self._excesses))])
         if usual > SLOW_LATENCY or excess > VERY_SLOW_LATENCY:

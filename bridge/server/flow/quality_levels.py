@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Awaitable, Callable
 
-from bridge.core.camera_frames import pack, unpack
+from bridge.core.camera_frames import pack, pack_same, unpack
 from bridge.core.errors import BridgeError
 from bridge.server.flow.picture_quality import COARSEST
 
@@ -68,6 +68,16 @@ class Picture:
     def seq(self) -> int:
         """Sequence number."""
         return self._frame.seq
+
+    def is_same_as(self, other: Picture) -> bool:
+        """It was taken later than `other`, and came out the same."""
+        mine, others = self._frame, other._frame
+        return mine.stamp > others.stamp and mine.jpeg == others.jpeg
+
+    @property
+    def same(self) -> bytes:
+        """The packed header that says that it is the same as the picture sent before."""
+        return pack_same(self._frame)
 
     async def at(self, level: int) -> bytes:
         """The packed frame at `level`, with the header of the original; the original where no smaller one can be

@@ -131,3 +131,34 @@ def test_a_stream_of_bad_pictures_makes_one_log_line_a_minute(caplog: pytest.Log
         camera._work((Frame(second, 5.0, 1, 1, b"no picture"), float(second)))
     assert camera.bad == 120
     assert len([one for one in caplog.records if one.name == "app.link.camera_decoder"]) == 2
+
+
+def test_the_very_file_of_the_last_picture_is_decoded_once_and_keeps_its_own_stamps() -> None:
+    decoded = []
+
+    def decode(file: bytes) -> tuple[int, int, bytes]:
+        decoded.append(file)
+        return 1, 1, bytes(4)
+
+    came = threading.Semaphore(0)
+    mailbox = Mailbox(came.release)
+    camera, file, other = CameraDecoder(mailbox, decode), jpeg(), bytes(bytearray(jpeg()))
+    shown = []
+    for seq, each in enumerate((file, file, other, file)):
+        camera.show(Frame(seq, float(seq), 64, 32, each), float(seq))
+        assert came.acquire(timeout=10)
+        shown += [post.value for channel, post in mailbox.drain() if channel == PICTURE]
+    camera.close()
+    assert [picture.stamp for picture in shown] == [0.0, 1.0, 2.0, 3.0]
+    assert shown[1].rgba is shown[0].rgba
+    assert decoded == [file, other, file]
+
+
+def test_a_damaged_picture_that_comes_again_is_refused_again() -> None:
+    mailbox = Mailbox(lambda: None)
+    camera = CameraDecoder(mailbox, pillow())
+    broken = jpeg()[:200]
+    for seq in range(2):
+        camera._work((Frame(seq, 1.0 + seq, 64, 32, broken), 1.0))
+    camera.close()
+    assert camera.bad == 2

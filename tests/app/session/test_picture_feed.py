@@ -56,3 +56,22 @@ def test_a_camera_of_which_every_picture_is_refused_says_so(clock: Clock, shell:
     feed.forget()
     feed.judge(shell)
     assert video.refusal == "", "the next robot's pictures were not refused"
+
+
+def test_a_frozen_camera_that_gives_the_same_exposure_again_grows_old(clock: Clock, shell: Any) -> None:
+    feed, video = PictureFeed(clock), shell.shown.picture
+    for number in range(20):
+        clock.now = 100.0 + number * 0.1
+        feed.show(Picture(number, 7.0, 1, 1, bytes(4)), clock.now, shell, None)
+        feed.judge(shell)
+    assert video.state == "stale"
+    assert video.age >= 1.0
+
+
+def test_the_same_pixels_with_a_later_stamp_are_fresh(clock: Clock, shell: Any) -> None:
+    feed, video, pixels = PictureFeed(clock), shell.shown.picture, bytes(4)
+    for number in range(20):
+        clock.now = 100.0 + number * 0.1
+        feed.show(Picture(number, 7.0 + number * 0.1, 1, 1, pixels), clock.now, shell, None)
+        feed.judge(shell)
+    assert (video.state, video.age) == ("live", 0.0)

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import asyncio
 
+import pytest
+
 from bridge.client.client import CameraStream
 from bridge.core import camera_frames as frames
+from bridge.core.address import LinkLost
 from tests.bridge.wires import Clock, Record, server, url
 
 
@@ -55,3 +58,73 @@ async def test_a_camera_at_an_address_that_can_never_work_is_given_up_with_a_wor
     stream = CameraStream("front", print)
     await stream.run()
     assert "No pictures: The address must be like" in caplog.text
+
+
+# the same picture again
+
+
+async def test_a_camera_that_sees_the_same_shows_the_very_picture_with_the_new_stamp():
+    demands, seen = Record(), Record()
+    async with server(on_demand=demands) as robot:
+        stream, running = await watched(robot, demands, seen, now=Clock(5.0))
+        for seq, stamp in enumerate((1.0, 1.1, 1.2)):
+            robot.publish_frame("front", frames.pack(seq, stamp, b"jpeg", 640, 480))
+            await seen.reach(seq + 1)
+        shown = [frame for frame, _ in seen]
+        assert [frame.stamp for frame in shown] == [1.0, 1.1, 1.2]
+        assert shown[2].jpeg is shown[1].jpeg is shown[0].jpeg  # the bytes came once
+        await stream.close()
+        await running
+
+
+class Told:
+    """A connection that has these messages for the client, and then ends."""
+
+    def __init__(self, *messages):
+        self.left, self.said = messages, []
+
+    async def messages(self):
+        for message in self.left:
+            yield message
+
+    def send(self, text):
+        self.said.append(text)
+
+    async def close(self):
+        pass
+
+
+async def shown_of(*messages):
+    seen = Record()
+    stream = CameraStream("ws://127.0.0.1:1/camera/front", lambda frame, _: seen(frame))
+    for part in messages:
+        with pytest.raises(LinkLost):
+            await stream._watch(Told(*part))
+    return [(frame.seq, frame.jpeg) for frame in seen]
+
+
+def same(seq, stamp):
+    return frames.pack_same(frames.Frame(seq, stamp, 8, 8, b""))
+
+
+async def test_the_same_as_nothing_is_no_picture():
+    assert await shown_of([same(1, 1.0)]) == []
+
+
+async def test_the_same_as_before_the_connection_was_lost_is_no_picture():
+    whole = frames.pack(1, 1.0, b"one", 8, 8)
+    assert await shown_of([whole, same(2, 1.1)], [same(3, 1.2), frames.pack(4, 1.3, b"two", 8, 8)]) == [
+        (1, b"one"),
+        (2, b"one"),
+        (4, b"two"),
+    ]
+
+
+async def test_the_same_as_a_picture_that_came_broken_is_not_taken_for_the_one_before_it():
+    whole = frames.pack(1, 1.0, b"one", 8, 8)
+    assert await shown_of([whole, b"PHX1" + whole[4:], same(3, 1.2)]) == [(1, b"one")]
+
+
+async def test_a_frozen_camera_that_repeats_an_old_stamp_is_not_shown_as_fresh():
+    whole = frames.pack(1, 1.0, b"one", 8, 8)
+    assert await shown_of([whole, same(2, 1.0), same(3, 0.9)]) == [(1, b"one")]

@@ -15,6 +15,7 @@ from bridge.core.camera_frames import (
     MAX_SIDE,
     Frame,
     pack,
+    pack_same,
     picture_size,
     sequence,
     unpack,
@@ -107,3 +108,21 @@ def test_whatever_the_bytes_are_it_is_a_bounded_picture_or_refused(magic, data):
         return
     assert kind in ("jpeg", "png")
     assert 0 < columns * rows <= MAX_PIXELS
+
+
+def test_a_header_alone_stands_for_the_picture_before_it_with_a_stamp_of_its_own():
+    before = Frame(1, 1.0, 640, 480, b"jpeg")
+    after = unpack(pack_same(Frame(2, 1.1, 640, 480, b"left out")), before)
+    assert after == Frame(2, 1.1, 640, 480, b"jpeg")
+    assert after.jpeg is before.jpeg
+
+
+@pytest.mark.parametrize("stamp", [1.0, 0.9, float("nan")])
+def test_a_header_alone_that_is_no_newer_proves_no_new_picture(stamp):
+    with pytest.raises(ProtocolError, match="not sent before"):
+        unpack(pack_same(Frame(2, stamp, 640, 480, b"")), Frame(1, 1.0, 640, 480, b"jpeg"))
+
+
+def test_a_header_alone_with_nothing_before_it_is_a_protocol_error():
+    with pytest.raises(ProtocolError, match="not sent before"):
+        unpack(pack_same(Frame(2, 1.0, 640, 480, b"")))
