@@ -123,9 +123,12 @@ def test_a_refusal_takes_back_what_was_given(phone: Any) -> None:
 
 
 def test_a_sample_that_is_not_understood_never_reaches_java(phone: Any) -> None:
-    service = phone(9)
-    AndroidMotion().start(("gravity",), lambda *_: None)
+    service, told = phone(9), []
+    AndroidMotion().start(("gravity",), lambda *sample: told.append(sample))
     service.listeners[0].onSensorChanged(event(1.0, 0.0))
+    assert told == []
+    service.listeners[0].onSensorChanged(event(1.0, 0.0, 0.0, 9.8))
+    assert len(told) == 1, "the next one is told as ever"
 
 
 def test_where_java_fails_there_is_no_sensor_and_the_reason(

@@ -16,8 +16,9 @@ async def test_a_task_that_nothing_else_holds_is_done() -> None:
         gc.collect()
         done.set()
 
-    tasks.start(work())
-    await asyncio.wait_for(done.wait(), 1.0)
+    task = tasks.start(work())
+    await task
+    assert done.is_set()
 
 
 async def test_every_task_but_the_one_that_asks_is_cancelled() -> None:

@@ -301,8 +301,9 @@ def test_a_lane_that_the_network_thread_takes_away_meanwhile_was_there_or_not(fl
             return self.lanes.pop() if self.lanes else None
 
     fleet._robots = {A: Robot()}  # type: ignore[dict-item]
-    fleet._seen(fleet._robots[A], None)
+    seen = fleet._seen(fleet._robots[A], None)
     fleet._robots = {}
+    assert seen.row.url == A
 
 
 # who lies

@@ -45,6 +45,8 @@ def test_a_link_that_goes_on_after_a_change_is_left_alone():
     one.alert(1.0)
     one.on_message(1.5)
     one.check(3.0)
+    with pytest.raises(LinkLost, match="for 3 s"):
+        one.check(4.6)
 
 
 @pytest.mark.parametrize("known", [True, False])

@@ -34,7 +34,10 @@ def test_values_are_counted_as_they_are(obj):
 
 
 def test_a_number_array_is_two_values_however_long():
-    check_cbor(cbor2.dumps(cbor2.CBORTag(85, bytes(1_000_000))), 2)
+    raw = cbor2.dumps(cbor2.CBORTag(85, bytes(1_000_000)))
+    check_cbor(raw, 2)
+    with pytest.raises(ProtocolError, match="at most 1 values"):
+        check_cbor(raw, 1)
 
 
 def test_values_without_a_told_length_are_counted_too():

@@ -21,5 +21,7 @@ def test_what_is_free_is_given_back(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_another_c_library_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ctypes, "CDLL", lambda _: object())
+    asked: list[object] = []
+    monkeypatch.setattr(ctypes, "CDLL", lambda name: asked.append(name) or object())
     slack.trim()
+    assert len(asked) == 1

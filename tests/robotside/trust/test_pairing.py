@@ -116,8 +116,9 @@ class TestACode:
         assert robot.pairing.offer is offer
 
     def test_that_is_wrong_pairs_nobody_and_shows_no_confirmation(self, robot: Robot) -> None:
-        robot.pairing.open(Role.DRIVE)
+        offer = robot.pairing.open(Role.DRIVE)
         robot.wrong()
+        assert robot.pairing.offer is offer, "it is still there for who knows the code"
 
     def test_is_another_one_after_five_wrong_ones_and_a_pause_that_doubles(self, robot: Robot) -> None:
         offer = robot.pairing.open(Role.DRIVE)

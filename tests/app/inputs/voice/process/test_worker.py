@@ -130,9 +130,10 @@ def test_to_stop_is_no_crash_and_ends_the_process(voice, told):
     assert told.empty()
 
 
-def test_orders_to_one_that_was_not_started_are_nothing(voice):
+def test_orders_to_one_that_was_not_started_are_nothing(voice, told):
     voice.listen(on=True)
     voice.heed(None)
+    assert told.empty()
 
 
 def test_a_language_that_it_has_not_is_said(voice, told):

@@ -139,5 +139,7 @@ def test_numpy_is_told_to_use_one_thread(monkeypatch):
 
 
 def test_a_numpy_that_cannot_be_told_goes_on_as_it_is(monkeypatch):
-    monkeypatch.setattr(module.ctypes, "CDLL", lambda path: object())
+    asked = []
+    monkeypatch.setattr(module.ctypes, "CDLL", lambda path: asked.append(path) or object())
     module.one_core()
+    assert asked, "it was looked for"
