@@ -5,7 +5,7 @@ ROBOT ?= patrol
 WORLD ?=
 export PYTHONPATH := $(CURDIR)
 
-.PHONY: help setup run demo test test-fast test-slow bench android-check gallery lint format
+.PHONY: help setup run demo test test-fast test-slow mutate bench android-check gallery lint format
 
 help: ## list the commands
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -27,6 +27,9 @@ test-fast: setup ## run the tests that take less than a minute
 
 test-slow: setup ## go through every sequence of what operators may do with control and STOP
 	@PYTHON=$(PYTHON) bash scripts/test.sh slow
+
+mutate: setup ## put faults into the code, each of which a test must notice; option ONLY=word
+	@$(PYTHON) scripts/mutate.py --only "$(ONLY)"
 
 bench: setup ## run all benches: out/bench/*.json and a table
 	@$(PYTHON) -m bench

@@ -5,7 +5,7 @@ from __future__ import annotations
 import msgspec
 import pytest
 
-from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.geometry_msgs import Pose, Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.control.guarded_robot import GuardedRobot, port_info
 from robotside.motion.manoeuvres import Order
@@ -161,3 +161,20 @@ def test_everything_but_driving_passes_through() -> None:
     assert robot.commands == [None]
     guarded.close()
     assert robot.closed
+
+
+class Placed(FakeRobot):
+    """It can be put back."""
+
+    def reset(self) -> Pose:
+        self.stop()
+        return Pose()
+
+
+def test_who_was_put_back_rests_there_wherever_it_is_measured_next() -> None:
+    robot = Placed()
+    guarded = GuardedRobot(robot, lambda: False, lambda _: Twist.planar(0.1 * len(robot.commands), 0.0))
+    guarded.drive(AHEAD)
+    guarded.reset()
+    guarded.again()
+    assert robot.commands[1:] == [None]
