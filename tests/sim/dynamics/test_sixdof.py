@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
 
-from sim.core.constants import STEPS_PER_SECOND
+from sim.core.constants import GRAVITY, STEPS_PER_SECOND
 from sim.core.shapes import Shape
 from sim.dynamics.sixdof import Inertia, SixDof
 from sim.physics.backend_bullet import Bullet
@@ -94,3 +97,108 @@ def test_a_weight_off_the_origin_swings_round_as_newton_says():
     assert velocity == pytest.approx((0.5, 0.0, 0.0), abs=2e-3)
     assert at == pytest.approx((1.3, 0.0, 5.1), abs=2e-3)
     assert turning[2] == pytest.approx(1.0, abs=5e-3)
+
+
+def cross(vector):
+    """The matrix that multiplies crosswise by a vector."""
+    x, y, z = vector
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+
+
+def whole(inertia):
+    """The 6 x 6 mass matrices of the body and of the water about the origin, as Fossen's handbook (2021, 3.3 and 6.3) has them."""
+    turned = cross(inertia.centre)
+    moments = np.diag(inertia.moments)
+    moments[0, 2] = moments[2, 0] = inertia.product
+    body = np.block(
+        [
+            [inertia.mass * np.eye(3), -inertia.mass * turned],
+            [inertia.mass * turned, moments - inertia.mass * turned @ turned],
+        ]
+    )
+    return body, np.diag((*inertia.added_mass, *inertia.added_moments))
+
+
+def coriolis(matrix, motion):
+    """Force and torque of a mass matrix that moves so (his theorem 3.2)."""
+    linear, angular = np.split(matrix @ motion, 2)
+    velocity, turning = np.split(motion, 2)
+    return np.concatenate(
+        [np.cross(turning, linear), np.cross(turning, angular) + np.cross(velocity, linear)]
+    )
+
+
+class Engine:
+    """Holds one body still in any motion, and keeps what force and torque it is given."""
+
+    def __init__(self, at, rotation, velocity, turning):
+        self.now = (tuple(at), tuple(rotation.as_quat()), tuple(velocity), tuple(turning))
+
+    def motion(self, _):
+        return self.now
+
+    def apply(self, _, at, force, torque):
+        self.given = (at, force, torque)
+
+
+@pytest.mark.parametrize("munk", [False, True])
+@pytest.mark.parametrize("seed", range(6))
+def test_however_it_moves_the_engine_is_given_what_the_equations_of_a_body_in_water_ask_for(seed, munk):
+    """In any attitude and motion, in a current, with the centre of mass off the origin and a product of inertia."""
+    rng = np.random.default_rng(seed)
+    centre = (*rng.uniform(-0.3, 0.3, 2), 0.0)
+    inertia = Inertia(
+        12.0,
+        (centre[0], 0.0, centre[1]),
+        (0.5, 1.4, 1.7),
+        0.12,
+        tuple(rng.uniform(1.0, 20.0, 3)),
+        tuple(rng.uniform(0.1, 2.0, 3)),
+    )
+    rotation = Rotation.random(random_state=seed)
+    flow, velocity, turning = rng.uniform(-1.0, 1.0, (3, 3))
+    force, torque = rng.uniform(-5.0, 5.0, (2, 3))
+    engine = Engine(rng.uniform(-9.0, 9.0, 3), rotation, velocity, turning)
+    body = SixDof(engine, 1, inertia, munk=munk)
+    body.update(tuple(flow))
+    body.apply(tuple(force), tuple(torque))
+
+    spin = rotation.inv().apply(turning)
+    arm = np.array(inertia.centre)
+    through = rotation.inv().apply(velocity - flow) - np.cross(spin, arm)
+    motion = np.concatenate([through, spin])
+    own, water = whole(inertia)
+    pull = coriolis(own + water, motion)
+    if not munk:
+        pull[3:] -= np.cross(through, water[:3, :3] @ through)
+    acceleration, turned = np.split(np.linalg.solve(own + water, np.concatenate([force, torque]) - pull), 2)
+    of_mass = acceleration + np.cross(turned, arm) + np.cross(spin, through + np.cross(spin, arm))
+    bare = np.diag(inertia.moments)
+    at, pushed, twisted = engine.given
+    assert body.through == pytest.approx(tuple(through))
+    assert body.position == pytest.approx(tuple(np.array(at) - rotation.apply(arm)))
+    expected = np.add(rotation.apply(inertia.mass * of_mass), (0.0, 0.0, inertia.mass * GRAVITY))
+    assert pushed == pytest.approx(tuple(expected))
+    assert twisted == pytest.approx(tuple(rotation.apply(bare @ turned + np.cross(spin, bare @ spin))))
+
+
+def test_thrown_with_a_spin_it_tumbles_as_eulers_equations_say():
+    """Three different moments of inertia, spinning nearly about the middle one: the axis turns over."""
+    moments, start, seconds = (0.2, 0.35, 0.5), (0.4, 3.0, -0.3), 3.0
+    backend = Bullet()
+    spec = Floating(Shape("box", (0.4, 0.3, 0.2)), 10.0, moments, (0.0, 0.0, 0.0), 0.4)
+    number = backend.add_floating(spec, (0.0, 0.0, 5.0), (0.0, 0.0, 0.0, 1.0))
+    body = SixDof(backend, number, Inertia(10.0, (0.0, 0.0, 0.0), moments))
+    backend.set_velocity(number, (0.0, 0.0, 0.0), start)
+    for _ in range(round(seconds * STEPS_PER_SECOND)):
+        body.update((0.0, 0.0, 0.0))
+        body.apply((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+        backend.step()
+    body.update((0.0, 0.0, 0.0))
+    backend.close()
+    tensor = np.array(moments)
+    euler = solve_ivp(
+        lambda _, spin: -np.cross(spin, tensor * spin) / tensor, (0.0, seconds), start, rtol=1e-9, atol=1e-12
+    )
+    assert body.turning == pytest.approx(tuple(euler.y[:, -1]), abs=0.1)
+    assert min(euler.y[1]) < 0.0 < max(euler.y[1]), "it turned over"
