@@ -328,3 +328,35 @@ def test_stop_says_whence_it_came() -> None:
     robot = Robot(YES)
     run(robot, lambda commands: commands.stop(Origin("shake")))
     assert {one.origin.method for one in robot.reports} == {"shake"}
+
+
+@pytest.mark.parametrize("answer", [YES, CommandResponse(success=False, message="The connection was cut.")])
+def test_what_comes_to_a_stop_that_was_let_go_is_nobodys_news(answer: CommandResponse) -> None:
+    """The robot's answer, or none for long, to a STOP that the operator has let go meanwhile."""
+    robot = Robot(0.2, answer)
+
+    async def what(commands: Commands) -> None:
+        asking = asyncio.create_task(commands.stop())
+        await asyncio.sleep(0.1)
+        commands.void_stop()
+        await asking
+
+    run(robot, what)
+    assert robot.phases == ["sent"]
+
+
+def test_a_stop_that_was_let_go_is_not_confirmed_by_the_next_ones_confirmation() -> None:
+    robot = Robot(0.25, NoReply("The robot does not answer."), YES)
+
+    async def what(commands: Commands) -> None:
+        first = asyncio.create_task(commands.stop())
+        await asyncio.sleep(0.1)
+        commands.void_stop()
+        second = asyncio.create_task(commands.stop())
+        await asyncio.sleep(0)
+        commands.confirm_stop()
+        await asyncio.gather(first, second)
+
+    run(robot, what)
+    assert [one.phase for one in robot.reports if one.command_id == "id-0"] == ["sent"]
+    assert robot.phases[-1] == "accepted"

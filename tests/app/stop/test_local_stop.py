@@ -119,3 +119,21 @@ def test_it_stays_latched_until_released(watch: Watch) -> None:
     assert watch.stop.phase == "stopped"
     watch.stop.release()
     assert (watch.stop.latched, watch.stop.phase) == (False, "ready")
+
+
+def test_rest_from_before_the_press_confirms_nothing(watch: Watch) -> None:
+    """It stood for two seconds; a push that is still on its way may move it yet."""
+    watch.drive(0.0, 2.0)
+    watch.stop.press()
+    watch.drive(0.0, 0.25)
+    assert watch.stop.phase == "sent"
+    watch.drive(0.0, 0.15)
+    assert watch.stop.phase == "stopped"
+
+
+def test_odometry_that_was_received_before_the_press_does_not_begin_the_rest(watch: Watch) -> None:
+    watch.stop.press()
+    twist = TwistWithCovariance(Twist.planar(0.0, 0.0))
+    watch.stop.on_odometry(Odometry(twist=twist), watch.time - 0.4)
+    watch.drive(0.0, 0.1)
+    assert watch.stop.phase == "sent"

@@ -218,3 +218,35 @@ def test_what_is_let_go_is_asked_for_no_longer(watch: Watch) -> None:
     assert watch.phase == "no_answer"
     watch.stopping.forget()
     assert watch.phase == "ready"
+
+
+def test_a_release_is_seen_however_it_was_known_that_stop_was_done(watch: Watch) -> None:
+    """By the robot's answer and that it is pressed, in either order, or by its word that it rests."""
+    answered_first = [lambda: watch.outcome("accepted"), lambda: watch.told(at_rest=False)]
+    for said in (answered_first, answered_first[::-1], [watch.told]):
+        watch.stopping.press()
+        assert watch.phase == "sent"
+        for each in said:
+            each()
+        watch.told(stopped=False)
+        assert watch.phase == "released"
+
+
+def test_a_robot_that_says_it_is_not_stopped_before_it_took_stop_has_released_nothing(watch: Watch) -> None:
+    watch.told(stopped=False)
+    watch.stopping.press()
+    watch.told(stopped=False)
+    assert watch.phase == "sent"
+    watch.told(at_rest=False)  # another one pressed it, and ours is not answered
+    watch.told(stopped=False)
+    assert watch.phase == "sent"
+
+
+def test_a_stop_after_a_release_is_no_release(watch: Watch) -> None:
+    watch.stopping.press()
+    watch.told()
+    watch.told(stopped=False)
+    watch.told()
+    assert watch.phase == "stopped"
+    watch.told(stopped=False)
+    assert watch.phase == "released"

@@ -70,3 +70,24 @@ def test_a_client_that_never_answers_is_not_asked_for_ever() -> None:
     round_trip = RoundTrip(0.0)
     asked = sum(round_trip.ping(number * PING_PERIOD) is not None for number in range(1000))
     assert asked == 64
+
+
+def test_a_ping_on_its_way_makes_a_long_way_no_shorter() -> None:
+    """The last answer took a second; the next ping waits for half of one and has proved nothing better."""
+    round_trip = RoundTrip(10.0)
+    slow = round_trip.ping(10.0)
+    assert slow is not None
+    assert round_trip.on_pong(slow, 11.0)
+    round_trip.ping(11.0)
+    round_trip.ping(11.5)
+    assert round_trip.rtt == 1.0
+
+
+def test_what_came_late_counts_though_others_wait_for_longer_by_then() -> None:
+    round_trip = RoundTrip(10.0)
+    first = round_trip.ping(10.0)
+    round_trip.ping(10.2)
+    assert first is not None
+    assert round_trip.on_pong(first, 10.9)
+    assert round(round_trip.rtt, 6) == 0.9
+    assert round_trip.answered == 10.0, "nothing newer is known to have arrived"

@@ -185,3 +185,28 @@ def test_a_frame_that_takes_long_is_no_hold(stage, stop, local, phase):
     stage.run_for(9.9, 3.3)
     finger.touch_up()
     assert "release" not in stop.heard
+
+
+def test_a_second_finger_that_comes_and_goes_does_not_break_a_hold(stage, stop):
+    stop.phase = "stopped"
+    first, second = stage.touch(50, 40), stage.touch(250, 40)
+    first.touch_down()
+    stage.run_for(0.4 * RELEASE_DURATION)
+    second.touch_down()
+    stage.run_for(0.2 * RELEASE_DURATION)
+    second.touch_up()
+    assert stop.held == pytest.approx(0.6, abs=0.05)
+    stage.run_for(0.5 * RELEASE_DURATION)
+    assert stop.heard == ["release"]
+    first.touch_up()
+
+
+def test_a_hold_ends_with_the_last_finger(stage, stop):
+    stop.phase = "stopped"
+    first, second = stage.touch(50, 40), stage.touch(250, 40)
+    first.touch_down()
+    second.touch_down()
+    first.touch_up()
+    second.touch_up()
+    stage.run_for(2 * RELEASE_DURATION)
+    assert (stop.heard, stop.held, stop.pressed) == ([], 0, 0)

@@ -103,6 +103,43 @@ def test_a_line_aslant_is_taken_for_the_direction_it_is_nearest_to(turn: str, by
         assert [[shake.axis for shake in of(trial.take)] for trial in trials].count([axis]) >= 2
 
 
+def moved(*parts: tuple[tuple[float, float, float], float]) -> list[tuple[Axis, bool]]:
+    """What is understood, and whether the movement was over by then, of a phone held upright that is shaken along lines (right, up,
+    forward), each for so long [s]."""
+    still = np.tile([0.0, GRAVITY, 0.0], (300, 1))
+    swings = []
+    for line, seconds in parts:
+        at = np.arange(int(seconds * 60)) / 60.0
+        way = np.array(line) / np.linalg.norm(line)
+        swings.append(still[: len(at)] + np.outer(8.0 * np.sin(math.tau * 1.7 * at), way))
+    samples = np.concatenate([still, *swings, still])
+    return [(shake.axis, shake.ended) for shake in heard(map(tuple, samples.tolist()))]
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ((1.0, 0.0, 0.6), [("lr", False)]),
+        ((1.0, 0.0, 1.0), []),
+        ((0.8, 0.0, 1.0), [("fb", True)]),
+        ((1.0, 0.6, 0.0), [("lr", False)]),
+        ((1.0, 0.9, 0.0), [("ud", True)]),
+    ],
+)
+def test_stop_is_told_inside_the_shake_only_where_it_is_clearly_left_right(
+    line: tuple[float, float, float], said: list[tuple[Axis, bool]]
+) -> None:
+    """Right half-way between two directions it waits for the end, and may be neither."""
+    assert moved((line, 2.0)) == said
+
+
+def test_left_right_that_begins_late_in_a_long_movement_is_no_stop() -> None:
+    """A phone that has been swung about for long is not being asked to stop."""
+    aside, ahead = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+    assert moved((ahead, 1.2), (aside, 1.5)) == [("lr", False)]
+    assert moved((ahead, 3.0), (aside, 1.5)) == []
+
+
 def test_a_swing_about_the_elbow_a_weak_beginning_and_a_slow_hand_are_stop() -> None:
     rng = np.random.default_rng(4)
     for body in (people.Body(arm=0.35), people.Body(first=0.4, ramp=0.3), people.Body(strong=0.7, quick=0.9)):

@@ -332,3 +332,26 @@ def test_whoever_asks_first_has_the_presses_but_not_stop() -> None:
     assert heard == ["down", "up", "down"]
     assert len(bench.stops) == 1
     assert bench.glass.done == []
+
+
+def test_what_b_held_when_the_mark_went_to_sleep_does_nothing_and_wakes_nothing() -> None:
+    bench = Bench("a", "b", "c")
+    bench.press("A")
+    bench.down("B")
+    bench.wait(0.2)
+    bench.engine.sleep()
+    bench.up("B")
+    bench.wait(0.3)
+    assert (bench.glass.done, bench.marked, bench.engine.awake) == ([], "", False)
+
+
+def test_what_was_held_when_the_focus_went_does_nothing_and_wakes_nothing() -> None:
+    bench = Bench("a", "b", "c")
+    bench.press("A")
+    bench.down("B")
+    bench.wait(0.2)
+    bench.engine.lost()
+    bench.engine.found(bench.now)
+    bench.up("B")
+    bench.wait(0.3)
+    assert (bench.glass.done, bench.marked) == ([], "a")

@@ -87,6 +87,26 @@ def test_stop_is_taken_where_another_command_would_be_asked_again(scorer):
     assert sure.confidence > harmless.confidence or sure.command != harmless.command
 
 
+def test_stop_counts_with_its_beginning_lost_where_another_command_would_not():
+    mumbled = [opinion("t ɑ p", sure=0.7)]
+    (as_stop, as_any) = (
+        Scorer(Grammar({"stop": ("stop",)}, urgent=urgent), TOKENS).judge(mumbled, {"stop"})
+        for urgent in (frozenset({"stop"}), frozenset())
+    )
+    assert (as_stop.accepted, as_any.accepted) == (True, False)
+
+
+def test_where_stop_and_another_command_are_nearly_alike_stop_is_meant():
+    """The sounds say start by a little."""
+    words = {"stop": ("stop",), "start": ("start",)}
+    heard = [opinion("s t ɑ p"), opinion("s t ɑ t")]
+    meant, said = (
+        Scorer(Grammar(words, urgent=urgent), TOKENS).judge(heard, set(words)).command
+        for urgent in (frozenset({"stop"}), frozenset())
+    )
+    assert (meant, said) == ("stop", "start")
+
+
 def test_confidence_falls_with_how_sure_the_model_is(scorer):
     clear, faint = (scorer.judge([opinion("p ɔ z", sure=sure)], EVERY).confidence for sure in (0.9, 0.15))
     assert clear > faint
@@ -98,15 +118,15 @@ def test_several_views_are_taken_together(scorer):
     assert both < alone
 
 
-def test_the_forward_algorithm_adds_up_every_path():
-    """Against all paths through four frames, written out."""
+@pytest.mark.parametrize("word", [("s", "t"), ("s", "s"), ("t", "s", "s"), ("s", "t", "s")], ids="-".join)
+def test_the_forward_algorithm_adds_up_every_path(word):
+    """Against all paths through five frames, written out; a sound that comes twice has silence in between."""
     rng = np.random.default_rng(5)
-    frames = rng.uniform(0.1, 1.0, (4, len(PHONES) + 1))
-    word = ("s", "t")
+    frames = rng.uniform(0.1, 1.0, (5, len(PHONES) + 1))
     names = {phone: number + 1 for number, phone in enumerate(PHONES)}
     wanted = [names[sound] for sound in word]
     total = 0.0
-    for path in itertools.product([0, *wanted], repeat=4):
+    for path in itertools.product([0, *dict.fromkeys(wanted)], repeat=5):
         collapsed = [label for label, _ in itertools.groupby(path) if label]
         if collapsed == wanted:
             total += math.prod(frames[number, label] for number, label in enumerate(path))
