@@ -3,6 +3,7 @@ from __future__ import annotations
 import math
 
 import pytest
+from scipy.spatial.transform import Rotation
 
 from sim.core.shapes import Shape, compose, from_yaw, place, rotate, rotate_back, yaw_of
 
@@ -35,3 +36,15 @@ def test_a_tapered_box_is_smaller_at_its_top():
 
 def test_a_place_is_turned_before_it_is_moved():
     assert place((1.0, 0.0, 0.0), (5.0, 5.0, 0.0), from_yaw(math.pi)) == pytest.approx((4.0, 5.0, 0.0))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_turns_in_space_are_those_of_scipy(seed):
+    outer, inner = Rotation.random(2, random_state=seed)
+    q, r = (tuple(turn.as_quat().tolist()) for turn in (outer, inner))
+    point = (1.0, -2.0, 3.0)
+    assert rotate(q, point) == pytest.approx(tuple(outer.apply(point)))
+    assert rotate_back(q, point) == pytest.approx(tuple(outer.inv().apply(point)))
+    both = Rotation.from_quat(compose(q, r))
+    assert (both * (outer * inner).inv()).magnitude() == pytest.approx(0.0, abs=1e-7)
+    assert yaw_of(q) == pytest.approx(outer.as_euler("ZYX")[0])

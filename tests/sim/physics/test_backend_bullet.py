@@ -10,6 +10,7 @@ import pytest
 from sim.core.constants import GRAVITY, STEPS_PER_SECOND
 from sim.core.shapes import Shape, from_yaw
 from sim.physics.backend_bullet import Bullet
+from sim.physics.bodies import Floating
 
 
 @pytest.fixture
@@ -111,3 +112,26 @@ def test_a_thing_of_many_solids_has_them_all(backend, count):
     starts = [(1.0 + 0.5 * i, 0.0, 2.0) for i in range(count)]
     hits = backend.rays(eye, starts, [(x, y, -z) for x, y, z in starts])
     assert (hits < 1.0).all()
+
+
+BUOY = Floating(Shape("box", (0.4, 0.4, 0.4)), 1.0, (0.1, 0.1, 0.1), (0.0, 0.0, 0.1), 0.4)
+
+
+def test_a_vehicles_rays_look_through_itself_and_not_through_another(backend):
+    own = backend.add_floating(BUOY, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    backend.add_floating(BUOY, (0.0, 3.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    through = backend.ray_points(own, [(2.0, 0.0, 0.0), (2.0, 3.0, 0.0)])
+    hits = backend.rays(own, through, backend.ray_points(own, [(-2.0, 0.0, 0.0), (-2.0, 3.0, 0.0)]))
+    assert hits[0] == 1.0
+    assert hits[1] * 4.0 == pytest.approx(1.8, abs=0.05)
+
+
+def test_what_is_put_somewhere_else_lies_still_there_however_it_moved(backend):
+    buoy = backend.add_floating(BUOY, (0.0, 0.0, 5.0), (0.0, 0.0, 0.0, 1.0))
+    backend.set_velocity(buoy, (1.0, 2.0, 3.0), (0.5, 0.5, 0.5))
+    backend.step()
+    backend.place(buoy, (4.0, 5.0, 6.0), from_yaw(1.0))
+    state = backend.state(buoy)
+    assert (*state.velocity, *state.turning) == (0.0,) * 6
+    assert state.position == pytest.approx((4.0, 5.0, 6.0))
+    assert state.rotation == pytest.approx(from_yaw(1.0))

@@ -39,6 +39,14 @@ def test_the_laser_measures_a_rectangular_room():
     assert np.abs(np.array(scan.ranges) - expected).max() < 2e-3
 
 
+def test_the_lasers_beams_run_anticlockwise_from_behind():
+    """Three metres to the wall on the left, five to the one on the right, one ahead and seven behind."""
+    scan = of(read(0.1, world=room(8.0, 8.0, x=3.0, y=1.0))[0], "/scan")[0]
+    assert (scan.angle_min, scan.angle_increment) == pytest.approx((-math.pi, math.tau / 360))
+    behind, right, ahead, left = (scan.ranges[index] for index in (0, 90, 180, 270))
+    assert (behind, right, ahead, left) == pytest.approx((7.0, 5.0, 1.0, 3.0), abs=2e-3)
+
+
 def test_the_laser_says_inf_where_nothing_is_in_range():
     scan = of(read(0.1, world=room(40.0, 10.0))[0], "/scan")[0]
     assert scan.ranges[180] == math.inf

@@ -90,6 +90,15 @@ def test_what_lasts_is_told_once_and_a_moment_without_it_is_no_end(looks):
         assert looks(CHECK_RATE, rotation=ON_ITS_BACK) == []
 
 
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize(("degrees", "said"), [(70, []), (90, ["Patrol-1 has turned over."])])
+def test_one_that_lies_on_its_side_has_turned_over_and_one_on_a_slope_has_not(looks, axis, degrees, said):
+    half = math.radians(degrees) / 2
+    lean = [0.0, 0.0, 0.0, math.cos(half)]
+    lean[axis] = math.sin(half)
+    assert looks(CONFIRM_CHECKS, rotation=tuple(lean)) == said
+
+
 def test_what_ended_is_told_when_it_comes_again(looks):
     for _ in range(2):
         assert looks(CHECK_RATE, (30.0, 0.0, 0.0)) == ["Patrol-1 has left room."]

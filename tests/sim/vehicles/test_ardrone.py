@@ -327,6 +327,7 @@ def test_on_its_back_it_says_so_and_refuses_to_take_off():
         ValueError, match="Ardrone-1 has turned over: its rotors do not start; put it upright"
     ):
         robot.manoeuvre(Manoeuvre(kind="take_off"))
+    assert vehicle.order.kind == "rest", "what was refused is not followed"
     robot.reset()
     told = [message for topic, message in until(robot, 0.5) if topic == "/flight"]
     assert told[-1].phase == "landed"
