@@ -31,10 +31,10 @@ from sim.vehicles.patrol import PARAMETERS
 
 JSON = "pictures as base64 in JSON"
 FIGURES = (
-    Figure("standing", "% of a core", "the robot stands, camera watched", target=30, against=JSON),
-    Figure("patrolling", "% of a core", "it patrols, camera watched", target=30, against=JSON),
+    Figure("standing", "% of a core", "the robot stands, camera watched", against=JSON, share=0.6),
+    Figure("patrolling", "% of a core", "it patrols, camera watched", against=JSON, share=0.6),
     Figure("pictures", "1/s", "camera pictures that arrive meanwhile", better="more", against=JSON),
-    Figure("patrol_speed", "×", "a patrol of 100 m over real time", target=20, better="more"),
+    Figure("patrol_speed", "×", "a patrol of 100 m over real time", target=100, better="more"),
     *(
         Figure(
             f"update {kind} {where}",

@@ -49,7 +49,7 @@ KINDS = tuple(ROBOTS)
 CROWDS = (1, 5, 20)
 FIGURES = (
     *(Figure(name, "µs", f"a step of 1/240 s of one {name} with its sensors") for name in KINDS),
-    Figure("together", "%", "of a core in real time: one of each in one world", target=12),
+    Figure("together", "%", "of a core in real time: one of each in one world", target=5),
     *(
         Figure(
             f"patrols {count}",

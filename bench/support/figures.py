@@ -45,20 +45,24 @@ class Figure:
     meaning: str
     """One line for a reader who has not seen the code."""
     target: float | None = None
-    """Target, in `unit`; None where there is none."""
+    """Target, in `unit`, of what a person feels or a safeguard promises; None where there is none."""
     better: Literal["less", "more"] = "less"
     against: str = ""
     """What the peer's value is of; empty where there is no peer."""
+    share: float | None = None
+    """Target as a multiple of the peer's value in the same run, which holds on any machine; None where there is none."""
     stated: Stated | None = None
     """A value for comparison that is not of this run; None where there is none."""
     needs_data: bool = False
     """Measured on recordings alone: a run without them has missed nothing."""
 
-    def verdict(self, value: float) -> Verdict:
-        """Whether `value` reaches the target; empty without a target. NaN reaches nothing."""
-        if self.target is None:
+    def verdict(self, value: float, peer: float = math.nan) -> Verdict:
+        """Whether `value` reaches each target, beside the peer's; empty without a target. NaN reaches nothing."""
+        limits = [] if self.target is None else [self.target]
+        limits += [] if self.share is None else [self.share * peer]
+        if not limits:
             return ""
-        fits = value <= self.target if self.better == "less" else value >= self.target
+        fits = all(value <= limit if self.better == "less" else value >= limit for limit in limits)
         return "reached" if fits else "MISSED"
 
 
@@ -102,7 +106,7 @@ class Outcome:
         """Of the median; `not measured` where the recordings that it needs were not there."""
         if self.figure.needs_data and self.figure.target is not None and not self.ours.values:
             return "not measured"
-        return self.figure.verdict(self.ours.median)
+        return self.figure.verdict(self.ours.median, self.peer.median)
 
     @property
     def ratio(self) -> float:

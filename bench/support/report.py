@@ -36,7 +36,7 @@ def row(outcome: Outcome) -> tuple[str, ...]:
         figure.name,
         f"{number(outcome.ours.median)} {figure.unit}",
         f"{number(outcome.ours.low)}…{number(outcome.ours.high)}",
-        DASH if figure.target is None else f"{sign} {number(figure.target)}",
+        _targets(figure.target, figure.share, sign, ""),
         outcome.verdict,
         figure.against or DASH,
         f"{number(peer.median)} {figure.unit}" if peer.values else DASH,
@@ -134,11 +134,18 @@ def _cells(figure: dict[str, Any]) -> list[str]:
     ours, peer, unit = figure["ours"], figure["peer"], figure["unit"]
     value = f"{_shown(ours['median'])} {unit} ({_shown(ours['low'])}…{_shown(ours['high'])})"
     sign = "≤" if figure["better"] == "less" else "≥"
-    target = DASH if figure["target"] is None else f"{sign} {number(figure['target'])} {unit}"
+    target = _targets(figure["target"], figure.get("share"), sign, unit)
     against = f"{figure['against']}: {_shown(peer['median'])} {unit}" if peer["values"] else DASH
     better = _times(figure["ratio"])
     verdict = "**missed**" if figure["verdict"] == "MISSED" else figure["verdict"]
     return [figure["meaning"], value, target, verdict, against, better]
+
+
+def _targets(target: float | None, share: float | None, sign: str, unit: str) -> str:
+    """As in `≤ 2.00 s, ≤ 1.60 of its value`; a dash where there is none."""
+    told = [] if target is None else [f"{sign} {number(target)} {unit}".rstrip()]
+    told += [] if share is None else [f"{sign} {number(share)} of its value"]
+    return ", ".join(told) or DASH
 
 
 def _stated_cells(figure: dict[str, Any]) -> list[str]:
@@ -163,6 +170,7 @@ def _figure(outcome: Outcome) -> dict[str, Any]:
         "meaning": figure.meaning,
         "unit": figure.unit,
         "target": figure.target,
+        "share": figure.share,
         "better": figure.better,
         "verdict": outcome.verdict,
         "ours": _samples(outcome.ours),

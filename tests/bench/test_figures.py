@@ -44,6 +44,17 @@ def test_no_samples_say_nan():
     assert all(math.isnan(value) for value in (none.median, none.low, none.high, none.spread))
 
 
+def test_a_share_of_the_peers_value_is_a_target_that_holds_on_any_machine():
+    cost = Figure("cost", "ms", "", target=30.0, against="the old way", share=0.5)
+    assert cost.verdict(20.0, 40.0) == "reached"
+    assert cost.verdict(20.1, 40.0) == "MISSED"
+    assert cost.verdict(30.1, 100.0) == "MISSED", "what a person feels holds too"
+    assert cost.verdict(20.0) == "MISSED", "nothing was measured beside it"
+    speed = Figure("speed", "1/s", "", better="more", against="the old way", share=2.0)
+    assert Outcome(speed, Samples((8.0,)), Samples((4.0,))).verdict == "reached"
+    assert Outcome(speed, Samples((7.9,)), Samples((4.0,))).verdict == "MISSED"
+
+
 def test_what_needs_recordings_is_not_missed_without_them():
     walkers = Figure("walkers", "", "", target=0.02, needs_data=True)
     assert Outcome(walkers, Samples(())).verdict == "not measured"

@@ -88,6 +88,15 @@ def test_the_page_shows_what_was_reached_and_under_which_conditions():
     assert "up to 1.80 times its best; load 3.00" in page
 
 
+def test_the_page_says_which_share_of_the_peers_value_is_aimed_at():
+    share = Figure("share", "ms", "at most so much", target=9.0, against="the old way", share=0.25)
+    outcomes = [Outcome(share, Samples((1.0,)), Samples((5.0,)))]
+    told = Result("part", "How.", outcomes, Noise(slowness=[1.0], waiting=[0.0], load=[3.0]))
+    page = document([json.loads(json.dumps(as_json(told)))], "a machine")
+    assert "| ≤ 9.00 ms, ≤ 0.250 of its value | reached | the old way: 5.00 ms | 5.00× |" in page
+    assert "≤ 9.00, ≤ 0.250 of its value" in table(told)
+
+
 def with_stated():
     relayed = Figure("relay", "µs", "relayed", target=20.0, stated=Stated("the real server", 310.0))
     outcomes = [Outcome(relayed, Samples((10.0,))), Outcome(SPEED, Samples((12.345,)))]
