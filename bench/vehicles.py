@@ -33,7 +33,7 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre
 from sim.core.constants import STEPS_PER_SECOND
 from sim.core.noise import Noise
 from sim.core.shapes import from_yaw
-from sim.rendering.camera import jpeg
+from sim.rendering.jpeg import jpeg
 from sim.rendering.renderer import Renderer
 from sim.rendering.view import View
 from sim.robot import CAMERA_TOPIC, ROBOTS

@@ -196,9 +196,12 @@ def _robots(options: argparse.Namespace, ones: Sequence[One]) -> tuple[Sequence[
         names = [one.name for one in ones]
         world = options.world or home_of(names)
         carried = [one.payloads for one in ones]
-        return make_several(names, world, seed=options.seed, gui=options.gui, payloads=carried), world
+        made = make_several(
+            names, world, seed=options.seed, gui=options.gui, payloads=carried, draws_beside=True
+        )
     except (ValueError, RuntimeError) as problem:
         raise UserMistake(str(problem)) from problem
+    return made, world
 
 
 def _no_simulation(missing: ImportError) -> UserMistake:

@@ -299,11 +299,13 @@ def make_several(
     camera: bool = True,
     noise: bool = True,
     payloads: Sequence[Sequence[str]] = (),
+    draws_beside: bool = False,
 ) -> list[SimRobot]:
     """Several robots in one `world`, each by its name or with the place where it starts; they see and bump into each other.
 
     Those without a place stand beside the world's own start, where there is room. The second one of a kind is called
-    `Patrol-2`, and so on. `payloads` has the names of what each carries, in their order; empty for nothing.
+    `Patrol-2`, and so on. `payloads` has the names of what each carries, in their order; empty for nothing. `draws_beside` has
+    pictures drawn in a process of their own, a little later and not the same in each run: where time is real.
     Raises ValueError like `make`.
     """
     loaded = load(world)
@@ -314,7 +316,7 @@ def make_several(
     models = numbered([model_of(name) for name, _ in entries])
     models = [laden(model, names) for model, names in zip(models, carried, strict=True)]
     placed = zip(models, starts(loaded, models, [start for _, start in entries]), strict=True)
-    run = SharedRun(Simulation(loaded, *placed, seed=seed, gui=gui, noise=noise))
+    run = SharedRun(Simulation(loaded, *placed, seed=seed, gui=gui, noise=noise, draws_beside=draws_beside))
     made: list[SimRobot] = []
     try:
         for number, names in zip(range(len(models)), carried, strict=True):

@@ -19,7 +19,7 @@ from sim.physics.backend_bullet import Bullet
 from sim.rendering.view import View
 from sim.world.world import World
 
-__all__ = ["SIZE", "TinyRenderer"]
+__all__ = ["SIZE", "SmallPictures", "TinyRenderer"]
 
 SIZE = (320, 240)
 """Of its pictures [px]."""
@@ -61,9 +61,9 @@ class TinyRenderer:
             self._send(view)
         return pictures
 
-    def ready(self) -> list[tuple[float, Picture]]:
-        """The picture asked for last, if it is ready by now."""
-        return self._take(0.0)
+    def ready(self, *, wait: bool = False) -> list[tuple[float, Picture]]:
+        """The picture asked for last, if it is ready by now; or, with `wait`, when it is."""
+        return self._take(PICTURE_TIMEOUT if wait else 0.0)
 
     def close(self) -> None:
         """End the process; closing twice does nothing."""
@@ -111,22 +111,34 @@ class TinyRenderer:
 
 def _draw(world: World, pipe: Connection) -> None:
     """The process: draw every view that comes through `pipe` until it closes."""
-    backend = Bullet()
-    for shape in scene(world):
-        backend.add_looks(shape)
+    pictures = SmallPictures(world)
     try:
         pipe.send(None)
         while True:
-            pipe.send(_picture(backend, pipe.recv()))
+            pipe.send(pictures.draw(pipe.recv()))
     except (EOFError, OSError, KeyboardInterrupt):
-        backend.close()
+        pictures.close()
 
 
-def _picture(backend: Bullet, view: View) -> Picture:
-    ahead, up = rotate(view.rotation, (1.0, 0.0, 0.0)), rotate(view.rotation, (0.0, 0.0, 1.0))
-    x, y, z = view.eye
-    target = (x + ahead[0], y + ahead[1], z + ahead[2])
-    return backend.picture(view.eye, target, up, 2 * float(np.arctan(view.half_extent[1])), SIZE)
+class SmallPictures:
+    """Draws `world` slowly, at once."""
+
+    def __init__(self, world: World) -> None:
+        """Prepare to draw `world`."""
+        self._backend = Bullet()
+        for shape in scene(world):
+            self._backend.add_looks(shape)
+
+    def draw(self, view: View) -> Picture:
+        """The picture of `view`, of `SIZE`."""
+        ahead, up = rotate(view.rotation, (1.0, 0.0, 0.0)), rotate(view.rotation, (0.0, 0.0, 1.0))
+        x, y, z = view.eye
+        target = (x + ahead[0], y + ahead[1], z + ahead[2])
+        return self._backend.picture(view.eye, target, up, 2 * float(np.arctan(view.half_extent[1])), SIZE)
+
+    def close(self) -> None:
+        """Free everything."""
+        self._backend.close()
 
 
 def scene(world: World) -> Iterator[Shape]:

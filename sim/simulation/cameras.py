@@ -7,7 +7,6 @@ from collections.abc import Set as AbstractSet
 
 from bridge.msgs import Msg
 from sim.rendering.camera import Camera
-from sim.rendering.renderer import paint
 from sim.simulation.simulation import Simulation
 
 __all__ = ["CAMERA_TOPIC", "Cameras"]
@@ -27,9 +26,8 @@ class Cameras:
         self._parameters = dict(zip(names, every, strict=False))
         self._made: dict[str, Camera] = {}
         if every:
-            paint(
-                simulation.world
-            )  # now, because the first picture would otherwise hold up a robot that is being driven
+            # now, because the first picture would otherwise hold up a robot that is being driven
+            simulation.renderer.prepare()
 
     def shoot(self, wanted: AbstractSet[str], stamp: float) -> Iterator[tuple[str, Msg]]:
         """Pictures that are due after this step of those that are `wanted`, taken at `stamp` [s]."""

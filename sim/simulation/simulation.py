@@ -34,8 +34,11 @@ class Simulation:
         seed: int = 0,
         noise: bool = True,
         gui: bool = False,
+        draws_beside: bool = False,
     ) -> None:
         """`robots` in `world`, at its start or at their own; the same `seed` gives the same run, bit for bit.
+
+        Cameras draw as `SharedRenderer` describes it, where `draws_beside` says so in a process of their own.
 
         Raises ValueError with one sentence when one of them does not belong into this world, or has no room at its start.
         """
@@ -47,7 +50,7 @@ class Simulation:
         self.backend.add_ground(world.bottom)
         for prop in world.props:
             self.backend.add_static(prop.solids)
-        self.renderer = SharedRenderer(world)
+        self.renderer = SharedRenderer(world, beside=draws_beside)
         """The renderer of the robots' cameras."""
         self.weather = Weather(world, Noise(seed, "gusts", on=noise))
         self.vehicles: list[Vehicle] = [

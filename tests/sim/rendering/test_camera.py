@@ -2,15 +2,19 @@ from __future__ import annotations
 
 import io
 import logging
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from PIL import Image
 
 from bridge.msgs.geometry_msgs import Twist
+from sim.core.shapes import Shape, from_yaw
+from sim.physics.bodies import State
 from sim.rendering import camera
 from sim.rendering.renderer import NoRendererError
 from sim.robot import make
+from sim.vehicles.patrol import PARAMETERS
 
 TOPIC = "/camera/image/compressed"
 
@@ -105,8 +109,8 @@ def test_without_egl_small_pictures_come_from_a_process_and_the_log_says_so(robo
     robot.want(TOPIC, True)
     robot.read(0.0)
     taken = images(robot.read(0.5))
-    assert len(taken) == 7
-    assert [image.header.stamp.seconds for image in taken] == pytest.approx([i / 15 for i in range(7)])
+    assert len(taken) == 8
+    assert [image.header.stamp.seconds for image in taken] == pytest.approx([i / 15 for i in range(8)])
     assert {opened(image).size for image in taken} == {(320, 240)}
 
 
@@ -121,3 +125,110 @@ def test_without_egl_the_log_says_what_happens(monkeypatch, caplog):
         robot.read(0.0)
     robot.close()
     assert "found 0 devices. The camera gives 320 x 240 pictures instead." in caplog.text
+
+
+# nothing that it sees moves
+
+REST = State((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+
+class Pen:
+    """A renderer that a test holds back; each picture names the stamp at which it was asked for."""
+
+    def __init__(self, *, at_once=True):
+        self.at_once, self.asked = at_once, []
+        self.done = []
+
+    def show(self, view, stamp, moving=()):
+        self.asked.append((view, stamp, moving))
+        if self.at_once:
+            self.done.append((stamp, str(stamp).encode()))
+        return self.ready()
+
+    def ready(self, *, wait=False):
+        done, self.done = self.done, []
+        return done
+
+    def close(self):
+        pass
+
+
+@pytest.fixture
+def pen():
+    return Pen()
+
+
+@pytest.fixture
+def still(pen):
+    """A camera that draws with `pen`."""
+    return camera.Camera(pen, PARAMETERS.camera)
+
+
+def moved(forward=0.0, yaw=0.0):
+    return replace(REST, position=(forward, 0.0, 0.0), rotation=from_yaw(yaw))
+
+
+def shown(taken):
+    return [(image.header.stamp.seconds, image.data) for image in taken]
+
+
+def test_while_nothing_moves_one_picture_is_drawn_and_each_has_the_stamp_of_its_moment(robot, monkeypatch):
+    drawn = []
+    draw = camera.Renderer.draw
+    monkeypatch.setattr(camera.Renderer, "draw", lambda *args: drawn.append(args) or draw(*args))
+    robot.want(TOPIC, True)
+    robot.read(50.0)
+    taken = images(robot.read(52.0))
+    assert len(taken) == 30
+    assert [image.header.stamp.seconds for image in taken] == pytest.approx(
+        [50 + i / 15 for i in range(1, 31)]
+    )
+    assert len(drawn) == 1
+    assert len({id(image.data) for image in taken}) == 1
+
+
+def test_a_camera_that_creeps_is_drawn_anew_once_it_has_crept_far_enough_in_all(still, pen):
+    for step in range(20):
+        still.shoot(moved(forward=step * 1.2e-4), float(step))
+    assert [stamp for _, stamp, _ in pen.asked] == [0.0, 5.0, 10.0, 15.0]
+
+
+@pytest.mark.parametrize("change", [{"forward": 0.001}, {"yaw": 0.001}])
+def test_the_least_motion_that_can_be_seen_is_drawn(still, pen, change):
+    still.shoot(REST, 1.0)
+    still.shoot(moved(**change), 2.0)
+    assert len(pen.asked) == 2
+
+
+def test_another_robot_that_moves_in_front_of_it_is_drawn(still, pen):
+    for stamp, x in enumerate((3.0, 3.0, 3.1)):
+        still.shoot(REST, float(stamp), [Shape("box", (1.0, 1.0, 1.0), (x, 0.0, 0.0))])
+    assert [stamp for _, stamp, _ in pen.asked] == [0.0, 2.0]
+
+
+def test_a_picture_that_is_not_drawn_yet_is_no_picture_and_the_one_before_it_is_not_taken_for_it(still, pen):
+    assert shown(still.shoot(REST, 0.0)) == [(0.0, b"0.0")]
+    pen.at_once = False
+    for stamp in (1.0, 2.0, 3.0):
+        assert still.shoot(moved(forward=1.0), stamp) == [], (
+            "it sees something else, of which there is no picture"
+        )
+    pen.done = [(1.0, b"1.0")]
+    assert shown(still.collect()) == [(1.0, b"1.0")]
+    assert shown(still.shoot(moved(forward=1.0), 4.0)) == [(4.0, b"1.0")]
+
+
+def test_a_picture_that_comes_late_is_not_taken_for_what_is_seen_by_now(still, pen):
+    pen.at_once = False
+    still.shoot(REST, 0.0)
+    still.shoot(moved(forward=1.0), 1.0)
+    pen.done = [(0.0, b"0.0")]
+    assert shown(still.collect()) == [(0.0, b"0.0")]
+    assert still.shoot(moved(forward=1.0), 2.0) == []
+    pen.done = [(1.0, b"1.0")]
+    assert shown(still.shoot(moved(forward=1.0), 3.0)) == [(1.0, b"1.0"), (3.0, b"1.0")]
+
+
+def test_a_camera_whose_renderer_died_shows_nothing_more(still, pen):
+    pen.at_once = False
+    assert [still.shoot(REST, float(stamp)) for stamp in range(50)] == [[]] * 50
