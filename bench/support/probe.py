@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import sys
 import time
+from collections import deque
 from collections.abc import Iterable
 
 import sim.robot
@@ -20,6 +21,11 @@ from robotside.core.robot import Robot
 
 __all__ = ["Probe"]
 
+MAX_READS = 600
+"""Reads that are remembered: a picture that is drawn beside the loop comes in a later one than it was taken in."""
+STAMP_TOLERANCE = 1e-6
+"""Of a stamp, which has whole nanoseconds [s]."""
+
 
 class Probe:
     """Fits `robotside.core.robot.Robot`; passes everything on."""
@@ -27,6 +33,8 @@ class Probe:
     def __init__(self, robot: Robot) -> None:
         self._robot = robot
         self.info = robot.info
+        self._reads: deque[tuple[float, float]] = deque(maxlen=MAX_READS)
+        """Up to which moment it was read [s, robot clock], and when that began."""
 
     @property
     def trouble(self) -> str:
@@ -44,11 +52,13 @@ class Probe:
 
     def read(self, now: float) -> Iterable[tuple[str, Msg]]:
         """Report when the pictures were begun."""
-        began = time.monotonic()
+        self._reads.append((now, time.monotonic()))
         measured = list(self._robot.read(now))
         for _, msg in measured:
             if isinstance(msg, CompressedImage):
-                report("picture", began, msg.header.stamp.seconds)
+                stamp = msg.header.stamp.seconds
+                began = next(at for until, at in self._reads if until >= stamp - STAMP_TOLERANCE)
+                report("picture", began, stamp)
         return measured
 
     def want(self, topic: str, wanted: bool) -> None:
