@@ -281,8 +281,6 @@ class Authority:
     def _give(self, client: Operator) -> None:
         client_id, name = self._identity(client)
         self._driver = Driver(client_id, name, client)
-        if self._asker is not None and self._asker.client_id == client_id:
-            self._asker = None
 
     def _identity(self, client: Operator) -> tuple[str, str]:
         known = self._names.get(client.id, (client.id, f"a client at {client.address}"))

@@ -126,3 +126,10 @@ def test_a_clock_too_far_ahead_is_refused_and_teaches_nothing(client: FakeClient
     said = expiry.fault(client, NOW, NOW + MAX_CLOCK_LEAD + 0.2, rest=False)
     assert said == "A drive command was dropped: its clock is 1.2 s ahead of the robot's."
     assert expiry.given(client, NOW, NOW) == NOW
+
+
+def test_nothing_was_given_later_than_it_came(client: FakeClient) -> None:
+    expiry = CommandExpiry()
+    assert expiry.given(client, NOW, NOW + 0.2) == NOW
+    assert expiry.given(client, NOW, NOW - 0.2) == NOW - 0.2
+    assert expiry.given(client, NOW, None) == NOW

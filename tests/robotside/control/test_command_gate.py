@@ -484,3 +484,13 @@ def test_the_cap_of_an_unmeasured_link_is_set_and_ends_with_the_first_measuremen
     controls.release(anna)
     controls.update_speed_cap(15.0)
     assert controls.pace.share == 1.0, "nobody drives"
+
+
+def test_a_stick_whose_command_ran_out_is_heard_at_zero_before_it_drives_again(
+    controls: CommandGate, anna: FakeClient
+) -> None:
+    controls.drive(anna, AHEAD, 10.0)
+    assert controls.expired(10.0 + HOLD_TIME)
+    assert controls.drive(anna, AHEAD, 10.0 + (HOLD_TIME + VALID_TIME) / 2) == Ruling(None, LET_GO_SENTENCE)
+    controls.drive(anna, REST, 10.4)
+    assert controls.drive(anna, AHEAD, 10.5).order == AHEAD

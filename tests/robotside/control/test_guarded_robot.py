@@ -5,6 +5,7 @@ from __future__ import annotations
 import msgspec
 import pytest
 
+from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Pose, Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.control.guarded_robot import GuardedRobot, port_info
@@ -178,3 +179,40 @@ def test_who_was_put_back_rests_there_wherever_it_is_measured_next() -> None:
     guarded.reset()
     guarded.again()
     assert robot.commands[1:] == [None]
+
+
+class Loaded(FakeRobot):
+    """It carries something that moves, and has a STOP of its own."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.held, self.pressed = 0, False
+
+    def command(self, payload: str, order: Msg) -> None:
+        self.held = 0
+
+    def hold_payloads(self) -> None:
+        self.held += 1
+
+    def press_stop(self) -> None:
+        self.pressed = True
+
+    def release_stop(self) -> None:
+        self.pressed = False
+
+
+def test_stop_brakes_the_robot_holds_what_moves_on_it_and_presses_the_stop_behind() -> None:
+    robot = Loaded()
+    guarded = GuardedRobot(robot, lambda: True)
+    guarded.press_stop()
+    assert (robot.commands, robot.held, robot.pressed) == ([None], 1, True)
+    guarded.release_stop()
+    assert not robot.pressed
+
+
+def test_a_manoeuvre_that_is_left_for_one_that_knows_none_brakes_it() -> None:
+    robot = FakeRobot()
+    guarded = GuardedRobot(robot, lambda: False)
+    guarded.drive(AHEAD)
+    guarded.manoeuvre(Manoeuvre(kind="course"))
+    assert robot.commands == [AHEAD, None]

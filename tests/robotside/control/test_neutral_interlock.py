@@ -133,3 +133,12 @@ def test_it_is_forgotten_after_a_while_and_never_grows(sticks: NeutralInterlock)
         sticks.forget(str(number), Origin("", str(number)))
     assert push(sticks, 100.1, "again", Origin("", "0"))
     assert not push(sticks, 100.1, "again too", Origin("", "7"))
+
+
+def test_a_zero_from_before_the_last_push_lets_go_of_no_stick_whose_connection_ended(
+    sticks: NeutralInterlock,
+) -> None:
+    push(sticks, 10.0)
+    sticks.forget("anna", ANNA)
+    sticks.on_command("anna again", False, 9.9, 10.2, lambda: ANNA)
+    assert not push(sticks, 10.3, "anna again")
