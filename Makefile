@@ -5,13 +5,22 @@ ROBOT ?= patrol
 WORLD ?=
 export PYTHONPATH := $(CURDIR)
 
-.PHONY: help setup run demo test test-fast test-slow mutate bench android-check gallery lint format
+.PHONY: help setup voice setup-test setup-js run demo test test-fast test-slow mutate bench android-check gallery lint format
 
 help: ## list the commands
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
 
-setup: ## create .venv with all dependencies, if missing
+setup: ## install what running needs into .venv, if missing: app, robot side, simulator
 	@bash scripts/setup.sh
+
+voice: ## install what spoken commands and the voice that answers need
+	@bash scripts/setup.sh voice
+
+setup-test: ## install what tests, benches and lint need
+	@bash scripts/setup.sh voice test
+
+setup-js: ## install the JavaScript library that tests/clients drive the robot with
+	@bash scripts/setup.sh clients
 
 run: setup ## open the app on the built-in simulator; options ROBOT=scout,patrol WORLD=office
 	@PYTHON=$(PYTHON) ROBOT=$(ROBOT) WORLD=$(WORLD) bash scripts/run.sh
@@ -19,19 +28,20 @@ run: setup ## open the app on the built-in simulator; options ROBOT=scout,patrol
 demo: setup ## scripted stories, through the app's own touch events: out/demo*/; option ROBOT=scout or ROBOT=all
 	@PYTHON=$(PYTHON) bash scripts/demo.sh $(ROBOT)
 
-test: setup ## run all tests, no display needed
+test: setup-test ## run all tests, no display needed
+	@bash scripts/setup.sh clients || true # the tests that need it say so
 	@PYTHON=$(PYTHON) bash scripts/test.sh
 
-test-fast: setup ## run the tests that take less than a minute
+test-fast: setup-test ## run the tests that take less than a minute
 	@PYTHON=$(PYTHON) bash scripts/test.sh fast
 
-test-slow: setup ## go through every sequence of what operators may do with control and STOP
+test-slow: setup-test ## go through every sequence of what operators may do with control and STOP
 	@PYTHON=$(PYTHON) bash scripts/test.sh slow
 
-mutate: setup ## put faults into the code, each of which a test must notice; option ONLY=word
+mutate: setup-test ## put faults into the code, each of which a test must notice; option ONLY=word
 	@$(PYTHON) scripts/mutate.py --only "$(ONLY)"
 
-bench: setup ## run all benches: out/bench/*.json and a table
+bench: setup-test ## run all benches: out/bench/*.json and a table
 	@$(PYTHON) -m bench
 
 android-check: setup ## check the APK as far as possible without its toolchain
@@ -40,11 +50,11 @@ android-check: setup ## check the APK as far as possible without its toolchain
 gallery: setup ## draw every widget in every state and theme: out/gallery/index.html
 	@$(PYTHON) -m widgets --out out/gallery
 
-lint: setup ## run ruff, the format check and mypy
+lint: setup-test ## run ruff, the format check and mypy
 	@$(PYTHON) -m ruff check .
 	@$(PYTHON) -m ruff format --check .
 	@$(PYTHON) -m mypy
 
-format: setup ## format the code with ruff
+format: setup-test ## format the code with ruff
 	@$(PYTHON) -m ruff format .
 	@$(PYTHON) -m ruff check --fix .

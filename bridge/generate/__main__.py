@@ -38,7 +38,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         from bridge.generate import TextError, generate
     except ImportError as error:
-        print(f"{error.name} is not installed; it comes with the dev extra.", file=sys.stderr)
+        print(
+            f"{error.name} is not installed; it comes with the dev extra: make setup-test.", file=sys.stderr
+        )
         return 2
     try:
         for path in generate(options.files, options.out, options.package):

