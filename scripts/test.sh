@@ -11,11 +11,12 @@ unset PYTHONDONTWRITEBYTECODE
 status=0
 
 ring() {
-    local name=$1
+    local name=$1 begun=$SECONDS
     shift
     echo "== $name"
-    "$python" -m pytest -q --junitxml="$reports/$name.xml" "$@"
+    "$python" -m pytest -q --durations=10 --durations-min=0.5 --junitxml="$reports/$name.xml" "$@"
     local code=$?
+    echo "== $name took $((SECONDS - begun)) s"
     if [ $code -ne 0 ]; then
         status=1
         [ -f "$reports/$name.xml" ] || echo "$name" >>"$reports/broken"

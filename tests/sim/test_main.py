@@ -20,6 +20,7 @@ from sim.core.shapes import Shape
 from sim.robot import ROBOTS
 from sim.vehicles.model import Model
 from sim.vehicles.patrol import PARAMETERS, Patrol
+from tests.lacking import lacking
 
 
 def test_without_arguments_it_says_what_stands_in_the_world(capsys):
@@ -131,7 +132,7 @@ def display() -> Iterator[str]:
     """A display that nobody sees."""
     server = shutil.which("Xvfb")
     if server is None:
-        pytest.skip("there is no Xvfb to open a window on")
+        lacking("Xvfb")
     reads, writes = os.pipe()
     command = [server, "-displayfd", str(writes), "-screen", "0", "640x480x24", "-nolisten", "tcp"]
     process = subprocess.Popen(command, pass_fds=[writes], stderr=subprocess.DEVNULL)

@@ -22,6 +22,7 @@ from robotside.records import Records
 from robotside.records.database.storage import engine_of
 from robotside.records.database.tables import Base
 from robotside.records.opening import open_records
+from tests.lacking import lacking, package
 
 URLS = os.environ.get("PILOTHOUSE_TEST_DATABASES", "").split()
 """Of empty databases to run the same tests on, separated by spaces."""
@@ -38,17 +39,17 @@ def run_by() -> str | None:
     try:
         pwd.getpwnam(OWNER)
     except KeyError:
-        pytest.skip(f"Root runs the tests, and there is no user {OWNER} to run a server.")
+        lacking("PostgreSQL", f"root runs the tests, and there is no user {OWNER} to run a server")
     return OWNER
 
 
 @pytest.fixture(scope="session")
 def postgresql() -> Iterator[str]:
     """URL of a PostgreSQL server of our own, without a port, that ends with the tests."""
-    pytest.importorskip("psycopg")
+    package("psycopg")
     found = sorted(Path("/usr/lib/postgresql").glob("*/bin/initdb"))
     if not found:
-        pytest.skip("No PostgreSQL server is installed here.")
+        lacking("PostgreSQL")
     programs, owner = found[-1].parent, run_by()
     folder = Path(tempfile.mkdtemp(prefix="pg"))
     try:

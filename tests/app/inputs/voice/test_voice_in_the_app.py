@@ -13,9 +13,10 @@ from app.inputs.voice.process.worker import InProcess
 from app.inputs.voice.voice_input import VoiceInput
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
+from tests.lacking import package
 
-hibari = pytest.importorskip("hibari")
-pytest.importorskip("hama")
+hibari = package("hibari")
+package("hama")
 
 
 @pytest.fixture

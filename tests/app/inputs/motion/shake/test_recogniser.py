@@ -12,6 +12,7 @@ import pytest
 from app.inputs.motion.shake import AXES, Axis, Recogniser, Shake
 from bench.support import motion, people
 from bench.support.motion import Recording, Trial
+from tests.lacking import lacking
 
 GRAVITY = 9.80665
 
@@ -219,7 +220,7 @@ def test_a_line_that_is_bent_to_an_arc_is_not_round() -> None:
 def test_rhythmic_exercises_of_the_arm_are_none() -> None:
     takes = motion.packaged()
     if not takes:
-        pytest.skip("seglearn is not installed")
+        lacking("seglearn")
     people = {take.person for take in takes}
     chosen = [take for take in takes if take.person in sorted(people)[:3]]
     assert sum(len(of(take)) for take in chosen) == 0

@@ -12,17 +12,18 @@ from app.inputs.voice.audio.noise import RATE
 from app.inputs.voice.recognition.conformer import Conformer, _shapes, unpacked
 from app.inputs.voice.recognition.model import _engine, _ours
 from tests.app.inputs.voice.sounds import quiet, voice
+from tests.lacking import package
 
 
 @pytest.fixture(scope="module")
 def ours():
-    pytest.importorskip("hama")
+    package("hama")
     return _ours()
 
 
 @pytest.fixture(scope="module")
 def engine():
-    pytest.importorskip("hama")
+    package("hama")
     return _engine()
 
 

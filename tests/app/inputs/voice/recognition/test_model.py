@@ -8,6 +8,7 @@ import pytest
 from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
 from app.inputs.voice.recognition import model as module
 from app.inputs.voice.recognition.model import HamaModel
+from tests.lacking import package
 
 SIGNS = 2
 
@@ -108,13 +109,13 @@ def test_neither_is_said_in_one_sentence(clock):
 
 
 def test_what_is_shorter_than_one_window_is_heard_as_well():
-    pytest.importorskip("hama")
+    package("hama")
     model = HamaModel()
     assert model.log_probs(np.zeros(10, np.float32)).shape == (2, len(model.tokens))
 
 
 def test_the_model_is_run_on_one_core_by_samples_of_full_scale_at_most(monkeypatch):
-    pytest.importorskip("hama")
+    package("hama")
     told, heard = [], []
     monkeypatch.setattr(module, "one_core", lambda: told.append(len(heard)))
     monkeypatch.setattr(module, "chosen", lambda *_: lambda wave: heard.append(wave) or wave)

@@ -4,9 +4,10 @@ import pytest
 
 from app.inputs.voice.interfaces.speech_recognizer import Grammar, VoiceTrouble
 from app.inputs.voice.recognition.lexicon import COMMANDS
+from tests.lacking import package
 
-pytest.importorskip("pocketsphinx")
-hibari = pytest.importorskip("hibari")
+package("pocketsphinx")
+hibari = package("hibari")
 
 from app.inputs.voice.audio.sound_files import resampled  # noqa: E402
 from app.inputs.voice.recognition.sphinx import Sphinx  # noqa: E402

