@@ -360,3 +360,33 @@ def test_a_stop_that_was_let_go_is_not_confirmed_by_the_next_ones_confirmation()
     run(robot, what)
     assert [one.phase for one in robot.reports if one.command_id == "id-0"] == ["sent"]
     assert robot.phases[-1] == "accepted"
+
+
+def test_a_command_that_is_asked_for_again_has_the_stamp_of_its_first_try() -> None:
+    """The robot judges by it how old the operator's touch is."""
+    robot = Robot(NoReply("The robot does not answer."))
+    run(robot, lambda commands: commands.send("start"))
+    assert {request.stamp for _, request, _ in robot.calls} == {8000.0}
+
+
+@pytest.mark.parametrize(
+    "refusal",
+    [CommandResponse(success=False, message="The connection was cut."), Refused("There is no /stop.")],
+)
+def test_a_stop_that_is_refused_is_sent_again(refusal: CommandResponse | Exception) -> None:
+    robot = Robot(refusal, refusal, YES)
+    run(robot, lambda commands: commands.stop())
+    assert len(robot.calls) == 3
+    assert robot.phases == ["sent", "accepted"]
+
+
+def test_what_confirmed_one_stop_does_not_confirm_the_next() -> None:
+    robot = Robot(YES, NotConnected("cut"), NotConnected("cut"), YES)
+
+    async def what(commands: Commands) -> None:
+        await commands.stop()
+        commands.confirm_stop()
+        await commands.stop()
+
+    run(robot, what)
+    assert len(robot.calls) == 4

@@ -148,6 +148,17 @@ def test_a_released_slot_waits_for_a_new_push(hand: Hand) -> None:
     assert hand.pass_time(0.1)[0] == AHEAD
 
 
+def test_what_was_pushed_under_the_latch_is_forgotten_with_it_though_nothing_was_due_in_between(
+    hand: Hand,
+) -> None:
+    hand.slot.latch(True)
+    hand.pass_time(0.2)
+    hand.slot.want(AHEAD)
+    hand.slot.latch(False)
+    assert AHEAD not in hand.pass_time(1.0)
+    assert hand.slot.voided == 1, "what pushed is told to spring back"
+
+
 def test_nothing_is_sent_before_the_stick_was_touched(hand: Hand) -> None:
     assert hand.pass_time(1.0) == []
 

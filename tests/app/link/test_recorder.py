@@ -45,6 +45,14 @@ def test_a_folder_that_cannot_be_made_is_an_error(tmp_path: Path) -> None:
         Recorder(tmp_path / "file" / "run.mcap")
 
 
+def test_a_recording_that_is_there_is_not_overwritten(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    path.write_bytes(b"yesterday")
+    with pytest.raises(FileExistsError):
+        Recorder(path)
+    assert path.read_bytes() == b"yesterday"
+
+
 class FullDisk:
     def add_message(self, *_: object) -> None:
         raise OSError(28, "No space left on device")
