@@ -244,3 +244,20 @@ def test_the_button_of_a_phone_says_who_drives_by_name_and_sign(watch: Watch) ->
     assert standing.control_nav(watch.session)[0] == "Anna's…"
     watch.link.silence = 2.1
     assert standing.control_nav(watch.session) == ("Control", "help", "")
+
+
+def test_control_that_is_free_is_asked_for_once_each_time_that_it_becomes_free(tmp_path: Path) -> None:
+    watch = Watch(tmp_path, wants_control=True)
+    for _ in range(3):
+        watch.told(FREE)
+    assert watch.asked == ["acquire"], "the robot tells it twice a second, and its answer is on its way"
+    watch.told(BOBS)
+    assert watch.asked == ["acquire"], "nobody takes it from Bob by himself"
+    for _ in range(3):
+        watch.told(FREE)
+    assert watch.asked == ["acquire", "acquire"]
+    watch.link_becomes(DROPPED)
+    watch.link_becomes(BACK)
+    watch.told(FREE)
+    watch.told(FREE)
+    assert watch.asked == ["acquire"] * 3
