@@ -31,10 +31,18 @@ class MissionDrafts:
         """The robot's mission, received before its name."""
 
     def on_introduced(self) -> None:
-        """The robot's name came: restore its draft once, before its mission is compared with it."""
+        """The robot's name came: restore its draft once, before its mission is compared with it.
+
+        What was entered before the name was known stays, with the restored draft one step of undo behind it.
+        """
         if not self._restored:
             self._restored = True
-            self.editor.load(self._drafts().get(self._robot.name))
+            entered = self.editor.draft if self.editor.can_undo else None
+            restored = self.editor.load(self._drafts().get(self._robot.name))
+            if entered is not None and restored:
+                self.editor.put(entered)
+            elif entered is not None:
+                self._save()
             self._compare()
 
     def on_mission(self, mission: Mission) -> None:

@@ -67,3 +67,49 @@ def test_the_robots_mission_waits_until_the_draft_is_back(tmp_path: Path) -> Non
     assert day.editor.stored is not None
     assert day.editor.dirty
     day.ends()
+
+
+def with_a_draft_of_yesterday(folder: Path) -> None:
+    first = Day(folder)
+    first.meet("Scout-1")
+    first.drafts.on_mission(Mission())
+    first.editor.add(1.0, 2.0)
+    first.ends()
+
+
+def test_what_is_entered_before_the_robots_name_is_known_is_nobodys_draft_yet(tmp_path: Path) -> None:
+    with_a_draft_of_yesterday(tmp_path)
+    day = Day(tmp_path)
+    before = day.settings.get("drafts")
+    day.editor.add(3.0, 4.0)
+    assert day.settings.get("drafts") == before
+    day.ends()
+
+
+def test_what_is_entered_before_the_robots_name_is_known_is_kept_on_top_of_its_draft(tmp_path: Path) -> None:
+    with_a_draft_of_yesterday(tmp_path)
+    day = Day(tmp_path)
+    day.editor.add(3.0, 4.0)
+    day.meet("Scout-1")
+    day.drafts.on_mission(Mission())
+    assert day.editor.draft.points == ((3.0, 4.0),)
+    day.editor.undo()
+    assert day.editor.draft.points == ((1.0, 2.0),), "yesterday's is one step back"
+    day.editor.redo()
+    day.ends()
+    again = Day(tmp_path)
+    again.meet("Scout-1")
+    assert again.editor.draft.points == ((3.0, 4.0),)
+    again.ends()
+
+
+def test_what_is_entered_before_the_name_of_a_robot_without_a_draft_is_remembered_for_it(
+    tmp_path: Path,
+) -> None:
+    day = Day(tmp_path)
+    day.editor.add(3.0, 4.0)
+    day.meet("Patrol-1")
+    assert list(day.settings.get("drafts")) == ["Patrol-1"]
+    day.editor.undo()
+    assert day.editor.draft.points == ()
+    day.ends()

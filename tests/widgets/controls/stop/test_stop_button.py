@@ -161,8 +161,9 @@ def test_on_a_phones_corner_its_words_keep_off_its_edges(stage, phase, local):
     assert button.upright is (phase == "ready")
 
 
-def test_without_a_link_it_says_what_was_heard_last_and_lets_nothing_go(stage, stop):
-    stop.phase, stop.ago = "lost", "8 s"
+@pytest.mark.parametrize("local", [False, True])
+def test_without_a_link_it_says_what_was_heard_last_and_lets_nothing_go(stage, stop, local):
+    stop.local, stop.phase, stop.ago = local, "lost", "8 s"
     assert stop.word.replace("\u200a", "") != "STOPPED"
     assert stop.sentence == "no link, was STOPPED 8\u00a0s\u00a0ago"
     stage.touch(150, 40).touch_down()
