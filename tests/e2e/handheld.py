@@ -44,6 +44,28 @@ class Handheld:
             EventLoop.idle()
         return found
 
+    def ask(self, act: Callable[[], object], answered: Callable[[], Any], what: str) -> Any:
+        """Do `act`, wait until it is `answered` and return what that gave.
+
+        A machine that stands still for three seconds loses the link, and with it what was asked; then it is asked anew when the
+        link is back, as a person would.
+        """
+        helps, lost = iter(range(HELPS)), False
+        act()
+
+        def heard() -> Any:
+            nonlocal lost
+            session = self.app.session
+            if session is None or not session.connected:
+                lost = True
+            elif lost:
+                lost = False
+                assert next(helps, None) is not None, "the link is lost again and again"
+                act()
+            return answered()
+
+        return self.until(heard, what)
+
     def run(self, seconds: float) -> None:
         """Let the app run for so long."""
         end = time.monotonic() + seconds

@@ -57,8 +57,11 @@ def test_control_is_handed_over_on_request_and_comes_back_the_same_way(
         handheld(tmp_path / "own", url=robot.url, discover=False) as glass,
     ):
         glass.until(controls(glass, "other"), "the other one to drive")
-        glass.app.session.take_control()
-        glass.until(lambda: glass.glass.labelled("Withdraw"), "that we ask is shown")
+        glass.ask(
+            glass.app.session.take_control,
+            lambda: glass.glass.labelled("Withdraw"),
+            "that we ask is shown",
+        )
         phone.ask("command", name="grant")
         glass.until(controls(glass, "mine"), "control")
         phone.until("control", "other")
@@ -84,8 +87,11 @@ def test_a_task_outlives_the_phone_that_started_it_and_the_next_one_knows_everyt
             lambda: any(event.text == "Control is free." for event in session.logbook.events),
             "what happened while there was no phone",
         )
-        session.tasking.ask_history()
-        answer = glass.until(lambda: getattr(session.outcomes.get("history"), "answer", None), "the history")
+        answer = glass.ask(
+            session.tasking.ask_history,
+            lambda: getattr(session.outcomes.get("history"), "answer", None),
+            "the history",
+        )
         assert (answer.runs[0].order.task, answer.runs[0].id) == ("hold", status.task_id)
         glass.control()
         session.command("cancel")
