@@ -184,3 +184,13 @@ def test_whatever_is_commanded_from_inside_the_body_stays_inside_until_it_is_at_
             robot.go(fencing.slowed(robot.pose, robot.moving, wanted))
     robot.come_to_rest()
     assert robot.least > 0.0
+
+
+def test_the_less_sure_its_place_is_the_farther_it_keeps_from_the_fence() -> None:
+    guard, south = FenceGuard(YARD, RADIUS, WHEELS), Pose2(0.0, -2.0, -math.pi / 2)
+    wanted = PlanarVelocity(0.5, 0.0, 0.0)
+    speeds = [guard.slowed(south, REST, wanted, doubt).x for doubt in (0.0, 0.4, 0.6, 0.8)]
+    assert speeds[0] == 0.5
+    assert speeds == sorted(speeds, reverse=True)
+    assert speeds[2] < 0.5
+    assert speeds[3] < speeds[2]

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+from msgspec import structs
 
 from bridge.codec import from_json, to_json
+from bridge.core.codes import Code
 from bridge.msgs.geometry_msgs import Point32, Twist, Vector3
-from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
+from bridge.msgs.pilothouse_msgs import Limits, Manoeuvre, RobotInfo
 from robotside.core.config import LimitSettings
 from robotside.core.pose2 import Pose2
 from robotside.limits.limits import NOT_PLACED, LimitKeeper
@@ -187,6 +189,25 @@ def test_whatever_is_commanded_the_height_is_kept(start: float, rates: list[floa
         speed += max(-0.05, min(0.05, wanted - speed))
         z += speed * 0.05
         assert z <= 10.1
+
+
+def test_an_order_to_a_height_beyond_the_limits_is_one_to_the_limit() -> None:
+    flier = structs.replace(DRONE, manoeuvres=["hover", "take_off"])
+    keeper = LimitKeeper(LimitSettings(max_height=10.0), flier)
+    kept = keeper.keep(Manoeuvre(kind="hover", height=12.0), at(2.0))
+    assert isinstance(kept.order, Manoeuvre)
+    assert (kept.order.height, kept.why) == (10.0, "The robot goes no higher than 10 m.")
+    assert keeper.keep(Manoeuvre(kind="hover", height=8.0), at(2.0)) == (
+        Manoeuvre(kind="hover", height=8.0),
+        "",
+    )
+
+
+@pytest.mark.parametrize(("info", "drives"), [(WHEELS, False), (DRONE, False), (AQUA, True)])
+def test_a_robot_that_lies_on_its_back_drives_only_if_it_swims(info: RobotInfo, drives: bool) -> None:
+    done, why = LimitKeeper(LimitSettings(), info).clamp(AHEAD, MeasuredState(roll=math.pi))
+    assert (done == AHEAD, why == "") == (drives, drives)
+    assert drives or (done, why.code) == (Twist(), Code.ROBOT_OVERTURNED)
 
 
 # slope
