@@ -96,6 +96,18 @@ def test_a_release_that_was_asked_for_before_the_latest_stop_leaves_it(scene: Sc
     assert scene.release_stop().success
 
 
+def test_a_stop_without_a_stamp_was_given_when_it_came(scene: Scene) -> None:
+    """However old a release is that has one, it does not undo it."""
+    scene.ask("/stop", CommandRequest(stamp=scene.clock))
+    scene.ask("/stop/hold")
+    scene.run(1.0)
+    late = CommandRequest(stamp=scene.clock)
+    scene.run(0.5)
+    scene.ask("/stop")
+    assert scene.refused("/stop/release", late) == "STOP was pressed after this request: it stays."
+    assert scene.control.stopped
+
+
 def test_without_a_hold_of_a_second_stop_stays(scene: Scene) -> None:
     scene.ask("/stop")
     assert scene.refused("/stop/release") == NOT_HELD
