@@ -132,6 +132,7 @@ class _Fleet:
             civil=time.time,
             zone=local_zone(),
             worker=kept.enter_context(WorkerThread(f"planning {number}")),
+            looker=kept.enter_context(WorkerThread(f"looking {number}")),
         )
         take_over(robot, records, station.events.say)
         addresses = Addresses(self._options.host, *ports)

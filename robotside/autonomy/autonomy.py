@@ -70,13 +70,14 @@ class Autonomy:
         fit: Callable[[Grid], Grid] = lambda grid: grid,
         heights: tuple[float, float] = (-math.inf, math.inf),
         worker: Worker | None = None,
+        looker: Worker | None = None,
     ) -> None:
         """`chart` is the map, None or of no use while there is none; `clock` is the operators' [s], which stamps the task's messages.
 
         `fault` tells why the robot cannot or may not stand at a place that is called so, empty when it can.
         `fit` makes of the map the one to plan on, with all occupied where the robot may not go.
         `heights` are the lowest and the highest at which it can and may be [m].
-        `worker` looks for ways and makes maps ready; without one it is done in the steps of the loop.
+        `worker` looks for ways and makes maps ready, `looker` searches pictures; without them it is done in the steps of the loop.
         """
         worker = worker or InLoopWorker()
         info, say = robot.info, events.say
@@ -108,7 +109,7 @@ class Autonomy:
         """Makes tasks of orders."""
         response = IntruderResponse(self.engine, self.situation, records, say)
         self.watch = IntruderWatch(
-            self.pose_estimator.track, info.camera_fov, bus.publish, response.on_intruder
+            self.pose_estimator.track, info.camera_fov, bus.publish, response.on_intruder, worker=looker
         )
         self._surroundings = Surroundings(info, self.pose_estimator, self.navigator, self.watch)
         self._battery = BatteryWatch(self.engine, self.task_factory, self.situation, say)
@@ -151,7 +152,8 @@ class Autonomy:
             self._handlers[topic](msg)
 
     def update(self, now: float) -> None:
-        """Pause the running task when a sensor is silent, and take a new map between two tasks; call it each tick."""
+        """Pause the running task when a sensor is silent, take a new map between two tasks, and what pictures showed; call it each tick."""
+        self.watch.update(placing=self.pose_estimator.sure)
         if not self.engine.active:
             self._maps.update()
         if not self.engine.running:

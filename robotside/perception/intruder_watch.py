@@ -23,6 +23,7 @@ from bridge.msgs.vision_msgs import (
 )
 from robotside.core.bus import Publish
 from robotside.core.pose2 import Points, Pose2
+from robotside.core.worker import InLoopWorker, Job, Work, Worker
 from robotside.localisation.pose_estimator import OdometryTrack
 from robotside.perception.cone_detector import Sighting, find_cones
 from robotside.perception.intruder_tracker import IntruderTracker
@@ -62,7 +63,14 @@ class IntruderWatch:
         publish: Publish,
         report: Callable[[Intruder], None],
         mount: CameraMount = CameraMount(),
+        worker: Worker | None = None,
     ) -> None:
+        """`worker` searches the pictures; without one that is done in the loop, each picture at once."""
+        self._worker = worker or InLoopWorker()
+        self._search: tuple[CompressedImage, bool, Job[list[Sighting]]] | None = None
+        """The picture that is searched, whether it may be placed, and the work."""
+        self._found: tuple[bytes, list[Sighting]] = (b"", [])
+        """The file that was searched last, and what is in it."""
         self._track, self._publish, self._report, self._mount = track, publish, report, mount
         self._slope = math.tan((fov if math.isfinite(fov) else 1.2) / 2)
         self.intruders = IntruderTracker()
@@ -76,13 +84,28 @@ class IntruderWatch:
         self._points, self._points_stamp = points, stamp
 
     def on_image(self, image: CompressedImage, *, placing: bool) -> None:
-        """Search a picture, if it is time; `placing` is False while the position is not to be trusted."""
+        """Search a picture, if it is time and none is being searched; `placing` is False while the position is not to be trusted."""
         stamp = image.header.stamp.seconds
-        if stamp < self._next:
+        if stamp < self._next or self._search is not None:
             return
         self._next = max(self._next + PERIOD, stamp)
+        if image.data is self._found[0]:  # it came out the same
+            self._report_found(image, placing=placing)
+            return
+        self._search = image, placing, self._worker.submit(_searched(image.data))
+        self.update(placing=placing)
+
+    def update(self, *, placing: bool) -> None:
+        """Take in what was found, once the picture is searched; call it in each step, with `placing` as it is by now."""
+        if self._search is None or not self._search[2].poll():
+            return
+        (image, placed, job), self._search = self._search, None
+        self._found = image.data, job.result()
+        self._report_found(image, placing=placed and placing)
+
+    def _report_found(self, image: CompressedImage, *, placing: bool) -> None:
+        stamp, sightings = image.header.stamp.seconds, self._found[1]
         size = jpeg_size(image.data)
-        sightings = find_cones(image.data)
         pose = self._track.at(stamp) if placing else None
         detections = [self._detection(sighting, pose, size, stamp) for sighting in sightings]
         header = Header(image.header.stamp, image.header.frame_id)
@@ -132,6 +155,12 @@ class IntruderWatch:
             return
         self._publish("/intruders", IntruderArray(Header(Time.at(stamp), "map"), self.intruders.known))
         self._report(fresh)
+
+
+def _searched(jpeg: bytes) -> Work[list[Sighting]]:
+    """The cones in a picture, for a worker."""
+    yield
+    return find_cones(jpeg)
 
 
 def jpeg_size(jpeg: bytes) -> tuple[int, int]:

@@ -79,13 +79,15 @@ class Station:
         civil: Callable[[], float] | None = None,
         zone: tzinfo = UTC,
         worker: Worker | None = None,
+        looker: Worker | None = None,
     ) -> None:
         """`now` is the robot's clock at the start [s]; `name` goes before that of `config`.
 
         `civil` is what the computer's clock says, by which the schedule goes in `zone` [s]; the operators' when left out.
-        `worker` plans; without one that is done in the steps, a bit in each. Who made it closes it.
+        `worker` plans and `looker` searches pictures; without them that is done in the steps, a bit in each. Who made them closes
+        them.
         """
-        self._worker = worker
+        self._worker, self._looker = worker, looker
         self.clock, self.now = clock, now
         self.records = records
         """What is kept over restarts."""
@@ -268,6 +270,7 @@ class Station:
             fit=self.keeper.marked,
             heights=self.keeper.heights(self.robot.heights),
             worker=self._worker,
+            looker=self._looker,
         )
 
     def _agenda(self, civil: Callable[[], float], zone: tzinfo) -> Agenda:

@@ -13,9 +13,12 @@ from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.std_msgs import Header, Time
 from bridge.msgs.vision_msgs import Detection2DArray
 from robotside.core.pose2 import Pose2
+from robotside.core.worker import Worker
 from robotside.localisation.pose_estimator import OdometryTrack
+from robotside.perception import intruder_watch
 from robotside.perception.intruder_tracker import MIN_SIGHTINGS, IntruderTracker
 from robotside.perception.intruder_watch import IntruderWatch, jpeg_size
+from tests.robotside.held_worker import HeldWorker
 from tests.robotside.perception.test_cone_detector import cone, jpeg, picture
 
 FOV = 1.2
@@ -61,14 +64,14 @@ def test_sightings_that_are_long_past_do_not_count() -> None:
 class Scene:
     """A cone 3 m ahead and a little to the left of a robot at (1, 2) that looks north."""
 
-    def __init__(self) -> None:
+    def __init__(self, worker: Worker | None = None) -> None:
         self.said: list[tuple[str, Msg]] = []
         self.found: list[Intruder] = []
         track = OdometryTrack()
         for n in range(40):
             track.add(n * 0.05, Pose2(1.0, 2.0, math.pi / 2))
         self.watch = IntruderWatch(
-            track, FOV, lambda topic, msg: self.said.append((topic, msg)), self.found.append
+            track, FOV, lambda topic, msg: self.said.append((topic, msg)), self.found.append, worker=worker
         )
         image, draw = picture()
         focal = 320 / math.tan(FOV / 2)
@@ -76,9 +79,8 @@ class Scene:
         self._jpeg = jpeg(image)
 
     def look(self, stamp: float, *, placing: bool = True) -> None:
-        self.watch.on_image(
-            CompressedImage(Header(Time.at(stamp), "camera"), "jpeg", self._jpeg), placing=placing
-        )
+        data = bytes(bytearray(self._jpeg))  # a file of its own
+        self.watch.on_image(CompressedImage(Header(Time.at(stamp), "camera"), "jpeg", data), placing=placing)
 
     def detections(self) -> list[Detection2DArray]:
         return [msg for _, msg in self.said if isinstance(msg, Detection2DArray)]
@@ -129,3 +131,77 @@ def test_where_the_robot_was_is_asked_between_two_poses() -> None:
     assert middle.x == pytest.approx(1.0)
     assert abs(middle.yaw) == pytest.approx(math.pi, abs=0.01)
     assert track.at(5.0) == Pose2(2.0, 0.0, -3.1)
+
+
+# searched beside the loop
+
+
+@pytest.fixture
+def worker() -> HeldWorker:
+    """It keeps each picture until the test lets it go."""
+    worker = HeldWorker()
+    worker.holds = True
+    return worker
+
+
+def finish(worker: HeldWorker, scene: Scene, *, placing: bool = True) -> None:
+    worker.holds = False
+    scene.watch.update(placing=placing)
+    worker.holds = True
+
+
+def stamps(scene: Scene) -> list[float]:
+    return [each.header.stamp.seconds for each in scene.detections()]
+
+
+def test_a_picture_that_is_searched_elsewhere_is_told_with_its_own_stamp_once_it_is_done(
+    worker: HeldWorker,
+) -> None:
+    scene = Scene(worker)
+    scene.look(0.0)
+    scene.look(0.4)
+    scene.watch.update(placing=True)
+    assert (stamps(scene), worker.submitted) == ([], 1), "one at a time, and nothing waits for it"
+    finish(worker, scene)
+    scene.watch.update(placing=True)
+    assert stamps(scene) == [0.0]
+    scene.look(0.5)
+    finish(worker, scene)
+    assert stamps(scene) == [0.0, 0.5]
+
+
+@pytest.mark.parametrize(("at_first", "by_now"), [(True, False), (False, True)])
+def test_a_cone_is_not_placed_when_the_position_was_or_became_unsure(
+    worker: HeldWorker, at_first: bool, by_now: bool
+) -> None:
+    scene = Scene(worker)
+    for n in range(MIN_SIGHTINGS):
+        scene.look(0.2 * n, placing=at_first)
+        finish(worker, scene, placing=by_now)
+    assert len(scene.detections()) == MIN_SIGHTINGS
+    assert scene.found == []
+
+
+def test_a_search_that_fails_is_raised_once_and_the_next_picture_is_searched(
+    worker: HeldWorker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = Scene(worker)
+    with monkeypatch.context() as patched:
+        patched.setattr(intruder_watch, "find_cones", lambda _: 1 // 0)
+        scene.look(0.0)
+        with pytest.raises(ZeroDivisionError):
+            finish(worker, scene)
+    finish(worker, scene)
+    scene.look(0.4)
+    finish(worker, scene)
+    assert stamps(scene) == [0.4]
+
+
+def test_a_picture_that_came_out_the_same_is_searched_once_and_told_each_time(worker: HeldWorker) -> None:
+    scene, same = Scene(worker), jpeg(picture()[0])
+    for n in range(5):
+        image = CompressedImage(Header(Time.at(0.2 * n), "camera"), "jpeg", same)
+        scene.watch.on_image(image, placing=True)
+        finish(worker, scene)
+    assert stamps(scene) == pytest.approx([0.2 * n for n in range(5)])
+    assert worker.submitted == 1
