@@ -86,12 +86,40 @@ class Field:
         high = layers[i + 1, j] * (1 - fu) + layers[i + 1, j + 1] * fu
         return np.asarray(low * (1 - fv) + high * fv)
 
-    def nearest(self, points: Points) -> NDArray[np.float64]:
-        """Distance to the nearest surface of each point, of any shape (..., 2), to the cell [m]."""
-        rows, columns = self._layers.shape[:2]
-        j = ((points[..., 0] - self._grid.x) / self._grid.resolution).astype(np.intp).clip(0, columns - 1)
-        i = ((points[..., 1] - self._grid.y) / self._grid.resolution).astype(np.intp).clip(0, rows - 1)
-        return np.asarray(self._layers[i, j, 0])
+    def closeness(self, centre: Pose2, reach: float, width: float) -> Closeness:
+        """How near to a surface each cell within `reach` [m] of `centre` is, `width` [m] being near."""
+        return Closeness(self._layers[:, :, 0], self._grid, centre, reach, width)
+
+
+class Closeness:
+    """A part of a map by how near to a surface each cell is: 1 on it, less the farther from it."""
+
+    def __init__(
+        self, distances: NDArray[np.float32], grid: Grid, centre: Pose2, reach: float, width: float
+    ) -> None:
+        """`distances` are the map's [m]; what lies beyond `reach` [m] of `centre` must not be asked for."""
+        self._grid = grid
+        self._rows, self._columns = (count - 1 for count in distances.shape)
+        ends = np.array([-reach, reach])
+        self._left, right = self._column(centre.x + ends).tolist()
+        self._bottom, top = self._row(centre.y + ends).tolist()
+        part = distances[self._bottom : top + 1, self._left : right + 1]
+        self._near = np.exp(-((part / width) ** 2)).ravel()
+        self._width = right - self._left + 1
+
+    def of(self, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float32]:
+        """Of points at each row of `x` [m] with each row of `y` [m], shape (rows of y, rows of x, points).
+
+        A column goes by x alone and a row by y alone: no cell is computed for a pair of them, only looked up.
+        """
+        columns, rows = self._column(x) - self._left, (self._row(y) - self._bottom) * self._width
+        return self._near[rows[:, None, :] + columns[None, :, :]]
+
+    def _column(self, x: NDArray[np.float64]) -> NDArray[np.intp]:
+        return ((x - self._grid.x) / self._grid.resolution).clip(0, self._columns).astype(np.intp)
+
+    def _row(self, y: NDArray[np.float64]) -> NDArray[np.intp]:
+        return ((y - self._grid.y) / self._grid.resolution).clip(0, self._rows).astype(np.intp)
 
 
 @dataclass(frozen=True, slots=True)
@@ -244,12 +272,13 @@ class Localiser:
     def _best_near(self, points: Points, guess: Pose2, step: float, reach: float, turn: float) -> Pose2:
         shifts = np.arange(-reach, reach + step / 2, step)
         dx, dy = (axis.ravel() for axis in np.meshgrid(shifts, shifts))
-        shift = np.column_stack([dx, dy])
+        far = float(np.hypot(points[:, 0], points[:, 1]).max())
+        near = self._field.closeness(guess, far + 1.1 * reach + step, 2 * step)
         best, best_score = guess, -math.inf
         for yaw in guess.yaw + np.linspace(-turn, turn, 2 * math.ceil(turn / 0.05) + 1):
             turned = Pose2(guess.x, guess.y, float(yaw)).apply(points)
-            off = self._field.nearest(turned[None, :, :] + shift[:, None, :])
-            scores = np.exp(-((off / (2 * step)) ** 2)).mean(axis=1)
+            placed = near.of(turned[:, 0] + shifts[:, None], turned[:, 1] + shifts[:, None])
+            scores = placed.mean(axis=2).ravel()
             scores -= 1e-3 * (dx**2 + dy**2 + (float(yaw) - guess.yaw) ** 2)
             top = int(scores.argmax())
             if scores[top] > best_score:

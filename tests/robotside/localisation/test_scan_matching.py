@@ -47,6 +47,27 @@ def test_a_wrong_guess_is_corrected_by_one_search_and_a_few_sweeps() -> None:
     assert localiser.fit > 0.9
 
 
+def test_a_search_at_the_end_of_a_large_map_takes_what_lies_beyond_it_for_its_last_cells() -> None:
+    cells = np.zeros((400, 300), dtype=np.bool_)
+    cells[::7, ::9] = cells[-1, :] = True
+    field = Field(Grid(cells, 0.1, -15.0, -20.0))
+    centre, reach, width = Pose2(13.0, -18.5, 0.0), 6.0, 0.5
+    x, y = np.random.default_rng(1).uniform(-reach, reach, (2, 50, 1)) / math.sqrt(2)
+    found = field.closeness(centre, reach, width).of(centre.x + x, centre.y + y)
+    for row, column in np.ndindex(50, 50):
+        at = np.array([[centre.x + x[column, 0], centre.y + y[row, 0]]])
+        cell = np.floor((at - (-15.0, -20.0)) / 0.1).clip((0, 0), (299, 399)) * 0.1 + (-14.95, -19.95)
+        distance = field.read(cell)[0, 0]
+        assert found[row, column, 0] == pytest.approx(math.exp(-((distance / width) ** 2)), abs=0.02)
+
+
+def test_a_sweep_that_claims_to_have_met_something_in_another_world_ends_a_search_as_any_other() -> None:
+    localiser = Localiser(Field(HALL))
+    points = np.array([[1e30, 1.0], [3.0, -1e30], [4.0, 0.0], [0.0, 3.0], [0.0, -3.0], [-4.0, 0.0]])
+    localiser.search(points, Pose2(0.3, -0.3, 0.0), reach=0.6, turn=0.1)
+    assert off(localiser, (0.0, 0.0, 0.0))[0] < 0.2
+
+
 @pytest.mark.parametrize("drift", [-0.04, 0.04])
 def test_over_a_hundred_metres_of_drifting_odometry_the_error_stays_below_a_tenth(drift: float) -> None:
     pillars = [Pillar(0.0, 3.0), Pillar(-7.0, -4.0), Pillar(7.0, 0.0)]
