@@ -64,9 +64,9 @@ class Report:
     depth: int = 0
     seconds: float = 0.0
     effective: set[str] = field(default_factory=set)
-    """Events that changed something somewhere."""
+    """Events that changed something somewhere before the last depth."""
     by_depth: list[int] = field(default_factory=list)
-    """States that were new at each depth."""
+    """States that were new at each depth but the last."""
 
     def __str__(self) -> str:
         new = ", ".join(str(count) for count in self.by_depth)
@@ -161,7 +161,8 @@ class Explorer:
         for level in range(1, depth + 1):
             frontier = [node for each in frontier for node in self._beyond(each, last=level == depth)]
             self.report.depth, self.report.seconds = level, time.perf_counter() - began
-            self.report.by_depth.append(self.report.states - 1 - sum(self.report.by_depth))
+            if level < depth:
+                self.report.by_depth.append(self.report.states - 1 - sum(self.report.by_depth))
             news = [life.relearn() for life in self._lives.values()]
             if any(news):
                 raise Unlearned("Something changes that was not learned.")
@@ -179,11 +180,13 @@ class Explorer:
                 life = self._after(node.life, event)
             except Violation as wrong:
                 raise Violation(f"{wrong} After: {'; '.join(path)}.") from None
+            if last:  # nothing goes on from there, so it matters to nothing whether it was seen
+                continue
             state = self._state(life)
             if state != node.state:
                 self.report.effective.add(event)
             if self._note(state):
-                found.append(_Node(life, [] if last else life.living.save(), path, state))
+                found.append(_Node(life, life.living.save(), path, state))
         return found
 
     def _after(self, life: Life, event: str) -> Life:

@@ -11,7 +11,7 @@ import itertools
 import logging
 import types
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -21,6 +21,8 @@ __all__ = ["NOTHING", "Living", "Snapshot", "Unlearned"]
 
 NOTHING = "nothing"
 """Stands for what tells nothing."""
+
+_NONE: frozenset[str] = frozenset()
 
 Snapshot = list[tuple[Any, Any]]
 """Objects and what they held, not deeper."""
@@ -44,19 +46,7 @@ def _as_names(slots: object) -> tuple[str, ...]:
     return (slots,) if isinstance(slots, str) else tuple(slots)  # type: ignore[arg-type]
 
 
-def held(thing: Any) -> Any:
-    """What `thing` holds, not deeper; None for what cannot change."""
-    if isinstance(thing, dict):
-        return dict(thing)
-    if isinstance(thing, list | set | deque):
-        return tuple(thing)
-    if isinstance(thing, types.CellType):
-        try:
-            return (thing.cell_contents,)
-        except ValueError:
-            return ()
-    if isinstance(thing, tuple | frozenset | types.FunctionType | types.MethodType | functools.partial):
-        return None
+def _attributes(thing: Any) -> dict[str, Any]:
     own = dict(vars(thing)) if hasattr(thing, "__dict__") else {}
     for name in _slots(type(thing)):
         if hasattr(thing, name):
@@ -64,25 +54,86 @@ def held(thing: Any) -> Any:
     return own
 
 
+def _cell(thing: types.CellType) -> tuple[Any, ...]:
+    try:
+        return (thing.cell_contents,)
+    except ValueError:
+        return ()
+
+
+def _nothing(_: Any) -> None:
+    return None
+
+
+@functools.cache
+def _reader(kind: type) -> Callable[[Any], Any]:
+    """How a thing of this class is read; looked up once for a class, since it is read millions of times."""
+    if issubclass(kind, dict):
+        return dict
+    if issubclass(kind, list | set | deque):
+        return tuple
+    if issubclass(kind, types.CellType):
+        return _cell
+    if issubclass(kind, tuple | frozenset | types.FunctionType | types.MethodType | functools.partial):
+        return _nothing
+    return _attributes if _slots(kind) or not kind.__dictoffset__ else _own
+
+
+def _own(thing: Any) -> dict[str, Any]:
+    return dict(vars(thing))
+
+
+def held(thing: Any) -> Any:
+    """What `thing` holds, not deeper; None for what cannot change."""
+    return _reader(type(thing))(thing)
+
+
+def _put_attributes(thing: Any, content: dict[str, Any]) -> None:
+    for name, value in content.items():
+        object.__setattr__(thing, name, value)
+    if hasattr(thing, "__dict__"):
+        for name in vars(thing).keys() - content.keys():
+            del vars(thing)[name]
+
+
+def _put_own(thing: Any, content: dict[str, Any]) -> None:
+    own = vars(thing)
+    own.update(content)
+    if len(own) > len(content):
+        for name in own.keys() - content.keys():
+            del own[name]
+
+
+def _put_pairs(thing: Any, content: Any) -> None:
+    thing.clear()
+    thing.update(content)
+
+
+def _put_all(thing: Any, content: tuple[Any, ...]) -> None:
+    thing.clear()
+    thing.extend(content)
+
+
+def _put_cell(thing: types.CellType, content: tuple[Any, ...]) -> None:
+    if content:
+        thing.cell_contents = content[0]
+
+
+@functools.cache
+def _writer(kind: type) -> Callable[[Any, Any], None]:
+    """How a thing of this class is put back."""
+    if issubclass(kind, dict | set):
+        return _put_pairs
+    if issubclass(kind, list | deque):
+        return _put_all
+    if issubclass(kind, types.CellType):
+        return _put_cell
+    return _put_own if _reader(kind) is _own else _put_attributes
+
+
 def put_back(thing: Any, content: Any) -> None:
     """Have `thing` hold that again."""
-    if isinstance(thing, dict):
-        thing.clear()
-        thing.update(content)
-    elif isinstance(thing, list):
-        thing[:] = content
-    elif isinstance(thing, set | deque):
-        thing.clear()
-        thing.update(content) if isinstance(thing, set) else thing.extend(content)
-    elif isinstance(thing, types.CellType):
-        if content:
-            thing.cell_contents = content[0]
-    else:
-        for name, value in content.items():
-            object.__setattr__(thing, name, value)
-        if hasattr(thing, "__dict__"):
-            for name in vars(thing).keys() - content.keys():
-                del vars(thing)[name]
+    _writer(type(thing))(thing, content)
 
 
 def parts(thing: Any, content: Any) -> Iterator[Any]:
@@ -116,6 +167,7 @@ class Living:
     def __init__(self, root: object, ignored: tuple[type, ...]) -> None:
         """Objects of the `ignored` classes are not looked into: what they hold moves nothing."""
         self.root, self._atoms = root, _ATOMS + ignored
+        self._atomic: dict[type, bool] = {}
         self._all: dict[int, Any] = {}
         self._first: dict[int, Any] = {}
         self._discover()
@@ -123,12 +175,22 @@ class Living:
         self._numbers = {id(root): 0}
         self._varied: dict[int, set[str]] = {}
         """By object the attributes that were seen to change."""
+        self._names: dict[int, tuple[int, list[tuple[str, str]]]] = {}
+        """By object how many of them there were when it was told last, and those that are told, in order."""
+
+    def is_atom(self, thing: Any) -> bool:
+        """Whether `thing` is a value, not looked into."""
+        kind = type(thing)
+        found = self._atomic.get(kind)
+        if found is None:
+            found = self._atomic[kind] = issubclass(kind, self._atoms)
+        return found
 
     def _discover(self) -> None:
         waiting = [self.root]
         while waiting:
             thing = waiting.pop()
-            if isinstance(thing, self._atoms) or id(thing) in self._all:
+            if self.is_atom(thing) or id(thing) in self._all:
                 continue
             content = held(thing)
             self._all[id(thing)] = thing
@@ -174,7 +236,7 @@ class Living:
             if content is not None:
                 saved.append((thing, content))
             for part in parts(thing, content):
-                if not isinstance(part, self._atoms) and id(part) not in seen:
+                if id(part) not in seen and not self.is_atom(part):
                     seen.add(id(part))
                     waiting.append(part)
         return saved
@@ -183,7 +245,7 @@ class Living:
     def restore(saved: Snapshot) -> None:
         """Have everything as it was."""
         for thing, content in saved:
-            put_back(thing, content)
+            _writer(type(thing))(thing, content)
 
     def digest(
         self,
@@ -231,32 +293,43 @@ class _Canonical:
         left_out: Mapping[str, frozenset[str]],
         twins: tuple[type, ...],
     ) -> None:
-        self._numbers, self._known, self._atoms = living._numbers, living._all, living._atoms
-        self._varied = living._varied
+        self._numbers, self._known, self._is_atom = living._numbers, living._all, living.is_atom
+        self._varied, self._names = living._varied, living._names
         self._value, self._left_out, self._twins = value, left_out, twins
         self._open: dict[int, int] = {}
 
     def content(self, thing: Any) -> Any:
         """What `thing` holds."""
         kind = type(thing).__name__
-        out = self._left_out.get(kind, frozenset())
+        out = self._left_out.get(kind, _NONE)
         if "*" in out:
             return NOTHING
         if isinstance(thing, dict):
             pairs = [(self.of(key), self.of(each, kind)) for key, each in thing.items()]
             # what is noted of a connection at a time that has passed is as good as gone; of anything else it is there
-            there = (pair for pair in pairs if pair[1] != NOTHING or not isinstance(pair[0], str))
-            return ("dict", tuple(sorted(there, key=repr)))
+            there = [pair for pair in pairs if pair[1] != NOTHING or not isinstance(pair[0], str)]
+            return ("dict", tuple(sorted(there, key=repr) if len(there) > 1 else there))
         if isinstance(thing, set | frozenset):
             return ("set", tuple(sorted((self._alone(each) for each in thing), key=repr)))
         if isinstance(thing, list | deque | tuple):
-            return tuple(self.of(each) for each in thing)
+            return tuple([self.of(each) for each in thing])
         content = held(thing)
         if isinstance(content, dict):
-            own = None if isinstance(thing, self._twins) else self._varied.get(id(thing))
-            names = sorted((content.keys() if own is None else own) - out)
-            return (kind, *((name, self.of(content[name], f"{kind}.{name}")) for name in names))
-        return (type(thing).__name__, *(self.of(each) for each in parts(thing, content)))
+            names = self._told(thing, content, out)
+            return (kind, *[(name, self.of(content[name], where)) for name, where in names])
+        return (kind, *[self.of(each) for each in parts(thing, content)])
+
+    def _told(self, thing: Any, content: Mapping[str, Any], out: frozenset[str]) -> Sequence[tuple[str, str]]:
+        """Which attributes of `thing` tell something, each with its place."""
+        kind = type(thing).__name__
+        own = None if isinstance(thing, self._twins) else self._varied.get(id(thing))
+        if own is None:
+            return [(name, f"{kind}.{name}") for name in sorted(content.keys() - out)]
+        known = self._names.get(id(thing))
+        if known is None or known[0] != len(own):  # more were seen to change since
+            known = len(own), [(name, f"{kind}.{name}") for name in sorted(own - out)]
+            self._names[id(thing)] = known
+        return known[1]
 
     def _alone(self, thing: Any) -> Any:
         """What stands for `thing` whatever was looked at before: a set has no order."""
@@ -268,13 +341,14 @@ class _Canonical:
 
     def of(self, thing: Any, where: str = "") -> Any:
         """What stands for `thing` where something refers to it, as the attribute `where`."""
-        if isinstance(thing, self._atoms):
+        if self._is_atom(thing):
             return self._value(thing, where)
-        if id(thing) in self._numbers and not isinstance(thing, self._twins):
-            return ("#", self._numbers[id(thing)])
-        if id(thing) in self._known:
+        number = id(thing)
+        if number in self._numbers and not isinstance(thing, self._twins):
+            return ("#", self._numbers[number])
+        if number in self._known:
             return "."
-        if id(thing) in self._open:
-            return ("^", self._open[id(thing)])
-        self._open[id(thing)] = len(self._open)
+        if number in self._open:
+            return ("^", self._open[number])
+        self._open[number] = len(self._open)
         return self.content(thing)

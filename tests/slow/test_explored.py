@@ -44,6 +44,7 @@ def test_no_sequence_breaks_what_must_hold(
     report = Explorer(EVENTS[theme]).run(DEPTH)
     record_property(SEEN, f"{theme}: {report}")
     assert report.depth == DEPTH
+    assert len(report.by_depth) == DEPTH - 1
     assert min(report.by_depth) > 0
     assert set(EVENTS[theme]) - report.effective <= IN_VAIN
     assert not report.effective & IN_VAIN
@@ -199,5 +200,5 @@ def test_a_robot_side_without_a_safeguard_is_found_out(
 
 
 def test_a_kill_is_one_of_the_events() -> None:
-    report = Explorer(EVENTS["STOP"]).run(2)
+    report = Explorer(EVENTS["STOP"]).run(3)
     assert KILL in report.effective
