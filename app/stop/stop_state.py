@@ -132,6 +132,8 @@ class StopState:
         self._refusal = self._why = ""
         self._reached = True
         self._hopeless = self._done = self._released = False
+        self._command_id = self._void_id = ""
+        """Of the STOP that is asked for, and of the last one that was let go."""
 
     @property
     def verdict(self) -> Verdict:
@@ -157,17 +159,24 @@ class StopState:
         """STOP was pressed here; again while it is being sent changes nothing, after a release it begins anew."""
         under_way = not (math.isnan(self._asked_at) or self._done or self._released)
         if not under_way:
-            self.forget()
+            self._clear()
             self._asked_at = self._now()
 
     def forget(self) -> None:
-        """It is asked for no longer; what the robot says of it stands."""
+        """It is asked for no longer, and what is on its way of that says nothing; what the robot says of it stands."""
+        self._void_id = self._command_id
+        self._clear()
+
+    def _clear(self) -> None:
         self._asked_at = self._taken_at = math.nan
         self._refusal = ""
         self._done = self._released = False
 
     def on_outcome(self, outcome: Outcome) -> None:
         """What came of asking for it."""
+        if outcome.command_id and outcome.command_id == self._void_id:
+            return
+        self._command_id = outcome.command_id
         if outcome.phase == "sent" or math.isnan(self._asked_at):
             self.press()
         if outcome.phase == "accepted":

@@ -74,8 +74,8 @@ class Watch:
     def told(self, *, stopped: bool = True, at_rest: bool = True) -> None:
         self.stopping.on_status(ControlStatus(stopped=stopped, at_rest=at_rest), self.clock.time)
 
-    def outcome(self, phase: str, reason: str = "", *, silent: bool = False) -> None:
-        self.stopping.on_outcome(Outcome("stop", "1", phase, reason, silent=silent))
+    def outcome(self, phase: str, reason: str = "", *, silent: bool = False, id: str = "1") -> None:
+        self.stopping.on_outcome(Outcome("stop", id, phase, reason, silent=silent))
 
     @property
     def phase(self) -> str:
@@ -250,3 +250,21 @@ def test_a_stop_after_a_release_is_no_release(watch: Watch) -> None:
     assert watch.phase == "stopped"
     watch.told(stopped=False)
     assert watch.phase == "released"
+
+
+@pytest.mark.parametrize(("phase", "reason"), [("accepted", ""), ("no_reply", CUT), ("refused", CUT)])
+def test_what_was_on_its_way_when_it_was_let_go_does_not_press_it_again(
+    watch: Watch, phase: str, reason: str
+) -> None:
+    watch.stopping.press()
+    watch.outcome("sent")
+    watch.stopping.forget()
+    watch.outcome(phase, reason)
+    watch.clock.time += ANSWER_TIMEOUT
+    assert watch.phase == "ready"
+    watch.outcome("sent", id="2")
+    assert watch.phase == "sent", "the next STOP counts"
+    watch.outcome(phase, CUT)
+    assert watch.phase == "sent", "and what comes to the one before says nothing of it"
+    watch.outcome("no_reply", CUT, id="2")
+    assert watch.phase == "no_answer"
