@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from app.core.command_origin import origins
+from app.core.command_origin import NOBODY, origins
 from app.core.settings_store import Settings
 from app.link.capabilities import Capabilities
 from app.link.channels import CAPABILITIES, EVENT, KNOWN, LINK, MISSED, OUTCOME
@@ -213,9 +213,8 @@ class Session:
             self.on_rest()  # it may be back before anybody looks
 
     def _on_outcome(self, outcome: Outcome) -> None:
-        self.outcomes[outcome.name] = outcome
-        if outcome.name == "stop":
-            self.robot_stop.on_outcome(outcome)
+        if outcome.name != "stop" or self.robot_stop.on_outcome(outcome):
+            self.outcomes[outcome.name] = outcome
         if outcome.name == "mission" and outcome.phase != "sent":
             sent = Draft.of(outcome.fields["mission"])
             self.mission.answered(sent, outcome.phase == "accepted", outcome.sentence)
@@ -228,9 +227,9 @@ class Session:
         self.link = link
         if self.robot_stop.local.latched:
             link.latch()
-        stop = self.outcomes.get("stop")
-        if stop is not None and stop.phase != "accepted":
-            with origins.during(stop.origin):
+        if self.robot_stop.unanswered:
+            stop = self.outcomes.get("stop")
+            with origins.during(stop.origin if stop is not None else NOBODY):
                 link.stop()
         if self.mission.sent is not None:
             self.mission.answered(self.mission.sent, False, "No reply: the link was closed.")

@@ -57,6 +57,11 @@ class RobotStop:
         return "ready" if phase == "released" else phase
 
     @property
+    def unanswered(self) -> bool:
+        """STOP was pressed here, and the robot has not answered that it took it."""
+        return self._state.unanswered
+
+    @property
     def sentence(self) -> str:
         """The same for the operator; empty where the phase says it all."""
         if self._robot.foreign:
@@ -84,9 +89,9 @@ class RobotStop:
         self._connected = connected
         self._state.reach(connected, why, at=at, hopeless=hopeless)
 
-    def on_outcome(self, outcome: Outcome) -> None:
-        """The robot answered to a STOP."""
-        self._state.on_outcome(outcome)
+    def on_outcome(self, outcome: Outcome) -> bool:
+        """The robot answered to a STOP; False where that STOP was released meanwhile, and its answer says nothing."""
+        return self._state.on_outcome(outcome)
 
     def on_status(self, status: ControlStatus, received: float) -> None:
         """A control status came at `received` [s], our clock."""

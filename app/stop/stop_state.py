@@ -151,6 +151,11 @@ class StopState:
         return not math.isnan(self._taken_at)
 
     @property
+    def unanswered(self) -> bool:
+        """It was pressed here and not let go, and the robot has not answered that it took it."""
+        return not math.isnan(self._asked_at) and not self.taken
+
+    @property
     def lost_for(self) -> float:
         """So long ago the link to a robot was lost that was stopped [s]; NaN where it was not, or it was heard since."""
         return self._now() - self._lost_at
@@ -172,10 +177,10 @@ class StopState:
         self._refusal = ""
         self._done = self._released = False
 
-    def on_outcome(self, outcome: Outcome) -> None:
-        """What came of asking for it."""
+    def on_outcome(self, outcome: Outcome) -> bool:
+        """What came of asking for it; False, and nothing is noted, where that was let go meanwhile."""
         if outcome.command_id and outcome.command_id == self._void_id:
-            return
+            return False
         self._command_id = outcome.command_id
         if outcome.phase == "sent" or math.isnan(self._asked_at):
             self.press()
@@ -184,6 +189,7 @@ class StopState:
             self._done = self._done or (self._status is not None and self._status.stopped)
         elif outcome.phase in ("refused", "no_reply"):
             self._refusal = "" if outcome.silent else outcome.reason
+        return True
 
     def on_status(self, status: ControlStatus, received: float) -> None:
         """What the robot says of it, `received` when it came [s].

@@ -64,6 +64,24 @@ def test_a_full_disk_is_told_once_until_a_write_goes_well_and_leaves_no_file(
     assert (settings.problem, settings.news()) == ("", "")
 
 
+def test_what_was_saved_before_the_disk_was_full_is_still_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    settings = Settings(tmp_path)
+    settings._write('{"theme": "dark"}')
+
+    def sync(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("os.fsync", sync)
+        settings._write('{"theme": "light"}')
+    settings.close()
+    again = Settings(tmp_path)
+    assert (again.get("theme"), again.problem) == ("dark", "")
+    again.close()
+
+
 def test_no_half_written_file_is_left(tmp_path: Path) -> None:
     settings = Settings(tmp_path)
     for number in range(20):

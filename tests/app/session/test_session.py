@@ -143,6 +143,21 @@ def test_stop_can_be_let_go_before_it_was_done_and_is_asked_for_no_longer(watch:
     assert (watch.session.robot_stop.phase, watch.session.robot_stop.latched) == ("ready", False)
 
 
+@pytest.mark.parametrize("late", ["no_reply", "refused", "accepted"])
+def test_a_stop_that_was_released_is_not_sent_over_the_next_link_for_a_late_word_about_it(
+    watch: Watch, late: str
+) -> None:
+    watch.session.stop()
+    watch.outcome("sent")
+    watch.session.release_stop()
+    watch.outcome(late, UNREACHED)
+    next_link = Wire()
+    watch.session.resume(next_link)  # type: ignore[arg-type]
+    assert next_link.asked == []
+    assert watch.session.robot_stop.phase == "ready"
+    assert not watch.session.command_sent("stop")
+
+
 def test_a_stop_that_is_not_done_goes_on_over_a_new_link(watch: Watch) -> None:
     watch.outcome("no_reply", UNREACHED)
     new = Wire()
@@ -152,6 +167,14 @@ def test_a_stop_that_is_not_done_goes_on_over_a_new_link(watch: Watch) -> None:
     later = Wire()
     watch.session.resume(later)  # type: ignore[arg-type]
     assert later.asked == []
+
+
+def test_a_stop_that_was_pressed_at_the_last_moment_of_a_link_goes_on_over_the_next(watch: Watch) -> None:
+    """Nothing has come back of it yet, not even that it is on its way."""
+    watch.session.stop()
+    new = Wire()
+    watch.session.resume(new)  # type: ignore[arg-type]
+    assert "stop" in new.asked
 
 
 def test_a_link_that_is_lost_and_found_before_anybody_looks_brings_every_control_to_rest(

@@ -98,6 +98,15 @@ def test_what_shows_in_a_log_gives_no_token_away(tmp_path):
     assert "anna.secret" not in repr(Keyring(tmp_path).add(paired()))
 
 
+KEPT = {
+    "fingerprint": PATROL,
+    "name": "x",
+    "id": "x",
+    "role": "drive",
+    "token": "t",
+    "places": ["10.0.0.12:9090"],
+    "ends": None,
+}
 DAMAGED = [
     "",
     "{",
@@ -105,14 +114,27 @@ DAMAGED = [
     "[1]",
     "[" * 100_000,
     '[{"fingerprint": "ab"}]',
-    json.dumps([{"fingerprint": "", "name": "x", "id": "x", "role": "drive", "token": "t"}]),
-    json.dumps([{"fingerprint": PATROL, "name": "x", "id": "x", "role": "king", "token": "t"}]),
-    json.dumps([{"fingerprint": PATROL, "name": "x", "id": "x", "role": "drive", "token": ""}]),
-    json.dumps([{"fingerprint": PATROL, "name": "x", "id": "x", "role": "drive", "token": "t", "places": 1}]),
-    json.dumps(
-        [{"fingerprint": PATROL, "name": "x", "id": "x", "role": "drive", "token": "t", "ends": "now"}]
+    *(
+        json.dumps([KEPT | wrong])
+        for wrong in (
+            {"fingerprint": ""},
+            {"name": 7},
+            {"role": "king"},
+            {"token": ""},
+            {"token": "with a space"},
+            {"places": 1},
+            {"places": [1]},
+            {"ends": "now"},
+            {"ends": math.nan},
+        )
     ),
 ]
+
+
+def test_a_file_whose_every_field_is_right_is_read(tmp_path: Path):
+    (tmp_path / "keys.json").write_text(json.dumps([KEPT]))
+    ring = Keyring(tmp_path)
+    assert (ring.problem, [key.places for key in ring]) == ("", [("10.0.0.12:9090",)])
 
 
 @pytest.mark.parametrize("text", DAMAGED, ids=range(len(DAMAGED)))
