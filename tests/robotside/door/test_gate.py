@@ -6,10 +6,16 @@ import pytest
 
 from bridge.core.errors import Refused
 from bridge.core.identity import STRANGER, Identity, Role
-from bridge.core.robot_catalogue import Operator, Service
+from bridge.core.robot_catalogue import Action, Operator, Service
 from bridge.core.topics import TOPICS
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
+from bridge.msgs.pilothouse_msgs import (
+    CommandRequest,
+    CommandResponse,
+    RunTaskFeedback,
+    RunTaskGoal,
+    RunTaskResult,
+)
 from robotside.door.door import Door
 from robotside.door.gate import check_role
 from robotside.trust.permissions import PERMISSIONS, needed_role
@@ -76,6 +82,24 @@ def test_who_drives_drives() -> None:
     assert len(taken) == 1
 
 
+async def test_a_goal_needs_a_role_as_a_service_does() -> None:
+    begun: list[str] = []
+
+    async def start(operator: Operator, *_: object) -> RunTaskResult:
+        begun.append(operator.id)
+        return RunTaskResult()
+
+    goal = Action("/task/run", "pilothouse_msgs/RunTask", RunTaskGoal, RunTaskResult, RunTaskFeedback, start)
+    own = door(actions=[goal])
+    for key, sentence in (("", "pair with it first"), ("w", "needs the role drive")):
+        with pytest.raises(Refused, match=sentence):
+            await own.run(own.join("192.0.2.9:1", token=key), "/task/run", RunTaskGoal(), lambda _: None)
+    assert begun == []
+    driver = own.join("192.0.2.9:1", token="d")
+    await own.run(driver, "/task/run", RunTaskGoal(), lambda _: None)
+    assert begun == [driver.id]
+
+
 def test_a_role_ends_at_its_time() -> None:
     clock = [99.9]
     own = door(now=lambda: clock[0])
@@ -107,6 +131,8 @@ def test_who_is_expelled_may_nothing_stops_driving_and_is_cut_off() -> None:
     cut: list[str] = []
     own = door(on_gone=gone.append)
     client, other = (own.join("192.0.2.9:1", token=key) for key in "dm")
+    nobody = own.join("192.0.2.9:1")
+    nobody.on_expelled = lambda: cut.append("nobody")
     client.on_expelled = lambda: cut.append("d")
     other.on_expelled = lambda: cut.append("m")
     own.expel(["d", ""])

@@ -165,6 +165,18 @@ class TestACode:
         with pytest.raises(Refused, match=CLOSED):
             robot.pairing.finish("early", confirmations(right)[0])
 
+    def test_counts_in_no_pause_whoever_has_caused_it(self, robot: Robot) -> None:
+        offer, guest = robot.pairing.open(Role.DRIVE), robot.pairing.invite(Role.WATCH, 600.0)
+        right = robot.begun(offer.code, connection="early", address="192.0.4.1:1")
+        wrong = f"{guest.tag}{(int(guest.digits) + 1) % 1_000_000:06d}"
+        for number in range(5):
+            with pytest.raises(Refused, match="code is wrong"):
+                robot.typed(wrong, address=f"192.0.3.{number}:1")
+        with pytest.raises(Refused, match="Too many wrong codes"):
+            robot.pairing.finish("early", confirmations(right)[0])
+        robot.clock += 10.0
+        assert robot.typed(offer.code, address="192.0.4.1:1") is offer
+
     def test_of_one_host_is_tried_ten_times_a_minute_at_most(self, robot: Robot) -> None:
         offer = robot.pairing.open(Role.DRIVE)
         for _ in range(10):

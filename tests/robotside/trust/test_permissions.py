@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from bridge.core.identity import Role
-from robotside.trust.permissions import ANY, PERMISSIONS
+from robotside.trust.permissions import ANY, PERMISSIONS, needed_role
 from tests.robotside.scene import Scene
 
 
@@ -48,3 +48,27 @@ def test_without_a_role_there_is_stop_and_nothing_that_shows_or_moves_the_robot(
         "page /logout",
         "page /healthz",
     }
+
+
+def test_who_watches_sees_what_there_is_and_may_go_and_changes_nothing_else() -> None:
+    watched = {each for each, role in PERMISSIONS.items() if role is Role.WATCH}
+    assert watched == {
+        f"subscribe {ANY}",
+        f"camera {ANY}",
+        f"rosapi {ANY}",
+        f"page {ANY}",
+        "call /events/get",
+        "call /history/get",
+        "call /mission/get",
+        "call /missions/get",
+        "call /people/remove",
+    }
+
+
+def test_the_line_of_a_name_goes_before_that_of_its_verb_and_what_has_neither_is_for_managers() -> None:
+    assert needed_role("subscribe", "/robot/info") is Role.NONE
+    assert needed_role("subscribe", "/scan") is Role.WATCH
+    assert needed_role("page", "/audit.csv") is Role.MANAGE
+    assert needed_role("publish", "/of/no/line") is Role.MANAGE
+    assert needed_role("call", "/of/no/line") is Role.MANAGE
+    assert needed_role("shout", "/stop") is Role.MANAGE

@@ -134,6 +134,12 @@ class TestAKey:
         house.clock += 60.0
         assert WRONG in house.refused(f"{anna.id}.{'A' * 43}")
 
+    async def test_of_nobody_counts_as_a_wrong_one(self, house: House) -> None:
+        for number in range(5):
+            assert WRONG in house.refused(f"{number:016x}.secret")
+        assert "Too many wrong keys" in house.refused(f"{5:016x}.secret")
+        assert WRONG in house.refused(f"{5:016x}.secret", "192.0.2.10:1")
+
     async def test_wrong_ones_fill_no_log(self, house: House, caplog: pytest.LogCaptureFixture) -> None:
         with caplog.at_level(logging.WARNING):
             for number in range(500):
@@ -237,6 +243,17 @@ class TestAnotherProgram:
         PeopleFile(house.state).change(lambda people: [replace(each, **change) for each in people])
         house.trust.update()
         assert house.lost == ([anna.id] if loses else [])
+
+    async def test_that_gives_somebody_another_key_makes_the_old_one_worthless(self, house: House) -> None:
+        anna, before = await house.known()
+        house.trust.identify(before, FAR)
+        other, token = keys.make_person("Anna", Role.DRIVE, TOKEN, now=1000.0)
+        fresh = replace(anna, key=other.key, salt=other.salt)
+        PeopleFile(house.state).change(lambda _: [fresh])
+        house.trust.update()
+        assert WRONG in house.refused(before)
+        secret = token.partition(".")[2]
+        assert house.trust.identify(f"{anna.id}.{secret}", FAR).id == anna.id
 
     async def test_that_damages_the_file_leaves_nobody(
         self, house: House, caplog: pytest.LogCaptureFixture
