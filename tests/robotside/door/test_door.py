@@ -205,6 +205,13 @@ async def test_without_a_time_limit_it_is_waited_for(timeout: float | None) -> N
     assert await waiting == answer()
 
 
+def test_stop_and_control_go_before_everything_else_and_nothing_beside_them() -> None:
+    control = {f"/control/{what}" for what in ("acquire", "release", "request", "grant", "object")}
+    assert {"/stop", "/stop/hold", "/stop/release"} | control == URGENT
+    assert Door().is_urgent("/stop")
+    assert not Door().is_urgent("/task/start")
+
+
 async def test_an_operator_has_so_many_calls_in_progress_and_stop_is_always_taken() -> None:
     door = Door(services=[service("/slow", never), *(service(name, answer) for name in URGENT)])
     busy, other = door.join("busy"), door.join("other")

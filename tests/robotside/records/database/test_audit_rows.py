@@ -55,6 +55,14 @@ def test_a_row_that_was_changed_is_found(what: dict[str, object]) -> None:
     assert first_bad(rows) == 3
 
 
+def test_a_chain_that_was_made_anew_without_its_beginning_is_found() -> None:
+    """Whoever can write the file can chain anew, but not say what stands for the rows before."""
+    rows: list[Audited] = []
+    for row in chain(5)[2:]:
+        rows.append(chained(row, rows[-1].hash if rows else ""))
+    assert first_bad(rows) == 3
+
+
 def test_a_row_that_was_taken_out_is_found_and_so_is_one_at_the_beginning() -> None:
     rows = chain(5)
     assert first_bad([*rows[:2], *rows[3:]]) == 3

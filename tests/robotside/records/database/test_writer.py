@@ -20,6 +20,7 @@ class Paper(Store):
 
     def __init__(self) -> None:
         self.written: list[list[object]] = []
+        self.tries = 0
         self.go = threading.Event()
         self.go.set()
         self.problem: NotWritten | None = None
@@ -31,6 +32,7 @@ class Paper(Store):
 
     def write(self, puts: list[Put]) -> None:
         self.go.wait(5.0)
+        self.tries += 1
         if self.problem:
             raise self.problem
         if any(put.value == self.bad for put in puts):
@@ -117,6 +119,17 @@ def test_one_that_cannot_be_written_costs_the_others_nothing(
     assert desk.look(5) == ["", "", "It is bad.", "", ""]
 
 
+def test_a_disk_that_fails_is_tried_once_for_all_that_waits(paper: Paper, desk: Desk) -> None:
+    paper.problem = NotWritten("The disk is full.")
+    writer = WriterThread(paper, desk.soon)
+    for number in range(5):
+        writer.submit(job(number), desk.hear)
+    writer.start()
+    assert desk.look(5) == ["The disk is full."] * 5
+    writer.close()
+    assert paper.tries == 1
+
+
 def test_too_many_are_refused_and_none_waits_for_the_disk(
     writer: WriterThread, paper: Paper, desk: Desk
 ) -> None:
@@ -167,6 +180,41 @@ def test_a_backup_that_is_young_will_do_for_now(paper: Paper, desk: Desk) -> Non
     desk.look(1)
     writer.close()
     assert paper.backups == 0
+
+
+def test_what_was_backed_up_is_not_backed_up_again_before_something_changes(
+    paper: Paper, desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for period in ("BACKUP_PERIOD", "RETRY_PERIOD"):
+        monkeypatch.setattr(f"robotside.records.database.writer.{period}", 0.001)
+    writer, idle = WriterThread(paper, desk.soon), queue.Queue[None]()
+    writer.on_idle = lambda: idle.put(None)
+    writer.submit(job(1), desk.hear)
+    writer.start()
+    desk.look(1)
+    for _ in range(4):
+        call, arguments = desk.calls.get(timeout=5.0)
+        call(*arguments)
+    writer.close()
+    assert idle.qsize() == 4
+    assert paper.backups == 1
+
+
+def test_so_much_is_held_back_while_the_database_is_broken_and_the_rest_is_refused(
+    paper: Paper, desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("robotside.records.database.writer.MAX_WAITING", 3)
+    paper.problem = NotWritten("Broken.", damaged=True)
+    writer = WriterThread(paper, desk.soon)
+    for number in range(3):
+        writer.submit(job(number), desk.hear)
+    writer.start()
+    desk.calls.get(timeout=5.0)  # the damage is told: these three are held back
+    late = job(3)
+    writer.submit(late, desk.hear)
+    desk.look(1)
+    assert desk.told == [(late, "The database is damaged: nothing was stored.")]
+    writer.close()
 
 
 def test_a_loop_that_has_ended_stops_nothing(paper: Paper) -> None:
