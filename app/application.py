@@ -17,6 +17,7 @@ from app.core.notifications import notify
 from app.core.settings_store import Settings
 from app.device import device_name, is_android, own_folder
 from app.discovery.known_robots import KnownRobots
+from app.frame_pacing import tell_slow
 from app.garbage_collector import Collector
 from app.inputs.inputs import Inputs
 from app.inputs.methods import Methods
@@ -78,7 +79,7 @@ class PilothouseApp(App):
         """`url` is connected to at once, robots whose links are in `pair` are paired with unasked; `screen` is shown once connected, `inputs` without a robot too.
 
         `theme` overrides the remembered one, `layout` the one that is made for the robot; `simulator` is the command that starts the built-in simulator;
-        `discover` listens to robots saying HELLO; `poll` looks for fingers once more a frame. Raises LayoutError for a layout that cannot be shown.
+        `discover` listens to robots saying HELLO; `poll` looks for fingers once more a frame, and before it is drawn. Raises LayoutError for a layout that cannot be shown.
         """
         super().__init__(**kwargs)
         self._url, self._first_screen, self._theme, self._pair = url, screen or "mission", theme, pair
@@ -147,6 +148,7 @@ class PilothouseApp(App):
             on_cut=self._cut,
             on_left=self._left,
             ask_to_pair=self.robot_list.trust.ask,
+            pacer=lambda: self.timers.pacer,
             now=self.now,
         )
 
@@ -165,7 +167,7 @@ class PilothouseApp(App):
             now=self.now,
         )
         self.mailbox, self.robot_list.trust.attempts = self._network.mailbox, self._network.pairing
-        self._timers = Timers(look=self._look, beat=self._beat, refresh_list=self._list, poll=self._poll)
+        self.timers = Timers(self._look, self._beat, self._list, partial(tell_slow, self), poll=self._poll)
         self.inputs = Inputs(self, self.now)
         self.inputs.open()
         self.methods.open()
@@ -182,7 +184,7 @@ class PilothouseApp(App):
         """Leave the robot at rest, end every thread and the simulator."""
         self.methods.close()
         self.inputs.close()
-        self._timers.close()
+        self.timers.close()
         self.fleet.close()
         self.leave()
         self.records.stop()

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING
 
 from app.connector import Connector
+from app.frame_pacing import FramePacer
 from app.link.camera_decoder import PICTURE, REFUSED
 from app.link.feeds import Post
 from app.pages import Pages
@@ -37,17 +39,19 @@ class RobotVisit:
         on_cut: Callable[[Shell | None], object],
         on_left: Callable[[], object],
         ask_to_pair: Callable[[str, str], object],
+        pacer: Callable[[], FramePacer],
         now: Callable[[], float],
     ) -> None:
         """`connector` gives what makes links, `make_shell` the screens of a robot that answered; `now` is our clock [s].
 
         `rest` is called when every control has to let go, `on_cut` with the robot's screens before its link is closed, `on_left` afterwards.
         `ask_to_pair` gets the address of a robot that does not let this handheld in, and why.
+        `pacer` gives what knows whether a frame is being drawn: a picture is shown when none is.
         """
         self._pages, self._connect, self._records = pages, connect, records
         self._connector, self._make_shell = connector, make_shell
         self._rest, self._on_cut, self._on_left = rest, on_cut, on_left
-        self._ask_to_pair = ask_to_pair
+        self._ask_to_pair, self._pacer = ask_to_pair, pacer
         self._pictures = PictureFeed(now)
         self.session: Session | None = None
         """None while no robot is wanted."""
@@ -89,12 +93,16 @@ class RobotVisit:
     def deliver(self, channel: str, post: Post) -> None:
         """Something came from the robot."""
         if channel == PICTURE:
-            self._pictures.show(post.value, post.received, self._pages.shell, self.session)
+            self._pacer().when_free(partial(self._show, post, self.session))
         elif channel == REFUSED:
             self._pictures.refuse(post.value)
         elif self.session is not None:
             self.session.deliver(channel, post)
             self._records.put(channel, post.value)
+
+    def _show(self, picture: Post, of: Session | None) -> None:
+        if self.session is of:  # the robot may have been left meanwhile
+            self._pictures.show(picture.value, picture.received, self._pages.shell, of)
 
     def tick(self) -> None:
         """Bring everything up to date that time changes."""

@@ -8,6 +8,10 @@ from typing import Any
 from kivy.clock import Clock
 from kivy.core.window import Window
 
+from app.device import sdl_library
+from app.device.gl_fences import GlFences
+from app.frame_pacing import FramePacer
+
 __all__ = ["BEAT_PERIOD", "GLASS_PERIOD", "LIST_PERIOD", "TICK_EVERY", "Timers", "wake_trigger"]
 
 GLASS_PERIOD = 1 / 30
@@ -34,13 +38,15 @@ class Timers:
 
     def __init__(
         self,
-        *,
         look: Callable[[], object],
         beat: Callable[[], object],
         refresh_list: Callable[[], object],
+        on_slow: Callable[[bool], object],
+        *,
         poll: bool,
     ) -> None:
-        """`poll` looks for fingers once more a frame."""
+        """`poll` looks for fingers once more a frame, and before it is drawn; `on_slow` is told when drawing becomes slow and when it is fast again."""
+        self.pacer = FramePacer(Window, GlFences.of(sdl_library()) if poll else None, on_slow=on_slow)
         self._events = [
             Clock.schedule_interval(lambda _: look(), GLASS_PERIOD),
             Clock.schedule_interval(lambda _: beat(), BEAT_PERIOD),
@@ -48,8 +54,10 @@ class Timers:
         ]
         if poll:  # Kivy hands a touch on two frames after it came; this saves one of them
             self._events.append(Clock.schedule_interval(lambda _: Window.mainloop(), 0))
+            self.pacer.open()
 
     def close(self) -> None:
         """Call nothing any more."""
         for event in self._events:
             event.cancel()
+        self.pacer.close()
