@@ -93,6 +93,13 @@ class Scene:
                 client.last_heard = self.clock
             self.station.step(self.now)
 
+    def until(self, done: Callable[[], bool], limit: float) -> None:
+        """Let time pass until it is so; fails when it is not within `limit` [s]."""
+        end = self.now + limit
+        while not done():
+            assert self.now < end, f"not so within {limit:g} s"
+            self.run(0.1)
+
     def run_task(self, limit: float = 200.0) -> TaskStatus:
         end = self.now + limit
         while self.station.autonomy.engine.running and self.now < end:

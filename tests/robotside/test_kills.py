@@ -11,7 +11,7 @@ from bench.support.crash import Ledger, crash, find_losses
 
 async def killed(state: Path, ledger: Ledger) -> list[str]:
     rng, lost = random.Random(3), list[str]()
-    for early in (0.0, 0.0, 1.0, 0.0):
+    for early in (0.0, 1.0, 0.0):
         lost += (await crash(state, ledger, rng, early)).lost
     return lost + await find_losses(state, ledger)
 

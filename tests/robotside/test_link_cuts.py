@@ -1,4 +1,4 @@
-"""Five hundred links that are cut at random instants while a robot is driven at full speed, over all kinds, in virtual time."""
+"""Three hundred links that are cut at random instants while a robot is driven at full speed, over all kinds, in virtual time."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from robotside.control.command_expiry import HOLD_TIME, MAX_UNSTAMPED_AGE, VALID
 from tests.fakes import FakeClient, FakeRobot
 from tests.robotside.scene import Scene
 
-CUTS = 100
+CUTS = 60
 """Of each kind."""
 TICK = 1 / 60
 PERIOD = 1 / 20

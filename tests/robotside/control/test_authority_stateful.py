@@ -1,7 +1,7 @@
-"""A thousand random sequences of what operators may do with control: never two drivers, never a stranger's command, STOP always.
+"""Hundreds of random sequences of what operators may do with control: never two drivers, never a stranger's command, STOP always.
 
 Once with the controls alone; once with a whole station behind its door, where operators come by rosbridge and by a gateway
-in memory, and STOP by HTTP as well.
+in memory, and STOP by HTTP as well. Sequences of eight there are all gone through by `tests/slow`; these are longer.
 """
 
 from __future__ import annotations
@@ -230,7 +230,7 @@ class Operators(RuleBasedStateMachine):
 
 TestOperators = Operators.TestCase
 TestOperators.settings = settings(
-    max_examples=1000,
+    max_examples=600,
     stateful_step_count=30,
     deadline=None,
     derandomize=True,
@@ -292,4 +292,4 @@ class OperatorsAtTheDoor(Operators):
 
 
 TestOperatorsAtTheDoor = OperatorsAtTheDoor.TestCase
-TestOperatorsAtTheDoor.settings = settings(TestOperators.settings, max_examples=200)
+TestOperatorsAtTheDoor.settings = settings(TestOperators.settings, max_examples=80)

@@ -73,7 +73,7 @@ def test_the_queue_is_done_in_its_order_one_after_the_other(scene: Scene) -> Non
     scene.run(1.0)
     assert scene.task.state == "RUNNING"
     assert [order.task for order in queue(scene).orders] == ["hold", "go_to"]
-    scene.run(60.0)
+    scene.until(lambda: not queue(scene).orders and scene.task.state == "SUCCEEDED", 60.0)
     assert begun(scene) == ["go_to", "hold", "go_to"]
     assert scene.task.state == "SUCCEEDED"
     assert math.hypot(scene.robot.pose[0] - 2.0, scene.robot.pose[1] - 2.0) < 0.2
@@ -118,7 +118,7 @@ def test_a_task_of_the_queue_that_fails_or_cannot_be_done_any_more_lets_the_next
     fill(scene, straight, TaskOrder(task="go_home"), HOLD)
     scene.run(1.0)
     scene.set(home=[])
-    scene.run(60.0)
+    scene.until(lambda: begun(scene)[1:] == ["hold"], 60.0)
     assert begun(scene) == ["follow_heading", "hold"]
     said = "The way home of the queue is left out: Home is not set; set it on the map first."
     assert said in scene.events("task")
@@ -146,7 +146,7 @@ def test_the_queue_waits_after_what_an_operator_or_the_battery_ended_and_goes_on
         scene.drive(Twist.planar(-0.1, 0.0))
     else:
         scene.robot.battery = 0.09
-    scene.run(60.0)
+    scene.run(20.0)
     assert begun(scene)[0] == "go_to"
     assert begun(scene)[1:] in ([], ["go_home"], ["go_to"])
     assert scene.robot.at_rest
@@ -155,13 +155,11 @@ def test_the_queue_waits_after_what_an_operator_or_the_battery_ended_and_goes_on
     scene.run(1.1)
     if how in ("stop", "stick"):
         scene.ask("/task/resume")
-        scene.run(60.0)
     else:
         waits = [said for said in scene.events("task") if said.endswith("until you choose Go on with this.")]
         assert len(waits) == 1
         assert scene.ask("/task/resume").message == "The queue goes on."
-        scene.run(20.0)
-    assert queue(scene).orders == []
+    scene.until(lambda: not queue(scene).orders and not scene.station.autonomy.engine.running, 60.0)
     assert math.hypot(scene.robot.pose[0], scene.robot.pose[1] - 2.0) < 0.2
 
 
@@ -187,15 +185,14 @@ def test_what_was_parked_stays_so_behind_another_task_until_told(
     scene.run(1.0)
     scene.ask("/task/pause")
     scene.ask("/task/resume")
-    scene.run(20.0)
+    scene.run(10.0)
     assert begun(scene)[-1] == "hold"
     assert scene.task.state == "SUCCEEDED"
     assert len(queue(scene).orders) == 2
     assert queue(scene).held, "it is shown for as long as it waits"
     assert scene.ask("/task/resume").message == "The queue goes on."
     assert queue(scene).held == ""
-    scene.run(60.0)
-    assert queue(scene).orders == []
+    scene.until(lambda: not queue(scene).orders, 60.0)
 
 
 def test_a_task_that_is_taken_up_from_manual_takes_the_queue_behind_it_along(scene: Scene) -> None:
@@ -204,8 +201,7 @@ def test_a_task_that_is_taken_up_from_manual_takes_the_queue_behind_it_along(sce
     scene.run(1.0)
     mode(scene, "MANUAL")
     scene.ask("/task/resume")
-    scene.run(40.0)
-    assert begun(scene) == ["hold", "go_to"]
+    scene.until(lambda: begun(scene) == ["hold", "go_to"], 40.0)
 
 
 def test_a_task_that_is_taken_up_after_a_crash_does_not_bring_the_queue_along(
