@@ -226,7 +226,7 @@ class PilothouseApp(App):
         self._looks += 1
         if self._looks % TICK_EVERY == 0:  # in the same frame: one of its own would be drawn for it
             self._tick()
-        self.collector.step()
+        self.collector.step(pushed=self.timers.pacer.touched or self.inputs.pushed)
 
     def _deliver(self, channel: str, post: Post) -> None:
         if self.robot_list.on_post(channel, post) or self.simulating.on_post(channel, post):

@@ -24,6 +24,8 @@ with software GL a look takes 12 to 18 ms then, for 125 000 objects, and 26 to 3
 73 000 of them go; several times that while others keep the processor busy. The 56 000 objects that were there from the
 start are left out of it, else it would be 34 and 51 ms.
 """
+MAX_PUSHED = 500_000
+"""Blocks by which Python may grow while a finger is down: some 40 MB; by then one pause is the lesser evil."""
 RECHECK_OBJECTS = 10_000
 """Objects found in a look at everything that are worth another one with the next."""
 MAX_RECHECKS = 7
@@ -75,9 +77,14 @@ class Collector:
         self._due, self._left = True, weakref.ref(left)
         self._looks = self._wait = 0
 
-    def step(self) -> None:
-        """Collect if there may be enough; to be called between frames, from the clock and from no binding."""
+    def step(self, *, pushed: bool = False) -> None:
+        """Collect if there may be enough; to be called between frames, from the clock and from no binding.
+
+        While something is `pushed`, by a finger or otherwise, it waits: a hand that steers must not feel it.
+        """
         blocks = sys.getallocatedblocks()  # 0.01 to 0.05 ms
+        if pushed and blocks - self._blocks < MAX_PUSHED:
+            return
         if self._due or self._again() or blocks - self._blocks >= OLD:
             # a screen comes apart in two goes: the first lets go of the second
             self._due = gc.collect() >= RECHECK_OBJECTS

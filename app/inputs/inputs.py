@@ -143,6 +143,11 @@ class Inputs:
         """The controls that drive on the screen on the glass, each with the stick of a gamepad that pushes it too."""
         return self._pushing.sticks
 
+    @property
+    def pushed(self) -> bool:
+        """A control that drives is out of its middle, whatever pushes it."""
+        return any(stick.forward or stick.left for stick, _ in self.sticks)
+
     def update(self) -> None:
         """Whatever pushes a control is looked at, and what is pressed on the gamepads."""
         states = self._source.pads()

@@ -10,6 +10,7 @@ import pytest
 
 from app import garbage_collector as garbage
 from app.garbage_collector import Collector
+from tests.app.glass import Glass
 from tests.thrown import Lasting, automatic, make_much, throw_away
 
 
@@ -169,3 +170,51 @@ def test_one_within_another_leaves_it_as_it_was(collector: Collector) -> None:
     frozen = gc.get_freeze_count()
     inner.close()
     assert gc.get_freeze_count() == frozen
+
+
+def test_while_something_is_pushed_nothing_is_collected(collector: Collector) -> None:
+    cycle, left = old()
+    collector.expect(cycle)
+    del cycle
+    gone = dropped()
+    kept = [[] for _ in range(garbage.YOUNG + 2 * garbage.OLD)]
+    collector.step(pushed=True)
+    assert gone() is not None
+    assert left() is not None
+    collector.step()
+    assert gone() is None
+    assert left() is None
+    assert kept
+
+
+def test_a_push_that_lasts_takes_no_more_memory_than_it_may(
+    collector: Collector, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(garbage, "MAX_PUSHED", garbage.OLD)
+    gone = dropped()
+    kept = [[] for _ in range(garbage.OLD + 1000)]
+    collector.step(pushed=True)
+    assert gone() is None
+    assert kept
+
+
+def test_a_finger_and_a_gamepad_put_it_off(driving: Glass, monkeypatch: pytest.MonkeyPatch) -> None:
+    looks: list[bool] = []
+    monkeypatch.setattr(Collector, "step", lambda _, *, pushed: looks.append(pushed))
+
+    def looked() -> bool:
+        looks.clear()
+        driving.until(lambda: len(looks) > 1, "it is not asked to look")
+        return looks[-1]
+
+    stick = driving.app.screens["drive"].stick
+    assert not looked()
+    finger = driving.stage.touch(5, 5)
+    finger.touch_down()
+    assert looked(), "a finger anywhere"
+    finger.touch_up()
+    assert not looked()
+    stick.lean(1.0, 0.0)
+    assert driving.app.inputs.pushed
+    monkeypatch.setattr(type(driving.app.inputs), "pushed", True)
+    assert looked(), "a stick that no finger has"
