@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 import sys
 import textwrap
@@ -180,6 +181,7 @@ def test_only_what_the_pattern_finds_runs(project):
     assert run(project, "--only", "nothing").returncode == 2
 
 
+@pytest.mark.skipif(shutil.which("git") is None, reason="git is missing")
 def test_touched_is_whose_file_tests_or_entry_changed(project):
     def git(*arguments: str) -> None:
         named = ("-c", "user.name=x", "-c", "user.email=x@example.org", *arguments)

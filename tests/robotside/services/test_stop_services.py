@@ -108,6 +108,17 @@ def test_a_stop_without_a_stamp_was_given_when_it_came(scene: Scene) -> None:
     assert scene.control.stopped
 
 
+def test_a_release_that_was_late_on_its_way_does_not_end_the_hold_of_a_later_stop(scene: Scene) -> None:
+    late = CommandRequest(stamp=scene.clock)
+    scene.run(0.5)
+    scene.ask("/stop")
+    scene.ask("/stop/hold")
+    scene.run(MIN_HOLD_TIME + 0.1)
+    assert scene.refused("/stop/release", late) == "STOP was pressed after this request: it stays."
+    assert scene.control.stopped
+    assert scene.ask("/stop/release", CommandRequest(stamp=scene.clock)).success
+
+
 def test_without_a_hold_of_a_second_stop_stays(scene: Scene) -> None:
     scene.ask("/stop")
     assert scene.refused("/stop/release") == NOT_HELD
