@@ -91,6 +91,18 @@ async def test_who_may_not_come_plain_is_told_in_one_answer_where_to_go(context:
             await safe.settled()
 
 
+async def test_who_is_turned_away_and_sends_on_is_cut(
+    context: ssl.SSLContext, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "_LINGER_TIME", 3600.0)
+    async with secured(context, plain_from=nobody) as robot, bare(robot) as (reader, writer):
+        writer.write(b"GET / HTTP/1.1\r\n")
+        assert b" 426 " in await reader.readline()
+        assert len(robot._reception.places) == 1, "it has time to read why"
+        writer.write(b"x" * (module._MAX_IGNORED_BYTES + 1))
+        await nobody_left(robot)
+
+
 async def test_what_comes_with_the_last_message_of_the_handshake_is_not_lost(context: ssl.SSLContext) -> None:
     async with secured(context) as robot:
         incoming, outgoing = ssl.MemoryBIO(), ssl.MemoryBIO()
