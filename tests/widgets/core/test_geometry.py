@@ -7,6 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from bridge.msgs.geometry_msgs import Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
+from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.sensor_msgs import Imu
 from widgets.core import geometry
 from widgets.core.geometry import View
 
@@ -189,3 +192,14 @@ def test_a_thinned_line_keeps_its_ends_and_loses_no_bend():
 def test_a_line_too_short_to_thin_stays_as_it_is():
     assert len(geometry.thinned(np.zeros((2, 2)), 1.0)) == 2
     assert len(geometry.thinned(np.zeros((0, 2)), 1.0)) == 0
+
+
+def test_the_heading_of_a_message_is_that_of_its_bow_and_unknown_where_none_is_measured():
+    """REP-145: an Imu whose first covariance is -1 measures no orientation."""
+    north = Quaternion.from_yaw(math.pi / 2)
+    pose = PoseWithCovariance(Pose(orientation=north))
+    assert geometry.heading_of(Imu(orientation=north)) == pytest.approx(0.0)
+    assert geometry.heading_of(Odometry(pose=pose)) == pytest.approx(0.0)
+    assert geometry.heading_of(PoseWithCovarianceStamped(pose=pose)) == pytest.approx(0.0)
+    blind = Imu(orientation=north, orientation_covariance=[-1.0, *[0.0] * 8])
+    assert math.isnan(geometry.heading_of(blind))

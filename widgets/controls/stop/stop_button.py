@@ -188,6 +188,16 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
     sentence_size = AliasProperty(_sentence_size, bind=["word_size", "size", "upright"], cache=True)
     """Height of the sentence's type [px]; it goes on two lines where it is too long."""
 
+    def __init__(self, **kwargs: Any) -> None:
+        self._holding: set[int] = set()
+        """Touches that came down to hold; one that stopped the robot and rests there is not among them."""
+        super().__init__(**kwargs)
+
+    def rest(self) -> None:
+        """Forget a hold that has begun, whoever holds."""
+        self._holding.clear()
+        super().rest()
+
     def on_phase(self, *_: object) -> None:
         """A hold belongs to the phase that it began in."""
         self.rest()
@@ -209,12 +219,14 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
         touch.grab(self)
         self.pressed += 1
         unanswered = self.local and self.phase in ("no_answer", "moves")
-        begins = self.phase == "stopped" or unanswered
-        if begins:
+        holds = self.phase == "stopped" or unanswered
+        begins = holds and not self._holding
+        if holds:
+            self._holding.add(touch.uid)
             self.hold(RELEASE_DURATION if self.phase == "stopped" else LONG_HOLD_DURATION)
         if self.phase != "stopped":
             self.dispatch("on_command")
-        if begins and self.pressed == 1:  # after a STOP that is given once more, and not by a second finger
+        if begins:  # after a STOP that is given once more, and not by a second finger
             self.dispatch("on_hold_stop")
         return True
 
@@ -224,7 +236,8 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
             return False
         touch.ungrab(self)
         self.pressed = max(0, self.pressed - 1)
-        if not self.pressed:
+        self._holding.discard(touch.uid)
+        if not self._holding:
             self.rest()
         return True
 

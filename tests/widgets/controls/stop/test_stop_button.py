@@ -211,3 +211,45 @@ def test_a_hold_ends_with_the_last_finger(stage, stop):
     second.touch_up()
     stage.run_for(2 * RELEASE_DURATION)
     assert (stop.heard, stop.held, stop.pressed) == ([], 0, 0)
+
+
+@pytest.mark.parametrize(
+    ("local", "phase"), [(False, "stopped"), (True, "stopped"), (True, "no_answer"), (True, "moves")]
+)
+def test_a_thumb_that_rests_on_it_since_stop_does_not_go_on_with_the_hold_of_another_finger(
+    stage, stop, local, phase
+):
+    stop.local = local
+    thumb, frightened = stage.touch(50, 40), stage.touch(250, 40)
+    thumb.touch_down()
+    stop.phase = phase
+    stage.run_for(0.5)
+    frightened.touch_down()
+    stage.run_for(0.2)
+    frightened.touch_up()
+    assert stop.held == 0
+    stage.run_for(2 * LONG_HOLD_DURATION)
+    thumb.touch_up()
+    assert "release" not in stop.heard
+
+
+def test_beside_a_thumb_that_rests_on_it_since_stop_a_hold_is_told_and_releases(stage, stop):
+    stage.touch(50, 40).touch_down()
+    stop.phase = "stopped"
+    finger = stage.touch(250, 40)
+    finger.touch_down()
+    stage.run_for(1.1 * RELEASE_DURATION)
+    assert (stop.holds, stop.heard) == (["hold"], ["stop", "release"])
+    finger.touch_up()
+
+
+def test_a_finger_that_came_during_a_hold_may_finish_it(stage, stop):
+    stop.phase = "stopped"
+    first, second = stage.touch(50, 40), stage.touch(250, 40)
+    first.touch_down()
+    stage.run_for(0.5 * RELEASE_DURATION)
+    second.touch_down()
+    first.touch_up()
+    stage.run_for(0.6 * RELEASE_DURATION)
+    assert (stop.holds, stop.heard) == (["hold"], ["release"])
+    second.touch_up()
