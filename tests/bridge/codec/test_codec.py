@@ -102,6 +102,11 @@ WRONG = [
     (Twist, b'{"linear":null}', "linear must be an object, not null."),
     (Twist, b"[1]", "geometry_msgs/Twist must be an object, not [1]."),
     (Time, b'{"secs":1.5}', "secs must be a whole number of at most 64 bits, not 1.5."),
+    (
+        Time,
+        b'{"secs":18446744073709551616}',
+        "secs must be a whole number of at most 64 bits, not 18446744073709551616.",
+    ),
     (LaserScan, b'{"ranges":["near"]}', 'ranges must be a list of numbers, not ["near"].'),
     (LaserScan, b'{"ranges":5}', "ranges must be a list of numbers, not 5."),
     (OccupancyGrid, b'{"data":[300]}', "data must be a list of whole numbers from -128 to 127, not [300]."),

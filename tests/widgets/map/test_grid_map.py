@@ -370,6 +370,25 @@ def test_a_grid_lies_where_its_origin_says(map_, stage):
     assert map_._cells.size == (2, 1)
 
 
+@pytest.mark.parametrize("turn", [0.0, 0.5])
+@pytest.mark.parametrize("yaw", [0.0, math.pi / 2, -0.3])
+def test_a_grid_is_turned_as_its_origin_says_and_as_the_map_is(map_, stage, yaw, turn):
+    """Its far corner in the row of its origin is where the view shows that place."""
+    origin, resolution = Point(-2.0, 1.0), 0.5
+    info = MapMetaData(
+        resolution=resolution, width=2, height=1, origin=Pose(origin, Quaternion.from_yaw(yaw))
+    )
+    map_.show(OccupancyGrid(info=info, data=Int8Array([0, 100])))
+    map_.set_view(View.centred(0, 0, at=(200, 150), scale=10, turn=turn))
+    stage.frames()
+    far = map_.view.to_screen(
+        origin.x + 2 * resolution * math.cos(yaw), origin.y + 2 * resolution * math.sin(yaw)
+    )
+    angle, long = math.radians(map_._turn.angle), 2 * map_._scale.x
+    left, low = map_._shift.xy
+    assert (left + long * math.cos(angle), low + long * math.sin(angle)) == near(*far)
+
+
 # how it is looked at
 
 

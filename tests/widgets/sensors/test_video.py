@@ -204,3 +204,16 @@ def test_it_says_why_no_newer_picture_is_shown(video, stage):
     assert [word.text for word in video._sentence()] == ["Last picture 5 s ago", video.refusal]
     video.refusal = ""
     assert [word.text for word in video._sentence()] == ["Last picture 5 s ago"]
+
+
+@pytest.mark.parametrize(("corner", "fit"), [(12, "cover"), (0, "cover"), (0, "contain")])
+def test_an_old_picture_is_faded_and_a_fresh_one_is_not(video, stage, corner, fit):
+    video.corner, video.fit = corner, fit
+    video.show_frame(64, 48, FRAME)
+    for state, faded in (("live", False), ("stale", True), ("live", False), ("never", True)):
+        video.state = state
+        stage.frames(2)
+        through_the_lens = video._picture.size[0] > 0
+        strength = video._lens["strength"] if through_the_lens else 1.0
+        assert (strength < 0.5) is faded, state
+        assert (video._plain.size[0] > 0) is not through_the_lens, "drawn once, plain or by the lens"
