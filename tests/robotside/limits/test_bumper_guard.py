@@ -102,7 +102,7 @@ def test_a_wall_is_touched_once_and_pushed_no_more(pushed: Make, name: str, orde
     if name == "ardrone":
         run.order("take_off", height=0.4)
         run.finish()
-    run.push(order, 20.0)
+    run.push(order, 14.0)
     x = run.place[0]
     assert vehicle.bumper.bumps == 1
     assert run.said() == ["The bumper touched something ahead."]

@@ -25,7 +25,7 @@ KERB = ((-16.6, -12.5), (-16.0, -12.5), (-16.0, -11.0), (-16.6, -11.0))
 
 @pytest.fixture
 def robot() -> Iterator[SimRobot]:
-    robot = make("patrol", "parking_lot", seed=3)
+    robot = make("patrol", "parking_lot", seed=3, camera=False)
     yield robot
     robot.close()
 
