@@ -22,7 +22,7 @@ def robot() -> Iterator[FakeRobot]:
 
 @pytest.fixture
 def collecting() -> Iterator[None]:
-    """Before the app starts Python collects by itself, and again after the app's end."""
+    """Before the app starts Python collects by itself, and again after the app's end; in between the app does."""
     from tests.thrown import automatic
 
     with automatic():
@@ -31,16 +31,16 @@ def collecting() -> Iterator[None]:
 
 
 @pytest.fixture
-def glass(stage: Stage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Glass]:
-    from app import (
-        garbage_collector as garbage,  # Kivy: where this folder is named, this file is read before tests/conftest.py prepares it
-    )
+def glass(
+    request: pytest.FixtureRequest, stage: Stage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Glass]:
+    # Kivy: where this folder is named, this file is read before tests/conftest.py prepares it
     from app.application import PilothouseApp
+    from app.garbage_collector import Collector
     from widgets.core.theme import theme
 
-    monkeypatch.setattr(
-        garbage, "OLD", 10**9
-    )  # the tests' own look comes after each: five within one cost more than it
+    if "collecting" not in request.fixturenames:  # a look at all that an app is takes as long as half a test
+        monkeypatch.setattr(Collector, "step", lambda _: None)
 
     app = PilothouseApp(settings_dir=tmp_path, theme="dark", discover=False)
     app.root = app.build()
