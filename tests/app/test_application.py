@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import itertools
 import json
 import weakref
 from collections.abc import Callable
@@ -389,7 +390,7 @@ def test_in_the_app_a_widget_that_was_thrown_away_does_not_vanish_in_the_middle_
     assert thrown().followed[0] == "after"
 
 
-def test_screens_that_were_left_are_collected(driving: Glass) -> None:
+def test_screens_that_were_left_are_collected(collecting: None, driving: Glass) -> None:
     left = weakref.ref(driving.app.shell)
     driving.app.leave()
     driving.stage.run_for(0.5)
@@ -438,17 +439,14 @@ def test_a_recording_that_leaving_the_robot_ends_is_said(driving: Glass, tmp_pat
     assert driving.app.connect._banner.text == "Recording saved as run.mcap."
 
 
-@pytest.mark.parametrize("size", [(412, 892), (892, 412), (1280, 800), (1920, 1200)])
-def test_turning_the_device_keeps_stop_in_its_corner(driving: Glass, size: tuple[int, int]) -> None:
-    for screen in ("mission", "drive"):
+def test_turning_the_device_keeps_stop_in_its_corner(driving: Glass) -> None:
+    forms = {(412, 892): "tall", (892, 412): "short", (1280, 800): "wide", (1920, 1200): "wide"}
+    for screen, (size, form) in itertools.product(("mission", "drive"), forms.items()):
         driving.app.show(screen)
         driving.app.shell.size = driving.app.root.size = size
         driving.stage.frames(2)
-        stop = driving.app.shell.stop
-        assert size[0] - stop.right <= 16
-        assert driving.app.shell.form == (
-            "tall" if size[1] > size[0] else "short" if size[1] < 600 else "wide"
-        )
+        assert size[0] - driving.app.shell.stop.right <= 16, (screen, size)
+        assert driving.app.shell.form == form, (screen, size)
 
 
 def test_the_first_start_in_an_empty_home_makes_its_own_folder(

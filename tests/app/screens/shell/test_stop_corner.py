@@ -261,23 +261,19 @@ def test_the_words_of_the_buttons_beside_stop_all_can_be_read(
         assert button.children[0].width <= button.width, name
 
 
-@pytest.mark.parametrize("size", SIZES)
-def test_on_the_connect_screen_it_covers_nothing_that_can_be_pressed(
-    glass: Glass, robot: FakeRobot, size: tuple[int, int]
-) -> None:
+def test_on_the_connect_screen_it_covers_nothing_that_can_be_pressed(glass: Glass, robot: FakeRobot) -> None:
     app: Any = glass.app
-    app.root.size = size
     for number in range(6):
         app.robots.add(f"10.0.0.{number + 1}")
     hear(glass, robot)
-    glass.stage.frames(4)
-    button = app.corner.button
-    taken = Rect(*button.pos, *button.size)
-    assert Rect(0, 0, *size).holds(taken)
-    ids = app.connect.ids
-    for part in (ids.add, ids.simulate, ids.cards.parent):
-        x, y = part.to_window(*part.pos)
-        assert not taken.overlaps(Rect(x, y, *part.size))
+    for size in SIZES:
+        app.root.size = size
+        app.corner.tick()
+        glass.stage.frames(4)
+        taken = place(app.corner.button)
+        assert Rect(0, 0, *size).holds(taken), size
+        for part in (app.connect.ids.add, app.connect.ids.simulate, app.connect.ids.cards.parent):
+            assert not taken.overlaps(place(part)), size
 
 
 def place(widget: Any) -> Rect:
@@ -347,33 +343,36 @@ def test_what_is_only_said_is_said_above_the_list(driving: Glass, robot: FakeRob
     assert corner.list.folded, "too little of the lists is left"
 
 
-@pytest.mark.parametrize("size", SIZES)
-def test_no_button_is_as_large_as_stop(
-    driving: Glass, robot: FakeRobot, other: FakeRobot, size: tuple[int, int]
-) -> None:
-    app = driving.app
-    app.root.size = size
+def test_no_button_is_as_large_as_stop(driving: Glass, robot: FakeRobot, other: FakeRobot) -> None:
     for robots in ((robot,), (robot, other)):
         hear(driving, *robots)
-        for screen in ("drive", "mission", "topics", "tasks"):
-            app.show(screen)
-            for tab in TABS if screen == "tasks" else ("",):
-                app.screens["tasks"].tab = tab or app.screens["tasks"].tab
-                driving.stage.frames(3)
-                assert_stop_is_largest(app, f"{screen} {tab} {len(robots)}")
-        app.show("tasks")
-        app.screens["tasks"].tab = "now"
-        app.screens["tasks"].begin("deliver", ("Lab",))
-        driving.stage.frames(3)
-        assert_stop_is_largest(app, "order")
-        app.screens["tasks"].close()
-        asking(robot)
-        for screen in ("drive", "mission", "topics", "tasks"):
-            app.show(screen)
-            driving.stage.run_for(0.3, 0.1)
-            driving.until(lambda: app.shell.question.height > 80, "nothing is asked")
-            assert_stop_is_largest(app, f"{screen} asks")
-        asking(robot, "")
+        for size in SIZES:
+            driving.app.root.size = size
+            assert_stop_is_largest_everywhere(driving, robot, f"{size} {len(robots)}")
+
+
+def assert_stop_is_largest_everywhere(driving: Glass, robot: FakeRobot, where: str) -> None:
+    app = driving.app
+    for screen in ("drive", "mission", "topics", "tasks"):
+        app.show(screen)
+        for tab in TABS if screen == "tasks" else ("",):
+            app.screens["tasks"].tab = tab or app.screens["tasks"].tab
+            driving.stage.frames(3)
+            assert_stop_is_largest(app, f"{where} {screen} {tab}")
+    app.show("tasks")
+    app.screens["tasks"].tab = "now"
+    app.screens["tasks"].begin("deliver", ("Lab",))
+    driving.stage.frames(3)
+    assert_stop_is_largest(app, f"{where} order")
+    app.screens["tasks"].close()
+    asking(robot)
+    for screen in ("drive", "mission", "topics", "tasks"):
+        app.show(screen)
+        driving.stage.run_for(0.3, 0.1)
+        driving.until(lambda: app.shell.question.height > 80, "nothing is asked")
+        assert_stop_is_largest(app, f"{where} {screen} asks")
+    asking(robot, "")
+    driving.until(lambda: app.shell.question.parent is None, "it is asked still")
 
 
 def assert_stop_is_largest(app: Any, where: str) -> None:

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
+from app.layout.rects import Rect
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
 from bridge.msgs.pilothouse_msgs import (
     ControlStatus,
@@ -420,20 +421,20 @@ def test_going_to_a_place_begins_with_its_name(glass: Glass, tasks: Any) -> None
 # the screen
 
 
-@pytest.mark.parametrize("size", [(412, 892), (892, 412), (1280, 800), (1920, 1200)])
 def test_turning_the_device_keeps_what_was_chosen_and_covers_nothing_with_stop(
-    glass: Glass, tasks: Any, size: tuple[int, int]
+    glass: Glass, tasks: Any
 ) -> None:
     tasks.begin("deliver", ("Office 12", "Lab"))
-    glass.app.shell.size = glass.app.root.size = size
-    glass.stage.frames(4)
-    assert tasks.pane.order.places == ["Office 12", "Lab"]
-    stop = glass.app.shell.stop
-    assert size[0] - stop.right <= 16
-    for name in ("start", "queue"):
-        button = tasks.ids[name]
-        assert button.to_window(button.right, button.y)[0] <= stop.x
-        assert button.height >= 40
+    for size in [(412, 892), (892, 412), (1280, 800), (1920, 1200)]:
+        glass.app.shell.size = glass.app.root.size = size
+        glass.stage.frames(4)
+        assert tasks.pane.order.places == ["Office 12", "Lab"], size
+        stop = glass.app.shell.stop
+        assert size[0] - stop.right <= 16, size
+        for name in ("start", "queue"):
+            button = tasks.ids[name]
+            assert button.to_window(button.right, button.y)[0] <= stop.x, (size, name)
+            assert button.height >= 40, (size, name)
 
 
 def test_back_goes_from_the_list_of_places_to_the_form_to_the_lists(glass: Glass, tasks: Any) -> None:
@@ -462,22 +463,17 @@ def test_the_points_of_a_running_patrol_are_changed(glass: Glass, robot: FakeRob
     assert len(asked(robot, "/mission/set")[0].mission.waypoints) == 3
 
 
-@pytest.mark.parametrize("size", [(412, 892), (892, 412), (1280, 800)])
-def test_no_card_covers_stop_or_leaves_the_glass(
-    glass: Glass, robot: FakeRobot, tasks: Any, size: tuple[int, int]
-) -> None:
-    glass.app.shell.size = glass.app.root.size = size
+def test_no_card_covers_stop_or_leaves_the_glass(glass: Glass, robot: FakeRobot, tasks: Any) -> None:
     reason = "The robot's computer restarted in the middle of a delivery; choose Resume to go on, or Discard."
     cut = TaskStatus(task="deliver", state="INTERRUPTED", places=["Office 12", "Lab"], reason=reason)
     robot.publish("/task/status", cut)
     card, stop = glass.app.shell.question, glass.app.shell.stop
-    for screen in ("tasks", "mission", "drive", "topics"):
-        glass.app.show(screen)
-        glass.until(lambda: card.parent is not None and card.height > 100, f"not on {screen}")
-        glass.stage.frames(6)
-        x, y = card.to_window(card.x, card.y)
-        assert not (x < stop.right and stop.x < x + card.width and y < stop.top and stop.y < y + card.height)
-        assert x >= 0
-        assert x + card.width <= size[0]
-        assert y >= 0
-        assert y + card.height <= size[1]
+    for size in [(412, 892), (892, 412), (1280, 800)]:
+        glass.app.shell.size = glass.app.root.size = size
+        for screen in ("tasks", "mission", "drive", "topics"):
+            glass.app.show(screen)
+            glass.until(lambda: card.parent is not None and card.height > 100, f"not on {screen}")
+            glass.stage.frames(6)
+            seen = Rect(*card.to_window(card.x, card.y), *card.size)
+            assert not seen.overlaps(Rect(*stop.pos, *stop.size)), (size, screen)
+            assert Rect(0, 0, *size).holds(seen), (size, screen)

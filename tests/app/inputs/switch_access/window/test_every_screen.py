@@ -158,13 +158,10 @@ def asked(app: Any) -> ControlStatus:
 def test_whatever_takes_a_finger_is_reached_by_switches(
     form: str, driving: Glass, robot: FakeRobot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    # it would look through all of it 69 times
-    monkeypatch.setattr("app.garbage_collector.Collector.step", lambda _: None)
     before = Window.size
     # the one that draws nowhere would be made anew with the size it had
     monkeypatch.setattr(Window, "create_window", lambda *_: None)
-    Window.size = FORMS[form]
-    driving.app.root.size = FORMS[form]
+    turn(driving, form)
     try:
         robot.know(*SOME)
         walk = Walk(driving, robot)
@@ -195,32 +192,46 @@ def test_whatever_takes_a_finger_is_reached_by_switches(
         Window.size = before
 
 
-@pytest.mark.parametrize("form", FORMS)
 def test_pairing_and_the_people_of_a_robot_are_reached_by_switches(
-    form: str, driving: Glass, robot: FakeRobot, monkeypatch: pytest.MonkeyPatch
+    driving: Glass, robot: FakeRobot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     before = Window.size
     monkeypatch.setattr(Window, "create_window", lambda *_: None)
-    Window.size = FORMS[form]
-    driving.app.root.size = FORMS[form]
+    walk = Walk(driving, robot)
     try:
-        walk = Walk(driving, robot)
-        known = [Person(id=f"{one}", name=f"tablet-{one}", role="manage") for one in range(2)]
-        people = PeopleDialog(driving.app.session)
-        driving.app.root.add_widget(people)
-        for service, answer in (
-            ("/people/list", GetPeopleResponse(people=known)),
-            ("/people/invite", InvitePersonResponse(code="493017", open_until=1e12)),
-        ):
-            people._hear(ANSWER, Post(Answer(service, answer, ""), 0.0, 1))
-            walk.check(f"{form}, {service}", people.ids.card)
-        people.close()
+        for form in FORMS:
+            turn(driving, form)
+            people_of_the_robot(walk, form)
         driving.app.leave()
-        trust = driving.app.robot_list.trust
-        trust.ask("wss://127.0.0.1:9")
-        walk.check(f"{form}, code", trust.dialog.ids.card)
-        trust.ask()
-        walk.check(f"{form}, link", trust.dialog.ids.card)
-        trust.dialog.close()
+        for form in FORMS:
+            turn(driving, form)
+            pairing(walk, form)
     finally:
         Window.size = before
+
+
+def turn(driving: Glass, form: str) -> None:
+    Window.size = FORMS[form]
+    driving.app.root.size = FORMS[form]
+
+
+def people_of_the_robot(walk: Walk, form: str) -> None:
+    known = [Person(id=f"{one}", name=f"tablet-{one}", role="manage") for one in range(2)]
+    people = PeopleDialog(walk.app.session)
+    walk.app.root.add_widget(people)
+    for service, answer in (
+        ("/people/list", GetPeopleResponse(people=known)),
+        ("/people/invite", InvitePersonResponse(code="493017", open_until=1e12)),
+    ):
+        people._hear(ANSWER, Post(Answer(service, answer, ""), 0.0, 1))
+        walk.check(f"{form}, {service}", people.ids.card)
+    people.close()
+
+
+def pairing(walk: Walk, form: str) -> None:
+    trust = walk.app.robot_list.trust
+    trust.ask("wss://127.0.0.1:9")
+    walk.check(f"{form}, code", trust.dialog.ids.card)
+    trust.ask()
+    walk.check(f"{form}, link", trust.dialog.ids.card)
+    trust.dialog.close()
