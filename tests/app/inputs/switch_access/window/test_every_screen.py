@@ -71,8 +71,9 @@ class Walk:
         app = self.app
         stops = [app.shell.stop] if app.shell is not None else []
         stops += bound(app.root)
-        keys = [target.key for target in self.targets.targets()]
-        assert len({target.name for target in self.targets.targets()}) == len(keys), where
+        targets = self.targets.targets()
+        keys = [target.key for target in targets]
+        assert len({target.name for target in targets}) == len(keys), where
         found = {key: one for key, one in taken(stops, room).items() if type(one).__name__ not in BESIDE}
         missed = [one for one in found.values() if not any(one is key for key in keys)]
         behind = [] if room is not None else bound(app.root)
