@@ -40,7 +40,7 @@ def glass(
     from widgets.core.theme import theme
 
     if "collecting" not in request.fixturenames:  # a look at all that an app is takes as long as half a test
-        monkeypatch.setattr(Collector, "step", lambda _: None)
+        monkeypatch.setattr(Collector, "step", lambda _, **__: None)
 
     app = PilothouseApp(settings_dir=tmp_path, theme="dark", discover=False)
     app.root = app.build()
