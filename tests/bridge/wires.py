@@ -13,7 +13,7 @@ from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from bridge.server.server import BridgeServer
 from robotside.door.door import Door
 
-TIMEOUT = 5.0
+TIMEOUT = 60.0
 """How long a test waits for what must happen [s]; a fault, not a delay, uses it up."""
 
 

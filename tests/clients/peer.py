@@ -104,13 +104,13 @@ class Peer:
         self.ros.get_action_servers(lambda found: tell(event="action_servers", name="", msg=found))
 
     def get_param(self, name: str) -> dict[str, Any]:
-        return {"values": roslibpy.Param(self.ros, name).get(timeout=5)}
+        return {"values": roslibpy.Param(self.ros, name).get(timeout=60)}
 
     def set_param(self, name: str, value: Any) -> None:
-        roslibpy.Param(self.ros, name).set(value, timeout=5)
+        roslibpy.Param(self.ros, name).set(value, timeout=60)
 
     def delete_param(self, name: str) -> None:
-        roslibpy.Param(self.ros, name).delete(timeout=5)
+        roslibpy.Param(self.ros, name).delete(timeout=60)
 
     def say(self, op: dict[str, Any]) -> None:
         self.ros.send_on_ready(roslibpy.Message(op))
@@ -122,9 +122,9 @@ def main(port: int, transport: str) -> None:
     factory = select_factory(transport)
     factory.set_initial_delay(0.1)
     factory.set_max_delay(0.2)
-    roslibpy.ros.set_rosapi_timeout(5)
+    roslibpy.ros.set_rosapi_timeout(60)
     ros = roslibpy.Ros("127.0.0.1", port, transport=transport)
-    ros.run(timeout=10)
+    ros.run(timeout=60)
     tell(event="connection")
     ros.on("close", lambda _: tell(event="close"))
     ros.factory.on("ready", lambda _: tell(event="connection"))

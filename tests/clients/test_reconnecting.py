@@ -8,7 +8,7 @@ from bridge.msgs.nav_msgs import Odometry
 from tests.bridge.wires import server
 from tests.clients.peers import BOTH, peer
 
-PATIENCE = 10.0
+PATIENCE = 60.0
 """roslibpy lets a second pass before it subscribes again, and its own waits come on top [s]."""
 ODOMETRY = {"name": "/odom", "type": "nav_msgs/Odometry"}
 DOOR = {"name": "/door/open", "type": "std_srvs/SetBool"}

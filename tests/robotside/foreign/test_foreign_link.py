@@ -47,7 +47,7 @@ SPEED = Twist.planar(0.3, 0.1)
 
 async def until(true: Callable[[], object]) -> None:
     """Until it is true; it becomes so in another thread."""
-    async with asyncio.timeout(8):
+    async with asyncio.timeout(60):
         while not true():  # noqa: ASYNC110 - no event reaches over
             await asyncio.sleep(0.01)
 

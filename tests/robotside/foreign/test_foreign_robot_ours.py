@@ -105,7 +105,7 @@ async def stop_work(port: ForeignRobot) -> None:
         if link._pressing is not None:
             await asyncio.wait([link._pressing])
 
-    async with asyncio.timeout(8):
+    async with asyncio.timeout(60):
         await asyncio.wrap_future(link._network.start(done()))
 
 

@@ -39,7 +39,7 @@ async def keep(records: Records, place: Place) -> str:
 
 
 async def until(condition: Callable[[], object]) -> None:
-    async with asyncio.timeout(10.0):
+    async with asyncio.timeout(60):
         while not condition():  # noqa: ASYNC110 - another thread brings it about
             await asyncio.sleep(0.01)
 

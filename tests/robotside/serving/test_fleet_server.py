@@ -68,7 +68,7 @@ class Side:
                 listens.set()
 
         running = asyncio.create_task(self.together.run(note))
-        async with asyncio.timeout(20):
+        async with asyncio.timeout(60):
             await listens.wait()
             try:
                 yield
@@ -172,7 +172,7 @@ async def test_all_of_them_end_when_they_are_no_longer_wanted(tmp_path: Path) ->
     robots = [FakeRobot(), FakeRobot()]
     side = Side(robots, tmp_path)
     side.wanted = False
-    async with asyncio.timeout(10):
+    async with asyncio.timeout(60):
         await side.together.run(side.ready.append)
     assert len(side.ready) == 2
     assert all(robot.at_rest for robot in robots)

@@ -52,7 +52,7 @@ async def serving(
     serves = StationServer(station, clock, wall, Addresses("127.0.0.1", 0, 0), keys=keys)
     ready = asyncio.Event()
     running = asyncio.create_task(serves.run(lambda _: ready.set()))
-    async with asyncio.timeout(20):
+    async with asyncio.timeout(60):
         await ready.wait()
         try:
             yield serves, keys, robot

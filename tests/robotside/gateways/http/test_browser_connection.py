@@ -18,7 +18,7 @@ from tests.robotside.serving.test_station_server import serving
 
 async def end_of(reader: asyncio.StreamReader) -> bytes:
     try:
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(60):
             return await reader.read()
     except ConnectionResetError:
         return b""

@@ -37,7 +37,7 @@ class Filming(FakeRobot):
         self.changed.set()
 
     async def until(self, wanted: bool) -> None:
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(60):
             while self.wanted.get(CAMERA, False) is not wanted:
                 self.changed.clear()
                 await self.changed.wait()
@@ -62,7 +62,7 @@ class Reader:
         self._raw = b""
 
     async def until(self, end: bytes) -> bytes:
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(60):
             while end not in self._raw:
                 self._raw += await anext(self._chunks)
         found, _, self._raw = self._raw.partition(end)

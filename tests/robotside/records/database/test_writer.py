@@ -68,7 +68,7 @@ class Desk:
 
     def look(self, jobs: int) -> list[str]:
         while len(self.told) < jobs:
-            call, arguments = self.calls.get(timeout=5.0)
+            call, arguments = self.calls.get(timeout=60.0)
             call(*arguments)
         return [problem for _, problem in self.told]
 
@@ -193,7 +193,7 @@ def test_what_was_backed_up_is_not_backed_up_again_before_something_changes(
     writer.start()
     desk.look(1)
     for _ in range(4):
-        call, arguments = desk.calls.get(timeout=5.0)
+        call, arguments = desk.calls.get(timeout=60.0)
         call(*arguments)
     writer.close()
     assert idle.qsize() == 4
@@ -209,7 +209,7 @@ def test_so_much_is_held_back_while_the_database_is_broken_and_the_rest_is_refus
     for number in range(3):
         writer.submit(job(number), desk.hear)
     writer.start()
-    desk.calls.get(timeout=5.0)  # the damage is told: these three are held back
+    desk.calls.get(timeout=60.0)  # the damage is told: these three are held back
     late = job(3)
     writer.submit(late, desk.hear)
     desk.look(1)
