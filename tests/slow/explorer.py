@@ -87,21 +87,21 @@ class _Node:
 class Life:
     """One start of the robot side, with what changes of it."""
 
-    def __init__(self, stopped_by: str, events: Sequence[str]) -> None:
+    def __init__(self, stopped_by: str, events: Sequence[str], walks: int = WALKS) -> None:
         kept = rows()
         if stopped_by:
             kept["facts"]["stopped by"] = stopped_by
         self.robot = ExploredRobot(kept, bool(stopped_by))
         self.living = Living(self.robot, IGNORED)
         self.first = self.living.save()
-        self._learn(events)
+        self._learn(events, walks)
 
-    def _learn(self, events: Sequence[str]) -> None:
+    def _learn(self, events: Sequence[str], walks: int) -> None:
         """Walk at random until nothing more is found to change."""
         choice = random.Random(5)
         lead = [event for event in LEAD if event in events]
         quiet = 0
-        while quiet < WALKS:
+        while quiet < walks:
             quiet += 1
             walk = choice.choices(events, k=choice.randint(1, STRIDE))
             news = False
@@ -133,8 +133,9 @@ class Life:
 class Explorer:
     """Goes through all sequences of `events` and the kill."""
 
-    def __init__(self, events: Sequence[str]) -> None:
-        self._events = events
+    def __init__(self, events: Sequence[str], walks: int = WALKS) -> None:
+        """`walks` in a row must show nothing new before the search begins; what they miss has it begin again."""
+        self._events, self._walks = events, walks
         self.report = Report()
         self.report.events = len(events) + 1
         self._lives: dict[str, Life] = {}
@@ -203,7 +204,7 @@ class Explorer:
 
     def _life(self, stopped_by: str) -> Life:
         if stopped_by not in self._lives:
-            self._lives[stopped_by] = Life(stopped_by, self._events)
+            self._lives[stopped_by] = Life(stopped_by, self._events, self._walks)
         return self._lives[stopped_by]
 
     def _state(self, life: Life) -> tuple[str, int]:

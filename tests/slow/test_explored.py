@@ -25,6 +25,8 @@ from tests.slow.explorer import KILL, Explorer, Life
 from tests.slow.snapshots import Living, Snapshot
 
 DEPTH = 8
+FEW_WALKS = 15
+"""Enough where one sequence is looked for, not that there is none."""
 IN_VAIN = {"W push", "S push", "W request", "W grant", "W hold", "S hold", "S unlatch"}
 """What who may not does: it changes nothing, whatever happened before."""
 
@@ -196,9 +198,9 @@ def test_a_robot_side_without_a_safeguard_is_found_out(
     theme, found, take_away = WITHOUT[safeguard]
     take_away(monkeypatch)
     with pytest.raises(Violation, match=found):
-        Explorer(EVENTS[theme]).run(DEPTH)
+        Explorer(EVENTS[theme], FEW_WALKS).run(DEPTH)
 
 
 def test_a_kill_is_one_of_the_events() -> None:
-    report = Explorer(EVENTS["STOP"]).run(3)
+    report = Explorer(EVENTS["STOP"], FEW_WALKS).run(3)
     assert KILL in report.effective
