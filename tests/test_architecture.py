@@ -24,6 +24,7 @@ from scripts.room_map import (
     sources,
     with_maps,
 )
+from tests.looped import looped
 
 TEXT = PAGE.read_text(encoding="utf-8")
 ROW = re.compile(r"^\| `([\w.]+)/?` \|.*\| ([^|]*`[^|]*) \|$", re.MULTILINE)
@@ -167,7 +168,7 @@ THREADED_WIDGET = "widgets/map/tile_reader.py"
 """Decodes files beside the loop that draws; no widget is called from its thread."""
 
 
-@pytest.mark.parametrize("path", _sources("widgets"), ids=_path)
+@looped("path", _sources("widgets"))
 def test_a_widget_knows_of_no_network_no_thread_and_no_app(path):
     found = set(imported_names(path))
     foreign = {module.split(".")[0] for module in found} & {"asyncio", "socket", "threading"}

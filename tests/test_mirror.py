@@ -5,9 +5,8 @@ from __future__ import annotations
 import tomllib
 from pathlib import Path
 
-import pytest
-
 from scripts.room_map import PACKAGES, ROOT, imported_names, module_name, sources
+from tests.looped import looped
 
 HELD = tomllib.loads((ROOT / "tests" / "mirror.toml").read_text(encoding="utf-8"))
 """By module, the test file that holds it, or one sentence that says why it has none."""
@@ -42,7 +41,7 @@ def test_each_module_has_a_test_of_its_own_or_is_held_by_another():
     assert sorted(WITHOUT) == sorted(HELD)
 
 
-@pytest.mark.parametrize("module", sorted(HELD))
+@looped("module", sorted(HELD))
 def test_what_holds_a_module_is_a_test_that_imports_it_or_a_reason(module):
     held_by = HELD[module]
     if held_by.startswith("tests/"):

@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from bridge.core.codes import Code
+from tests.looped import looped
 
 ROOT = Path(__file__).parents[1]
 READERS = ("app", "widgets", "robotside", "bridge", "sim")
@@ -190,7 +191,7 @@ def test_each_code_is_told_somewhere() -> None:
     assert set(Code) - told == set()
 
 
-@pytest.mark.parametrize("code", Code)
+@looped("code", Code)
 def test_a_code_is_its_name_and_says_what_it_means(code: Code) -> None:
     assert code.value == code.name.lower()
     assert code.meaning.endswith(".")

@@ -20,6 +20,7 @@ from app.layout.arrange import (
     topics,
     two_sticks,
 )
+from tests.looped import looped
 
 SIZES = [(412, 892), (892, 412), (1280, 800), (1920, 1200), (800, 1280), (360, 640), (640, 360), (1024, 600)]
 MAY_LIE_ON = {"video", "map", "side"}
@@ -47,7 +48,7 @@ INPUTS = [(412, 892), (892, 412), (1280, 800), (1920, 1200), (800, 1280)]
 """In smaller windows there is no room beside STOP for a sentence."""
 
 
-@pytest.mark.parametrize(("size", "name"), CASES)
+@looped(("size", "name"), CASES)
 def test_nothing_overlaps(size: tuple[int, int], name: str) -> None:
     places = screens(*size)[name]
     ground = MAY_LIE_ON if name in DRIVES else MAY_LIE_ON - {"video"}
@@ -57,7 +58,7 @@ def test_nothing_overlaps(size: tuple[int, int], name: str) -> None:
         assert not first.overlaps(second), f"{one} {first} overlaps {two} {second}"
 
 
-@pytest.mark.parametrize(("size", "name"), NOTICES)
+@looped(("size", "name"), NOTICES)
 def test_the_room_for_notices_leaves_stop_and_what_is_above_it_free(size: tuple[int, int], name: str) -> None:
     places = screens(*size)[name]
     room, stop = places["notice"], places["stop"]
@@ -66,7 +67,7 @@ def test_the_room_for_notices_leaves_stop_and_what_is_above_it_free(size: tuple[
     assert min(room.width, room.height) > 0
 
 
-@pytest.mark.parametrize(("size", "name"), CASES)
+@looped(("size", "name"), CASES)
 def test_a_notice_covers_nothing_that_can_be_touched(size: tuple[int, int], name: str) -> None:
     places = screens(*size)[name]
     touched = {"stop", "stick", "slider", "actions", "modes", "tools", "panel", "tasks"}
@@ -100,8 +101,8 @@ def test_a_switch_stands_near_its_words(size: tuple[int, int]) -> None:
     assert inputs_alone(body, shape)["detail"].width <= 720 or shape == "tall"
 
 
-@pytest.mark.parametrize("name", DRIVES)
-@pytest.mark.parametrize("size", SIZES)
+@looped("name", DRIVES)
+@looped("size", SIZES)
 def test_the_unfolded_sensors_cover_nothing_that_drives_or_stops(size: tuple[int, int], name: str) -> None:
     places = screens(*size)[name]
     for key in {"stop", "stick", "slider", "actions", "right_stick", "confirm"} & places.keys():
@@ -133,7 +134,7 @@ def test_with_two_sticks_upright_it_lies_between_the_tape_and_the_sensors(size: 
     assert room.top < places["top"].y
 
 
-@pytest.mark.parametrize(("size", "name"), CASES)
+@looped(("size", "name"), CASES)
 def test_nothing_leaves_the_screen(size: tuple[int, int], name: str) -> None:
     body = shell(*size)["body"]
     for key, rect in screens(*size)[name].items():
@@ -142,8 +143,8 @@ def test_nothing_leaves_the_screen(size: tuple[int, int], name: str) -> None:
         assert rect.height > 0, key
 
 
-@pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("name", ["mission", "sheet", *DRIVES])
+@looped("size", SIZES)
+@looped("name", ["mission", "sheet", *DRIVES])
 def test_stop_keeps_the_lower_right_corner(size: tuple[int, int], name: str) -> None:
     stop, body = screens(*size)[name]["stop"], shell(*size)["body"]
     assert body.right - stop.right <= 16

@@ -16,6 +16,7 @@ from bridge.msgs.arrays import Float32Array
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.sensor_msgs import LaserScan
+from tests.looped import looped
 
 
 def test_messages_come_back_with_topic_time_and_type(tmp_path: Path) -> None:
@@ -89,7 +90,7 @@ def test_what_the_disk_is_too_slow_for_is_counted_and_said(tmp_path: Path) -> No
     assert recorder.sentence == "Not recorded because the disk is too slow: 3."
 
 
-@pytest.mark.parametrize("kind", [kind for name, kind in sorted(TYPES.items()) if "/" in name])
+@looped("kind", [kind for name, kind in sorted(TYPES.items()) if "/" in name])
 def test_every_message_type_has_a_schema(kind: type[Msg]) -> None:
     parsed = json.loads(schema(kind))
     assert parsed["type"] == "object"

@@ -18,6 +18,7 @@ from bridge.msgs.geometry_msgs import Pose, Twist
 from bridge.msgs.std_msgs import Time
 from bridge.server.rosapi.type_descriptions import typedefs
 from tests.bridge.strategies import messages
+from tests.looped import looped
 
 
 def told(type="boat_msgs/Boat", constants=(), **fields):
@@ -227,7 +228,7 @@ def strange(answer):
     return text
 
 
-@pytest.mark.parametrize("name", sorted(set(TYPES) - {"time", "duration"}))
+@looped("name", sorted(set(TYPES) - {"time", "duration"}))
 @settings(max_examples=5, deadline=None)
 @given(data=st.data())
 def test_a_class_learned_from_what_is_told_decodes_all_that_the_original_encodes(name, data):

@@ -23,6 +23,7 @@ from bridge.msgs.pilothouse_msgs import Mission, Waypoint
 from bridge.msgs.sensor_msgs import CompressedImage, JointState, LaserScan, NavSatFix
 from bridge.msgs.std_msgs import Time
 from tests.bridge.strategies import messages
+from tests.looped import looped
 
 
 def plain(value: object) -> object:
@@ -34,7 +35,7 @@ def plain(value: object) -> object:
     return math.nan if isinstance(value, float) and math.isinf(value) else value
 
 
-@pytest.mark.parametrize("cls", TYPES.values(), ids=TYPES)
+@looped("cls", TYPES.values())
 @settings(max_examples=15, deadline=None)
 @given(data=st.data())
 def test_every_message_type_comes_back_from_json_with_infinities_as_nan(cls, data):
@@ -44,7 +45,7 @@ def test_every_message_type_comes_back_from_json_with_infinities_as_nan(cls, dat
     assert repr(plain(to_builtins(back))) == repr(plain(to_builtins(msg)))
 
 
-@pytest.mark.parametrize("cls", TYPES.values(), ids=TYPES)
+@looped("cls", TYPES.values())
 @settings(max_examples=15, deadline=None)
 @given(data=st.data())
 def test_every_message_type_comes_back_from_cbor_unchanged(cls, data):

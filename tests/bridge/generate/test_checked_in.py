@@ -6,7 +6,6 @@ import math
 import re
 from pathlib import Path
 
-import pytest
 from rosbags.interfaces import Nodetype
 from rosbags.typesys.stores.ros2_humble import FIELDDEFS
 
@@ -14,6 +13,7 @@ import bridge.msgs
 from bridge.generate import library, modules
 from bridge.generate.find import definitions
 from bridge.msgs import TYPES
+from tests.looped import looped
 
 ROOT = Path(__file__).parents[3]
 MSGS = ROOT / "bridge" / "msgs"
@@ -25,7 +25,7 @@ FILES = {
 }
 
 
-@pytest.mark.parametrize("path", sorted(FILES))
+@looped("path", sorted(FILES))
 def test_a_file_is_byte_for_byte_what_its_text_makes(path):
     assert (MSGS / path).read_bytes() == FILES[path].encode()
 
@@ -45,7 +45,7 @@ def test_the_table_of_types_holds_every_part_of_every_text():
     assert all(name == TYPES[name].MSGTYPE for name in TYPES)
 
 
-@pytest.mark.parametrize("cls", TYPES.values(), ids=TYPES)
+@looped("cls", TYPES.values())
 def test_every_class_knows_the_exact_type_of_each_field(cls):
     sent = [name for name in cls.__struct_fields__ if name not in ("sec", "nanosec")]
     assert len(cls.ROSTYPES) == len(sent)
@@ -92,7 +92,7 @@ STANDARD = (
 MESSAGES = sorted(name for name in HUMBLE if name.split("/")[0] in STANDARD)
 
 
-@pytest.mark.parametrize("name", MESSAGES)
+@looped("name", MESSAGES)
 def test_a_standard_message_has_the_fields_and_constants_of_ros_2_humble(name):
     part = LIBRARY.parts[name]
     constants, fields = HUMBLE[name]
@@ -132,7 +132,7 @@ OTHERS = {
 }
 
 
-@pytest.mark.parametrize("name", OTHERS)
+@looped("name", OTHERS)
 def test_what_the_parser_has_no_copy_of_has_the_fields_that_its_package_publishes(name):
     fields = ", ".join(f"{each.kind.rostype} {each.name}" for each in LIBRARY.parts[name].fields)
     assert fields == OTHERS[name]
@@ -147,7 +147,7 @@ UNKNOWN = {
 }
 
 
-@pytest.mark.parametrize("name", UNKNOWN)
+@looped("name", UNKNOWN)
 def test_what_nobody_told_or_measured_is_nan_and_not_zero(name):
     made = TYPES[f"pilothouse_msgs/{name}"]()
     assert all(math.isnan(getattr(made, field)) for field in UNKNOWN[name].split(", "))

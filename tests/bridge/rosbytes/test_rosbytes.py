@@ -19,6 +19,7 @@ from bridge.msgs import TYPES, Msg
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.std_msgs import Duration, Empty, Header, Time
 from bridge.rosbytes import deserialize, serialize
+from tests.looped import looped
 
 
 class Inner(Msg, frozen=True, gc=False):
@@ -166,7 +167,7 @@ def their_value(value: Any, field: Field, types: Any) -> Any:
 
 
 @pytest.mark.parametrize("cdr", [False, True], ids=["ros1", "cdr"])
-@pytest.mark.parametrize("cls", CLASSES.values(), ids=CLASSES)
+@looped("cls", CLASSES.values())
 @settings(max_examples=5, deadline=None)
 @given(data=st.data())
 def test_every_type_has_the_bytes_that_rosbags_gives_it(cls, cdr, data):

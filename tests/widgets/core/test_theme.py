@@ -9,6 +9,7 @@ import pytest
 from kivy.lang import Builder
 from kivy.metrics import mm
 
+from tests.looped import looped
 from tests.thrown import automatic, throw_away
 from widgets.core.icons import FILLED, ICONS, OUTLINED, icon
 from widgets.core.theme import FONTS, PALETTES, Theme, contrast, theme
@@ -31,8 +32,8 @@ def test_black_on_white_has_the_contrast_of_the_standard():
     assert contrast("777777", "FFFFFF") == pytest.approx(4.48, abs=0.005)
 
 
-@pytest.mark.parametrize("name", PALETTES)
-@pytest.mark.parametrize(("ink", "ground"), PAIRS)
+@looped("name", PALETTES)
+@looped(("ink", "ground"), PAIRS)
 def test_text_can_be_read_on_its_ground(name, ink, ground):
     least = 7.0 if name == "sunlight" else 4.5
     assert contrast(PALETTES[name][ink], PALETTES[name][ground]) >= least

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import pytest
-
 from bridge.msgs import TYPES
 from bridge.msgs.base import Msg
 from bridge.msgs.sensor_msgs import Imu, NavSatStatus
 from bridge.server.rosapi.type_descriptions import constants, typedefs
+from tests.looped import looped
 
 
 def kinds(name: str) -> dict[str, tuple[str, int]]:
@@ -82,7 +81,7 @@ def test_what_is_told_can_be_changed_without_harm():
     assert typedefs("std_msgs/Header")[0]["type"] == "std_msgs/Header"
 
 
-@pytest.mark.parametrize("name", sorted(set(TYPES) - {"time", "duration"}))
+@looped("name", sorted(set(TYPES) - {"time", "duration"}))
 def test_every_type_can_be_told_with_columns_of_one_length(name):
     found = typedefs(name)
     assert found[0]["type"] == name
