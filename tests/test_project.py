@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 import tomllib
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -18,6 +19,7 @@ from scripts import code_table, permission_table
 from scripts.room_map import imported_names
 from scripts.topic_table import DOCUMENTS, with_table
 from tests.lacking import lacking
+from tests.looped import looped
 
 ROOT = Path(__file__).parents[1]
 SOURCES = [
@@ -69,6 +71,7 @@ RECIPES = {
 QUOTED = [(title, quoted) for title, recipe in RECIPES.items() for quoted in re.findall(r"`([^`]+)`", recipe)]
 
 
+@cache
 def known_names() -> set[str]:
     """Every class, function, attribute, key and task that the sources speak of."""
     nodes = [node for path in SOURCES for node in ast.walk(ast.parse(path.read_text()))]
@@ -77,9 +80,6 @@ def known_names() -> set[str]:
     words = {node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)}
     targets = {node.id for node in nodes if isinstance(node, ast.Name)}
     return named | used | words | targets
-
-
-KNOWN = known_names()
 
 
 def exists(quoted: str) -> bool:
@@ -92,7 +92,7 @@ def exists(quoted: str) -> bool:
     parts = quoted.removesuffix("()").split(".")
     if (ROOT / parts[0]).is_dir():
         return pydoc.locate(quoted) is not None
-    return set(parts) <= KNOWN
+    return set(parts) <= known_names()
 
 
 def test_there_is_a_recipe_for_each_part_that_grows_and_each_fits_fifteen_lines():
@@ -108,7 +108,7 @@ def test_there_is_a_recipe_for_each_part_that_grows_and_each_fits_fifteen_lines(
     assert all(len(recipe.strip().splitlines()) <= 15 for recipe in RECIPES.values())
 
 
-@pytest.mark.parametrize(("title", "quoted"), QUOTED)
+@looped(("title", "quoted"), QUOTED)
 def test_everything_that_a_recipe_names_exists(title, quoted):
     assert exists(quoted)
 
