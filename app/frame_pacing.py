@@ -19,7 +19,11 @@ from kivy.clock import Clock
 __all__ = ["Fences", "FramePacer", "tell_slow"]
 
 FRAME_PERIOD = 1 / 60
-"""Least time between the beginnings of two frames [s]."""
+"""Least time between the beginnings of two frames while a hand is at work [s]."""
+CALM_PERIOD = 1 / 30
+"""The same where none is: what comes from the robot is looked at no more often."""
+CALM_DELAY = 1.0
+"""After the last move of a finger or a mouse there is none at work [s]: lists have rolled to rest by then, dialogs are open."""
 MAX_FRAME_PERIOD = 1 / 15
 """Greatest one that is kept for the fingers' sake, or because drawing is slow [s]."""
 FINGER_SHARE = 0.5
@@ -31,7 +35,7 @@ SENDING_PAUSE = 0.001
 the frame is through."""
 JITTER = 0.002
 """So much earlier than its period a frame may begin [s]: a turn of the loop is never quite on time."""
-LOST_TIMEOUT = 0.5
+LOST_TIMEOUT = 2.0
 """A frame whose fence does not pass for longer is taken to be through [s]: the picture must not stand still for good."""
 SLOW_COST, FAST_COST = 1 / 20, 1 / 30
 """A frame takes longer where drawing is slow, and less where it is fast again [s]."""
@@ -103,6 +107,7 @@ class FramePacer:
         self._cost = 0.0
         self._fence: int | None = None
         self._drawing = self._flipping = self._moved = False
+        self._moved_at = -math.inf
         self._row = 0
         self.slow = False
         """Fewer than 20 frames a second can be drawn."""
@@ -188,13 +193,14 @@ class FramePacer:
         """Between the beginnings of the last frame and of the next [s]."""
         if self.slow:
             return MAX_FRAME_PERIOD
-        share = self._cost / FINGER_SHARE if self.touched else 0.0
-        return min(max(share, FRAME_PERIOD), MAX_FRAME_PERIOD)
+        if self.touched:
+            return min(max(self._cost / FINGER_SHARE, FRAME_PERIOD), MAX_FRAME_PERIOD)
+        return FRAME_PERIOD if self._now() - self._moved_at < CALM_DELAY else CALM_PERIOD
 
     # what the window tells; true keeps it from the window itself
 
     def _move(self, *_: object) -> None:
-        self._moved = True
+        self._moved, self._moved_at = True, self._now()
 
     def _draw(self, _: object) -> bool:
         if self._drawing or self._now() - self._begun < self._period - JITTER:

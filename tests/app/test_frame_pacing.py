@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from app.frame_pacing import (
+    CALM_DELAY,
     FINGER_SHARE,
     JUDGED_FRAMES,
     LOST_TIMEOUT,
@@ -84,6 +85,7 @@ class Screen:
             sleep=lambda seconds: self.done.append(f"{seconds * 1e3:g} ms for the others"),
         )
         self.pacer.open()
+        self.pacer._moved_at = stage.time.now  # a hand has just been at work
 
     def turns(self, count: int, period: float = FRAME) -> list[str]:
         """Turn the loop, with something new on the glass each time; what was done meanwhile."""
@@ -219,8 +221,16 @@ def test_where_nothing_changed_nothing_is_drawn(screen: Callable[..., Screen], s
     assert made.done[-1] == "flip", "the last one is on the glass"
 
 
-def test_at_most_sixty_frames_are_drawn_in_a_second(screen: Callable[..., Screen]) -> None:
-    assert screen().turns(256, 1 / 256).count("draw") in range(50, 65)
+def test_sixty_frames_a_second_are_drawn_for_a_hand_and_thirty_for_nobody(
+    screen: Callable[..., Screen], stage: Stage
+) -> None:
+    made = screen()
+    stage.run_for(CALM_DELAY)
+    assert made.turns(512, 1 / 512).count("draw") in range(28, 33)
+    stage.tap(10, 10)
+    assert made.turns(512, 1 / 512).count("draw") in range(55, 65)
+    stage.run_for(CALM_DELAY)
+    assert made.turns(512, 1 / 512).count("draw") in range(28, 33)
 
 
 # what is held back
