@@ -8,7 +8,8 @@ self.words.write([Word("N", x, y, sp(16), theme.danger)])
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import math
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -199,6 +200,15 @@ def _see(group: InstructionGroup, opacity: float) -> None:
             _see(part, opacity)
 
 
+def _changed(redraw: Callable[[], object], unknown: set[str], name: str, _: object, value: object) -> None:
+    """Kivy tells of each NaN as of something new; what is as unknown as before looks as before."""
+    still = isinstance(value, float) and math.isnan(value)
+    if still and name in unknown:
+        return
+    (unknown.add if still else unknown.discard)(name)
+    redraw()
+
+
 class Drawing(RobotWidget):
     """A robot widget that draws itself anew, once before the next frame, when something it shows has changed.
 
@@ -211,8 +221,9 @@ class Drawing(RobotWidget):
     def __init__(self, **kwargs: Any) -> None:
         self.redraw = Clock.create_trigger(self._draw_now, -1)
         super().__init__(**kwargs)
+        unknown: set[str] = set()
         for name in ("pos", "size", "state", *self.drawn_from):
-            self.fbind(name, self.redraw)
+            self.fbind(name, _changed, self.redraw, unknown, name)
         self.fbind("opacity", self._on_opacity)
         theme.bind(name=self._on_theme, gloves=self._on_theme)
         self.redraw()

@@ -42,6 +42,7 @@ __all__ = [
     "screen_angle",
     "shortest_turn",
     "spread",
+    "steady",
     "tape_marks",
     "thinned",
     "tween",
@@ -227,6 +228,11 @@ def tape_marks(heading: float, span: float, step: int = 5) -> list[int]:
     first = math.ceil((heading - span / 2) / step)
     last = math.floor((heading + span / 2) / step)
     return [step * index for index in range(first, last + 1)]
+
+
+def steady(shown: float, value: float, step: float) -> float:
+    """`value`, or what is `shown` already where that is less than `step` away: noise that nobody sees draws nothing anew."""
+    return shown if abs(value - shown) < step else value
 
 
 def nice_floor(value: float) -> float:

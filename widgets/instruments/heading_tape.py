@@ -20,7 +20,7 @@ from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import Imu
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, tint
-from widgets.core.geometry import CARDINALS, DASH, heading_of, shortest_turn, tape_marks
+from widgets.core.geometry import CARDINALS, DASH, heading_of, shortest_turn, steady, tape_marks
 from widgets.core.shapes import Shapes
 from widgets.core.surfaces import Glass
 from widgets.core.theme import theme
@@ -34,6 +34,8 @@ Builder.load_string("""
 
 STEP, LABELLED = 5, 15
 """Between two ticks and between two labels [deg]."""
+SEEN = 0.25
+"""A shift that is less is not seen [px]."""
 
 
 class HeadingTape(Glass, Drawing):
@@ -76,7 +78,7 @@ class HeadingTape(Glass, Drawing):
 
     def show(self, msg: Imu | Odometry | PoseWithCovarianceStamped) -> None:
         """Take the heading out of the message; an Imu that measures no orientation gives NaN."""
-        self.heading = heading_of(msg)
+        self.heading = steady(self.heading, heading_of(msg), SEEN / self.per_degree)
 
     def place_of(self, heading: float) -> float:
         """Where `heading` [deg] is on the strip, measured from its middle [px]; NaN while the own is not known."""

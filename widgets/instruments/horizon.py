@@ -18,7 +18,7 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.sensor_msgs import Imu
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, shader
-from widgets.core.geometry import DASH, dial_point, horizon_rise, screen_angle
+from widgets.core.geometry import DASH, dial_point, horizon_rise, screen_angle, steady
 from widgets.core.shapes import Shapes
 from widgets.core.surfaces import Glass
 from widgets.core.theme import theme
@@ -72,6 +72,8 @@ RUNG = 0.21
 """From rung to rung of ten degrees, as a share of the radius."""
 MAX_HORIZON_OFFSET = 0.8
 """How far from the middle the horizon may be drawn, as a share of the radius."""
+SEEN = math.radians(0.1)
+"""A turn that is less is not seen: a quarter of a pixel at the rim of a large horizon [rad]."""
 BANKS = (10, 20, 30, 45, 60)
 """Ticks of the bank scale to both sides [deg]."""
 
@@ -137,7 +139,11 @@ class ArtificialHorizon(Glass, Drawing):
         if msg.orientation_covariance[:1] == [-1]:
             self.roll = self.pitch = math.nan
         else:
-            self.roll, self.pitch = msg.orientation.roll, msg.orientation.pitch
+            turned = msg.orientation
+            self.roll, self.pitch = (
+                steady(self.roll, turned.roll, SEEN),
+                steady(self.pitch, turned.pitch, SEEN),
+            )
 
     def draw(self) -> None:
         """Turn and raise the world; draw the scale anew only when its size or colours have changed."""

@@ -40,6 +40,10 @@ from widgets.map.map_viewport import MapViewport
 __all__ = ["MapOverlay"]
 
 NOTHING = np.zeros((0, 2))
+SEEN, SEEN_TURN = 0.25, math.radians(0.25)
+"""A shift [px] and a turn [rad] of the robot that are less are not seen."""
+MAX_UNSEEN = 0.05
+"""Greatest shift that is left out on a small map [m]."""
 
 
 class MapOverlay(MapViewport, Drawing):
@@ -132,7 +136,9 @@ class MapOverlay(MapViewport, Drawing):
 
     def _show_pose(self, msg: PoseWithCovarianceStamped) -> None:
         pose, first = msg.pose.pose, not self.located
-        self.robot = [pose.position.x, pose.position.y, pose.orientation.yaw]
+        place = [pose.position.x, pose.position.y, pose.orientation.yaw]
+        if not (self.located and self._looks_alike(place)):
+            self.robot = place
         if not self.located:
             return
         self._trail.add(*self.robot[:2])
@@ -140,6 +146,12 @@ class MapOverlay(MapViewport, Drawing):
             self._centre(*self.robot[:2])
         elif first:
             self._fit_until_touched()
+
+    def _looks_alike(self, place: Sequence[float]) -> bool:
+        """The robot there could not be told from where it is shown: no reason to draw the map anew 20 times a second."""
+        step = min(SEEN / self.view.scale, MAX_UNSEEN)
+        x, y, yaw = self.robot
+        return math.dist(place[:2], (x, y)) < step and abs(place[2] - yaw) < SEEN_TURN
 
     def _show_scan(self, msg: LaserScan) -> None:
         if not (self.show_laser and self.located):

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import gc
+import math
 import re
 import weakref
 
@@ -60,6 +61,22 @@ def test_a_drawing_follows_what_it_depends_on(counted, stage, name, value):
     setattr(counted, name, value)
     stage.frames()
     assert counted.count == 1
+
+
+def test_what_stays_unknown_is_no_reason_to_draw(counted, stage):
+    counted.age = 3.0
+    counted.age = math.nan
+    stage.frames()
+    counted.count = 0
+    for _ in range(3):  # Kivy tells of each: NaN is not itself
+        counted.age = math.nan
+        stage.frames()
+    assert counted.count == 0
+    counted.age = 3.0
+    stage.frames()
+    counted.age = math.nan
+    stage.frames()
+    assert counted.count == 2, "that it became known, and that it no longer is"
 
 
 def test_a_drawing_follows_the_theme(counted, stage):

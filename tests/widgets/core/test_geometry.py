@@ -203,3 +203,24 @@ def test_the_heading_of_a_message_is_that_of_its_bow_and_unknown_where_none_is_m
     assert geometry.heading_of(PoseWithCovarianceStamped(pose=pose)) == pytest.approx(0.0)
     blind = Imu(orientation=north, orientation_covariance=[-1.0, *[0.0] * 8])
     assert math.isnan(geometry.heading_of(blind))
+
+
+@pytest.mark.parametrize(
+    ("shown", "value", "then"),
+    [(1.0, 1.05, 1.0), (1.0, 0.95, 1.0), (1.0, 1.1, 1.1), (1.0, 0.5, 0.5), (359.95, 0.0, 0.0)],
+)
+def test_a_change_that_is_not_seen_is_left_out(shown, value, then):
+    assert geometry.steady(shown, value, 0.1) == then
+
+
+def test_many_small_changes_are_followed():
+    shown = value = 0.0
+    for _ in range(1000):
+        value += 0.03
+        shown = geometry.steady(shown, value, 0.1)
+        assert abs(shown - value) < 0.1
+
+
+def test_what_becomes_known_or_unknown_is_told():
+    assert geometry.steady(math.nan, 2.0, 0.1) == 2.0
+    assert math.isnan(geometry.steady(2.0, math.nan, 0.1))

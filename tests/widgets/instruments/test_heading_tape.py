@@ -57,6 +57,23 @@ def test_the_strip_ends_before_the_sign_of_a_state(tape, state):
     assert all(word.x + text_texture(word.text, word.size).width / 2 < sign for word in words)
 
 
+def test_noise_that_is_not_seen_draws_nothing_anew(tape, stage, monkeypatch):
+    def imu(heading: float) -> Imu:
+        return Imu(orientation=Quaternion.from_yaw(math.radians(90 - heading)))
+
+    tape.show(imu(90.0))
+    stage.frames()
+    drawn: list[float] = []
+    monkeypatch.setattr(HeadingTape, "draw", lambda self: drawn.append(self.heading))
+    for heading in (90.02, 89.97, 90.03):  # a sixth of a pixel
+        tape.show(imu(heading))
+        stage.frames()
+    assert drawn == []
+    tape.show(imu(90.05))
+    stage.frames()
+    assert drawn == [pytest.approx(90.05)]
+
+
 def test_an_imu_sets_the_heading(tape):
     tape.show(Imu(orientation=Quaternion.from_yaw(math.pi)))
     assert tape.heading == pytest.approx(270)

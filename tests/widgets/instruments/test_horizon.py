@@ -26,6 +26,22 @@ def test_roll_and_pitch_come_from_the_orientation(horizon):
     assert horizon.pitch == pytest.approx(-0.2)
 
 
+def test_noise_that_is_not_seen_draws_nothing_anew(horizon, stage, monkeypatch):
+    horizon.show(imu(0.3, -0.2))
+    stage.frames()
+    drawn: list[float] = []
+    monkeypatch.setattr(ArtificialHorizon, "draw", lambda self: drawn.append(self.roll))
+    for noise in (0.001, -0.001, 0.0015):
+        horizon.show(imu(0.3 + noise, -0.2 - noise))
+        stage.frames()
+    assert drawn == []
+    horizon.show(imu(0.302, -0.2))
+    horizon.show(imu(0.302, -0.204))
+    stage.frames()
+    assert drawn == [pytest.approx(0.302)]
+    assert horizon.pitch == pytest.approx(-0.204)
+
+
 def test_with_the_right_side_down_the_world_turns_anticlockwise(horizon, stage):
     horizon.show(imu(TEN, 0.0))
     stage.frames()

@@ -270,6 +270,24 @@ def test_a_pose_places_the_robot_and_leaves_a_trail(map_):
     assert map_.trail.tolist() == [[0, 1], [1, 1], [2, 1]]
 
 
+def test_a_robot_that_stands_draws_nothing_anew_whatever_its_noise(map_, stage, monkeypatch):
+    map_.show(pose(1.0, 2.0, 0.5))
+    stage.frames(2)
+    drawn: list[list[float]] = []
+    monkeypatch.setattr(GridMap, "draw", lambda self: drawn.append(list(self.robot)))
+    unseen = min(0.2 / map_.view.scale, 0.04)
+    for x, yaw in ((1.0 + unseen, 0.5), (1.0 - unseen, 0.503), (1.0, 0.497)):
+        map_.show(pose(x, 2.0, yaw))
+        stage.frames()
+    assert drawn == []
+    assert map_.robot == near(1.0, 2.0, 0.5)
+    map_.show(pose(1.0, 2.0, 0.506))
+    stage.frames()
+    map_.show(pose(1.0 + 3 * unseen, 2.0, 0.506))
+    stage.frames()
+    assert drawn == [near(1.0, 2.0, 0.506), near(1.0 + 3 * unseen, 2.0, 0.506)]
+
+
 def test_a_pose_that_is_not_known_leaves_no_trail_and_is_not_drawn(map_, stage):
     map_.show(pose(math.nan, 1.0))
     stage.frames()
