@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from bridge.msgs import Msg
 from bridge.msgs.nav_msgs import Odometry

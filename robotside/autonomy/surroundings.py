@@ -62,8 +62,9 @@ class Surroundings:
         placed = self._swept.apply(points)
         if mapping:
             obstacles = self._navigator.obstacles
-            fresh, moved = obstacles.fresh(placed, vague=vague), self._movers.moving(placed, stamp)
-            obstacles.update(placed[~moved], now, vague=vague)
+            fresh = obstacles.fresh(placed, vague=vague)
+            moved = self._movers.moving(placed, stamp, fresh)  # what the map knows does not move
+            obstacles.update(placed[fresh & ~moved], now, vague=vague)
             # sonars are too coarse to tell what moves: whatever is not on the map may
             moving = fresh if vague else fresh & moved
             self._points = np.concatenate([points, self._movers.nearer(points[moving])])

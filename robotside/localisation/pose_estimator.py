@@ -352,7 +352,7 @@ def _worst(covariance: NDArray[np.float64]) -> float:
 
     Written out, at a sixth of the cost of LAPACK's answer: it is asked for with every step.
     """
-    along, across, both = (float(covariance[at]) for at in ((0, 0), (1, 1), (1, 0)))
+    along, across, both = covariance.item(0, 0), covariance.item(1, 1), covariance.item(1, 0)
     return (along + across) / 2.0 + math.hypot((along - across) / 2.0, both)
 
 

@@ -31,8 +31,10 @@ class MovingObstacles:
     def __init__(self) -> None:
         self._before: deque[tuple[float, Points]] = deque(maxlen=20)
 
-    def moving(self, placed: Points, stamp: float) -> NDArray[np.bool_]:
-        """Which points of the sweep at `stamp` [s] have moved; none without a sweep to compare with."""
+    def moving(
+        self, placed: Points, stamp: float, asked: NDArray[np.bool_] | None = None
+    ) -> NDArray[np.bool_]:
+        """Which points of the sweep at `stamp` [s], of those that are `asked` for, have moved; none without a sweep to compare with."""
         while len(self._before) > 1 and self._before[1][0] <= stamp - COMPARED_AGE:
             self._before.popleft()
         old = self._before[0] if self._before else None
@@ -44,7 +46,11 @@ class MovingObstacles:
             or not len(placed)
         ):
             return np.zeros(len(placed), dtype=np.bool_)
-        return ~within(placed, old[1], MIN_MOTION)
+        if asked is None:
+            return ~within(placed, old[1], MIN_MOTION)
+        moved = asked.copy()
+        moved[asked] = ~within(placed[asked], old[1], MIN_MOTION)
+        return moved
 
     @staticmethod
     def nearer(points: Points) -> Points:

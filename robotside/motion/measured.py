@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+
+import msgspec
 
 from robotside.core.pose2 import Pose2
 from robotside.motion.stopping_path import REST, PlanarVelocity
@@ -11,8 +12,7 @@ from robotside.motion.stopping_path import REST, PlanarVelocity
 __all__ = ["MeasuredState"]
 
 
-@dataclass(frozen=True, slots=True)
-class MeasuredState:
+class MeasuredState(msgspec.Struct, frozen=True):
     """The newest measurements; NaN and None for what the robot does not measure."""
 
     pose: Pose2 | None = None

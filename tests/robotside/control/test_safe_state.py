@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import pytest
+from msgspec.structs import replace
 
 from bridge.msgs.geometry_msgs import Twist
 from robotside.control.safe_state import GROUND, MAX_ENDING_TIME, SURFACE, Act, SafeState

@@ -28,3 +28,20 @@ def test_the_other_gets_the_rest_of_the_room() -> None:
     assert MovingObstacles.nearer(np.array([[2.0, 0.4], [9.0, 0.0]])).tolist() == [
         [2.0 * ROOM_SHARE, 0.4 * ROOM_SHARE]
     ]
+
+
+def test_of_what_is_asked_for_the_same_is_said_to_move_as_of_everything() -> None:
+    whole, some = MovingObstacles(), MovingObstacles()
+    rng = np.random.default_rng(1)
+    for step in range(12):
+        placed = np.concatenate([WALL, rng.uniform(-3.0, 3.0, (40, 2))])
+        asked = rng.random(len(placed)) < 0.3
+        moved = whole.moving(placed, 0.1 * step)
+        assert np.array_equal(some.moving(placed, 0.1 * step, asked), moved & asked)
+    assert moved.any()
+
+
+def test_when_nothing_is_asked_for_nothing_moves() -> None:
+    movers = MovingObstacles()
+    for step in range(8):
+        assert not movers.moving(WALL + step, 0.1 * step, np.zeros(len(WALL), dtype=np.bool_)).any()
