@@ -220,8 +220,16 @@ class SimRobot:
         self._run.leave(self._collect)
 
     def _collect(self) -> None:
-        if self._met:
+        if self._met and self._has_work():
             self._unread.extend(self._measure())
+
+    def _has_work(self) -> bool:
+        """Whether something is measured after this step: mostly nothing is."""
+        return (
+            self._vehicle.has_measurements
+            or self._mishaps.is_due(self.simulation.steps)
+            or not (self._cameras is None or self._cameras.are_idle(self._wanted))
+        )
 
     def _measure(self) -> Iterator[tuple[str, Msg]]:
         simulation, vehicle, stamp = self.simulation, self._vehicle, self._run.now

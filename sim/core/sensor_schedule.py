@@ -22,6 +22,10 @@ class Schedule:
         self._next = dict.fromkeys(rates, 0)
         self._soonest = 0
 
+    def anything_due(self, step: int) -> bool:
+        """Whether `due` will return anything for `step`; a step for which it does not may be left out."""
+        return step >= self._soonest
+
     def is_due(self, name: str, step: int) -> bool:
         """Whether `name` will be among the names that `due` returns for `step`, which has not been asked for yet."""
         return self._next[name] <= step

@@ -45,6 +45,10 @@ class SensorSuite:
             raise ValueError(f"There is a sensor {name!r} already.")
         self._sensors[name] = (rate, measure)
 
+    def anything_due(self, step: int) -> bool:
+        """Whether any sensor measures after `step`; a step after which none does need not be measured."""
+        return self._planned().anything_due(step)
+
     def is_due(self, name: str, step: int) -> bool:
         """Whether the sensor of this name measures after `step`, which has not been measured yet."""
         return name in self._sensors and self._planned().is_due(name, step)

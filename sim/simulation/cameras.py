@@ -29,6 +29,10 @@ class Cameras:
             # now, because the first picture would otherwise hold up a robot that is being driven
             simulation.renderer.prepare()
 
+    def are_idle(self, wanted: AbstractSet[str]) -> bool:
+        """`shoot` would have nothing to do, nor to count."""
+        return not self._made and wanted.isdisjoint(self._parameters)
+
     def shoot(self, wanted: AbstractSet[str], stamp: float) -> Iterator[tuple[str, Msg]]:
         """Pictures that are due after this step of those that are `wanted`, taken at `stamp` [s]."""
         simulation = self._simulation

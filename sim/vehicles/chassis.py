@@ -153,6 +153,11 @@ class Chassis(Generic[P]):
         """True pose and motion, in `map`."""
         return self.scene.backend.state(self.body)
 
+    @property
+    def has_measurements(self) -> bool:
+        """`measure` has something to give after this step; else it need not be called."""
+        return self.bumper.changed or self.suite.anything_due(self._step)
+
     def measure(self, stamp: float, *, truth: bool) -> Iterator[Measurement]:
         """Measurements that are due after this step, with `stamp` [s]; ground truth only when `truth` asks for it."""
         if self.bumper.changed and not self.suite.is_due("bumper", self._step):

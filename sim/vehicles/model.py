@@ -78,6 +78,10 @@ class Vehicle(Protocol):
     def state(self) -> State:
         """True pose and motion, in `map`."""
 
+    @property
+    def has_measurements(self) -> bool:
+        """`measure` has something to give after this step; else it need not be called."""
+
     def measure(self, stamp: float, *, truth: bool) -> Iterator[tuple[str, Msg]]:
         """Topics and messages that are due after this step, with `stamp` [s]; ground truth only with `truth`."""
 

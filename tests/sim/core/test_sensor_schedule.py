@@ -24,3 +24,11 @@ def test_a_period_that_is_no_whole_number_of_steps_does_not_drift():
     due = [step for step in range(241) if schedule.due(step)]
     assert due[:6] == [0, 5, 10, 15, 20, 24]
     assert due[-1] == 240
+
+
+def test_steps_after_which_nothing_falls_due_can_be_left_out():
+    asked, seldom = (Schedule({"imu": 50, "laser": 10, "battery": 1}) for _ in range(2))
+    every = [asked.due(step) for step in range(1000)]
+    some = [seldom.due(step) if seldom.anything_due(step) else () for step in range(1000)]
+    assert some == every
+    assert sum(map(bool, every)) < 300
