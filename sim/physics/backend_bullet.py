@@ -15,7 +15,9 @@ from sim.core.constants import GRAVITY, STEPS_PER_SECOND
 from sim.core.shapes import Quat, Shape, Vec3, place
 from sim.physics.bodies import Contact, Floating, Joint, State, WheeledBody
 from sim.physics.bullet_bodies import BodyMaker
+from sim.physics.bullet_measures import Measures
 from sim.physics.quiet_pybullet import p, quiet
+from sim.physics.sleep import SleepWatch
 from sim.physics.zero_pages import given_back
 
 __all__ = ["Bullet", "Contact", "Joint", "State", "WheeledBody"]
@@ -58,13 +60,16 @@ class Bullet:
             for off in (p.COV_ENABLE_GUI, p.COV_ENABLE_SHADOWS, p.COV_ENABLE_RENDERING):
                 p.configureDebugVisualizer(off, 0, physicsClientId=self._client)
         self._make = BodyMaker(self._client, visible=gui)
+        self._sleep = SleepWatch(self._client)
         self._below: dict[int, Vec3] = {}
         self._groups: dict[int, int] = {}
+        self._measures = Measures(self._client, self._groups)
         self.ground = -1
         """Number of the ground; -1 when there is none."""
 
     def add_ground(self, height: float = 0.0) -> int:
         """The level ground at z = `height` [m]; its number."""
+        self._wake()
         self.ground = self._make.ground(height)
         return self.ground
 
@@ -73,6 +78,7 @@ class Bullet:
 
         A step costs time for each thing, not for each solid: what belongs together is added together.
         """
+        self._wake()
         return self._make.static(shapes)
 
     def add_looks(self, shape: Shape) -> int:
@@ -83,6 +89,8 @@ class Bullet:
         """A free rigid body of one `shape` and `mass` [kg]; its number."""
         body = self._make.single(shape, mass)
         self._below[body] = (0.0, 0.0, 0.0)
+        self._sleep.watch(body)
+        self._wake()
         return body
 
     def add_wheeled(self, spec: WheeledBody, position: Vec3, rotation: Quat) -> int:
@@ -103,11 +111,27 @@ class Bullet:
         for link in range(-1, p.getNumJoints(body, physicsClientId=self._client)):
             p.setCollisionFilterGroupMask(body, link, group, _ALL_GROUPS, physicsClientId=self._client)
         self._below[body] = (-com[0], -com[1], -com[2])
+        self._sleep.watch(body)
+        self._wake()
         return body
+
+    @property
+    def asleep(self) -> bool:
+        """Nothing moves and nothing acts, so that a step changes nothing."""
+        return self._sleep.asleep
 
     def step(self) -> None:
         """Advance by one fixed step."""
+        if self._sleep.asleep and not self._gui:  # there, a hand may drag something
+            return
         p.stepSimulation(physicsClientId=self._client)
+        self._sleep.after_step()
+        self._measures.forget()
+
+    def _wake(self) -> None:
+        """Something was put somewhere else."""
+        self._sleep.wake()
+        self._measures.forget()
 
     def state(self, body: int) -> State:
         """Pose and motion of `body`."""
@@ -116,6 +140,7 @@ class Bullet:
 
     def place(self, body: int, position: Vec3, rotation: Quat) -> None:
         """Put `body` somewhere else, at rest, its joints as they are."""
+        self._wake()
         below = self._below[body]
         centre = place((-below[0], -below[1], -below[2]), position, rotation)
         p.resetBasePositionAndOrientation(body, centre, rotation, physicsClientId=self._client)
@@ -131,12 +156,14 @@ class Bullet:
 
     def spin(self, body: int, joint: int, speed: float, torque: float) -> None:
         """Let the motor of `joint` hold `speed` [rad/s] with at most `torque` [N m], until the next order."""
+        self._sleep.turn(body, joint, speed)
         p.setJointMotorControl2(
             body, joint, p.VELOCITY_CONTROL, targetVelocity=speed, force=torque, physicsClientId=self._client
         )
 
     def steer(self, body: int, joint: int, angle: float, torque: float) -> None:
         """Let the motor of `joint` hold `angle` [rad] with at most `torque` [N m], until the next order."""
+        self._sleep.wake()
         p.setJointMotorControl2(
             body, joint, p.POSITION_CONTROL, targetPosition=angle, force=torque, physicsClientId=self._client
         )
@@ -144,6 +171,7 @@ class Bullet:
     def apply(self, body: int, at: Vec3, force: Vec3, torque: Vec3) -> None:
         """Let `force` [N] act on `body` `at` a point [m], and `torque` [N m], for one step; all in the world's frame."""
         client = self._client
+        self._sleep.wake()
         p.applyExternalForce(body, -1, force, at, p.WORLD_FRAME, physicsClientId=client)
         p.applyExternalTorque(body, -1, torque, p.WORLD_FRAME, physicsClientId=client)
 
@@ -155,23 +183,16 @@ class Bullet:
 
     def set_velocity(self, body: int, velocity: Vec3, turning: Vec3) -> None:
         """Let the centre of mass of `body` move with `velocity` [m/s] and turn with `turning` [rad/s] from now on."""
+        self._sleep.wake()
         p.resetBaseVelocity(body, velocity, turning, physicsClientId=self._client)
 
     def rays(self, body: int, start: Sequence[Vec3], end: Sequence[Vec3]) -> NDArray[np.float64]:
         """Reach of each ray, as a part of its length: 1 when it hits nothing.
 
         `start` and `end` are in the frame of the body's centre of mass, see `ray_points`; the body itself is not hit.
+        While nothing moves, the very same lists give the very same array, which is not to be changed.
         """
-        hits = p.rayTestBatch(
-            start,
-            end,
-            numThreads=1,
-            parentObjectUniqueId=body,
-            parentLinkIndex=-1,
-            collisionFilterMask=_ALL_GROUPS ^ self._groups.get(body, 0),
-            physicsClientId=self._client,
-        )
-        return np.fromiter((hit[2] for hit in hits), dtype=np.float64, count=len(hits))
+        return self._measures.rays(body, start, end)
 
     def ray_points(self, body: int, points: Sequence[Vec3]) -> list[Vec3]:
         """`points` of the body's frame as `rays` takes them."""
@@ -180,8 +201,7 @@ class Bullet:
 
     def touching(self, body: int) -> list[Contact]:
         """Contacts of the shell of a vehicle; its wheels and casters do not count."""
-        points = p.getContactPoints(bodyA=body, linkIndexA=-1, physicsClientId=self._client)
-        return [Contact(point[2], point[6]) for point in points or () if point[8] <= 0.0]
+        return self._measures.touching(body)
 
     def is_crowded(self, body: int, distance: float, *, but: int = -1) -> bool:
         """Whether anything is nearer to `body` than `distance` [m], apart from the ground and one other body."""
