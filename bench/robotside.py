@@ -4,7 +4,8 @@ The share of a core is CPU time of the whole process (physics, drawing, JPEG, au
 the software GL) over 20 s; the handheld is the app's own link with every subscription that it makes. The other way
 takes the camera's pictures through the JSON topic and not through the binary socket. The patrol is the same station without
 sockets and camera, on a clock that runs as fast as it can, until 100 m are driven. The longest update is CPU time, of a robot
-that plans a way round an obstacle that it has just seen: while an update lasts, STOP is not processed.
+that plans a way round an obstacle that it has just seen: while an update lasts, STOP is not processed. A step of the loop is CPU time of the loop's own thread over
+10 s in real time, camera watched, pictures drawn beside it, without sockets.
 """
 
 from __future__ import annotations
@@ -16,17 +17,19 @@ from contextlib import closing, contextmanager
 
 from app.link.feeds import Mailbox
 from app.link.link import Link
-from bench.support.figures import Figure
+from bench.support.figures import Figure, percentile
 from bench.support.harness import Context, Sides
 from bench.support.planning import DEEP, LAKE, SHALLOW, lake, longest, trap
 from bench.support.station import ROUND, Serving, patrol, serving
 from bridge.core.camera_frames import Frame
 from bridge.core.network_thread import NetworkThread
+from bridge.core.topics import CAMERA
 from bridge.msgs.pilothouse_msgs import Mission, SetMissionRequest, StartTaskRequest, TaskProgress
+from robotside.core.worker_thread import WorkerThread
 from robotside.door.station_door import StationDoor
 from robotside.records import Records
 from robotside.station.station import Station
-from sim.robot import make
+from sim.robot import make, make_several
 from sim.vehicles.patrol import PARAMETERS
 
 JSON = "pictures as base64 in JSON"
@@ -35,6 +38,15 @@ FIGURES = (
     Figure("patrolling", "% of a core", "it patrols, camera watched", against=JSON, share=0.6),
     Figure("pictures", "1/s", "camera pictures that arrive meanwhile", better="more", against=JSON),
     Figure("patrol_speed", "×", "a patrol of 100 m over real time", target=100, better="more"),
+    *(
+        Figure(
+            f"step {what}",
+            "ms",
+            f"a step of the loop, 99 of 100, it {'stands' if what == 'standing' else 'patrols'}",
+            target=2,
+        )
+        for what in ("standing", "patrolling")
+    ),
     *(
         Figure(
             f"update {kind} {where}",
@@ -52,6 +64,8 @@ FIGURES = (
 )
 REPEATS = 2
 
+STEPS_TIME = 10.0
+"""Time over which the steps of the loop are measured [s]."""
 WATCH_TIME = 20.0
 """Time over which the CPU time is measured [s]."""
 PATROL_LENGTH = 100.0
@@ -63,7 +77,9 @@ TICK = 1 / 60
 @contextmanager
 def prepare(_: Context) -> Iterator[Sides]:
     """Nothing is kept: each sample starts a robot side of its own."""
-    yield Sides(lambda: {**share(PARAMETERS.camera.name), **fast(), **updates()}, lambda: share(""))
+    yield Sides(
+        lambda: {**share(PARAMETERS.camera.name), **fast(), **steps(), **updates()}, lambda: share("")
+    )
 
 
 def share(camera: str) -> dict[str, float]:
@@ -129,6 +145,40 @@ def fast() -> dict[str, float]:
         simulated = clock.now - began
         wall, cpu = time.monotonic() - wall, time.process_time() - cpu
     return {"patrol_speed": simulated / wall, "patrol_speed_cpu": simulated / cpu}
+
+
+def steps() -> dict[str, float]:
+    """CPU time of the loop's thread for one of its steps, 99 of 100 [ms]."""
+    (robot,) = make_several(["patrol"], "parking_lot", draws_beside=True)
+    with closing(robot), WorkerThread("planning") as worker, WorkerThread("looking") as looker:
+        station = Station(
+            robot,
+            Records.in_memory(),
+            now=time.monotonic(),
+            clock=time.monotonic,
+            rng=random.Random(0),
+            worker=worker,
+            looker=looker,
+        )
+        station.demand.set(CAMERA, "bench", True)
+        paced(station, 4.0)
+        found = {"step standing": percentile(paced(station, STEPS_TIME), 0.99) * 1e3}
+        begin(station)
+        paced(station, 3.0)
+        found["step patrolling"] = percentile(paced(station, STEPS_TIME), 0.99) * 1e3
+    return found
+
+
+def paced(station: Station, seconds: float) -> list[float]:
+    """CPU time of each step of so many seconds of real time [s]."""
+    spent, due = [], time.monotonic()
+    for _ in range(round(seconds / TICK)):
+        due = max(due + TICK, time.monotonic() - TICK)
+        time.sleep(max(0.0, due - time.monotonic()))
+        began = time.thread_time()
+        station.step(time.monotonic())
+        spent.append(time.thread_time() - began)
+    return spent
 
 
 def updates() -> dict[str, float]:
