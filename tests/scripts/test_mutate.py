@@ -111,25 +111,32 @@ def test_every_table_has_entries():
     }
 
 
-def test_a_fault_is_noticed_in_this_process_in_a_fork_and_in_a_program_that_a_shell_starts(project):
+def test_who_was_noticed_is_told_from_who_was_not_and_the_source_stays_as_it_was(project):
+    """In this process, in a fork, and in a program that a shell starts."""
     tests = [f"tests/test_speeds.py::test_{name}" for name in ("most", "fork", "process")]
-    tabled(project, *(entry(f"no cap for {test}", *NO_MOST, test) for test in tests))
+    noticed = [entry(f"no cap for {test}", *NO_MOST, test) for test in tests]
+    tabled(
+        project,
+        *noticed,
+        entry("no floor", "'max(speed, -1.0)'", "'speed'", "tests/test_speeds.py::test_least"),
+    )
+    files = {path: path.read_bytes() for path in project.rglob("*.py")}
     done = run(project)
-    assert states(done.stdout) == ["killed"] * 3
-    assert (done.stdout.splitlines()[-1], done.returncode) == ("killed 3 of 3 (100 %)", 0)
+    assert states(done.stdout) == ["killed", "killed", "killed", "survived"]
+    assert "survived:\n  drive/speeds.py: no floor\n" in done.stdout
+    assert (done.stdout.splitlines()[-1], done.returncode) == ("killed 3 of 4 (75 %)", 1)
+    assert {path: path.read_bytes() for path in project.rglob("*.py")} == files
 
 
-def test_a_fault_that_no_test_notices_survives_and_the_source_stays_as_it_was(project):
+def test_only_what_the_pattern_finds_runs_and_all_killed_is_a_success(project):
     tabled(
         project,
         entry("no cap", *NO_MOST, "tests/test_speeds.py::test_most"),
         entry("no floor", "'max(speed, -1.0)'", "'speed'", "tests/test_speeds.py::test_least"),
     )
-    files = {path: path.read_bytes() for path in project.rglob("*.py")}
-    done = run(project)
-    assert states(done.stdout) == ["killed", "survived"]
-    assert (done.stdout.splitlines()[-1], done.returncode) == ("killed 1 of 2 (50 %)", 1)
-    assert {path: path.read_bytes() for path in project.rglob("*.py")} == files
+    assert run(project, "--only", "nothing of this name").returncode == 2
+    done = run(project, "--only", "CAP")
+    assert (done.stdout.splitlines()[-1], done.returncode) == ("killed 1 of 1 (100 %)", 0)
 
 
 def test_an_entry_that_proves_nothing_is_broken_and_says_why(project):
@@ -169,16 +176,6 @@ def test_what_a_killed_run_left_is_removed_by_the_next(project, tmp_path):
         mutate.Bench(project, tmp_path / "cache")
         assert len(left) == 3
         assert not [path for path in left if path.exists()]
-
-
-def test_only_what_the_pattern_finds_runs(project):
-    tabled(
-        project,
-        entry("no cap", *NO_MOST, "tests/test_speeds.py::test_most"),
-        entry("no floor", "'max(speed, -1.0)'", "'speed'", "tests/test_speeds.py::test_least"),
-    )
-    assert run(project, "--only", "CAP").stdout.splitlines()[-1] == "killed 1 of 1 (100 %)"
-    assert run(project, "--only", "nothing").returncode == 2
 
 
 @pytest.mark.skipif(shutil.which("git") is None, reason="git is missing")

@@ -83,6 +83,15 @@ def test_commands_without_an_id_are_all_done(commands: CommandLog, counter: Coun
     assert counter.done == 2
 
 
+def test_an_id_that_would_have_to_be_cut_is_refused_and_nothing_is_done(
+    commands: CommandLog, counter: Counter
+) -> None:
+    said = "A command_id has at most 64 characters, not 65."
+    answer = commands.run("/x", CommandRequest(command_id="c" * 65), counter.act)
+    assert (answer.success, answer.message, counter.done) == (False, said, 0)
+    assert commands.run("/x", CommandRequest(command_id="c" * 64), counter.act).success
+
+
 def test_only_the_newest_answers_are_kept(commands: CommandLog, counter: Counter) -> None:
     for number in range(MAX_ANSWERS + 1):
         commands.run("/x", CommandRequest(command_id=f"c{number}"), counter.act)
