@@ -201,3 +201,17 @@ def test_wheels_may_be_told_to_come_home_after_a_while() -> None:
 
 def test_an_unknown_kind_brakes() -> None:
     assert Body("balloon").lose(1.0).twist is None
+
+
+@pytest.mark.parametrize("kind", ["quadrotor", "hexapod"])
+def test_one_that_does_not_know_its_height_neither_climbs_nor_sinks_while_it_holds(kind: str) -> None:
+    body = Body(kind, blind=True)
+    body.lose(5.0, lost=False)
+    assert {act.twist.linear.z for act in body.acts if act.twist} == {0.0}
+
+
+def test_one_that_lands_without_knowing_its_height_stops_landing_after_a_while() -> None:
+    body = Body("quadrotor", blind=True, height=2.0)
+    assert body.lose(MAX_ENDING_TIME).phase == "lands"
+    assert body.lose(15.0).phase == "has landed"
+    assert body.acts[-1].twist is None

@@ -80,3 +80,11 @@ def test_holds_of_many_push_out_the_oldest(holds: StopRelease) -> None:
         holds.hold(str(number), 10.0, 10.0)
     assert holds.objection("0", 9.0, 11.5) == NOT_HELD
     assert holds.objection("1", 9.0, 11.5) == ""
+
+
+def test_a_hold_lasts_by_the_robots_time_however_long_ago_it_is_said_to_have_begun(
+    holds: StopRelease,
+) -> None:
+    assert holds.hold("anna", 8.0, 10.0) == ""
+    assert "longer" in holds.objection("anna", 7.0, 9.9 + MIN_HOLD_TIME)
+    assert holds.objection("anna", 7.0, 10.0 + MIN_HOLD_TIME) == ""

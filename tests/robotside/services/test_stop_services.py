@@ -80,6 +80,16 @@ def test_stop_is_released_by_who_has_control_or_pressed_it(scene: Scene) -> None
     assert scene.control.mode == "MANUAL"
 
 
+def test_who_began_to_hold_before_somebody_took_control_releases_no_stop_of_others(scene: Scene) -> None:
+    bert, carl = scene.client("bert"), scene.client("carl")
+    scene.ask("/stop", client=bert)
+    assert scene.ask("/stop/hold", client=carl).success
+    scene.ask("/control/acquire", CommandRequest(client_name="Anna"))
+    scene.run(MIN_HOLD_TIME + 0.1)
+    assert "Anna has control" in scene.refused("/stop/release", client=carl)
+    assert scene.control.stopped
+
+
 def test_a_release_that_was_asked_for_before_the_latest_stop_leaves_it(scene: Scene) -> None:
     bert = scene.client("bert")
     scene.ask("/control/acquire", CommandRequest(client_name="Anna"))

@@ -97,6 +97,17 @@ async def test_a_goal_that_is_taken_back_ends_the_task(scene: Scene) -> None:
     assert scene.robot.at_rest
 
 
+async def test_a_goal_that_is_taken_back_as_it_ends_leaves_the_task_that_came_after_it(scene: Scene) -> None:
+    scene.set(*SQUARE)
+    goal = await Goal(scene).begun()
+    scene.ask("/task/cancel")
+    scene.start()
+    goal.work.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await goal.work
+    assert (scene.task.state, scene.task.task_id) == ("RUNNING", 2)
+
+
 async def test_a_goal_that_somebody_else_has_taken_over_is_left_to_them(scene: Scene) -> None:
     scene.set(*SQUARE)
     goal = await Goal(scene).begun()
