@@ -17,7 +17,13 @@ from bridge.msgs.pilothouse_msgs import Event, RobotInfo
 from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header, Time
 from robotside.foreign.foreign_link import Listener
-from robotside.foreign.foreign_robot import JPEG_START, REPEAT_PERIOD, REST_REPEATS, ForeignRobot
+from robotside.foreign.foreign_robot import (
+    JPEG_START,
+    REPEAT_PERIOD,
+    REST_REPEATS,
+    SILENT_SENTENCE,
+    ForeignRobot,
+)
 from robotside.foreign.foreign_topics import Found
 
 URL = "ws://robot:9090"
@@ -302,3 +308,31 @@ def test_one_that_is_found_in_others_hands_is_left_alone() -> None:
 def test_a_password_in_the_address_is_not_told() -> None:
     robot = ForeignRobot("ws://me:secret@robot:9090", connect=Line(nobody))
     assert robot.info.name == "Robot at robot:9090"
+
+
+def test_a_command_from_before_a_silence_is_not_said_again_and_rest_is_until_it_is_over() -> None:
+    robot, line = here("/odom")
+    robot.drive(SPEED)
+    line.silent = True
+    for number in range(10):
+        robot.read(100.0 + number * REPEAT_PERIOD)
+    assert robot.trouble == SILENT_SENTENCE
+    line.sent.clear()
+    line.silent = False
+    for number in range(REST_REPEATS + 5):
+        robot.read(102.0 + number * REPEAT_PERIOD)
+    assert robot.trouble == ""
+    assert line.sent == [REST] * REST_REPEATS
+
+
+def test_a_command_that_was_in_force_when_others_took_the_robot_is_not_said_when_they_give_it_back() -> None:
+    robot, line = here("/odom")
+    robot.drive(SPEED)
+    line.sent.clear()
+    robot.on_held("The robot is driven by Fred.")
+    robot.read(100.0)
+    robot.read(101.0)
+    robot.on_held("")
+    robot.read(102.0)
+    robot.read(103.0)
+    assert line.sent == []
