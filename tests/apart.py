@@ -14,6 +14,7 @@ import importlib
 import os
 import sys
 import warnings
+from contextlib import suppress
 from multiprocessing.connection import Connection, Pipe
 from typing import Any
 
@@ -85,7 +86,8 @@ class Apart:
     def _fork(self, config: pytest.Config) -> None:
         config._tmp_path_factory.getbasetemp()  # else each child makes its own
         while self._wanted:
-            importlib.import_module(self._wanted.pop(0))
+            with suppress(ImportError):  # where only what the child's test had put there made it one
+                importlib.import_module(self._wanted.pop(0))
         here, there = Pipe()
         with warnings.catch_warnings():
             warnings.simplefilter(
@@ -136,7 +138,7 @@ def _serve(pipe: Connection, items: list[pytest.Item]) -> None:
             first = False
         gc.freeze()  # what is left is not looked at again
         write = item.config.hook.pytest_report_to_serializable
-        imported = [name for name in sys.modules if name not in known and name.startswith(OURS)]
+        imported = [name for name in list(sys.modules) if name not in known and name.startswith(OURS)]
         known.update(imported)
         pipe.send(([write(config=item.config, report=report) for report in reports], imported))
 
