@@ -87,19 +87,23 @@ class StickArbiter:
                 grip.rest()
         for pusher in self._pushers.values():
             pusher.use({pad for _, pad in sticks if pad})
-        controls = [stick for stick, _ in sticks]
-        if not sticks:
+        if sticks:
+            self._look_at(sticks)
+        else:
             self.forbid()
-            return
+
+    def _look_at(self, sticks: Controls) -> None:
+        """Bring to rest what must not drive any longer, and let a gamepad or the keys push the others."""
+        controls = [stick for stick, _ in sticks]
         ended = self._dropped() or not self._app.session.may_drive or self._moved_on(controls)
-        covered_ = [stick for stick in controls if self._covered(stick)]
+        hidden = [stick for stick in controls if self._covered(stick)]
         for stick in controls:
-            if ended or stick in covered_ or (stick.finger is not None and self._gone(stick.finger)):
+            if ended or stick in hidden or (stick.finger is not None and self._gone(stick.finger)):
                 stick.rest()
         if ended or not Window.focus:
             self._let_go(controls)
         else:
-            self._lead([(stick, pad) for stick, pad in sticks if stick not in covered_], sticks)
+            self._lead([(stick, pad) for stick, pad in sticks if stick not in hidden], sticks)
         for stick, pad in sticks:
             stick.gamepad = self._sign if pad else "none"
 

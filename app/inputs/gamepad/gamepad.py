@@ -161,21 +161,24 @@ class Gamepads:
 
     def _judge(self, number: int, known: _Known) -> None:
         """One that is pushed drives if it was let go before, is alive, and no other does."""
-        drives, pushed = self._driver == number, self._pushed(known)
-        if not pushed:
-            known.centred, known.told_silent = True, False
+        pushed = self._pushed(known)
+        known.centred = known.centred or not pushed
         silent = pushed and self.silent(number)
-        if silent and known.centred and not known.told_silent:
-            known.told_silent = True
-            self._on_news(PadEvent("silent", known.state.name))
-        if known.told_silent and not silent:
-            known.told_silent = False
-        if drives and (silent or not pushed or not known.centred or not self.on):
-            self._driver = None
-        elif self._driver is None and self.on and pushed and known.centred and not silent:
+        self._tell_silent(known, silent=silent)
+        may = self.on and pushed and known.centred and not silent
+        if self._driver == number:
+            self._driver = number if may else None
+        elif self._driver is None and may:
             self._driver = number
-        elif pushed and not drives and (self._driver is not None or not self.on):
+        elif pushed and (self._driver is not None or not self.on):
             known.centred = False
+
+    def _tell_silent(self, known: _Known, *, silent: bool) -> None:
+        """Once for each silence of one that had been let go before."""
+        is_news = silent and known.centred and not known.told_silent
+        known.told_silent = silent and (known.told_silent or known.centred)
+        if is_news:
+            self._on_news(PadEvent("silent", known.state.name))
 
     def _lose(self, number: int) -> None:
         known, drives = self._known.pop(number), self._driver == number

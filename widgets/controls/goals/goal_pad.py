@@ -8,7 +8,7 @@ pad.bind(on_command=lambda _, goal: robot.publish("/goal_pose", goal))
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, ClassVar
 
 from kivy.clock import Clock
@@ -43,6 +43,8 @@ MIN_CELL = 53
 """Least side of a button for which a picture or a table may take room from the buttons [dp]."""
 MIN_WORDS_HEIGHT = 46
 """Lower buttons have their icon only [sp]."""
+ROOMY = 66
+"""A wider corner has room for units and for the sign of the robot [dp]."""
 GAP = 3
 """Between the buttons [dp]."""
 
@@ -193,35 +195,40 @@ class GoalPad(GoalChoice, Grip, Gauge):
 
     def _in_corners(self, shapes: Shapes) -> Iterator[Word]:
         """Where the robot is in the lower left corner, which is a button too, where it is to go in the lower right one."""
-        for column, name, place, colour in (
-            (0, "ROBOT", self.actual, theme.accent),
-            (2, "NEW" if self.followed else "GOAL", self.wanted, theme.plan),
-        ):
-            left, low, width, height = box = self._cell(column, 2)
-            if column == 0:
-                fill = tint(theme.accent, 0.25) if self.pressed == "here" else theme.raised
-                ground(shapes, box, fill, theme.line)
-            if height < sp(MIN_WORDS_HEIGHT):
-                sign, ink = icon("my_location") if column == 0 else "", theme.text
-                yield Word(sign, left + width / 2, low + height / 2, sp(24), ink, font=theme.icons)
-                continue
-            y, step = low + height - sp(9), (height - sp(20)) / 3
-            most = sp(15 if height >= dp(68) else 12)
-            figures, roomy, told = self._figures(place), width > dp(66), name
-            if column == 2 and not place:  # until there is a goal it says what a press does
-                told, figures = "STEP", (f"{self.step:g}", f"{self.step:g}", f"{math.degrees(TURN):.0f}°")
-            unit = " m" if roomy and (place or told == "STEP") else ""
-            shown = [text if text.endswith("°") else text + unit for text in figures]
-            size = fitting_size(shown, most, width - dp(20), bold=True)
-            aside = dp(6) if column == 0 and roomy else 0
-            if aside:
-                yield Word(icon("my_location"), left + dp(11), y, sp(12), theme.text, font=theme.icons)
-            yield Word(told, left + width / 2 + aside, y, sp(10), colour, bold=True)
-            for row, (axis, text) in enumerate(zip(AXIS_NAMES, shown, strict=True), 1):
-                at = y - row * step + sp(1)
-                if axis != "yaw" or width > dp(66):  # the degree says it too
-                    yield Word(axis, left + dp(5), at, sp(11), theme.muted, anchor=(0, 0.5))
-                yield Word(text, left + width - dp(4), at, size, theme.text, bold=True, anchor=(1, 0.5))
+        here, there = self._cell(0, 2), self._cell(2, 2)
+        fill = tint(theme.accent, 0.25) if self.pressed == "here" else theme.raised
+        ground(shapes, here, fill, theme.line)
+        left, low, width, height = here
+        if height < sp(MIN_WORDS_HEIGHT):
+            sign = icon("my_location")
+            yield Word(sign, left + width / 2, low + height / 2, sp(24), theme.text, font=theme.icons)
+            return
+        aside = dp(6) if width > dp(ROOMY) else 0
+        if aside:
+            y = low + height - sp(9)
+            yield Word(icon("my_location"), left + dp(11), y, sp(12), theme.text, font=theme.icons)
+        yield from self._corner(here, "ROBOT", self._figures(self.actual), theme.accent, aside)
+        if self.wanted:
+            told, figures = "NEW" if self.followed else "GOAL", self._figures(self.wanted)
+        else:  # until there is a goal it says what a press does
+            told, figures = "STEP", (f"{self.step:g}", f"{self.step:g}", f"{math.degrees(TURN):.0f}°")
+        yield from self._corner(there, told, figures, theme.plan, 0)
+
+    def _corner(
+        self, box: Box, told: str, figures: tuple[str, str, str], colour: Sequence[float], aside: float
+    ) -> Iterator[Word]:
+        """A name, `aside` of the middle [px], and three figures under it, with their unit where there is room."""
+        left, low, width, height = box
+        y, step, roomy = low + height - sp(9), (height - sp(20)) / 3, width > dp(ROOMY)
+        unit = " m" if roomy and figures[0] != DASH else ""
+        shown = [text if text.endswith("°") else text + unit for text in figures]
+        size = fitting_size(shown, sp(15 if height >= dp(68) else 12), width - dp(20), bold=True)
+        yield Word(told, left + width / 2 + aside, y, sp(10), colour, bold=True)
+        for row, (axis, text) in enumerate(zip(AXIS_NAMES, shown, strict=True), 1):
+            at = y - row * step + sp(1)
+            if axis != "yaw" or roomy:  # the degree says it too
+                yield Word(axis, left + dp(5), at, sp(11), theme.muted, anchor=(0, 0.5))
+            yield Word(text, left + width - dp(4), at, size, theme.text, bold=True, anchor=(1, 0.5))
 
     def _table(self, box: Box) -> Iterator[Word]:
         """Two columns under their names: where it is, where it is to go."""
