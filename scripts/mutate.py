@@ -386,7 +386,11 @@ def main(given: Sequence[str] | None = None) -> int:
     folder = options.root / CACHE
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / "lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)  # two runs would load each other's mutants
+        try:  # two runs at a time would load each other's mutants
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            print("mutate: waiting for another run in this folder to end", file=sys.stderr)
+            fcntl.flock(lock, fcntl.LOCK_EX)
         runner = Runner(options.root, folder, max(1, min(options.n, len(found))))
         return _sum_up(runner.judge(found, lambda outcome: print(outcome.line(), flush=True)))
 
