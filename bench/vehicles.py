@@ -3,7 +3,7 @@
 CPU time of the whole process, without sockets and, but for the cameras' own figure, without cameras: each vehicle drives by itself with all its sensors, then one of
 each together over the lake's model of water, then one to twenty patrol robots in one car park. A beam's cost is the
 difference of two sweeps of the truck's laser. The shares of a core are at 240 steps a second, in real time. Memory is the
-resident set as the system counts it, shared pages of libraries included, of the whole process of a robot side that serves one
+resident set as the system counts it, shared pages of libraries included in each, of both processes of a robot side that serves one
 patrol robot without a client and was started before, so that its database has its tables (the very first start has what makes
 them, 13 MB, in memory as well), and while a client watches its camera, which takes the software GL with its
 compiler. Runs are compared by the hash of all that the robots of every kind measured in two
@@ -228,16 +228,21 @@ def memory() -> tuple[float, float]:
 
 def resident(side: Serving) -> tuple[float, float]:
     """Of this robot side, before and while a client gets its pictures [MB]."""
-    process = psutil.Process(side.child.process.pid)
     time.sleep(SETTLING_TIME)
-    alone = process.memory_info().rss
+    alone = _resident(side)
     with RemoteRobot(side.url) as robot:
         robot.wait()
         stop = robot.on(CAMERA_TOPIC, lambda _: None)
         time.sleep(SETTLING_TIME)
-        watched = process.memory_info().rss
+        watched = _resident(side)
         stop()
     return alone / 1e6, watched / 1e6
+
+
+def _resident(side: Serving) -> int:
+    """Of its process and of the one that draws [B]."""
+    process = psutil.Process(side.child.process.pid)
+    return sum(each.memory_info().rss for each in (process, *process.children(recursive=True)))
 
 
 def hashes() -> list[str]:

@@ -41,9 +41,10 @@ class Serving:
     """Of its web site; empty for one that has none."""
 
     def cpu(self) -> float:
-        """CPU time of all its threads since its start [s]."""
-        times = psutil.Process(self.child.process.pid).cpu_times()
-        return float(times.user + times.system)
+        """CPU time since its start, of all its threads and of the process that draws for it [s]."""
+        process = psutil.Process(self.child.process.pid)
+        times = [each.cpu_times() for each in (process, *process.children(recursive=True))]
+        return float(sum(each.user + each.system for each in times))
 
 
 @contextmanager

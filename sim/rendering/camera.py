@@ -93,20 +93,25 @@ class SharedRenderer:
 
     def prepare(self) -> None:
         """Do beforehand most of what the first picture takes."""
-        if not self._beside:
+        if self._beside:
+            self._started()
+        else:
             paint(self._world)
 
     def for_camera(self) -> ViewRenderer:
         """Draws for one camera; where OpenGL cannot draw without a window slowly and smaller, and the log says so."""
         if self._beside:
-            self._process = self._process or DrawingProcess(self._world)
-            return self._process.for_camera()
+            return self._started().for_camera()
         try:
             self._renderer = self._renderer or Renderer(self._world)
         except NoRendererError as fault:
             _log.warning("%s The camera gives 320 x 240 pictures instead.", fault)
             return _SmallRenderer(TinyRenderer(self._world))
         return _ImmediateRenderer(self._renderer)
+
+    def _started(self) -> DrawingProcess:
+        self._process = self._process or DrawingProcess(self._world)
+        return self._process
 
     def close(self) -> None:
         """Free everything; closing twice does nothing."""

@@ -21,8 +21,7 @@ from pathlib import Path
 
 from sim.core.shapes import Shape
 from sim.rendering.jpeg import jpeg
-from sim.rendering.renderer import NoRendererError, Renderer
-from sim.rendering.tiny_renderer import SmallPictures
+from sim.rendering.renderer import NoRendererError, Renderer, paint
 from sim.rendering.view import View
 from sim.world.world import World
 
@@ -43,7 +42,7 @@ class DrawingProcess:
     """Draws `world` for all its cameras. Not thread-safe."""
 
     def __init__(self, world: World) -> None:
-        """Start the process; what is asked for before it can draw waits."""
+        """Start the process, which gets ready; what is asked for before it can draw waits."""
         ours, theirs = socket.socketpair()
         with theirs, tempfile.TemporaryFile() as file:
             pickle.dump(world, file)  # by a file, which does not have to be read before this goes on
@@ -143,9 +142,12 @@ def main(number: int) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # who started it ends it
     os.nice(NICENESS)
     with Connection(number) as pipe, suppress(EOFError, OSError):
-        draw = _pen(pickle.load(sys.stdin.buffer), pipe)  # noqa: S301 - what the process that started this one wrote
+        world = pickle.load(sys.stdin.buffer)  # noqa: S301 - what the process that started this one wrote
+        paint(world)
+        draw: Callable[[View, Sequence[Shape]], bytes] | None = None
         while True:
             camera, (view, stamp, moving) = pipe.recv()
+            draw = draw or _pen(world, pipe)  # only now, for OpenGL takes 90 MB
             pipe.send((camera, stamp, draw(view, moving)))
 
 
@@ -153,6 +155,8 @@ def _pen(world: World, pipe: Connection) -> Callable[[View, Sequence[Shape]], by
     try:
         renderer = Renderer(world)
     except NoRendererError as fault:
+        from sim.rendering.tiny_renderer import SmallPictures  # a physics engine, which is seldom needed here
+
         pipe.send((-1, 0.0, str(fault)))
         small = SmallPictures(world)
         return lambda view, _: jpeg(small.draw(view))
