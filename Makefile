@@ -32,7 +32,7 @@ test: setup-test ## run all tests, no display needed
 	@bash scripts/setup.sh clients || true # the tests that need it say so
 	@PYTHON=$(PYTHON) bash scripts/test.sh
 
-test-fast: setup-test ## run the tests that take less than a minute
+test-fast: setup-test ## run the tests of pure logic, in a minute: messages, protocol, layouts, control, limits, planning, tasks, physics
 	@PYTHON=$(PYTHON) bash scripts/test.sh fast
 
 test-slow: setup-test ## go through every sequence of what operators may do with control and STOP

