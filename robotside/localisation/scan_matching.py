@@ -113,7 +113,8 @@ class Closeness:
         A column goes by x alone and a row by y alone: no cell is computed for a pair of them, only looked up.
         """
         columns, rows = self._column(x) - self._left, (self._row(y) - self._bottom) * self._width
-        return self._near[rows[:, None, :] + columns[None, :, :]]
+        near: NDArray[np.float32] = self._near[rows[:, None, :] + columns[None, :, :]]
+        return near
 
     def _column(self, x: NDArray[np.float64]) -> NDArray[np.intp]:
         return ((x - self._grid.x) / self._grid.resolution).clip(0, self._columns).astype(np.intp)
