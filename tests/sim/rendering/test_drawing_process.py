@@ -5,6 +5,8 @@ from __future__ import annotations
 import io
 import logging
 import math
+import os
+import signal
 
 import pytest
 from PIL import Image
@@ -57,9 +59,11 @@ def test_a_picture_is_the_one_that_is_drawn_at_once(world, process):
 
 
 def test_of_views_that_wait_the_newest_is_drawn(process):
-    camera = process.for_camera()
-    for number in range(10):
-        camera.show(view(number), float(number))
+    camera, number = process.for_camera(), process._process.pid
+    os.kill(number, signal.SIGSTOP)  # so that all are asked for before the first is drawn
+    for turn in range(10):
+        assert camera.show(view(turn), float(turn)) == []
+    os.kill(number, signal.SIGCONT)
     assert [come(process, camera)[0][0] for _ in range(2)] == [0.0, 9.0]
     assert camera.ready() == []
 
