@@ -14,6 +14,8 @@ from typing import IO, Any
 __all__ = ["Child", "child"]
 
 ROOT = Path(__file__).parents[2]
+COMPILED = ROOT / "out" / "compiled"
+"""Where compiled modules are kept, unless the environment says where."""
 EXIT_TIMEOUT = 0.5
 """Time in which a child ends after its standard input is closed [s]; then it is terminated."""
 TERMINATE_TIMEOUT = 10.0
@@ -68,7 +70,7 @@ def child(
     process = subprocess.Popen(
         [sys.executable, "-m", module, *arguments],
         cwd=ROOT,
-        env={**os.environ, **(environment or {})},
+        env={**_environment(), **(environment or {})},
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=log,
@@ -81,6 +83,12 @@ def child(
         yield Child(process)
     finally:
         _end(process)
+
+
+def _environment() -> dict[str, str]:
+    """Ours, in which modules are compiled once and kept, as for a program that is installed."""
+    kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    return {"PYTHONPYCACHEPREFIX": str(COMPILED), **kept}
 
 
 def _end(process: subprocess.Popen[str]) -> None:
