@@ -12,6 +12,7 @@ from typing import NoReturn
 
 from app.device import is_android
 from app.discovery.known_robots import check_address
+from app.garbage_collector import spare_the_start
 from app.layout import layout as layouts
 from bridge.trust.pairing import SCHEME, PairLink
 
@@ -61,6 +62,7 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
 
 def prepare(size: str | None = None) -> None:
     """Set Kivy up before any of it is imported: `size` is that of the window [px], as in `412x892`."""
+    spare_the_start()
     os.environ.setdefault("KIVY_NO_ARGS", "1")
     os.environ.setdefault("KIVY_CLOCK", "free_all")
     os.environ.setdefault("KIVY_LOG_MODE", "MIXED")

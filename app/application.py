@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,6 +19,7 @@ from app.device import device_name, is_android, own_folder
 from app.discovery.known_robots import KnownRobots
 from app.frame_pacing import tell_slow
 from app.garbage_collector import Collector
+from app.idle_work import get_ready
 from app.inputs.inputs import Inputs
 from app.inputs.methods import Methods
 from app.inputs.motion.motion_sensing import MotionSensing
@@ -28,23 +29,21 @@ from app.intents.method_permits import MethodPermits
 from app.layout.layout_choice import LayoutChoice
 from app.link.feeds import Post
 from app.network_side import NetworkSide
-from app.pages import Pages
+from app.pages import Pages, inputs_page, toggle_help
 from app.robot_directory import RobotDirectory
 from app.robot_visit import RobotVisit
 from app.root import Root
 from app.screens.connect.connect import ConnectScreen
 from app.screens.connect.simulator_launcher import SimulatorLauncher
-from app.screens.inputs.page import InputsPage
 from app.screens.parts.themes import Themes
-from app.screens.shell.key_help import toggle_help
 from app.screens.shell.stop_corner import StopCorner
 from app.session.recordings import Recordings
-from app.session.session import Session
 from app.timers import TICK_EVERY, Timers
 from widgets import CATALOGUE
 
 if TYPE_CHECKING:
     from app.screens.shell.shell import Shell  # made when there is a robot, for a quick start
+    from app.session.session import Session
 
 __all__ = ["PilothouseApp"]
 
@@ -85,10 +84,9 @@ class PilothouseApp(App):
         self._url, self._first_screen, self._theme, self._pair = url, screen or "mission", theme, pair
         self.layouts, self._settings_dir = LayoutChoice(CATALOGUE, layout), settings_dir
         self.simulating = SimulatorLauncher(self, simulator, self.say, now)
-        self._discover, self._poll = discover, poll
+        self._discover, self._poll, self._looks = discover, poll, 0
         self.now = now
         """Our clock [s]."""
-        self._looks = 0
 
     # the robot and its screens
 
@@ -103,9 +101,9 @@ class PilothouseApp(App):
         return self.pages.shell
 
     @property
-    def screens(self) -> dict[str, Any]:
-        """Every screen there is now by its name: `connect`, and with a robot `mission`, `drive`, `tasks`, `topics` and `inputs`."""
-        return {"connect": self.connect, **(self.shell.screens if self.shell else {})}
+    def screens(self) -> Mapping[str, Any]:
+        """Every screen there is now by its name: `connect`, and with a robot `mission`, `drive`, `tasks`, `topics` and `inputs`, each made when it is looked up."""
+        return self.pages.screens
 
     @property
     def robots(self) -> KnownRobots:
@@ -125,9 +123,9 @@ class PilothouseApp(App):
         self.connect = ConnectScreen(app=self, can_simulate=self.simulating.possible)
         self.robot_list = RobotDirectory(self, self.settings, self.client_name, self.now)
         root = Root()
-        self.pages = Pages(root, self.connect, InputsPage(app=self), self._first_screen)
+        self.pages = Pages(root, self.connect, lambda: inputs_page(self), self._first_screen)
         self.acting = IntentExecutor(self)
-        self.acting.on_help = partial(toggle_help, self)
+        self.acting.on_help = lambda: toggle_help(self)
         self.intents = Intents(self.acting, MethodPermits(self.settings), self.now)
         self.methods = Methods(self)
         self.fleet = self.robot_list.fleet(self.client_id)
@@ -173,6 +171,7 @@ class PilothouseApp(App):
         self.methods.open()
         Window.allow_screensaver = False
         self.pages.on_show = self.corner.tick  # STOP ALL is never where STOP is, not for a frame
+        self._idle = get_ready(self)
         self._list()
         self.robot_list.trust.begin(self._pair)
         if self._url:
@@ -182,6 +181,7 @@ class PilothouseApp(App):
 
     def on_stop(self) -> None:
         """Leave the robot at rest, end every thread and the simulator."""
+        self._idle.close()
         self.methods.close()
         self.inputs.close()
         self.timers.close()
@@ -244,10 +244,8 @@ class PilothouseApp(App):
     def _tick(self) -> None:
         self.corner.tick()
         self.pages.tick_inputs()
-        if self.session is None or self.shell is not None:
-            problem = self.settings.news()
-            if problem:
-                self.say(problem, "warn")
+        if (self.session is None or self.shell is not None) and (problem := self.settings.news()):
+            self.say(problem, "warn")
         self.visit.tick()
 
     # the list of robots
@@ -285,9 +283,9 @@ class PilothouseApp(App):
     def _make_shell(self, session: Session) -> Shell:
         from app.screens.robot_screens import robot_shell
 
+        self.methods.open_rest()  # none of them misses what a robot says
         self.robot_list.on_answer(session)
-        root = self.pages.root
-        return robot_shell(self, session, self.layouts.of, size=root.size, pos=root.pos)
+        return robot_shell(self, session, self.layouts, size=self.pages.root.size, pos=self.pages.root.pos)
 
     def show(self, screen: str) -> None:
         """Put `mission`, `drive`, `tasks`, `topics` or `inputs` on the glass; KeyError for another."""

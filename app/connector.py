@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from app.core.settings_store import Settings
-from app.link.event_order import KnownEvents
 from app.link.feeds import Feeds, Mailbox
-from app.link.link import Link
-from app.session.logbook import marks
-from app.session.session import Session
 from app.trust.keyring import RobotKey
 from bridge.core.camera_frames import Frame
 from bridge.core.network_thread import NetworkThread
+
+if TYPE_CHECKING:
+    from app.link.event_order import KnownEvents
+    from app.link.link import Link  # all these when there is a robot, for a quick start
+    from app.session.session import Session
 
 __all__ = ["Connector"]
 
@@ -43,6 +45,9 @@ class Connector:
 
     def link(self, url: str, known: KnownEvents | None = None) -> Link:
         """A link to the robot at `url`; `known` is how far its events are known."""
+        from app.link.link import Link
+        from app.session.logbook import marks
+
         key = self._key_for(url)
         link = Link(
             url,
@@ -61,8 +66,11 @@ class Connector:
 
     def session(self, url: str, *, wants_control: bool) -> Session:
         """A session with the robot at `url`."""
+        link = self.link(url)  # it connects while the rest is made
+        from app.session.session import Session
+
         return Session(
-            self.link(url),
+            link,
             Feeds(self._now),
             self._settings,
             now=self._now,

@@ -12,7 +12,10 @@ import gc
 import sys
 import weakref
 
-__all__ = ["Collector"]
+__all__ = ["Collector", "spare_the_start"]
+
+START_OBJECTS = 50_000
+"""Objects made between two looks of Python's own collector while the app starts: next to nothing of them goes again."""
 
 YOUNG = 700
 """Objects made since the last look that are worth one at the young ones: 0.1 ms, every five seconds while live."""
@@ -33,6 +36,11 @@ MAX_RECHECKS = 7
 
 Its last frame, an animation, a touch or an answer on its way may hold a screen for a while after it was left.
 """
+
+
+def spare_the_start() -> None:
+    """Have Python's own collector look seldom, from the first import on, until a `Collector` takes it over."""
+    gc.set_threshold(START_OBJECTS, 10, 10)
 
 
 class Collector:
@@ -71,6 +79,11 @@ class Collector:
     def resume(self) -> None:
         """From now on only `look` collects."""
         gc.disable()
+
+    def keep(self) -> None:
+        """What there is now stays for good too, unless something that was left is still to go."""
+        if self._left is None and not self._due:
+            gc.freeze()
 
     def expect(self, left: object) -> None:
         """Much was thrown away with `left`, as when a screen is left: look at everything until it is gone."""

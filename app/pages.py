@@ -2,27 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from collections import ChainMap
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, cast
 
+from app.link.channels import EVENT
 from app.root import Root
 from app.screens.connect.connect import ConnectScreen
-from app.screens.inputs.page import InputsPage
-from app.screens.parts.dialogs import Question
-from app.session.session import Session
 
 if TYPE_CHECKING:
-    from app.screens.shell.shell import Shell  # made when there is a robot, for a quick start
+    from app.screens.inputs.page import InputsPage  # all these when they are shown, for a quick start
+    from app.screens.shell.shell import Shell
+    from app.session.session import Session
 
-__all__ = ["Pages"]
+__all__ = ["Pages", "inputs_page", "toggle_help"]
+
+
+def inputs_page(app: Any) -> InputsPage:
+    """The inputs page of `app`, which is imported when it is first shown."""
+    from app.screens.inputs.page import InputsPage
+
+    return InputsPage(app=app)
+
+
+def toggle_help(app: Any) -> None:
+    """Show what keys and buttons mean over `app`'s page, or hide it; imported when it is first shown."""
+    from app.screens.shell import key_help
+
+    key_help.toggle_help(app)
 
 
 class Pages:
     """One page at a time."""
 
-    def __init__(self, root: Root, connect: ConnectScreen, inputs: InputsPage, first_screen: str) -> None:
-        """`first_screen` is the screen that is shown of the first robot."""
-        self.root, self._connect, self._inputs = root, connect, inputs
+    def __init__(
+        self, root: Root, connect: ConnectScreen, make_inputs: Callable[[], InputsPage], first_screen: str
+    ) -> None:
+        """`make_inputs` is called when the inputs page is first shown; `first_screen` is the screen that is shown of the first robot."""
+        self.root, self._connect, self._make_inputs = root, connect, make_inputs
+        self._inputs: InputsPage | None = None
         self.shell: Shell | None = None
         """The frame round the robot's screens; None while no robot is on the glass."""
         self.screen = first_screen
@@ -35,7 +53,7 @@ class Pages:
         self.shell = shell
         self.root.show_page(shell)
         for post in session.events.early:
-            shell.replay(post)
+            shell.screens.on_post(EVENT, post)
         session.events.shown = True
         self.show(self.screen)
         shell.tick()  # nothing comes onto the glass that says less than is known
@@ -50,12 +68,23 @@ class Pages:
 
     def show_inputs(self) -> None:
         """Put the inputs page on the glass, where there is no robot."""
+        if self._inputs is None:
+            self._inputs = self._make_inputs()
         self.root.show_page(self._inputs)
         self._inputs.enter()
 
+    @property
+    def screens(self) -> Mapping[str, Any]:
+        """Every screen there is now by its name: `connect`, and those of the robot, each made when it is looked up."""
+        connect: dict[str, Any] = {"connect": self._connect}
+        if self.shell is None:
+            return connect
+        return ChainMap(connect, cast("dict[str, Any]", self.shell.screens))
+
     def tick_inputs(self) -> None:
         """Bring the inputs page up to date."""
-        self._inputs.tick()
+        if self._inputs is not None:
+            self._inputs.tick()
 
     def close_shell(self) -> Shell | None:
         """Let go of the robot's screens; returns their frame, None where there was none."""
@@ -70,6 +99,8 @@ class Pages:
 
     def close_question(self) -> bool:
         """Close the question that is over the page; False where there is none."""
+        from app.screens.parts.dialogs import Question
+
         questions = [child for child in self.root.children if isinstance(child, Question)]
         if questions:
             questions[0].close()
@@ -79,4 +110,4 @@ class Pages:
         """Back within the page; False where it has nowhere to go back to."""
         if self.shell is not None:
             return self.shell.back()
-        return self._inputs.back()
+        return self._inputs is not None and self._inputs.back()

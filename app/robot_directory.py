@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from app.core.settings_store import Settings
 from app.discovery.beacon_listener import HELLO, LATENCY, BeaconListener
@@ -12,10 +12,11 @@ from app.discovery.known_robots import Entry, KnownRobots, check_address
 from app.link.feeds import Post
 from app.robot_trust import RobotTrust
 from app.screens.connect.connect import ConnectScreen
-from app.screens.parts.dialogs import AddressDialog
-from app.session.session import Session
 from app.stop.fleet import Fleet
 from bridge.msgs.pilothouse_msgs import RobotInfo
+
+if TYPE_CHECKING:
+    from app.session.session import Session
 
 __all__ = ["RobotDirectory"]
 
@@ -95,6 +96,8 @@ class RobotDirectory:
 
     def ask_address(self) -> None:
         """Ask for an address to connect to."""
+        from app.screens.parts.dialogs import AddressDialog
+
         dialog = AddressDialog(self.open_typed)
         self._app.root.add_widget(dialog)
         dialog.ids.field.focus = True

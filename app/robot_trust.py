@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from kivy.clock import Clock
 
@@ -12,13 +12,15 @@ from app.device.opened_links import watch_links
 from app.discovery.known_robots import KnownRobots, plain_name
 from app.link.feeds import Post
 from app.screens.connect.connect import ConnectScreen
-from app.screens.trust.pair_dialog import PairDialog
-from app.session.session import Session
 from app.trust.keyring import Keyring, RobotKey, host_of, place_of
 from app.trust.pairing_attempts import PAIRING, Attempt, PairingAttempts
 from bridge.client.credentials import Credentials
 from bridge.discovery.hello import is_loopback
 from bridge.trust.pairing import SCHEME, BadPairing, PairLink, split_code
+
+if TYPE_CHECKING:
+    from app.screens.trust.pair_dialog import PairDialog  # when somebody pairs, for a quick start
+    from app.session.session import Session
 
 __all__ = ["RobotTrust"]
 
@@ -121,6 +123,8 @@ class RobotTrust:
             self.dialog.close()
         self._url = url
         name = self._app.robots.name_of(url) or place_of(url) if url else ""
+        from app.screens.trust.pair_dialog import PairDialog
+
         self.dialog = PairDialog(
             self._answer, robot=name, link=link, problem=problem or self._doubt(name, link)
         )

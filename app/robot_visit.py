@@ -15,11 +15,11 @@ from app.screens.connect.connect import ConnectScreen
 from app.session.connecting import connecting_words, has_failed
 from app.session.picture_feed import PictureFeed
 from app.session.recordings import Recordings
-from app.session.session import Session
 from bridge.core.link_state import LinkFault
 
 if TYPE_CHECKING:
     from app.screens.shell.shell import Shell  # made when there is a robot, for a quick start
+    from app.session.session import Session
 
 __all__ = ["RobotVisit"]
 
@@ -99,6 +99,8 @@ class RobotVisit:
         elif self.session is not None:
             self.session.deliver(channel, post)
             self._records.put(channel, post.value)
+            if channel == "/robot/info" and self._pages.shell is None and self.session.connected:
+                self.enter()
 
     def _show(self, picture: Post, of: Session | None) -> None:
         if self.session is of:  # the robot may have been left meanwhile
@@ -132,6 +134,7 @@ class RobotVisit:
     def enter(self) -> None:
         """The robot has answered: put its screens on the glass."""
         if self.session is not None:
+            self._pictures.watch(self.session)  # the first is on its way while the screen is made
             self._connect.say("")
             self._pages.enter(self._make_shell(self.session), self.session)
 

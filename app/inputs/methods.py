@@ -1,4 +1,4 @@
-"""The ways in beside fingers: one object for each, made when the app starts, at rest while the glass is away, ended with it.
+"""The ways in beside fingers: one object for each, made when the app starts or when it is first asked for, at rest while the glass is away, ended with it.
 
 Whoever brings a method adds a line to `MADE_BY` and touches the application no more. One that is off costs nothing.
 """
@@ -6,6 +6,7 @@ Whoever brings a method adds a line to `MADE_BY` and touches the application no 
 from __future__ import annotations
 
 import logging
+from collections.abc import Iterable
 from contextlib import suppress
 from importlib import import_module
 from typing import Any, Protocol
@@ -39,6 +40,10 @@ MADE_BY: dict[str, str] = {
 
 A method whose module is left out of the build is not offered, and nothing is said of it.
 """
+ON_DEMAND = ("talk", "voice", "shake", "tilt")
+"""Off unless somebody switches them on: without settings of its own each is made when it is first asked for."""
+AFTERWARDS = ("switches", "log")
+"""On unless somebody switches them off: without settings of its own each is made after the first frame, and before a robot's screens are shown."""
 
 
 class Method(Protocol):
@@ -82,6 +87,11 @@ class Methods:
     def __init__(self, app: MethodsApp) -> None:
         self._app = app
         self._all: dict[str, Any] = {}
+        self._waiting: dict[str, str] = {}
+        """What is not made yet, as in `MADE_BY`."""
+        self._said: list[str] = []
+        """What was said when they were made last."""
+        self._is_open = False
         self._updates: list[Any] = []
         self._paused = False
         self.faults: dict[str, str] = {}
@@ -91,29 +101,53 @@ class Methods:
         """The motion sensors of all of them."""
 
     def open(self) -> None:
-        """Make each, and begin with those that are on; what cannot be made is said, and there is none of it."""
+        """Make each but those that can wait, and begin with those that are on; what cannot be made is said, and there is none of it."""
         Window.bind(on_touch_down=self._touched, on_touch_up=self._lifted)
         self._app.intents.on_taken.append(self._told)
-        for name, where in MADE_BY.items():
-            if not is_included(where.partition(":")[0]):  # as the study may be left out of a build
-                continue
-            try:
-                self._make(name, where)
-            except Exception as problem:
-                log.exception("%s cannot be used", name)
-                self._leave_out(name, problem)
-        mistaken = [getattr(method, "mistaken", "") for method in self._all.values()]
-        said = [*self.faults.values(), self._app.intents.table.problem, *mistaken]
-        if any(said):
-            self._app.connect.say(" ".join(filter(None, said)), "warn")
+        self._waiting, self._is_open = dict(MADE_BY), True
+        self._make_those(
+            [name for name in MADE_BY if not self._can_wait(name)], self._app.intents.table.problem
+        )
+
+    def open_rest(self) -> None:
+        """Make what waited for the first frame, and have it look at a robot that is there already; nothing where it is made."""
+        late = [name for name in AFTERWARDS if name in self._waiting]
+        self._make_those(late, *self._said)
+        for method in filter(None, map(self.made, late)):
+            if method.on and hasattr(method, "update"):
+                method.update(self._app.now())
+
+    def _can_wait(self, name: str) -> bool:
+        return name in (*ON_DEMAND, *AFTERWARDS) and self._app.settings.get(name) is None
+
+    def _make_those(self, names: Iterable[str], *said: str) -> None:
+        """Make them and say what is wrong with them, after what is `said` of others."""
+        faults = [self._made_or_fault(name) for name in names]
+        mistaken = [getattr(self._all.get(name), "mistaken", "") for name in names]
+        sentences = [one for one in (*faults, *said, *mistaken) if one]
+        if sentences and sentences != self._said:
+            self._app.connect.say(" ".join(sentences), "warn")
+        self._said = sentences
+
+    def _made_or_fault(self, name: str) -> str:
+        """Make one; returns why it could not be made, empty where it is well."""
+        where = self._waiting.pop(name)
+        if not is_included(where.partition(":")[0]):  # as the study may be left out of a build
+            return ""
+        try:
+            self._make(name, where)
+        except Exception as problem:
+            log.exception("%s cannot be used", name)
+            self._leave_out(name, problem)
+        return self.faults.get(name, "")
 
     def _make(self, name: str, where: str) -> None:
         module, _, made = where.partition(":")
         self._all[name] = method = getattr(import_module(module), made)(self._app)
-        if method.on:
+        self._all = {one: self._all[one] for one in MADE_BY if one in self._all}
+        if method.on and not self._paused:
             method.start()
-        if hasattr(method, "update"):
-            self._updates.append(method)
+        self._updates = [one for one in self._all.values() if hasattr(one, "update")]
 
     def _leave_out(self, name: str, problem: Exception) -> None:
         method = self._all.pop(name, None)
@@ -131,6 +165,8 @@ class Methods:
         wait_for_ends()
         origins.forget()
         self.sensing.close()
+        self._is_open = False
+        self._waiting.clear()
         self._all.clear()
         self._updates.clear()
 
@@ -165,12 +201,18 @@ class Methods:
             self._problems.update(now)
 
     def get(self, name: str) -> Any:
-        """The method of that name; None where there is none."""
+        """The method of that name, made now where it waited for that; None where there is none."""
+        if self._is_open and name in self._waiting and name not in self._all:
+            self._make_those([name])
+        return self._all.get(name)
+
+    def made(self, name: str) -> Any:
+        """The same, None where nobody needed it yet, so that it is off."""
         return self._all.get(name)
 
     def turn(self, name: str, on: bool) -> None:
         """Switch one on or off, and remember it; nothing for one that there is not."""
-        method = self._all.get(name)
+        method = self.get(name)
         if method is None:
             return
         method.on = on

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
-from app.session.recordings import Recordings
-from app.session.session import Session
+if TYPE_CHECKING:
+    from app.session.recordings import Recordings
+    from app.session.session import Session
 
 __all__ = ["ExecutorApp", "ScreenApp", "StopInput"]
 

@@ -5,16 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 from app.intents.executor_app import ExecutorApp
 from app.intents.intents import INTENTS
 from app.intents.open_question import OpenQuestion
 from app.intents.speed_steps import SpeedSteps
 from app.intents.task_intents import TaskIntents
-from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import LightState, TaskOrder
 from widgets.core.task_words import TASKS, title
+
+if TYPE_CHECKING:
+    from app.session.session import Session
 
 __all__ = ["IntentExecutor"]
 
@@ -123,7 +125,7 @@ class IntentExecutor:
 
     @property
     def _session(self) -> Session:
-        return cast(Session, self._app.session)
+        return cast("Session", self._app.session)
 
     @property
     def _lit(self) -> bool:

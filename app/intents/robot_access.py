@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 from app.intents.executor_app import ScreenApp
-from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import TaskStatus
+
+if TYPE_CHECKING:
+    from app.session.session import Session
 
 __all__ = ["HELD", "RobotAccess"]
 
@@ -22,7 +24,7 @@ class RobotAccess:
 
     @property
     def _session(self) -> Session:
-        return cast(Session, self._app.session)
+        return cast("Session", self._app.session)
 
     @property
     def status(self) -> TaskStatus | None:

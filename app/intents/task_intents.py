@@ -62,7 +62,10 @@ class TaskIntents(RobotAccess):
 
     def chosen(self) -> TaskOrder:
         """The task that is chosen on the tasks screen; a patrol where none is chosen to the end."""
-        pane = self._app.shell.screens["tasks"].pane
+        tasks = self._app.shell.made("tasks")
+        if tasks is None:
+            return TaskOrder(task="patrol")
+        pane = tasks.pane
         if pane.scheduled is None and pane.form.complete and pane.form.task:
             order: TaskOrder = pane.order
             return order

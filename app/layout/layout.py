@@ -38,10 +38,9 @@ __all__ = [
     "Instrument",
     "Layout",
     "LayoutError",
-    "choose",
     "load",
-    "load_all",
     "names",
+    "owners",
     "parse",
 ]
 
@@ -198,33 +197,22 @@ def load(name: str, widgets: Iterable[str], folder: Path = FOLDER) -> Layout:
     return parse(name, (folder / f"{name}.toml").read_text(encoding="utf-8"), widgets)
 
 
-def load_all(widgets: Iterable[str], folder: Path = FOLDER) -> tuple[Layout, ...]:
-    """Every layout there is, each robot in one of them at most. LayoutError with a sentence."""
-    known = tuple(widgets)
-    layouts = tuple(load(name, known, folder) for name in names(folder))
-    owners: dict[str, str] = {}
-    for layout in layouts:
-        for robot in layout.robots:
-            if robot in owners:
-                raise LayoutError(f"Layouts {owners[robot]} and {layout.name} are both for {robot}.")
-            owners[robot] = layout.name
-    return layouts
+def owners(folder: Path = FOLDER) -> dict[str, str]:
+    """Each model and kind of robots to the name of the layout that is made for it; no widget is looked at.
 
-
-def choose(layouts: Iterable[Layout], model: str, kind: str) -> Layout:
-    """The layout for a robot of that model and kind: models come before kinds, and a robot of neither gets `DEFAULT`.
-
-    LayoutError where there is none of that name.
+    LayoutError with a sentence, as where two layouts are for one robot.
     """
-    known = tuple(layouts)
-    for robot in (model, kind):
-        for layout in known:
-            if robot and robot in layout.robots:
-                return layout
-    for layout in known:
-        if layout.name == DEFAULT:
-            return layout
-    raise LayoutError(f"There is no layout {DEFAULT!r}, which robots get that none is made for.")
+    found: dict[str, str] = {}
+    for name in names(folder):
+        try:
+            text = (folder / f"{name}.toml").read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise LayoutError(f"Layout {name} cannot be read: {error}.") from error
+        for robot in _read(name, text).robots:
+            if robot in found:
+                raise LayoutError(f"Layouts {found[robot]} and {name} are both for {robot}.")
+            found[robot] = name
+    return found
 
 
 class _File(
@@ -247,10 +235,7 @@ def parse(name: str, text: str, widgets: Iterable[str]) -> Layout:
     from app.layout.layout_widgets import drives  # Kivy has to be set up before a widget is imported
 
     where, known = f"Layout {name}", tuple(widgets)
-    try:
-        file = read(text, _File, where)
-    except FileFault as fault:
-        raise LayoutError(_sentence(fault, where)) from fault
+    file = _read(name, text)
     one_of(where, "arrangement", file.arrangement, ARRANGEMENTS)
     places = ARRANGEMENTS[file.arrangement]
     for number, instrument in enumerate(file.instruments, 1):
@@ -266,6 +251,14 @@ def parse(name: str, text: str, widgets: Iterable[str]) -> Layout:
     check_apart(where, ((one.slot, one.called, one.says if drives(one.widget) else ()) for one in hands))
     title = name if file.title is None else file.title
     return Layout(name, title, file.instruments, file.arrangement, file.robots, file.controls, file.actions)
+
+
+def _read(name: str, text: str) -> _File:
+    where = f"Layout {name}"
+    try:
+        return read(text, _File, where)
+    except FileFault as fault:
+        raise LayoutError(_sentence(fault, where)) from fault
 
 
 def _sentence(fault: FileFault, where: str) -> str:

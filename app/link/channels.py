@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from app.link.event_order import KnownEvents
 from app.link.feeds import Mailbox
-from app.link.subscriptions import Seen
-from bridge.client.client import BridgeClient
 from bridge.core.errors import BridgeError
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import ControlStatus
+
+if TYPE_CHECKING:
+    from app.link.event_order import KnownEvents
+    from app.link.subscriptions import Seen
+    from bridge.client.client import BridgeClient
 
 __all__ = [
     "ANSWER",

@@ -1,31 +1,37 @@
-"""The screens of one robot in their frame, made when there is a robot to show."""
+"""The screens of one robot in their frame, made when there is a robot to show, and each screen when it is first looked at."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Protocol
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Protocol
 
 from app.layout.layout import Layout
+from app.layout.layout_choice import LayoutChoice
 from app.link.feeds import Post
-from app.screens.drive.dive import DiveScreen
-from app.screens.drive.drive import DriveScreen
-from app.screens.inputs.screen import InputsScreen
-from app.screens.mission.mission import MissionScreen
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.shell.screen_host import ScreenHost
+from app.screens.shell.screen_set import ScreenSet
 from app.screens.shell.shell import Shell, ShellHost
-from app.screens.tasks.tasks import TasksScreen
-from app.screens.topics.topics import TopicsScreen
 from app.session.session import Session
+
+if TYPE_CHECKING:
+    from app.screens.drive.dive import DiveScreen
+    from app.screens.drive.drive import DriveScreen
 
 __all__ = ["Profile", "robot_shell"]
 
-DRIVE: dict[str, type[DriveScreen | DiveScreen]] = {
-    "float": DriveScreen,
-    "two_sticks": DriveScreen,
-    "columns": DiveScreen,
+DRIVE = {
+    "float": "app.screens.drive.drive:DriveScreen",
+    "two_sticks": "app.screens.drive.drive:DriveScreen",
+    "columns": "app.screens.drive.dive:DiveScreen",
 }
-"""The drive screen of each arrangement."""
+"""Module and class of the drive screen of each arrangement."""
+
+
+def _class(where: str) -> Any:
+    module, _, name = where.partition(":")
+    return getattr(import_module(module), name)
 
 
 class Host(ShellHost, ScreenHost, Protocol):
@@ -35,43 +41,54 @@ class Host(ShellHost, ScreenHost, Protocol):
 class Profile:
     """The drive screen that is made for the robot: as soon as that says what it is, and anew when it says something else."""
 
-    def __init__(self, app: Host, session: Session, layout_for: Callable[[str, str], Layout]) -> None:
-        """`layout_for` gives the layout of a robot's model and kind."""
-        self._app, self._session, self._layout_for = app, session, layout_for
+    def __init__(self, app: Host, session: Session, layouts: LayoutChoice) -> None:
+        """`layouts` give the one of a robot's model and kind."""
+        self._app, self._session, self._layouts = app, session, layouts
         self.layout = self._wanted()
         """The one that is on the glass."""
 
     def _wanted(self) -> Layout:
         info = self._session.robot.info
-        return self._layout_for(info.model, info.kind)
+        return self._layouts.of(info.model, info.kind)
 
     def screen(self) -> DriveScreen | DiveScreen:
         """Make its screen."""
-        return DRIVE[self.layout.arrangement](self.layout, app=self._app, session=self._session)
+        made: DriveScreen | DiveScreen = _class(DRIVE[self.layout.arrangement])(
+            self.layout, app=self._app, session=self._session
+        )
+        return made
 
     def follow(self, shell: Shell) -> None:
-        """Have `shell` show another one when the robot turns out to be something else."""
+        """Have `shell` show another one when the robot turns out to be something else, and say what is wrong with a layout."""
 
         def hear(channel: str, _: Post) -> None:
             if channel == "/robot/info" and self._wanted() != self.layout:
                 self.layout = self._wanted()
-                shell.replace("drive", self.screen())
+                shell.replace("drive")
+                tell()
+
+        def tell() -> None:
+            if self._layouts.mistake:
+                shell.say(self._layouts.mistake, "warn")
 
         shell.follow(hear)
+        tell()
 
 
-def robot_shell(
-    app: Host, session: Session, layout_for: Callable[[str, str], Layout], **kwargs: Any
-) -> Shell:
-    """The frame with every screen in it; `layout_for` gives the drive screen of a robot's model and kind."""
-    profile = Profile(app, session, layout_for)
-    screens: dict[str, RobotScreen] = {
-        "mission": MissionScreen(app=app, session=session),
-        "drive": profile.screen(),
-        "tasks": TasksScreen(app=app, session=session),
-        "topics": TopicsScreen(app=app, session=session),
-        "inputs": InputsScreen(app=app),
+def robot_shell(app: Host, session: Session, layouts: LayoutChoice, **kwargs: Any) -> Shell:
+    """The frame with every screen in it; `layouts` give the drive screen of a robot's model and kind."""
+    profile = Profile(app, session, layouts)
+
+    def maker(where: str, **needed: object) -> Callable[[], RobotScreen]:
+        return lambda: _class(where)(**needed)
+
+    makers: dict[str, Callable[[], RobotScreen]] = {
+        "mission": maker("app.screens.mission.mission:MissionScreen", app=app, session=session),
+        "drive": profile.screen,
+        "tasks": maker("app.screens.tasks.tasks:TasksScreen", app=app, session=session),
+        "topics": maker("app.screens.topics.topics:TopicsScreen", app=app, session=session),
+        "inputs": maker("app.screens.inputs.screen:InputsScreen", app=app),
     }
-    shell = Shell(screens, app=app, session=session, **kwargs)
+    shell = Shell(ScreenSet(makers, session.now), app=app, session=session, **kwargs)
     profile.follow(shell)
     return shell

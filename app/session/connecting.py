@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
-from app.session.session import Session
-from bridge.client.client import Phase
+from bridge.core.link_state import Phase
+
+if TYPE_CHECKING:
+    from app.session.session import Session
 
 __all__ = ["connecting_words", "has_failed"]
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from app.link.camera_decoder import Picture
-from app.session.session import Session
+if TYPE_CHECKING:
+    from app.link.camera_decoder import Picture
+    from app.session.session import Session
 
 __all__ = ["PictureFeed"]
 

@@ -6,13 +6,16 @@ import itertools
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from app.link.channels import EVENT
-from app.link.recorder import Recorder
-from app.session.session import Session
 from bridge.core.camera_frames import Frame
 from bridge.core.topics import TOPICS
 from bridge.msgs import Msg
+
+if TYPE_CHECKING:
+    from app.link.recorder import Recorder
+    from app.session.session import Session
 
 __all__ = ["Recordings"]
 
@@ -69,6 +72,8 @@ class Recordings:
 
         One that runs is finished first. A file that is there already is never written over.
         """
+        from app.link.recorder import Recorder  # when there is something to record, for a quick start
+
         self.stop()
         try:
             self.recorder = Recorder(path, wall=self._wall)

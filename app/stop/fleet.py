@@ -16,16 +16,18 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from app.discovery.known_robots import Entry
 from app.stop.same_robot import Row, SameRobots, Seen
-from app.stop.stop_lane import Report, StopLane
 from app.stop.stop_state import ANSWER_TIMEOUT, silence
 from bridge.client.credentials import Credentials
 from bridge.core.network_thread import NetworkThread
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
 from bridge.msgs.std_msgs import Time
+
+if TYPE_CHECKING:
+    from app.stop.stop_lane import Report  # when STOP ALL is pressed, for a quick start
 
 __all__ = ["MAX_ROBOTS", "Connected", "Fleet", "Row", "known"]
 
@@ -139,6 +141,13 @@ class _Robot:
     """Its lane is not wanted any more."""
 
 
+def _stop_lane(*args: Any, **kwargs: Any) -> Lane:
+    """A lane of the usual kind."""
+    from app.stop.stop_lane import StopLane
+
+    return StopLane(*args, **kwargs)
+
+
 class Fleet:
     """Who is being stopped, and what became of it."""
 
@@ -159,7 +168,7 @@ class Fleet:
         claims as in `Entry`; None where none is.
         """
         self._open_lane: Callable[..., Lane] = open_lane or partial(
-            StopLane, now=now, new_id=new_id, client_id=client_id, client_name=client_name
+            _stop_lane, now=now, new_id=new_id, client_id=client_id, client_name=client_name
         )
         self._most, self._now, self._credentials = most, now, credentials
         self._network: NetworkThread | None = None
@@ -327,6 +336,8 @@ class Fleet:
 
     def _seen(self, robot: _Robot, connected: Connected | None) -> Seen:
         """What is known at one address; a paired robot is known there only as far as its key was proved."""
+        from app.stop.stop_lane import Report
+
         lane = robot.lane  # once: the network thread takes it away
         report = lane.report if lane is not None else Report("sent")
         if connected is not None and robot.url == self._linked:

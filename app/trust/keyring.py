@@ -10,12 +10,14 @@ import os
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bridge.client.credentials import Credentials
-from bridge.client.pairing import Paired
 from bridge.core.address import LinkLost, host_and_port
 from bridge.core.identity import Role
+
+if TYPE_CHECKING:
+    from bridge.client.pairing import Paired
 
 __all__ = ["Keyring", "RobotKey", "host_of", "place_of"]
 

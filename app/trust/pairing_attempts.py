@@ -6,12 +6,14 @@ import concurrent.futures
 import logging
 from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from app.link.feeds import Mailbox
-from bridge.client.pairing import Paired, PairingFailed, pair_by_code, pair_by_link
 from bridge.core.network_thread import NetworkThread
 from bridge.trust.pairing import BadPairing, PairLink
+
+if TYPE_CHECKING:
+    from bridge.client.pairing import Paired  # when somebody pairs, for a quick start
 
 __all__ = ["PAIRING", "Attempt", "PairingAttempts"]
 
@@ -46,10 +48,14 @@ class PairingAttempts:
 
     def by_link(self, link: PairLink) -> int:
         """Pair with the robot of a link; returns the number of the attempt. One that goes on ends."""
+        from bridge.client.pairing import pair_by_link
+
         return self._start(pair_by_link(link, self._name))
 
     def by_code(self, url: str, code: str) -> int:
         """Pair with the robot at `url` by the code that it shows; returns the number of the attempt."""
+        from bridge.client.pairing import pair_by_code
+
         return self._start(pair_by_code(url, code, self._name))
 
     def cancel(self) -> None:
@@ -65,6 +71,8 @@ class PairingAttempts:
         return self._number
 
     async def _run(self, number: int, work: Coroutine[Any, Any, Paired]) -> None:
+        from bridge.client.pairing import PairingFailed
+
         try:
             ended = Attempt(number, await work)
         except (PairingFailed, BadPairing) as failure:

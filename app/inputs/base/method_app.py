@@ -69,6 +69,10 @@ class MethodRegister(Protocol):
         """The method of that name; None where there is none."""
         ...
 
+    def made(self, name: str, /) -> Any:
+        """The same, None where nobody needed it yet, so that it is off."""
+        ...
+
     def turn(self, name: str, on: bool) -> None:
         """Switch one on or off, and remember it; nothing for one that there is not."""
         ...

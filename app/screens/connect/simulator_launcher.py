@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from app.core.settings_store import Settings
 from app.discovery import simulator_process as simulator
 from app.discovery.simulator_options import SimulationChoice, SimulatorOptions
 from app.link.feeds import Mailbox, Post
 from app.screens.connect.connect import ConnectScreen
-from app.screens.connect.simulator_dialog import SimulatorDialog
-from app.session.session import Session
+
+if TYPE_CHECKING:
+    from app.screens.connect.simulator_dialog import (
+        SimulatorDialog,
+    )  # when it is asked for, for a quick start
+    from app.session.session import Session
 
 __all__ = ["CHANNEL", "SimulatorLauncher"]
 
@@ -88,6 +92,8 @@ class SimulatorLauncher:
             self.start()
             return
         remembered = SimulationChoice.remembered(self._app.settings.get("simulated"))
+        from app.screens.connect.simulator_dialog import SimulatorDialog
+
         self.dialog = SimulatorDialog(remembered, self._chosen, running=self._runs)
         self.dialog.bind(on_close=lambda *_: setattr(self, "dialog", None))
         self._app.root.add_widget(self.dialog)

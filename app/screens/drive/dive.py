@@ -151,5 +151,5 @@ class DiveScreen(Driving):
             self.settle()
         if actions != self.column.actions:
             self.column.actions = actions
-        switches = self.app.methods.get("switches")
+        switches = self.app.methods.made("switches")
         self.column.hint = switches.hint if switches is not None else ""

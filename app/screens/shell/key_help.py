@@ -76,7 +76,7 @@ def toggle_help(app: Host) -> None:
         return
     card = HelpCard()
     inputs = app.inputs
-    switches = app.methods.get("switches")
+    switches = app.methods.made("switches")
     options = switches.options if switches is not None else None
     card.show(help_groups(inputs.mapped, [state.name for state in inputs.gamepads.states], options))
     app.root.add_widget(card)

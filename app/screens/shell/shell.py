@@ -14,7 +14,7 @@ from app.inputs.methods import Methods
 from app.intents.intents import Intents
 from app.layout import arrange
 from app.layout.arrange import Rect, StopPlace
-from app.link.channels import CAPABILITIES, EVENT, LINK, OUTCOME
+from app.link.channels import CAPABILITIES, LINK, OUTCOME
 from app.link.feeds import Post
 from app.screens.parts.placing import put
 from app.screens.parts.robot_screen import RobotScreen
@@ -27,6 +27,7 @@ from app.screens.shell.link_banner import LinkBanner
 from app.screens.shell.notices import BRIEF_DURATION, Notices
 from app.screens.shell.rail import Rail
 from app.screens.shell.reset_card import ResetPrompt
+from app.screens.shell.screen_set import ScreenSet
 from app.screens.shell.stop_display import StopDisplay
 from app.screens.shell.task_question import TaskQuestion
 from app.screens.shell.top_bar import TopBar
@@ -103,7 +104,7 @@ class Shell(FloatLayout):
     shares_stop = BooleanProperty(False)
     """STOP ALL is in STOP's corner as well."""
 
-    def __init__(self, screens: dict[str, RobotScreen], **kwargs: Any) -> None:
+    def __init__(self, screens: ScreenSet, **kwargs: Any) -> None:
         """`screens` are the screens by name, each with `arrange`, `enter`, `leave`, `tick` and `rest`."""
         super().__init__(**kwargs)
         self.screens = screens
@@ -162,7 +163,7 @@ class Shell(FloatLayout):
         self.session.logbook.listeners.clear()
         self.cards.close()
         self.wishes.close()
-        for screen in self.screens.values():
+        for screen in self.screens.made.values():
             screen.leave()
             screen.end()
 
@@ -196,10 +197,13 @@ class Shell(FloatLayout):
         screen.enter()
         self._show_rail()
 
-    def replace(self, name: str, screen: RobotScreen) -> None:
-        """Take another screen in the place of the one of that name; where that is on the glass its controls rest first."""
-        old, self.screens[name] = self.screens[name], screen
+    def replace(self, name: str) -> None:
+        """Have the screen of that name made anew, where it is made; where it is on the glass its controls rest first."""
+        old = self.made(name)
+        if old is None:
+            return
         old.rest()
+        self.screens.make_anew(name)
         if self.screen == name:
             old.leave()
             self.screen = ""
@@ -215,7 +219,7 @@ class Shell(FloatLayout):
             recording=self.recording,
             control=standing.control_nav(self.session),
             waiting=self.session.logbook.open,
-            talk=getattr(self.app.methods.get("voice"), "sign", ""),
+            talk=getattr(self.app.methods.made("voice"), "sign", ""),
         )
 
     # places
@@ -251,8 +255,7 @@ class Shell(FloatLayout):
         self._dashboard.deliver(channel, post.value)
         for follower in self._followers:
             follower(channel, post)
-        for screen in self.screens.values():
-            screen.on_post(channel, post)
+        self.screens.on_post(channel, post)
         if channel in STANDING:
             self._look()
         if channel in (OUTCOME, "/control/status"):
@@ -270,11 +273,6 @@ class Shell(FloatLayout):
         if stands != self._stands:
             self._stands = stands
             self.tick()
-
-    def replay(self, post: Post) -> None:
-        """An event that came before this frame was there."""
-        for screen in self.screens.values():
-            screen.on_post(EVENT, post)
 
     def say(self, text: str, level: str = "info", about: str = "", stay: float = BRIEF_DURATION) -> None:
         """One sentence over the screen for `stay` [s]; `about` is the command or the kind of event it tells of."""
@@ -327,16 +325,19 @@ class Shell(FloatLayout):
 
     def back(self) -> bool:
         """Back within the screen that is on the glass; False when it has nowhere to go back to."""
-        screen = self.shown
-        return screen is not None and screen.back()
+        return self.shown is not None and self.shown.back()
 
     @property
     def shown(self) -> RobotScreen | None:
         """The screen on the glass; None before there is one."""
-        return self.screens.get(self.screen)
+        return self.made(self.screen)
+
+    def made(self, name: str) -> RobotScreen | None:
+        """The screen of that name; None where it was not needed yet."""
+        return self.screens.made.get(name)
 
     def rest(self) -> None:
         """Every control of every screen lets go."""
-        for screen in self.screens.values():
+        for screen in self.screens.made.values():
             screen.rest()
         self.stop.rest()

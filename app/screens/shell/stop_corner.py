@@ -6,7 +6,7 @@ It lies over everything else, questions included, and lets every finger through 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from kivy.clock import Clock
 from kivy.metrics import Metrics
@@ -17,10 +17,13 @@ from app.layout import arrange
 from app.layout.arrange import Rect, StopPlace
 from app.screens.connect.connect import ConnectScreen
 from app.screens.parts.placing import put
-from app.screens.shell.shell import Shell
-from app.session.session import Session
 from app.stop.fleet import Fleet, known
-from widgets import StopAll, StopList
+from widgets import StopAll
+
+if TYPE_CHECKING:
+    from app.screens.shell.shell import Shell
+    from app.session.session import Session
+    from widgets import StopList
 
 __all__ = ["StopCorner"]
 
@@ -58,17 +61,26 @@ class StopCorner:
         """To be put over the whole glass."""
         self.button = StopAll(size_hint=(None, None))
         self.button.bind(on_command=lambda _: self.press())
-        self.list = StopList(size_hint=(None, None))
-        self.list.bind(
-            on_command=lambda _: self._let_go(),
-            on_close=lambda _: self._fold(),
-            on_fold=lambda _: self._turn(),
-            wanted=self._place,
-        )
+        self._list: StopList | None = None
         self._spread = False
         """The operator wants to see all of the list, whatever it lies over."""
         self._arranging = Clock.create_trigger(self._place, -1)
         self.layer.bind(size=self._arranging)
+
+    @property
+    def list(self) -> StopList:
+        """What became of STOP ALL, robot by robot; made when it is first looked at."""
+        if self._list is None:
+            from widgets import StopList
+
+            self._list = StopList(size_hint=(None, None))
+            self._list.bind(
+                on_command=lambda _: self._let_go(),
+                on_close=lambda _: self._fold(),
+                on_fold=lambda _: self._turn(),
+                wanted=self._place,
+            )
+        return self._list
 
     def press(self) -> None:
         """STOP to every robot that is known, the connected one first."""
@@ -96,7 +108,8 @@ class StopCorner:
         addresses = {entry.url for entry in entries} | ({session.robot.url} if session is not None else set())
         self._show(button, shown=fleet.active or len(addresses) >= least)
         if not fleet.active:
-            self._show(self.list, shown=False)
+            if self._list is not None:
+                self._show(self._list, shown=False)
         elif self.list.parent is not None:
             since = fleet.since(entries)
             self.list.update(fleet.rows, fleet.stopped, fleet.total, untried=fleet.untried, since=since)
@@ -146,11 +159,12 @@ class StopCorner:
             body = arrange.shell(self.layer.width, self.layer.height, dp, talks=shell.nav.talks)["body"]
         if place.other is not None:
             put(self.button, place.other)
-        self._place_list(body, place, form, dp)
+        if self._list is not None:
+            self._place_list(self._list, body, place, form, dp)
 
-    def _place_list(self, body: Rect, place: StopPlace, form: str, dp: float) -> None:
+    def _place_list(self, listed: StopList, body: Rect, place: StopPlace, form: str, dp: float) -> None:
         """Above STOP; in one line where a card has to be answered there, and what is only said goes above it."""
-        shell, listed = self._app.shell, self.list
+        shell = self._app.shell
         whole = arrange.stop_list(body, place, form, listed.wanted, dp)
         cramped = False
         if shell is not None and listed.parent is not None:

@@ -55,6 +55,7 @@ class TaskLists:
         self.runs.bind(on_command=lambda _, before: tasking.ask_history(before))
         tasking.on_history = self._on_history
         self._session.missions.on_change = self._on_missions
+        self._on_missions()
 
     def of(self, tab: str) -> Widget:
         """The list of a tab, or a sentence on a robot without tasks."""

@@ -12,7 +12,7 @@ import pytest
 
 import app.inputs.methods as methods_of
 from app.core.command_origin import NOBODY, origins
-from app.inputs.methods import Methods
+from app.inputs.methods import ON_DEMAND, Methods
 from app.inputs.voice.process.ending import end_aside
 from app.intents.intents import CONFIRM_TIME, Heard, Intents
 from app.intents.method_permits import MethodPermits
@@ -84,6 +84,7 @@ class App:
         monkeypatch.setattr(methods_of, "MADE_BY", {name: f"made_here:{name}" for name in made})
         self.time, self.said, self.acts = 100.0, [], IntentActions()
         self.shell = None
+        self.settings = Settings()
         self.connect = SimpleNamespace(say=lambda text, level: self.said.append(text))
         self.intents = Intents(self.acts, MethodPermits(Settings()), self.now)
         self.methods = Methods(self)
@@ -97,7 +98,11 @@ def make(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
     opened: list[Methods] = []
 
     def make(**made: type) -> App:
+        on = {name: {"on": True} for name, kind in made.items() if name in ON_DEMAND and kind.on}
+        kept = made.pop("kept", on)  # whoever switched one on finds that in the settings
         app = App(made, monkeypatch)
+        for name, value in kept.items():
+            app.settings.set(name, value)
         app.methods.open()
         opened.append(app.methods)
         return app
@@ -109,15 +114,93 @@ def make(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
 
 def test_one_that_cannot_be_made_or_begun_is_said_and_the_others_go_on(make: Any) -> None:
     app = make(log=Unmakeable, shake=Unstartable, voice=Made)
+    app.methods.open_rest()
     assert app.methods.get("voice").life == ["start"]
     assert (app.methods.get("log"), app.methods.get("shake")) == (None, None)
     assert Unstartable.ends == ["close"]
-    assert app.said == [
-        "Log cannot be used: no plan can be read from 3. Shake cannot be used: no such device."
-    ]
+    shake = "Shake cannot be used: no such device."
+    assert app.said == [shake, f"Log cannot be used: no plan can be read from 3. {shake}"], "the last is read"
     assert set(app.methods.faults) == {"log", "shake"}
     app.methods.update(100.0)
     app.methods.turn("log", on=True)
+
+
+class Counted(Made):
+    """Off, and counts how many of it are made."""
+
+    on, made = False, 0
+    mistaken = "In the settings of voice rate is 'fast': reset to default."
+
+    def __init__(self, app: Any) -> None:
+        super().__init__(app)
+        type(self).made += 1
+
+    def update(self, now: float) -> None:
+        self.life.append("update")
+
+
+@pytest.fixture
+def counted() -> Any:
+    return type("Counted", (Counted,), {})
+
+
+def test_what_was_never_switched_on_is_made_when_it_is_first_asked_for(make: Any, counted: Any) -> None:
+    app = make(voice=counted, gamepad=Made)
+    assert counted.made == 0, "nobody needs it"
+    assert app.methods.armed == ["gamepad"]
+    assert app.methods.made("voice") is None
+    assert app.methods.get("voice") is app.methods.get("voice") is app.methods.made("voice")
+    assert counted.made == 1
+    assert app.said == [counted.mistaken]
+
+
+def test_what_has_settings_is_made_at_once_and_says_what_is_wrong_with_them(make: Any, counted: Any) -> None:
+    app = make(voice=counted, kept={"voice": {"on": False}})
+    assert counted.made == 1
+    assert app.said == [counted.mistaken]
+
+
+def test_switching_on_what_was_never_made_makes_and_starts_it(make: Any, counted: Any) -> None:
+    app = make(voice=counted, log=Made)
+    app.methods.turn("voice", True)
+    assert app.methods.get("voice").life == ["start"]
+    app.methods.update(1.0)
+    assert app.methods.get("voice").life == ["start", "update"]
+    assert app.methods.armed == ["voice"]
+
+
+def test_what_is_made_late_and_cannot_be_made_is_said_once_and_is_none(make: Any) -> None:
+    app = make(voice=Unmakeable, gamepad=Made, kept={})
+    assert app.said == []
+    assert app.methods.get("voice") is None
+    assert app.methods.get("voice") is None
+    assert app.said == ["Voice cannot be used: no plan can be read from 3."]
+    assert app.methods.faults == {"voice": app.said[0]}
+
+
+def test_the_log_is_made_after_the_first_frame_and_before_those_of_its_name_are_asked(make: Any) -> None:
+    app = make(log=Made, gamepad=Made)
+    assert app.methods.made("log") is None
+    app.methods.open_rest()
+    log = app.methods.made("log")
+    assert log.life == ["start"]
+    app.methods.open_rest()
+    assert app.methods.get("log") is log
+
+
+def test_what_is_asked_for_while_the_glass_is_away_begins_when_it_is_back(make: Any) -> None:
+    app = make(log=Made)
+    app.methods.pause()
+    assert app.methods.get("log").life == []
+    app.methods.resume()
+    assert app.methods.get("log").life == ["start"]
+
+
+def test_nothing_is_made_before_they_are_opened_nor_after_they_are_closed(make: Any, counted: Any) -> None:
+    app = make(voice=counted)
+    app.methods.close()
+    assert app.methods.get("voice") is None
+    assert counted.made == 0
 
 
 def test_while_the_glass_is_away_nothing_listens_and_no_question_waits(make: Any) -> None:

@@ -55,8 +55,10 @@ class Robot(Asked):
         pane = SimpleNamespace(scheduled=None, form=form, order=TaskOrder(task="go_to", places=["Lab"]))
         card = SimpleNamespace(parent=None)
         self.speed, self.pane = speed, pane
+        self.made: dict[str, Any] = {"tasks": SimpleNamespace(pane=pane)}
         self.shell = SimpleNamespace(
-            screens={"tasks": SimpleNamespace(pane=pane), "drive": SimpleNamespace(speed=speed)},
+            made=self.made.get,
+            screens={"drive": SimpleNamespace(speed=speed)},
             cards=SimpleNamespace(handover=card),
             reset=SimpleNamespace(card=card),
             question=card,
@@ -123,6 +125,8 @@ def test_start_starts_the_task_that_is_chosen(robot: Robot) -> None:
     assert robot.acting.words("start") == "Start go to Lab"
     robot.acting.do("start")
     assert robot.commands[-1][1]["order"].places == ["Lab"]
+    robot.made.clear()
+    assert robot.acting.words("start") == "Start patrol", "nobody has looked at the tasks yet"
 
 
 @pytest.mark.parametrize(

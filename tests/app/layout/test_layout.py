@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from app.layout.layout import ACTIONS, LayoutError, choose, load, load_all, names, parse
+from app.layout.layout import ACTIONS, LayoutError, load, names, owners, parse
 from app.session import layout_actions as actions
 from widgets import CATALOGUE
 
@@ -142,25 +142,11 @@ def test_the_actions_that_a_layout_may_name_are_those_that_the_app_knows() -> No
     assert set(ACTIONS) == set(actions.ACTIONS)
 
 
-def test_models_come_before_kinds_and_a_robot_of_neither_gets_patrols() -> None:
-    layouts = [
-        parse("boat", "for = ['boat']", WIDGETS),
-        parse("patrol", "for = ['patrol']", WIDGETS),
-        parse("minnow", "for = ['minnow']", WIDGETS),
-    ]
-    assert choose(layouts, "minnow", "boat").name == "minnow"
-    assert choose(layouts, "dory", "boat").name == "boat"
-    assert choose(layouts, "rover", "wheels").name == "patrol"
-    assert choose(layouts, "", "").name == "patrol", "one that has not said yet what it is"
-    with pytest.raises(LayoutError, match="no layout 'patrol'"):
-        choose(layouts[::2], "rover", "wheels")
-
-
 def test_two_layouts_for_one_robot_are_a_mistake(tmp_path: Path) -> None:
     for name in ("boat", "minnow"):
         (tmp_path / f"{name}.toml").write_text("for = ['minnow', 'boat']")
     with pytest.raises(LayoutError, match="Layouts boat and minnow are both for minnow."):
-        load_all(WIDGETS, tmp_path)
+        owners(tmp_path)
 
 
 def test_a_layout_says_how_it_is_driven() -> None:

@@ -39,7 +39,7 @@ class Desk:
         self.acting = SimpleNamespace(on_help=None)
         self.tilt = SimpleNamespace(on=True, clutched=False)
         self.tilt.clutch = lambda *, down: setattr(self.tilt, "clutched", down)
-        self.methods = SimpleNamespace(get={"tilt": self.tilt}.get)
+        self.methods = SimpleNamespace(get={"tilt": self.tilt}.get, made={"tilt": self.tilt}.get)
 
     def rest(self) -> None:
         self.rests += 1
