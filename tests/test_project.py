@@ -30,6 +30,11 @@ SOURCES = [
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 
 
+@cache
+def parsed(path: Path) -> ast.Module:
+    return ast.parse(path.read_text())
+
+
 def canonical(name: str) -> str:
     return re.sub(r"[-_.]+", "-", name).lower()
 
@@ -74,7 +79,7 @@ QUOTED = [(title, quoted) for title, recipe in RECIPES.items() for quoted in re.
 @cache
 def known_names() -> set[str]:
     """Every class, function, attribute, key and task that the sources speak of."""
-    nodes = [node for path in SOURCES for node in ast.walk(ast.parse(path.read_text()))]
+    nodes = [node for path in SOURCES for node in ast.walk(parsed(path))]
     named = {node.name for node in nodes if isinstance(node, ast.ClassDef | ast.FunctionDef)}
     used = {node.attr for node in nodes if isinstance(node, ast.Attribute)}
     words = {node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)}
@@ -157,7 +162,7 @@ def test_no_file_is_over_500_lines_and_no_function_over_40():
     functions = [
         f"{path.name}:{node.lineno} {node.name}"
         for path in SOURCES
-        for node in ast.walk(ast.parse(path.read_text()))
+        for node in ast.walk(parsed(path))
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and body_length(node) > 40
     ]
     assert not files + functions
@@ -173,7 +178,7 @@ def test_no_class_is_over_250_lines_unless_it_is_a_table():
         f"{path.name} {node.name}"
         for path in SOURCES
         if "msgs" not in path.parts
-        for node in ast.walk(ast.parse(path.read_text()))
+        for node in ast.walk(parsed(path))
         if isinstance(node, ast.ClassDef) and node.end_lineno - node.lineno >= 250 and not is_a_table(node)
     ]
     assert not classes
