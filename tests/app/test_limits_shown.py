@@ -34,6 +34,7 @@ def test_points_outside_are_said_while_they_are_edited_and_can_be_sent_all_the_s
     assert mission.selection.trouble == wanted
     assert mission.panel._send.note == "The fence forbids point 2."
     robot.refusals["/mission/set"] = "The robot's own words."
+    fenced.until(lambda: not mission.ids["send"].disabled, "nothing can be sent")
     fenced.tap(mission.ids["send"])
     fenced.until(lambda: mission.panel._send.note.endswith("The robot's own words."), "not refused")
     mission.map.selected = 0
