@@ -57,7 +57,8 @@ class Probe:
         for _, msg in measured:
             if isinstance(msg, CompressedImage):
                 stamp = msg.header.stamp.seconds
-                began = next(at for until, at in self._reads if until >= stamp - STAMP_TOLERANCE)
+                later = (at for until, at in self._reads if until >= stamp - STAMP_TOLERANCE)
+                began = next(later, self._reads[-1][1])
                 report("picture", began, stamp)
         return measured
 
