@@ -95,7 +95,7 @@ class RobotVisit:
         if channel == PICTURE:
             self._pacer().when_free(partial(self._show, post, self.session))
         elif channel == REFUSED:
-            self._pictures.refuse(post.value)
+            self._pacer().when_free(partial(self._refuse, post, self.session))
         elif self.session is not None:
             self.session.deliver(channel, post)
             self._records.put(channel, post.value)
@@ -105,6 +105,11 @@ class RobotVisit:
     def _show(self, picture: Post, of: Session | None) -> None:
         if self.session is of:  # the robot may have been left meanwhile
             self._pictures.show(picture.value, picture.received, self._pages.shell, of)
+
+    def _refuse(self, refused: Post, of: Session | None) -> None:
+        """In its turn: no picture that was held back comes after it."""
+        if self.session is of:
+            self._pictures.refuse(refused.value)
 
     def tick(self) -> None:
         """Bring everything up to date that time changes."""

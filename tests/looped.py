@@ -29,12 +29,15 @@ def looped(
             raise TypeError(f"{test.__name__} is a coroutine, which has to be awaited.")
 
         def run(**fixtures: Any) -> None:
-            faults = [said for case in kept if (said := _fault(test, keys, case, fixtures))]
+            skips: list[pytest.skip.Exception] = []
+            faults = [said for case in kept if (said := _fault(test, keys, case, fixtures, skips))]
             assert kept, "There is no case."
             if faults:
                 pytest.fail(
                     f"{len(faults)} of {len(kept)} cases failed:\n" + "\n".join(faults), pytrace=False
                 )
+            if skips:
+                raise skips[0]
 
         # not `__wrapped__`, by which pytest and Hypothesis would find the test with its arguments
         functools.update_wrapper(run, test, updated=())
@@ -47,13 +50,19 @@ def looped(
     return wrap
 
 
-def _fault(test: Callable[..., None], keys: tuple[str, ...], case: Any, fixtures: dict[str, Any]) -> str:
-    """What the case says against itself, by its name; empty when it holds."""
+def _fault(
+    test: Callable[..., None],
+    keys: tuple[str, ...],
+    case: Any,
+    fixtures: dict[str, Any],
+    skips: list[pytest.skip.Exception],
+) -> str:
+    """What the case says against itself, by its name; empty when it holds, or when it goes to the `skips`."""
     values = (case,) if len(keys) == 1 else tuple(case)
     try:
         test(**dict(zip(keys, values, strict=True)), **fixtures)
-    except pytest.skip.Exception:
-        raise
+    except pytest.skip.Exception as skip:
+        skips.append(skip)
     except (Exception, pytest.fail.Exception) as fault:  # noqa: BLE001 - every kind of failure is told
         place = traceback.extract_tb(fault.__traceback__)[-1]
         told = "".join(traceback.format_exception_only(fault)).strip()

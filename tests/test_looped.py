@@ -84,6 +84,20 @@ def test_a_property_tells_the_example_that_breaks_it():
     assert "number=0" in said
 
 
+def test_a_case_that_is_skipped_hides_no_other():
+    @looped("x", [1, 2, 3])
+    def odd(x):
+        if x == 2:
+            pytest.skip("This machine lacks even numbers")
+        assert x < top
+
+    top = 3
+    assert "1 of 3 cases failed" in failure(odd)
+    top = 9
+    with pytest.raises(pytest.skip.Exception, match="even numbers"):
+        odd()
+
+
 def test_a_list_without_cases_proves_nothing():
     @looped("x", [])
     def nothing(x):

@@ -10,7 +10,7 @@ from tests.headless import Stage
 
 __all__ = ["Glass"]
 
-PATIENCE = 10.0
+PATIENCE = 30.0
 """A fault, not a delay, uses this up [s]."""
 
 

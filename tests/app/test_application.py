@@ -193,20 +193,14 @@ def test_a_second_tap_on_pause_does_not_resume(
 def test_a_robot_comes_onto_the_glass_with_all_that_is_known_of_it(glass: Glass, robot: FakeRobot) -> None:
     robot.publish("/robot/info", RobotInfo(name="Rover-1"))
     robot.publish("/control/status", ControlStatus(driver_id="t2", driver="Anna", mode="MANUAL"))
-    app, first = glass.app, []
-    entered = app.visit.enter
-
-    def enter() -> None:
-        app.visit.enter = lambda: None  # the frames of the wait ask for it again
-        glass.until(lambda: app.session.control == "other" and app.session.robot.info.name, "nothing told")
-        entered()
-        mission = app.screens["mission"]
-        first.append((app.shell.bar.robot_name, app.shell.bar.mode_text, mission.panel.tasks.state))
-
-    app.visit.enter = enter
+    app = glass.app
+    enter = app.visit.enter
+    app.visit.enter = lambda: None  # until all is told that there is to tell
     app.open(robot.url)
-    glass.until(lambda: first, "no screens")
-    assert first == [("Rover-1", "MANUAL", "disabled")]
+    glass.until(lambda: app.session.control == "other" and app.session.robot.info.name, "nothing told")
+    enter()
+    bar, mission = app.shell.bar, app.screens["mission"]
+    assert (bar.robot_name, bar.mode_text, mission.panel.tasks.state) == ("Rover-1", "MANUAL", "disabled")
 
 
 def test_nothing_can_be_asked_for_before_it_is_known_who_has_control(driving: Glass) -> None:

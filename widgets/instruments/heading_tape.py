@@ -78,7 +78,7 @@ class HeadingTape(Glass, Drawing):
 
     def show(self, msg: Imu | Odometry | PoseWithCovarianceStamped) -> None:
         """Take the heading out of the message; an Imu that measures no orientation gives NaN."""
-        self.heading = steady(self.heading, heading_of(msg), SEEN / self.per_degree)
+        self.heading = steady(self.heading, heading_of(msg), SEEN / max(1.0, self.per_degree))
 
     def place_of(self, heading: float) -> float:
         """Where `heading` [deg] is on the strip, measured from its middle [px]; NaN while the own is not known."""

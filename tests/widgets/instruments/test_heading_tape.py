@@ -25,6 +25,12 @@ def test_the_own_heading_is_in_the_middle(tape):
     assert labels(tape)["E"] == pytest.approx(tape.center_x)
 
 
+def test_a_heading_is_taken_before_there_is_any_room(stage):
+    tape = HeadingTape(size=(0, 0))
+    tape.show(Imu(orientation=Quaternion.from_yaw(0.0)))
+    assert tape.heading == pytest.approx(90.0)
+
+
 def test_larger_headings_are_to_the_right(tape):
     tape.heading = 95
     assert labels(tape)["E"] == pytest.approx(225 - 5 * 6)
