@@ -104,6 +104,8 @@ def test_lights_and_the_camera_that_looks_back_have_buttons_by_themselves(
     with handheld(tmp_path, url=carrier.url, discover=False, screen="drive") as glass:
         session = glass.app.session
         glass.control()
+        # what the button would do follows from it
+        glass.until(lambda: session.feeds.latest("/lights") is not None, "the lights' state")
         glass.tap("More", "QuietButton")
         glass.run(0.6)  # a button whose meaning has just changed takes no press
         glass.tap("Lights", "QuietButton")
