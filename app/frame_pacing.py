@@ -37,6 +37,8 @@ JITTER = 0.002
 """So much earlier than its period a frame may begin [s]: a turn of the loop is never quite on time."""
 LOST_TIMEOUT = 2.0
 """A frame whose fence does not pass for longer is taken to be through [s]: the picture must not stand still for good."""
+MAX_LOST = 2
+"""So many lost fences in a row, and this OpenGL's are not believed any more: each would hold the picture for LOST_TIMEOUT."""
 SLOW_COST, FAST_COST = 1 / 20, 1 / 30
 """A frame takes longer where drawing is slow, and less where it is fast again [s]."""
 JUDGED_FRAMES = 20
@@ -106,6 +108,8 @@ class FramePacer:
         self._begun = -math.inf
         self._cost = 0.0
         self._fence: int | None = None
+        self._lost = 0
+        """So many fences in a row did not pass."""
         self._drawing = self._flipping = self._moved = False
         self._moved_at = -math.inf
         self._row = 0
@@ -158,6 +162,8 @@ class FramePacer:
             return
         self._end()
         self._forget_fence()
+        if self._lost >= MAX_LOST:
+            self._fences = None
         self._flipping = True
         try:
             self._window.dispatch("on_flip")
@@ -168,8 +174,12 @@ class FramePacer:
             held()
 
     def _through(self, fence: int) -> bool:
+        if self._fences is None or self._fences.passed(fence):
+            self._lost = 0
+            return True
         late = self._now() - self._begun > LOST_TIMEOUT
-        return late or self._fences is None or self._fences.passed(fence)
+        self._lost += late
+        return late
 
     def _end(self) -> None:
         self._drawing, self._cost = False, self._now() - self._begun

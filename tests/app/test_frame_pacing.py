@@ -17,6 +17,7 @@ from app.frame_pacing import (
     JUDGED_FRAMES,
     LOST_TIMEOUT,
     MAX_FRAME_PERIOD,
+    MAX_LOST,
     SENDING_PAUSE,
     FramePacer,
     tell_slow,
@@ -207,6 +208,35 @@ def test_a_frame_that_is_never_through_is_given_up(screen: Callable[..., Screen]
     assert made.turns(round(LOST_TIMEOUT / FRAME) - 4) == []
     assert made.turns(6)[:2] == ["flip", "draw"]
     assert len(made.gl.due) == 1, "its fence went with it"
+
+
+def lose_one(made: Screen) -> None:
+    """A frame is begun whose fence does not pass; those that follow it do at once."""
+    made.gl.cost = NEVER
+    made.turns(4)
+    assert made.pacer.busy
+    made.gl.cost = 0.0
+    made.turns(round(LOST_TIMEOUT / FRAME))
+    assert not any(due > made.stage.time.now + 1 for due in made.gl.due.values()), "it was not given up"
+
+
+def test_fences_that_are_lost_in_a_row_are_waited_for_no_longer(screen: Callable[..., Screen]) -> None:
+    made = screen(NEVER)
+    made.turns(round((MAX_LOST * LOST_TIMEOUT) / FRAME) + 10)
+    made.stage.tap(10, 10)
+    assert made.turns(60).count("flip") > 55, "the glass stands still"
+    assert (made.gl.made, made.gl.due) == (MAX_LOST, {})
+    assert not made.pacer.slow
+
+
+def test_a_single_lost_one_is_forgiven(screen: Callable[..., Screen]) -> None:
+    made = screen(0.0)
+    for _ in range(MAX_LOST + 1):
+        lose_one(made)
+        made.turns(10)
+    before = made.gl.made
+    made.turns(10)
+    assert made.gl.made > before
 
 
 @pytest.mark.parametrize(("cost", "kind"), [(None, SlowGl), (0.0, FullGl)], ids=["no fences", "none left"])
