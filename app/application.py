@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +16,6 @@ from app.core.notifications import notify
 from app.core.settings_store import Settings
 from app.device import device_name, is_android, own_folder
 from app.discovery.known_robots import KnownRobots
-from app.frame_pacing import tell_slow
 from app.garbage_collector import Collector
 from app.idle_work import get_ready
 from app.inputs.inputs import Inputs
@@ -78,7 +76,7 @@ class PilothouseApp(App):
         """`url` is connected to at once, robots whose links are in `pair` are paired with unasked; `screen` is shown once connected, `inputs` without a robot too.
 
         `theme` overrides the remembered one, `layout` the one that is made for the robot; `simulator` is the command that starts the built-in simulator;
-        `discover` listens to robots saying HELLO; `poll` looks for fingers once more a frame, and before it is drawn. Raises LayoutError for a layout that cannot be shown.
+        `discover` listens to robots saying HELLO; `poll` looks for fingers once more a frame, and before it is drawn, as a desktop needs it. Raises LayoutError for a layout that cannot be shown.
         """
         super().__init__(**kwargs)
         self._url, self._first_screen, self._theme, self._pair = url, screen or "mission", theme, pair
@@ -165,7 +163,7 @@ class PilothouseApp(App):
             now=self.now,
         )
         self.mailbox, self.robot_list.trust.attempts = self._network.mailbox, self._network.pairing
-        self.timers = Timers(self._look, self._beat, self._list, partial(tell_slow, self), poll=self._poll)
+        self.timers = Timers(self._look, self._beat, self._list, poll=self._poll)
         self.inputs = Inputs(self, self.now)
         self.inputs.open()
         self.methods.open()

@@ -16,7 +16,7 @@ from typing import Any, Protocol
 from kivy.base import EventLoop
 from kivy.clock import Clock
 
-__all__ = ["Fences", "FramePacer", "tell_slow"]
+__all__ = ["Fences", "FramePacer"]
 
 FRAME_PERIOD = 1 / 60
 """Least time between the beginnings of two frames while a hand is at work [s]."""
@@ -43,7 +43,6 @@ SLOW_COST, FAST_COST = 1 / 20, 1 / 30
 """A frame takes longer where drawing is slow, and less where it is fast again [s]."""
 JUDGED_FRAMES = 20
 """So many frames in a row must be slow, or fast, before that is believed."""
-SLOW_DRAWING = "This device draws slowly: the screen changes 15 times a second until it is faster."
 
 
 class Fences(Protocol):
@@ -59,34 +58,6 @@ class Fences(Protocol):
         """It is not asked for any more."""
 
 
-class Frame(Protocol):
-    """The frame round the robot's screens, as far as slow drawing needs it."""
-
-    def say(self, text: str, level: str = ..., about: str = ...) -> None:
-        """Show one sentence over the screen, in place of the last one `about` the same."""
-
-    def unsay(self, about: str) -> None:
-        """Take the sentence away that was said about something."""
-
-
-class Host(Protocol):
-    """The app, as far as slow drawing needs it."""
-
-    @property
-    def shell(self) -> Frame | None:
-        """The frame round the robot's screens; None where there is no robot."""
-
-
-def tell_slow(app: Host, slow: bool) -> None:
-    """Say over the screens of a robot that drawing became slow; when it is fast again that is said no longer."""
-    if app.shell is None:
-        return
-    if slow:
-        app.shell.say(SLOW_DRAWING, "info", about="drawing")
-    else:
-        app.shell.unsay("drawing")
-
-
 class FramePacer:
     """Decides for each turn of the loop whether its frame is drawn. Everything here happens in the UI thread."""
 
@@ -95,15 +66,14 @@ class FramePacer:
         window: Any,
         fences: Fences | None,
         *,
-        on_slow: Callable[[bool], object] = lambda _: None,
         now: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], object] = time.sleep,
     ) -> None:
-        """`window` is Kivy's. Without `fences` a frame is through when it was drawn. `on_slow` is told when drawing becomes slow
+        """`window` is Kivy's. Without `fences` a frame is through when it was drawn.
 
-        and when it is fast again; `now` is our clock [s], `sleep` lets other threads work for so long [s].
+        `now` is our clock [s], `sleep` lets other threads work for so long [s].
         """
-        self._window, self._fences, self._on_slow = window, fences, on_slow
+        self._window, self._fences = window, fences
         self._now, self._sleep = now, sleep
         self._begun = -math.inf
         self._cost = 0.0
@@ -114,7 +84,7 @@ class FramePacer:
         self._moved_at = -math.inf
         self._row = 0
         self.slow = False
-        """Fewer than 20 frames a second can be drawn."""
+        """Fewer than 20 frames a second can be drawn: at most 15 are."""
         self._held: Callable[[], object] | None = None
         self._bound: dict[str, Callable[..., object]] = {
             "on_draw": self._draw,
@@ -196,7 +166,6 @@ class FramePacer:
         self._row = self._row + 1 if other else 0
         if self._row >= JUDGED_FRAMES:
             self.slow, self._row = not self.slow, 0
-            self._on_slow(self.slow)
 
     @property
     def _period(self) -> float:

@@ -46,7 +46,7 @@ class RobotVisit:
 
         `rest` is called when every control has to let go, `on_cut` with the robot's screens before its link is closed, `on_left` afterwards.
         `ask_to_pair` gets the address of a robot that does not let this handheld in, and why.
-        `pacer` gives what knows whether a frame is being drawn: a picture is shown when none is.
+        `pacer` gives what knows whether a frame is being drawn: a picture is shown when none is. It knows as well whether drawing is slow.
         """
         self._pages, self._connect, self._records = pages, connect, records
         self._connector, self._make_shell = connector, make_shell
@@ -55,6 +55,11 @@ class RobotVisit:
         self._pictures = PictureFeed(now)
         self.session: Session | None = None
         """None while no robot is wanted."""
+
+    @property
+    def draws_slowly(self) -> bool:
+        """What is seen of it changes less often than usual, because this device takes long for a frame."""
+        return self._pacer().slow
 
     def open(self, url: str, *, wants_control: bool, on_rest: Callable[[], object]) -> None:
         """Connect to a robot, leaving the one before; its screens come when it answers."""

@@ -41,12 +41,14 @@ class Timers:
         look: Callable[[], object],
         beat: Callable[[], object],
         refresh_list: Callable[[], object],
-        on_slow: Callable[[bool], object],
         *,
         poll: bool,
     ) -> None:
-        """`poll` looks for fingers once more a frame, and before it is drawn; `on_slow` is told when drawing becomes slow and when it is fast again."""
-        self.pacer = FramePacer(Window, GlFences.of(sdl_library()) if poll else None, on_slow=on_slow)
+        """`poll` looks for fingers once more a frame, and before it is drawn, and begins a frame when the one before is through.
+
+        It is for desktops: Android's window system paces frames by itself, and this was not tried on a phone.
+        """
+        self.pacer = FramePacer(Window, GlFences.of(sdl_library()) if poll else None)
         self._events = [
             Clock.schedule_interval(lambda _: look(), GLASS_PERIOD),
             Clock.schedule_interval(lambda _: beat(), BEAT_PERIOD),

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.app.fakes import FakeRobot
-from tests.app.glass import Glass
+from tests.app.glass import Glass, running
 from tests.headless import Stage
 
 
@@ -35,20 +35,13 @@ def glass(
     request: pytest.FixtureRequest, stage: Stage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[Glass]:
     # Kivy: where this folder is named, this file is read before tests/conftest.py prepares it
-    from app.application import PilothouseApp
     from app.garbage_collector import Collector
-    from widgets.core.theme import theme
 
     if "collecting" not in request.fixturenames:  # a look at all that an app is takes as long as half a test
         monkeypatch.setattr(Collector, "step", lambda _, **__: None)
 
-    app = PilothouseApp(settings_dir=tmp_path, theme="dark", discover=False)
-    app.root = app.build()
-    stage.show(app.root, stage.window.size)
-    app.on_start()
-    yield Glass(app, stage)
-    app.on_stop()
-    theme.name = "dark"
+    with running(stage, tmp_path) as glass:
+        yield glass
 
 
 @pytest.fixture

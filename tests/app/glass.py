@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 from tests.headless import Stage
 
-__all__ = ["Glass"]
+__all__ = ["Glass", "running"]
 
 PATIENCE = 30.0
 """A fault, not a delay, uses this up [s]."""
@@ -39,3 +41,21 @@ class Glass:
     def banners(self) -> list[str]:
         """Sentences over the screen, whatever cards lie there."""
         return [child.text for child in self.app.shell.ids.notices.children if hasattr(child, "text")]
+
+
+@contextmanager
+def running(stage: Stage, folder: Path, *, poll: bool = False) -> Iterator[Glass]:
+    """The app from its start to its end, with its settings in `folder`; `poll` as `PilothouseApp` has it."""
+    # Kivy: the first import comes after tests/conftest.py prepared it
+    from app.application import PilothouseApp
+    from widgets.core.theme import theme
+
+    app = PilothouseApp(settings_dir=folder, theme="dark", discover=False, poll=poll)
+    app.root = app.build()
+    stage.show(app.root, stage.window.size)
+    app.on_start()
+    try:
+        yield Glass(app, stage)
+    finally:
+        app.on_stop()
+        theme.name = "dark"

@@ -7,10 +7,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
+from kivy.uix.button import Button
 
+from app.device.gl_fences import GlFences
 from app.frame_pacing import (
     CALM_DELAY,
     FINGER_SHARE,
@@ -20,13 +23,13 @@ from app.frame_pacing import (
     MAX_LOST,
     SENDING_PAUSE,
     FramePacer,
-    tell_slow,
 )
 from app.link.camera_decoder import PICTURE, Picture
 from app.link.feeds import Post
+from app.screens.shell.standing_banners import SLOW_DRAWING
 from bridge.msgs.geometry_msgs import Twist
 from tests.app.fakes import FakeRobot
-from tests.app.glass import Glass
+from tests.app.glass import Glass, running
 from tests.headless import FRAME, Stage
 from widgets.controls.sticks.joystick import Joystick
 from widgets.controls.stop.stop_button import StopButton
@@ -68,7 +71,6 @@ class Screen:
     def __init__(self, stage: Stage, monkeypatch: pytest.MonkeyPatch, fences: SlowGl | None) -> None:
         self.stage, self.gl = stage, fences
         self.done: list[str] = []
-        self.slow: list[bool] = []
         kind = type(stage.window)
         draw = kind.on_draw
 
@@ -81,7 +83,6 @@ class Screen:
         self.pacer = FramePacer(
             stage.window,
             fences,
-            on_slow=self.slow.append,
             now=stage.time,
             sleep=lambda seconds: self.done.append(f"{seconds * 1e3:g} ms for the others"),
         )
@@ -336,17 +337,16 @@ def test_with_a_finger_down_drawing_takes_half_of_the_time_and_the_glass_goes_on
 def test_below_twenty_frames_a_second_it_is_slow_and_draws_fifteen(screen: Callable[..., Screen]) -> None:
     made = screen(0.055)
     made.turns(JUDGED_FRAMES * 4 - 20)
-    assert made.slow == []
+    assert not made.pacer.slow
     made.turns(40)
-    assert made.slow == [True]
     assert made.pacer.slow
     made.gl.cost = 0.04
     assert made.turns(512, 1 / 512).count("draw") == pytest.approx(1 / MAX_FRAME_PERIOD, abs=1)
     made.turns(1000)
-    assert made.slow == [True], "not fast before it is clearly faster"
+    assert made.pacer.slow, "not fast before it is clearly faster"
     made.gl.cost = 0.01
     made.turns(1000)
-    assert made.slow == [True, False]
+    assert not made.pacer.slow
 
 
 def test_a_few_slow_frames_are_not_slow_drawing(screen: Callable[..., Screen]) -> None:
@@ -354,16 +354,92 @@ def test_a_few_slow_frames_are_not_slow_drawing(screen: Callable[..., Screen]) -
     for _ in range(10):
         made.gl.cost = 0.1
         made.turns((JUDGED_FRAMES - 6) * 7)
+        assert not made.pacer.slow
         made.gl.cost = 0.0
         made.turns(8)
-    assert made.slow == []
 
 
-def test_slow_drawing_is_said_on_the_glass_until_it_is_fast_again(driving: Glass) -> None:
-    tell_slow(driving.app, True)
-    assert any("15 times a second" in text for text in driving.banners())
-    tell_slow(driving.app, False)
-    assert not any("15 times a second" in text for text in driving.banners())
+def test_slow_drawing_is_said_for_as_long_as_it_lasts_beside_a_refusal(driving: Glass) -> None:
+    shell, refusal = driving.app.shell, "Move refused: the battery is low."
+    shell.say(refusal, "warn", about="move")
+    driving.app.timers.pacer.slow = True
+    shell.tick()
+    assert {refusal, SLOW_DRAWING} <= set(driving.banners())
+    driving.stage.run_for(60, 1 / 8)
+    shell.tick()
+    assert SLOW_DRAWING in driving.banners()
+    shell.say(refusal, "warn", about="move")
+    assert {refusal, SLOW_DRAWING} <= set(driving.banners())
+    driving.app.timers.pacer.slow = False
+    shell.tick()
+    assert refusal in driving.banners()
+    assert SLOW_DRAWING not in driving.banners()
+
+
+def test_of_a_robot_that_is_entered_later_it_is_said_at_once(glass: Glass, robot: FakeRobot) -> None:
+    glass.app.timers.pacer.slow = True
+    glass.app.open(robot.url)
+    glass.until(lambda: glass.app.shell is not None, "no screens")
+    assert SLOW_DRAWING in glass.banners()
+
+
+def test_a_tap_takes_it_away_until_drawing_is_slow_anew(driving: Glass) -> None:
+    shell, pacer = driving.app.shell, driving.app.timers.pacer
+
+    def said(slow: bool) -> bool:
+        pacer.slow = slow
+        shell.tick()
+        return SLOW_DRAWING in driving.banners()
+
+    assert said(True)
+    driving.tap(shell._standing.drawing)
+    assert not said(True)
+    assert not said(False)
+    assert said(True)
+
+
+def test_on_a_phone_it_gives_way_to_a_card_that_waits_for_a_finger(driving: Glass) -> None:
+    shell, card = driving.app.shell, Button()
+    driving.app.timers.pacer.slow = True
+    for form, beside in (("wide", True), ("short", False), ("tall", False)):
+        shell.form = form
+        shell.tick()
+        assert SLOW_DRAWING in driving.banners()
+        shell.notices.keep(card, shown=True)
+        shell.tick()
+        assert (SLOW_DRAWING in driving.banners()) is beside
+        shell.notices.keep(card, shown=False)
+
+
+# in the app
+
+
+def test_the_app_paces_its_frames_says_that_they_are_slow_and_leaves_them_to_kivy_in_the_end(
+    stage: Stage, tmp_path: Path, robot: FakeRobot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fences, drawn = SlowGl(stage.time, 0.1), [0]
+    monkeypatch.setattr(GlFences, "of", lambda _: fences)
+    kind = type(stage.window)
+    monkeypatch.setattr(kind, "on_draw", lambda _: drawn.append(1))
+
+    def frames(count: int) -> int:
+        """How many of so many turns of the loop were drawn."""
+        drawn.clear()
+        for _ in range(count):
+            stage.window.canvas.ask_update()
+            stage.frames(1)
+        return len(drawn)
+
+    with running(stage, tmp_path, poll=True) as glass:
+        glass.app.timers.pacer._now = stage.time
+        glass.app.open(robot.url)
+        glass.until(lambda: glass.app.shell is not None, "no screens")
+        assert frames(64) in range(5, 12), "it does not wait for the frame before"
+        frames(64 * 3)
+        assert SLOW_DRAWING in glass.banners()
+        assert fences.due
+    assert fences.due == {}
+    assert frames(64) == 64
 
 
 # its end

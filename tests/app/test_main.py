@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -57,3 +58,21 @@ def test_a_mistake_is_said_without_starting_kivy() -> None:
         [sys.executable, "-OO", "-c", code], cwd=ROOT, check=False, capture_output=True, text=True, timeout=60
     )
     assert (done.returncode, done.stderr.count("\n")) == (0, 1)
+
+
+@pytest.mark.parametrize("android", [False, True])
+def test_frames_are_paced_on_desktops_alone(android: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    made: list[dict[str, Any]] = []
+
+    class App:
+        def __init__(self, *_: object, **options: Any) -> None:
+            made.append(options)
+
+        def run(self) -> None:
+            """Its window was closed."""
+
+    monkeypatch.setattr("app.__main__.is_android", lambda: android)
+    monkeypatch.setattr("app.__main__.prepare", lambda _: None)
+    monkeypatch.setattr("app.application.PilothouseApp", App)
+    assert main([]) == 0
+    assert made[0]["poll"] is not android

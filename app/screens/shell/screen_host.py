@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from app.inputs.methods import Methods
-from app.screens.shell.shell import Recording, Shell
+from app.screens.shell.shell import Shell, Visit
 from app.session.recordings import Recordings
 
 __all__ = ["ScreenHost"]
@@ -19,7 +19,7 @@ class ScreenHost(Protocol):
     records: Recordings
 
     @property
-    def visit(self) -> Recording:
+    def visit(self) -> Visit:
         """The visit to the robot."""
 
     @property

@@ -23,11 +23,11 @@ from app.screens.shell import status_text as standing
 from app.screens.shell.announcements import Announcements
 from app.screens.shell.control_cards import ControlCards
 from app.screens.shell.intent_prompts import IntentPrompts
-from app.screens.shell.link_banner import LinkBanner
 from app.screens.shell.notices import BRIEF_DURATION, Notices
 from app.screens.shell.rail import Rail
 from app.screens.shell.reset_card import ResetPrompt
 from app.screens.shell.screen_set import ScreenSet
+from app.screens.shell.standing_banners import StandingBanners
 from app.screens.shell.stop_display import StopDisplay
 from app.screens.shell.task_question import TaskQuestion
 from app.screens.shell.top_bar import TopBar
@@ -63,8 +63,12 @@ def stop_place(place: Rect) -> StopPlace:
     return place if isinstance(place, StopPlace) else alone
 
 
-class Recording(Protocol):
+class Visit(Protocol):
     """The visit to the robot, as far as the frame needs it."""
+
+    @property
+    def draws_slowly(self) -> bool:
+        """What is seen of it changes less often than usual, because this device takes long for a frame."""
 
     def toggle_recording(self) -> None:
         """Start recording, or finish the one that runs."""
@@ -78,7 +82,7 @@ class ShellHost(Protocol):
     themes: Themes
 
     @property
-    def visit(self) -> Recording:
+    def visit(self) -> Visit:
         """The visit to the robot."""
 
     def leave(self) -> None:
@@ -113,8 +117,8 @@ class Shell(FloatLayout):
         self._build_frame()
         self._question = TaskQuestion(self.session, self.notices)
         self.question = self._question.card
-        self._link_banner = LinkBanner(self.session, self.notices)
-        for widget in (self._link_banner.banner, self._stop.banner, self.question, self.notices):
+        self._standing = StandingBanners(self.session, self.notices)
+        for widget in (*self._standing.banners, self._stop.banner, self.question, self.notices):
             widget.bind(height=self._place_notices)
         self._followers: list[Callable[[str, Post], None]] = []
         self._stands: object = None
@@ -291,7 +295,7 @@ class Shell(FloatLayout):
         """Bring everything up to date that time changes; ten times a second."""
         if not self.session.connected:
             self.rest()
-        self._link_banner.tick()
+        self._standing.tick(slow=self.app.visit.draws_slowly, tight=self.form != "wide")
         self.bar.tick(self.session)
         self.bar.show_methods(self.app.methods.standing(), self.app.methods.idle())
         self._dashboard.tick()
