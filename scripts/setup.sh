@@ -2,13 +2,15 @@
 # Installs what Pilothouse needs into .venv, in steps that each leave a stamp; a step whose stamp holds does nothing.
 #   scripts/setup.sh [voice] [test] [clients]   app, robot side and simulator first of all; voice: speech; test: what tests,
 #                                               benches and lint need; clients: the JavaScript library of tests/clients
-# SETUP_LIMIT=SECONDS allows each download longer than 15 minutes, and npm longer than 3.
+# SETUP_LIMIT=SECONDS allows each download longer than 15 minutes, and npm longer than 3. One set-up works at a time.
 # Exit codes: 0 ready, 1 a fault, 2 something that the user has to do; each of them said in one sentence.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 venv=.venv
 bin=$venv/bin/python
+# stands in .venv from the first moment of making it to the last
+making=$venv/making.log
 limit=${SETUP_LIMIT:-900}
 # a registry that does not answer is given up within a minute or two; who knows a slower one may say so, up to a minute a try
 pause=${PIP_DEFAULT_TIMEOUT:-15} pause=${pause%.*}
@@ -29,6 +31,28 @@ wanted() {
 ready() { [ -f "$venv/.ready-$1" ] && [ "$(cat "$venv/.ready-$1")" = "$(wanted)" ]; }
 
 stamp() { wanted >"$venv/.ready-$1"; }
+
+# Keeps out every other set-up of this folder until this process ends, however it ends. Without flock, or where no lock can
+# be had at all, it does nothing.
+work_alone() {
+    local begun=$SECONDS code
+    if [ -n "${alone:-}" ] || ! command -v flock >/dev/null || ! { exec 9>>"$venv.lock"; } 2>/dev/null; then
+        return 0
+    fi
+    alone=yes
+    # 1 says that somebody has the lock, all above that there are none
+    while code=0; flock -n 9 2>/dev/null || code=$?; [ $code -eq 1 ]; do
+        if [ -z "${spoken:-}" ]; then
+            say "another set-up is at work; waiting"
+            spoken=yes
+        elif [ $((SECONDS - begun)) -ge "$limit" ]; then
+            say "another set-up is still at work after $limit s; the same command tries again," \
+                "and SETUP_LIMIT=$((limit * 4)) before it waits longer." >&2
+            exit 1
+        fi
+        sleep 0.2
+    done
+}
 
 find_python() {
     local name
@@ -97,10 +121,11 @@ doing() {
 watched() {
     local what=$1 log=$2 begun=$SECONDS told=-10 code=0
     shift 2
-    timeout --kill-after=5 "$limit" "$@" >"$log" 2>&1 </dev/null &
+    # what may outlive this process does not hold its lock
+    timeout --kill-after=5 "$limit" "$@" >"$log" 2>&1 </dev/null 9>&- &
     local pid=$!
     # shellcheck disable=SC2064 # this very process
-    trap "kill $pid 2>/dev/null || true; exit 130" INT TERM
+    trap "kill $pid 2>/dev/null || true; wait $pid || true; exit 130" INT TERM
     while kill -0 $pid 2>/dev/null; do
         if [ -t 1 ]; then
             printf '\r\033[Ksetup: %s, %d s: %s' "$what" $((SECONDS - begun)) "$(doing "$log")"
@@ -122,10 +147,11 @@ give_up() {
     local why
     if [ "$3" = 124 ]; then
         why="it took longer than $limit s; SETUP_LIMIT=$((limit * 4)) before the command allows more"
-    elif grep -qE 'Retrying \(|NewConnectionError|EAI_AGAIN|ENOTFOUND|ECONN|ETIMEDOUT|Could not resolve|Failed to fetch' "$2"; then
+    elif grep -qsE 'Retrying \(|NewConnectionError|EAI_AGAIN|ENOTFOUND|ECONN|ETIMEDOUT|Could not resolve|Failed to fetch' "$2"; then
         why="the server that has it does not answer"
     else
-        why=$(grep -E '^(ERROR|E|npm (ERR!|error)):? ' "$2" | tail -n 1 | sed -E 's/^(ERROR|E|npm (ERR!|error)):? *//; s/\.$//')
+        # finding nothing is no reason to end here
+        why=$(grep -sE '^(ERROR|Error|E|npm (ERR!|error)):? ' "$2" | tail -n 1 | sed -E 's/^[^ :]+( ERR!| error)?:? *//; s/\.$//') || true
         why=${why:-the program that installs it failed}
     fi
     say "$1 cannot be had: $why (more in $2); the same command tries again." >&2
@@ -182,6 +208,20 @@ NAMES
     echo "$PWD" >"$site/pilothouse.pth"
 }
 
+# Makes .venv anew unless there is one that was made to the end.  Usage: make_venv PYTHON
+make_venv() {
+    local what code=0
+    if [ ! -e "$making" ] && "$bin" -c 'import pip, sys; sys.exit(sys.version_info[:2] != (3, 11))' 2>/dev/null; then
+        return
+    fi
+    what="$venv with $("$1" --version)"
+    rm -rf "$venv"
+    mkdir "$venv"
+    watched "making $what" "$making" "$1" -m venv "$venv" || code=$?
+    [ $code -eq 0 ] || give_up "$what" "$making" $code
+    rm "$making"
+}
+
 set_up_run() {
     local python missing
     if ! python=$(find_python); then
@@ -194,11 +234,7 @@ set_up_run() {
         # shellcheck disable=SC2086 # one word a package
         install_packages $missing
     fi
-    if ! "$bin" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' 2>/dev/null; then
-        say "making $venv with $("$python" --version)"
-        rm -rf "$venv"
-        "$python" -m venv "$venv"
-    fi
+    make_venv "$python"
     install_extras "app, robot side and simulator" handheld robot sim
 }
 
@@ -228,9 +264,13 @@ for step in run "$@"; do
         *) say "there is no step $step; there are run, voice, test and clients." >&2; exit 2 ;;
     esac
     if ! ready "$step"; then
-        "set_up_$step"
-        stamp "$step"
-        done_some=1
+        work_alone
+        # whom this one waited for may have done it
+        if ! ready "$step"; then
+            "set_up_$step"
+            stamp "$step"
+            spoken=yes
+        fi
     fi
 done
-[ -z "${done_some:-}" ] || say "ready"
+[ -z "${spoken:-}" ] || say "ready"
