@@ -97,24 +97,24 @@ class RobotVisit:
 
     def deliver(self, channel: str, post: Post) -> None:
         """Something came from the robot."""
-        if channel == PICTURE:
-            self._pacer().when_free(partial(self._show, post, self.session))
-        elif channel == REFUSED:
-            self._pacer().when_free(partial(self._refuse, post, self.session))
+        if channel in (
+            PICTURE,
+            REFUSED,
+        ):  # in their turn: no picture that was held back comes after its refusal
+            self._pacer().when_free(partial(self._show, channel, post, self.session))
         elif self.session is not None:
             self.session.deliver(channel, post)
             self._records.put(channel, post.value)
             if channel == "/robot/info" and self._pages.shell is None and self.session.connected:
                 self.enter()
 
-    def _show(self, picture: Post, of: Session | None) -> None:
-        if self.session is of:  # the robot may have been left meanwhile
-            self._pictures.show(picture.value, picture.received, self._pages.shell, of)
-
-    def _refuse(self, refused: Post, of: Session | None) -> None:
-        """In its turn: no picture that was held back comes after it."""
-        if self.session is of:
-            self._pictures.refuse(refused.value)
+    def _show(self, channel: str, post: Post, of: Session | None) -> None:
+        if self.session is not of:
+            return  # the robot was left meanwhile
+        if channel == PICTURE:
+            self._pictures.show(post.value, post.received, self._pages.shell, of)
+        else:
+            self._pictures.refuse(post.value)
 
     def tick(self) -> None:
         """Bring everything up to date that time changes."""
