@@ -16,7 +16,9 @@ from typing import Any, Protocol
 from kivy.base import EventLoop
 from kivy.clock import Clock
 
-__all__ = ["Fences", "FramePacer"]
+from app.core.waking import waking
+
+__all__ = ["Fences", "FramePacer", "is_touched"]
 
 FRAME_PERIOD = 1 / 60
 """Least time between the beginnings of two frames while a hand is at work [s]."""
@@ -58,6 +60,11 @@ class Fences(Protocol):
         """It is not asked for any more."""
 
 
+def is_touched() -> bool:
+    """A finger is down; a mouse that only moves over the window is none."""
+    return any(touch.is_touch for touch in EventLoop.touches)
+
+
 class FramePacer:
     """Decides for each turn of the loop whether its frame is drawn. Everything here happens in the UI thread."""
 
@@ -92,7 +99,7 @@ class FramePacer:
             "on_motion": self._move,
         }
         self._turn = Clock.create_trigger(lambda _: self.step(), 0, interval=True)
-        self._look = _waking(FINGER_PERIOD)
+        self._look = waking(lambda: None, FINGER_PERIOD, interval=True)
 
     def open(self) -> None:
         """Decide from now on; until then each frame is drawn that Kivy wants."""
@@ -111,7 +118,7 @@ class FramePacer:
     @property
     def touched(self) -> bool:
         """A finger is down."""
-        return any(touch.is_touch for touch in EventLoop.touches)
+        return is_touched()
 
     @property
     def busy(self) -> bool:
@@ -199,11 +206,3 @@ class FramePacer:
         if self._fence is None:
             self._end()
         return self._fence is not None
-
-
-def _waking(period: float) -> Any:
-    """An event that has the loop turn every `period` [s], where Kivy's clock can be woken, from when it is called until it is cancelled."""
-    make: Any = (
-        getattr(Clock, "create_trigger_free", None) if hasattr(Clock, "get_min_free_timeout") else None
-    )
-    return (make or Clock.create_trigger)(lambda _: None, period, interval=True)

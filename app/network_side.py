@@ -7,11 +7,12 @@ from collections.abc import Callable
 
 from app.connector import Connector
 from app.core.settings_store import Settings
+from app.core.waking import wake_trigger
 from app.discovery.beacon_listener import BeaconListener
 from app.link.camera_decoder import CameraDecoder
 from app.link.feeds import Mailbox, Post
 from app.session.recordings import Recordings
-from app.timers import GLASS_PERIOD, wake_trigger
+from app.timers import GLASS_PERIOD
 from app.trust.keyring import RobotKey
 from app.trust.pairing_attempts import PairingAttempts
 from bridge.core.camera_frames import Frame

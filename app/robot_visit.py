@@ -97,10 +97,8 @@ class RobotVisit:
 
     def deliver(self, channel: str, post: Post) -> None:
         """Something came from the robot."""
-        if channel in (
-            PICTURE,
-            REFUSED,
-        ):  # in their turn: no picture that was held back comes after its refusal
+        if channel in (PICTURE, REFUSED):
+            # in their turn: no picture that was held back comes after its refusal
             self._pacer().when_free(partial(self._show, channel, post, self.session))
         elif self.session is not None:
             self.session.deliver(channel, post)

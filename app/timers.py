@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 from kivy.clock import Clock
 from kivy.core.window import Window
@@ -12,7 +11,7 @@ from app.device import sdl_library
 from app.device.gl_fences import GlFences
 from app.frame_pacing import FramePacer
 
-__all__ = ["BEAT_PERIOD", "GLASS_PERIOD", "LIST_PERIOD", "TICK_EVERY", "Timers", "wake_trigger"]
+__all__ = ["BEAT_PERIOD", "GLASS_PERIOD", "LIST_PERIOD", "TICK_EVERY", "Timers"]
 
 GLASS_PERIOD = 1 / 30
 """Between two looks at what came that is not urgent [s]."""
@@ -22,15 +21,6 @@ BEAT_PERIOD = 0.03
 """Between two heartbeats of the user interface [s]; without one for 0.15 s the robot rests."""
 LIST_PERIOD = 0.5
 """Between two looks at the list of robots [s]."""
-
-
-def wake_trigger(act: Callable[[], object]) -> Callable[[], object]:
-    """A function for any thread, after which `act` is called in the UI thread as soon as that is free."""
-    make: Any = (
-        getattr(Clock, "create_trigger_free", None) if hasattr(Clock, "get_min_free_timeout") else None
-    )
-    trigger: Callable[[], object] = (make or Clock.create_trigger)(lambda _: act(), 0)
-    return trigger
 
 
 class Timers:

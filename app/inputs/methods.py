@@ -8,13 +8,12 @@ from __future__ import annotations
 import logging
 from collections.abc import Iterable
 from contextlib import suppress
-from importlib import import_module
 from typing import Any, Protocol
 
 from kivy.core.window import Window
 
 from app.core.command_origin import origins
-from app.core.optional_parts import is_included
+from app.core.optional_parts import bring, is_included
 from app.device.motion import motion_source
 from app.inputs.base.method_app import MethodApp
 from app.inputs.input_problems import MethodProblems
@@ -132,7 +131,7 @@ class Methods:
     def _made_or_fault(self, name: str) -> str:
         """Make one; returns why it could not be made, empty where it is well."""
         where = self._waiting.pop(name)
-        if not is_included(where.partition(":")[0]):  # as the study may be left out of a build
+        if not is_included(where):  # as the study may be left out of a build
             return ""
         try:
             self._make(name, where)
@@ -142,8 +141,7 @@ class Methods:
         return self.faults.get(name, "")
 
     def _make(self, name: str, where: str) -> None:
-        module, _, made = where.partition(":")
-        self._all[name] = method = getattr(import_module(module), made)(self._app)
+        self._all[name] = method = bring(where)(self._app)
         self._all = {one: self._all[one] for one in MADE_BY if one in self._all}
         if method.on and not self._paused:
             method.start()

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol
 
+from app.core.optional_parts import bring
 from app.layout.layout import Layout
 from app.layout.layout_choice import LayoutChoice
 from app.link.feeds import Post
@@ -29,11 +29,6 @@ DRIVE = {
 """Module and class of the drive screen of each arrangement."""
 
 
-def _class(where: str) -> Any:
-    module, _, name = where.partition(":")
-    return getattr(import_module(module), name)
-
-
 class Host(ShellHost, ScreenHost, Protocol):
     """The app, as far as a robot's screens and their frame need it."""
 
@@ -53,7 +48,7 @@ class Profile:
 
     def screen(self) -> DriveScreen | DiveScreen:
         """Make its screen."""
-        made: DriveScreen | DiveScreen = _class(DRIVE[self.layout.arrangement])(
+        made: DriveScreen | DiveScreen = bring(DRIVE[self.layout.arrangement])(
             self.layout, app=self._app, session=self._session
         )
         return made
@@ -80,7 +75,7 @@ def robot_shell(app: Host, session: Session, layouts: LayoutChoice, **kwargs: An
     profile = Profile(app, session, layouts)
 
     def maker(where: str, **needed: object) -> Callable[[], RobotScreen]:
-        return lambda: _class(where)(**needed)
+        return lambda: bring(where)(**needed)
 
     makers: dict[str, Callable[[], RobotScreen]] = {
         "mission": maker("app.screens.mission.mission:MissionScreen", app=app, session=session),

@@ -12,9 +12,8 @@ from app.link.feeds import Mailbox, Post
 from app.screens.connect.connect import ConnectScreen
 
 if TYPE_CHECKING:
-    from app.screens.connect.simulator_dialog import (
-        SimulatorDialog,
-    )  # when it is asked for, for a quick start
+    # when it is asked for, for a quick start
+    from app.screens.connect.simulator_dialog import SimulatorDialog
     from app.session.session import Session
 
 __all__ = ["CHANNEL", "SimulatorLauncher"]

@@ -40,4 +40,4 @@ PANES: dict[str, Pane] = {
 
 def panes() -> dict[str, Pane]:
     """Those of `PANES` whose module is part of this build, in their order."""
-    return {name: pane for name, pane in PANES.items() if is_included(pane.where.partition(":")[0])}
+    return {name: pane for name, pane in PANES.items() if is_included(pane.where)}

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import ObjectProperty, StringProperty
 from kivy.uix.widget import Widget
 
+from app.core.optional_parts import bring
 from app.layout import arrange
 from app.layout.arrange import Body, Rect
 from app.link.feeds import Post
@@ -160,8 +160,7 @@ class InputsScreen(RobotScreen):
         if name not in self._made and self._fault(name):
             self._made[name] = FaultPane(self._fault(name))
         elif name not in self._made:
-            module, _, made = self.panes[name].where.partition(":")
-            self._made[name] = getattr(import_module(module), made)(app=self.app)
+            self._made[name] = bring(self.panes[name].where)(app=self.app)
         return self._made[name]
 
     def _fault(self, name: str) -> str:

@@ -334,11 +334,17 @@ def test_whoever_asks_first_has_the_presses_but_not_stop() -> None:
     assert bench.glass.done == []
 
 
-def test_what_b_held_when_the_mark_went_to_sleep_does_nothing_and_wakes_nothing() -> None:
+def with_b_held() -> Bench:
+    """B is down on the first target."""
     bench = Bench("a", "b", "c")
     bench.press("A")
     bench.down("B")
     bench.wait(0.2)
+    return bench
+
+
+def test_what_b_held_when_the_mark_went_to_sleep_does_nothing_and_wakes_nothing() -> None:
+    bench = with_b_held()
     bench.engine.sleep()
     bench.up("B")
     bench.wait(0.3)
@@ -346,10 +352,7 @@ def test_what_b_held_when_the_mark_went_to_sleep_does_nothing_and_wakes_nothing(
 
 
 def test_what_was_held_when_the_focus_went_does_nothing_and_wakes_nothing() -> None:
-    bench = Bench("a", "b", "c")
-    bench.press("A")
-    bench.down("B")
-    bench.wait(0.2)
+    bench = with_b_held()
     bench.engine.lost()
     bench.engine.found(bench.now)
     bench.up("B")
