@@ -10,10 +10,10 @@ from functools import partial
 from importlib import import_module
 from typing import Any, Protocol
 
-from kivy.base import EventLoop
 from kivy.clock import Clock
 
 from app.core.optional_parts import is_included
+from app.frame_pacing import is_touched
 from app.garbage_collector import Collector
 from app.inputs.methods import Methods
 
@@ -137,7 +137,7 @@ def get_ready(app: ReadyApp) -> IdleWork:
 
     def may() -> bool:
         """No finger is down and nothing is driven: a frame may take a little longer."""
-        return not EventLoop.touches and (app.session is None or not app.session.link.driving)
+        return not is_touched() and (app.session is None or not app.session.link.driving)
 
     def keep() -> None:
         """What was imported stays: the collector need not look at it."""

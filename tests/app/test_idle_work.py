@@ -6,11 +6,13 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from kivy.base import EventLoop
 
-from app.idle_work import BUDGET, FIRST_FRAMES, METHODS, SOON, IdleWork, imports
+from app.idle_work import BUDGET, FIRST_FRAMES, METHODS, SOON, IdleWork, get_ready, imports
 from tests.headless import Stage
 
 ROOT = Path(__file__).parents[2]
@@ -140,3 +142,22 @@ def test_afterwards_a_robot_needs_no_module_that_is_not_imported() -> None:
 
 def test_each_module_is_named_once() -> None:
     assert len({*METHODS, *SOON}) == len(METHODS) + len(SOON)
+
+
+def test_a_finger_keeps_it_waiting_and_a_mouse_that_only_hovers_does_not(
+    stage: Stage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened: list[str] = []
+    methods = SimpleNamespace(open_rest=lambda: opened.append("methods"))
+    app: Any = SimpleNamespace(methods=methods, collector=SimpleNamespace(keep=lambda: None), session=None)
+    there = [SimpleNamespace(is_touch=True)]
+    monkeypatch.setattr(EventLoop, "me_list", there)
+    work = get_ready(app)
+    try:
+        stage.frames(FIRST_FRAMES + 20)
+        assert opened == []
+        there[:] = [SimpleNamespace(is_touch=False)]
+        stage.frames(60)
+        assert opened == ["methods"]
+    finally:
+        work.close()
