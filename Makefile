@@ -28,14 +28,14 @@ run: setup ## open the app on the built-in simulator; options ROBOT=scout,patrol
 demo: setup ## scripted stories, through the app's own touch events: out/demo*/; option ROBOT=scout or ROBOT=all
 	@PYTHON=$(PYTHON) bash scripts/demo.sh $(ROBOT)
 
-test: setup-test ## run all tests, no display needed
+test: setup-test ## run the tests but the slow ones, no display needed
 	@bash scripts/setup.sh clients || true # the tests that need it say so
 	@PYTHON=$(PYTHON) bash scripts/test.sh
 
 test-fast: setup-test ## run the tests of pure logic, in a minute: messages, protocol, layouts, control, limits, planning, tasks, physics
 	@PYTHON=$(PYTHON) bash scripts/test.sh fast
 
-test-slow: setup-test ## go through every sequence of what operators may do with control and STOP
+test-slow: setup-test ## run the rest: simulated physics, real processes, every sequence of control and STOP
 	@PYTHON=$(PYTHON) bash scripts/test.sh slow
 
 mutate: setup-test ## put faults into the code, each of which a test must notice; option ONLY=word

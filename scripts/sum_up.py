@@ -1,4 +1,4 @@
-"""The sum of pytest's reports in a folder, printed as one line: `N passed, N failed`, and how many were skipped and why."""
+"""The sum of pytest's reports in a folder and in those within it, printed as one line: `N passed, N failed`, and how many were skipped and why."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ def count(folder: Path) -> tuple[int, int]:
         bad = int(suite.get("failures", 0)) + int(suite.get("errors", 0))
         failed += bad
         passed += int(suite.get("tests", 0)) - bad - int(suite.get("skipped", 0))
-    broken = folder / "broken"
-    return passed, failed + (len(broken.read_text().split()) if broken.exists() else 0)
+    broken = [ring for names in folder.rglob("broken") for ring in names.read_text().split()]
+    return passed, failed + len(broken)
 
 
 def skipped(folder: Path) -> Counter[str]:
@@ -34,7 +34,7 @@ def skipped(folder: Path) -> Counter[str]:
 
 
 def line(folder: Path) -> str:
-    """The line that closes `make test`."""
+    """The line that closes `make test`, `make test-fast` and `make test-slow`, and all of them together."""
     said = "{} passed, {} failed".format(*count(folder))
     reasons = skipped(folder)
     if not reasons:
@@ -44,7 +44,7 @@ def line(folder: Path) -> str:
 
 
 def _all(folder: Path, tag: str) -> list[ET.Element]:
-    reports = sorted(folder.glob("*.xml"))
+    reports = sorted(folder.rglob("*.xml"))
     return [found for report in reports for found in ET.parse(report).getroot().iter(tag)]  # noqa: S314 - pytest's own
 
 

@@ -1,11 +1,18 @@
 #!/usr/bin/env bash
 # Runs the rings of tests, those that draw in processes of their own, and closes with one line that sums them up.
-#   scripts/test.sh [fast|slow] fast: the pure logic, in a minute; slow: the ring of long explorations alone
+#   scripts/test.sh [fast|slow] fast: the pure logic, in a minute; slow: what the others leave out, `pytest.mark.slow`
+# Where REPORTS names a folder, the reports are left in it, so that who set it sums several runs up.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 python=${PYTHON:-.venv/bin/python}
-reports=$(mktemp -d)
-trap 'rm -rf "$reports"' EXIT
+if [ -n "${REPORTS:-}" ]; then
+    reports=$REPORTS/${1:-daily}
+    mkdir -p "$reports"
+    unset REPORTS # a test that runs this script leaves nothing there
+else
+    reports=$(mktemp -d)
+    trap 'rm -rf "$reports"' EXIT
+fi
 # else each process compiles all that it imports anew, and tests start many
 unset PYTHONDONTWRITEBYTECODE
 status=0
@@ -32,24 +39,23 @@ pure=(
     tests/sim/{core,dynamics}
     tests/test_{architecture,looped,lacking,mirror,project,sentences}.py
 )
-# those among them that take several seconds each
-costly=(
-    --ignore-glob='*_in_sim.py' --ignore-glob='*_stateful.py' --ignore=tests/robotside/limits/test_fence_guard.py
-    --ignore=tests/robotside/navigation/test_ackermann_controller.py --ignore=tests/robotside/tasks/test_agenda.py
-    --ignore=tests/robotside/tasks/test_interrupted_task.py
-)
 
 present() { compgen -G "$1" >/dev/null; }
 
+# files with tests that the daily rings leave out; others are not even imported for the slow one
+slow_files() { grep -rlE --include='test_*.py' 'pytest\.mark\.slow\b' "$@"; }
+
 if [ "${1:-}" = fast ]; then
-    ring fast -n 2 --dist worksteal "${costly[@]}" "${pure[@]}"
+    ring fast -n 2 --dist worksteal -m 'not slow' "${pure[@]}"
 elif [ "${1:-}" = slow ]; then
-    ring slow -n 2 --dist worksteal tests/slow
+    mapfile -t undrawn < <(slow_files --exclude-dir={pixels,e2e} tests)
+    mapfile -t drawn < <(slow_files tests/{pixels,e2e})
+    ring slow -n 2 --dist worksteal -m slow "${undrawn[@]}"
+    [ ${#drawn[@]} -eq 0 ] || ring slow-drawn -n 2 --dist worksteal -m slow "${drawn[@]}"
 else
-    ring logic -n 2 --dist loadscope --ignore=tests/slow
-    present 'tests/pixels/test_*.py' && ring pixels -n 2 tests/pixels
-    present 'tests/e2e/test_*.py' && ring e2e -n 2 --dist loadfile tests/e2e
-    present 'tests/slow/test_*.py' && ring slow -n 2 --dist worksteal tests/slow
+    ring logic -n 2 --dist loadscope -m 'not slow'
+    present 'tests/pixels/test_*.py' && ring pixels -n 2 -m 'not slow' tests/pixels
+    present 'tests/e2e/test_*.py' && ring e2e -n 2 --dist loadfile -m 'not slow' tests/e2e
 fi
 "$python" scripts/sum_up.py "$reports"
 exit $status

@@ -12,6 +12,8 @@ from bridge.msgs.pilothouse_msgs import Waypoint
 from sim.robot import make
 from tests.robotside.sim_run import Run
 
+pytestmark = pytest.mark.slow
+
 POINTS = [Waypoint(-3.0, 2.0), Waypoint(1.0, 1.0)]
 
 

@@ -14,6 +14,8 @@ from bridge.msgs.pilothouse_msgs import CommandRequest, Waypoint
 from sim.robot import make
 from tests.robotside.sim_run import Run
 
+pytestmark = pytest.mark.slow
+
 HOME = Waypoint(-17.5, -11.0, math.pi / 2)
 POINTS = [Waypoint(-17.5, -5.0), Waypoint(-14.0, -3.0)]
 

@@ -12,6 +12,8 @@ from bridge.msgs.pilothouse_msgs import CommandRequest, Waypoint
 from sim.robot import make
 from tests.robotside.sim_run import HOME, Run
 
+pytestmark = pytest.mark.slow
+
 POINTS = [Waypoint(0.0, 7.5), Waypoint(16.0, 7.0), Waypoint(17.0, -7.5)]
 
 

@@ -16,6 +16,8 @@ from robotside.core.config import Config, LimitSettings, Ring
 from robotside.motion.manoeuvres import Order
 from tests.robotside.hand import Hand, steer, tilt
 
+pytestmark = pytest.mark.slow
+
 Make = Callable[..., Hand]
 
 

@@ -6,7 +6,11 @@ import asyncio
 import random
 from pathlib import Path
 
+import pytest
+
 from bench.support.crash import Ledger, crash, find_losses
+
+pytestmark = pytest.mark.slow
 
 
 async def killed(state: Path, ledger: Ledger) -> list[str]:

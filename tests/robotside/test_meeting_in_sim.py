@@ -16,6 +16,8 @@ from sim.world.tables import Start
 from tests.fakes import FakeClient
 from tests.robotside.scene import records_at
 
+pytestmark = pytest.mark.slow
+
 TICK = 1 / 30
 
 

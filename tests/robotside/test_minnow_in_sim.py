@@ -12,6 +12,8 @@ from bridge.msgs.pilothouse_msgs import CommandRequest, Waypoint
 from sim.robot import make
 from tests.robotside.sim_run import Run
 
+pytestmark = pytest.mark.slow
+
 POINTS = [Waypoint(-10.0, -15.0), Waypoint(0.0, 10.0)]
 START = Waypoint(-30.0, -20.0)
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import LineSensor
@@ -14,6 +16,8 @@ from sim.vehicles.patrol import PATROL
 from sim.world.world_files import parse
 from tests.robotside.sim_run import Run
 from tests.sim.rooms import ROOM
+
+pytestmark = pytest.mark.slow
 
 ACROSS = "[[lines]]\nfrom = [1.0, -3.0]\nto = [1.0, 3.0]\nwidth = 0.12\n"
 """A painted line 1 m ahead."""

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import math
 
+import pytest
+
 from bench.link_cuts import cuts
 from bench.support.child import child
 from bench.support.cuts import ours
 from bench.support.many_cuts import CLIENTS, HOWS, ManyCut
+
+pytestmark = pytest.mark.slow
 
 
 def test_the_robot_is_told_to_rest_and_does_and_nothing_that_waited_in_the_line_moves_it() -> None:

@@ -15,6 +15,8 @@ from robotside.core.config import DEFAULT_CONFIG, Config, SafeStateSettings
 from robotside.motion.manoeuvres import Order
 from tests.robotside.hand import UPSIDE_DOWN, Hand, steer, tilt
 
+pytestmark = pytest.mark.slow
+
 Make = Callable[..., Hand]
 AHEAD = Twist.planar(0.5, 0.0)
 

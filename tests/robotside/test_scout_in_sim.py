@@ -5,10 +5,14 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import pytest
+
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Bumper, CommandRequest, Waypoint
 from sim.robot import make
 from tests.robotside.sim_run import Run
+
+pytestmark = pytest.mark.slow
 
 ROOMS = [Waypoint(-6.8, 2.9), Waypoint(-2.4, -2.9), Waypoint(10.8, -2.9), Waypoint(-10.2, 1.6, math.pi)]
 

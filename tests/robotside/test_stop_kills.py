@@ -14,7 +14,10 @@ from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any
 
+import pytest
 from websockets.asyncio.client import connect
+
+pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[2]
 START_TIMEOUT = 60.0

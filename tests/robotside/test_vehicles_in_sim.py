@@ -13,6 +13,8 @@ from robotside.core.pose2 import Pose2
 from sim.robot import SimRobot, make
 from tests.robotside.sim_run import Run
 
+pytestmark = pytest.mark.slow
+
 WORLDS = {
     "patrol": "parking_lot",
     "scout": "parking_lot",

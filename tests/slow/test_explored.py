@@ -24,6 +24,8 @@ from tests.slow.explored_robot import EVENTS, Violation
 from tests.slow.explorer import KILL, Explorer, Life
 from tests.slow.snapshots import Living, Snapshot
 
+pytestmark = pytest.mark.slow
+
 DEPTH = 8
 FEW_WALKS = 15
 """Enough where one sequence is looked for, not that there is none."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import itertools
 import random
 
+import pytest
 from hypothesis import HealthCheck, settings, strategies
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
@@ -27,6 +28,8 @@ from robotside.records import Records
 from robotside.station.station import Station
 from tests.fakes import FakeClient, FakeRobot
 from tests.robotside.gateways.in_process import Client, Gateways
+
+pytestmark = pytest.mark.slow
 
 NAMES = ("anna", "bert", "carl")
 WHO = strategies.sampled_from(NAMES)

@@ -38,6 +38,8 @@ from tests.bridge.foreign_robot import chart
 from tests.bridge.wires import Wire, link, wire
 from tests.robotside.foreign.test_foreign_link import until
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[3]
 REST = (0.0, 0.0)
 NOWHERE = "The robot's position is unknown; place the robot on the map."

@@ -14,6 +14,8 @@ from robotside.motion.manoeuvres import Order
 from tests.robotside.hand import Hand, steer, tilt
 from tests.robotside.test_driving_in_sim import box
 
+pytestmark = pytest.mark.slow
+
 Keep = Callable[[str, float, float, float], Hand]
 
 

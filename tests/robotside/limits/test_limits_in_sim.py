@@ -17,6 +17,8 @@ from sim.robot import SimRobot, make
 from tests.fakes import FakeClient
 from tests.robotside.scene import records_at
 
+pytestmark = pytest.mark.slow
+
 TICK = 1 / 60
 PAD = ((-19.0, -14.0), (-15.0, -14.0), (-15.0, -9.0), (-19.0, -9.0))
 KERB = ((-16.6, -12.5), (-16.0, -12.5), (-16.0, -11.0), (-16.6, -11.0))

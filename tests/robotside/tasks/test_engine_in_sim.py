@@ -14,6 +14,8 @@ from robotside.tasks.behaviours.situation import Seen
 from sim.robot import make
 from tests.robotside.sim_run import Run
 
+pytestmark = pytest.mark.slow
+
 CONE = (-19.0, -1.5)
 
 

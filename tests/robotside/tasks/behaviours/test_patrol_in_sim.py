@@ -12,6 +12,8 @@ from bridge.msgs.pilothouse_msgs import CommandRequest, Waypoint
 from sim.robot import make
 from tests.robotside.sim_run import HOME, Run
 
+pytestmark = pytest.mark.slow
+
 ROUND = [
     Waypoint(-17.5, 7.5),
     Waypoint(0.0, 7.5),
