@@ -61,7 +61,8 @@ class Stream:
     __slots__ = ("due", "form", "gone", "heavy", "lane", "ordered", "period", "topic", "waiting")
 
     def __init__(self, topic: str, lane: Lane, wanted: Subscribed, keep: int = 1) -> None:
-        """`keep` is how many messages may wait when the client does not say; 0 for all, in the order of the lane."""
+        """`keep` is how many messages may wait when the client gives neither a number nor a period; 0 for all, in the order
+        of the lane. With a period alone the newest counts."""
         self.topic = topic
         self.lane = lane
         self.due = -math.inf
@@ -81,7 +82,8 @@ class Stream:
         reduction = wanted.reduction
         self.heavy = reduction is not None and self.lane is Lane.BULK
         """Whether its messages take long to reduce."""
-        length = min(wanted.queue or max(1, keep), MAX_QUEUE_LENGTH[self.lane])
+        usual = 1 if wanted.period else max(1, keep)  # a backlog sent at a slow rate is all old
+        length = min(wanted.queue or usual, MAX_QUEUE_LENGTH[self.lane])
         self.waiting = deque(self.waiting, maxlen=length)
 
 

@@ -118,6 +118,24 @@ def test_a_throttled_topic_waits_for_its_turn_and_then_sends_the_newest():
     assert lanes.delay(5.11) is None
 
 
+def test_a_throttled_topic_of_events_without_a_queue_length_has_no_backlog():
+    """A backlog at a slow rate is all old: the last of twenty would come after 3.8 s."""
+    lanes, chat = PriorityLanes(), stream("/chat", keep=100, period=0.2)
+    came = []
+    for value in range(20):
+        lanes.offer(chat, number(value))
+        came.append((value, taken(lanes, now=0.01 * value)))
+    assert [found for _, found in came if found is not None] == [0.0]
+    assert (taken(lanes, now=0.2), taken(lanes, now=9.0)) == (19.0, None)
+
+
+def test_a_throttled_topic_keeps_as_many_as_its_queue_length_asks_for():
+    lanes, chat = PriorityLanes(), stream("/chat", keep=100, period=0.2, queue=3)
+    for value in range(20):
+        lanes.offer(chat, number(value))
+    assert [taken(lanes, now=float(value)) for value in range(4)] == [17.0, 18.0, 19.0, None]
+
+
 def test_a_throttled_topic_does_not_keep_the_others_waiting():
     lanes, odom, scan = PriorityLanes(), stream(period=10.0), stream("/scan")
     for value in (1, 2):
