@@ -7,7 +7,7 @@ import pytest
 
 from bridge.core.geo import Datum
 from widgets.core.geometry import View
-from widgets.map.geo_map import GeoMap, samples
+from widgets.map.geo_map import GeoMap
 
 DATUM = Datum(45.5069, -73.579)
 TILES = str(Path(__file__).parents[3] / "widgets/data/parking_lot.mbtiles")
@@ -114,8 +114,3 @@ def test_the_default_source_of_mapview_is_never_asked(stage, monkeypatch):
     made = stage.show(GeoMap(tiles=TILES, datum=DATUM), size=(300, 200))
     made.zoom_in()
     stage.frames(3)
-
-
-@pytest.mark.parametrize("name", samples())
-def test_every_sample_can_be_shown(stage, name):
-    assert stage.show(samples()[name]()).height > 0

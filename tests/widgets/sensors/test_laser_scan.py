@@ -150,11 +150,6 @@ def test_an_empty_sweep_and_one_of_nan_are_shown_as_nothing(view, stage):
         assert view.nearest == math.inf
 
 
-@pytest.mark.parametrize("name", samples())
-def test_every_sample_can_be_shown(stage, name):
-    assert stage.show(samples()[name]()).height > 0
-
-
 def box(word) -> tuple[float, float, float, float]:
     wide, high = text_texture(word.text, round(word.size, 1), word.font, bold=word.bold).size
     left, bottom = word.x - wide * word.anchor[0], word.y - high * word.anchor[1]

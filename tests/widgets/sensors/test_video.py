@@ -14,7 +14,7 @@ from bridge.msgs.vision_msgs import (
     Pose2D,
 )
 from widgets.core.shapes import Shapes
-from widgets.sensors.video import Video, samples
+from widgets.sensors.video import Video
 
 FRAME = bytes(64 * 48 * 4)
 
@@ -142,11 +142,6 @@ def test_boxes_that_lie_outside_the_cut_picture_are_not_drawn(video, stage):
     from widgets.core.shapes import Shapes
 
     assert [word.text for word in video._box_marks(Shapes())] == ["middle 0.50"]
-
-
-@pytest.mark.parametrize("name", samples())
-def test_every_sample_can_be_shown(stage, name):
-    assert stage.show(samples()[name]()).height > 0
 
 
 def marked(stage, *marks, **more):
