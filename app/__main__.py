@@ -14,6 +14,7 @@ from app.device import is_android
 from app.discovery.known_robots import check_address
 from app.garbage_collector import spare_the_start
 from app.layout import layout as layouts
+from app.lean_kivy import be_lean
 from bridge.trust.pairing import SCHEME, PairLink
 
 __all__ = ["main", "prepare", "quieten"]
@@ -67,6 +68,7 @@ def prepare(size: str | None = None) -> None:
     os.environ.setdefault("KIVY_CLOCK", "free_all")
     os.environ.setdefault("KIVY_LOG_MODE", "MIXED")
     os.environ.setdefault("KIVY_NO_FILELOG", "1")
+    be_lean()
     from kivy.config import Config
 
     width, height = SIZE.fullmatch(size or "1280x800").groups()  # type: ignore[union-attr]

@@ -19,9 +19,13 @@ FIRST_FRAME = """
 import sys
 from types import ModuleType
 sys.modules["numpy"] = ModuleType("numpy")  # the stage takes pictures, the app does not yet
-from tests.headless import prepare
+from tests import headless
 del sys.modules["numpy"]
-prepare("logic")
+import os
+os.environ.update(headless._QUIET | headless._LOGIC)  # Kivy reads them when it is first imported
+from app.lean_kivy import be_lean
+be_lean()
+headless.prepare("logic")
 from app.__main__ import main  # noqa: F401 - as the program does it
 from kivy.base import EventLoop
 from kivy.core.window import Window
@@ -39,7 +43,7 @@ with tempfile.TemporaryDirectory() as folder:
 """
 HEAVY = (
     "numpy", "websockets", "spake2", "cryptography", "statistics", "mcap", "miniaudio", "vosk", "pocketsphinx", "hama",
-    "hibari", "kivy_garden", "sqlalchemy", "alembic", "starlette", "uvicorn", "py_trees", "pybullet", "rosbags",
+    "hibari", "PIL", "kivy_garden", "sqlalchemy", "alembic", "starlette", "uvicorn", "py_trees", "pybullet", "rosbags",
     "bridge.client.client", "bridge.client.pairing", "bridge.protocol", "bridge.server", "bridge.generate",
     "app.study", "app.link.link", "app.link.recorder", "app.session.session", "app.stop.stop_lane", "app.missions",
     "app.inputs.voice.voice_input", "app.inputs.voice.talkback", "app.inputs.voice.recognition", "app.inputs.voice.audio",

@@ -1,0 +1,1 @@
+USE_SDL2: int
