@@ -149,6 +149,7 @@ def test_a_clock_that_is_ahead_and_then_silence_is_zero_as_soon(tmp_path: Path, 
     assert not robot.moving
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["wheels", "ackermann", "boat", "hexapod", "quadrotor"])
 def test_the_commanded_speed_is_zero_300_ms_after_the_last_valid_command(kind: str, tmp_path: Path) -> None:
     rng, trial = random.Random(f"cuts of {kind}"), Trial(kind, tmp_path)

@@ -53,6 +53,7 @@ def test_a_picture_of_the_world_is_written_where_it_is_asked_for(tmp_path, capsy
     assert "north up" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_the_picture_shows_the_robot_that_is_asked_for(tmp_path, monkeypatch):
     def tower(parameters, position, rotation):
         return (
@@ -92,6 +93,7 @@ def test_a_picture_that_cannot_be_written_is_a_mistake(tmp_path, capsys):
     assert "No such file or directory" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_the_picture_shows_all_robots_that_are_asked_for_at_home(tmp_path, capsys):
     pictures = []
     for number, names in enumerate(("minnow", "minnow,aqua,ardrone")):

@@ -26,6 +26,7 @@ from tests.robotside.scene import Scene
 COUNT = 200
 """Connections of a flood: more than there are places on either socket."""
 ONE, MANY = ["127.0.0.2"], [f"127.0.0.{number}" for number in range(2, 42)]
+HOSTS = [pytest.param(ONE, id="one address"), pytest.param(MANY, id="many addresses", marks=pytest.mark.slow)]
 
 
 class Served:
@@ -115,7 +116,7 @@ NOTHING = {
 }
 
 
-@pytest.mark.parametrize("hosts", [ONE, MANY], ids=["one address", "many addresses"])
+@pytest.mark.parametrize("hosts", HOSTS)
 @pytest.mark.parametrize("said", NOTHING.values(), ids=NOTHING)
 async def test_an_operator_stays_another_comes_and_both_stop_the_robot(
     served: Served, said: bytes, hosts: list[str]
@@ -134,7 +135,7 @@ async def test_an_operator_stays_another_comes_and_both_stop_the_robot(
         assert await press_by_http(served, "https") == 200
 
 
-@pytest.mark.parametrize("hosts", [ONE, MANY], ids=["one address", "many addresses"])
+@pytest.mark.parametrize("hosts", HOSTS)
 async def test_stop_is_answered_while_everybody_is_busy_for_good(served: Served, hosts: list[str]) -> None:
     """Programs that take all places and use them: a newcomer still stops the robot, and an operator comes back."""
     async with AsyncExitStack() as stack:

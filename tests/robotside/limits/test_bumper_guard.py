@@ -88,6 +88,7 @@ def pushed(tmp_path: Path) -> Iterator[Make]:
         run.station.close()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "order"),
     [

@@ -164,6 +164,7 @@ COMMANDS = st.lists(
 FASTEST = {"wheels": 0.7, "ackermann": 2.0, "boat": 0.8, "hexapod": 0.5, "quadrotor": 2.0}
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(PLACES, COMMANDS, st.sampled_from(sorted(KINDS)), st.booleans(), st.booleans())
 def test_whatever_is_commanded_from_inside_the_body_stays_inside_until_it_is_at_rest(

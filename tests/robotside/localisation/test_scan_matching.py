@@ -68,6 +68,7 @@ def test_a_sweep_that_claims_to_have_met_something_in_another_world_ends_a_searc
     assert off(localiser, (0.0, 0.0, 0.0))[0] < 0.2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("drift", [-0.04, 0.04])
 def test_over_a_hundred_metres_of_drifting_odometry_the_error_stays_below_a_tenth(drift: float) -> None:
     pillars = [Pillar(0.0, 3.0), Pillar(-7.0, -4.0), Pillar(7.0, 0.0)]

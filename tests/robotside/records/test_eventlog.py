@@ -13,8 +13,9 @@ from robotside.records.eventlog import FIRST_EVENTS
 
 def say(records: Records, count: int = 1) -> list[Event]:
     heard: list[Event] = []
-    for number in range(count):
-        records.events.add(Event(text=f"{number}"), heard.append)
+    with records.together():
+        for number in range(count):
+            records.events.add(Event(text=f"{number}"), heard.append)
     return heard
 
 

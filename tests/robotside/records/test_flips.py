@@ -31,6 +31,7 @@ def live(records: Records) -> Station:
     return station
 
 
+@pytest.mark.slow
 async def test_a_robot_starts_on_every_damaged_database_and_has_what_its_backup_had(
     used: Path, tmp_path: Path
 ) -> None:
@@ -46,6 +47,7 @@ async def test_a_robot_starts_on_every_damaged_database_and_has_what_its_backup_
     assert set(mended) >= set(WAYS) - {"bit", "byte"}, "of one bit or byte not every copy need be mended"
 
 
+@pytest.mark.slow
 async def test_a_robot_starts_when_its_backups_are_damaged_too(used: Path, tmp_path: Path) -> None:
     outcomes = set()
     for seed, _, state in damaged_copies(used, tmp_path / "copies", range(8, 16)):

@@ -144,6 +144,7 @@ def operations(door: StationDoor) -> st.SearchStrategy[tuple[str, Any, Any]]:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("role", [Role.NONE, Role.WATCH])
 @settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
 @given(data=st.data())
@@ -222,6 +223,7 @@ ANY_OP = st.fixed_dictionaries(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
 @given(ops=st.lists(ANY_OP, max_size=40))
 def test_a_stranger_at_rosbridge_is_shown_and_moves_nothing(

@@ -17,6 +17,8 @@ from sim.physics.quiet_pybullet import p
 from sim.robot import make, make_several
 from sim.world.tables import Start
 
+pytestmark = pytest.mark.slow
+
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 
 

@@ -24,6 +24,8 @@ from sim.rendering.view import View
 from sim.robot import CAMERA_TOPIC, make_several
 from sim.world.world_files import load
 
+pytestmark = pytest.mark.slow
+
 START_TIMEOUT = 60.0
 """A process that has not drawn anything by then never will, also on a machine with other work [s]."""
 CONE = Shape("box", (0.5, 0.5, 0.5), (3.0, 0.0, 0.4), colour=(1.0, 0.2, 0.0))

@@ -115,6 +115,7 @@ def drift(seed):
     return math.dist((belief.x, belief.y), (x, y))
 
 
+@pytest.mark.slow
 def test_odometry_with_noise_drifts_but_not_beyond_reason():
     drifts = [drift(seed) for seed in range(4)]
     assert statistics.mean(drifts) > 0.02
@@ -172,6 +173,7 @@ def test_the_bumper_is_released_when_the_robot_backs_off():
     robot.close()
 
 
+@pytest.mark.slow
 def test_the_battery_empties_faster_when_the_robot_works():
     idle = of(read(20.0)[0], "/battery_state")[-1]
     busy = of(read(20.0, twist=Twist.planar(0.7, 0.1))[0], "/battery_state")[-1]

@@ -17,6 +17,8 @@ from sim.vehicles.aqua.pilot import angles
 from sim.vehicles.model import Model
 from tests.sim.rooms import alone, plain, until
 
+pytestmark = pytest.mark.slow
+
 BODY, FINS = PARAMETERS.body, PARAMETERS.fins
 WATER = "[water]\ndepth = 12.0\n"
 WEIGHT = BODY.mass * GRAVITY

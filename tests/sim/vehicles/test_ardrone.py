@@ -16,6 +16,8 @@ from sim.vehicles.ardrone import ARDRONE, PARAMETERS, Ardrone
 from sim.vehicles.model import Model
 from tests.sim.rooms import alone, plain, room, until
 
+pytestmark = pytest.mark.slow
+
 BODY, ROTORS = PARAMETERS.body, PARAMETERS.rotors
 
 

@@ -14,6 +14,8 @@ from sim.vehicles.commander import COMMANDER, PARAMETERS, Commander
 from sim.vehicles.model import Model
 from tests.sim.rooms import alone, plain, room, until
 
+pytestmark = pytest.mark.slow
+
 AXLES = PARAMETERS.axles
 MASS = (
     PARAMETERS.mass + 4 * 0.4 * AXLES.mass

@@ -20,6 +20,8 @@ from sim.vehicles.minnow import MINNOW, PARAMETERS, Minnow
 from sim.vehicles.model import Model
 from tests.sim.rooms import alone, plain, until
 
+pytestmark = pytest.mark.slow
+
 HULL = PARAMETERS.hull
 WATER = "[water]\ndepth = 10.0\n"
 WAVES = """[[water.waves]]

@@ -10,6 +10,8 @@ from bridge.msgs.geometry_msgs import Twist
 from sim.vehicles.scout import PARAMETERS, SCOUT
 from tests.sim.rooms import alone, plain, room, until
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def scout():

@@ -11,6 +11,8 @@ from sim.vehicles.parameters import load
 from sim.vehicles.patrol import PARAMETERS, PatrolParameters
 from tests.sim.rooms import robot_in, room
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def robot():
