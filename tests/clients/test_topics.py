@@ -123,7 +123,7 @@ async def test_what_a_client_latches_later_ones_hear_too(first):
 @BOTH
 async def test_a_topic_of_a_clients_is_gone_with_it(library):
     async with server() as robot, peer("roslib", robot.port) as looking:
-        async with peer(library, robot.port) as client:
+        async with peer(library, robot.port, leaves=True) as client:
             await client.do("advertise", **STRING)
             await client.settled()
             assert "/chat" in (await looking.ask("getTopics"))["topics"]
