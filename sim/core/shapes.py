@@ -84,6 +84,16 @@ class Shape:
         moved = (turned[0] + position[0], turned[1] + position[1], turned[2] + position[2])
         return replace(self, position=moved, rotation=compose(rotation, self.rotation))
 
+    @property
+    def is_tapered(self) -> bool:
+        """Its top is not as large as its bottom."""
+        return self.taper != (1.0, 1.0)
+
+    @property
+    def radius(self) -> float:
+        """Of a sphere about its centre that it fits in [m]."""
+        return math.hypot(*self.size) / 2
+
     def corners(self, facets: int = 16) -> list[Vec3]:
         """Points whose convex hull is the shape; a round one is approximated by `facets` sides."""
         sx, sy, sz = (extent / 2 for extent in self.size)

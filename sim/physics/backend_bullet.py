@@ -16,6 +16,7 @@ from sim.core.shapes import Quat, Shape, Vec3, place
 from sim.physics.bodies import Contact, Floating, Joint, State, WheeledBody
 from sim.physics.bullet_bodies import BodyMaker
 from sim.physics.bullet_measures import Measures
+from sim.physics.fans import Fan
 from sim.physics.quiet_pybullet import p, quiet
 from sim.physics.sleep import SleepWatch
 from sim.physics.zero_pages import given_back
@@ -63,13 +64,15 @@ class Bullet:
         self._sleep = SleepWatch(self._client)
         self._below: dict[int, Vec3] = {}
         self._groups: dict[int, int] = {}
-        self._measures = Measures(self._client, self._groups)
+        self._radii: dict[int, float] = {}
+        self._measures = Measures(self._client, self._groups, self._radii)
         self.ground = -1
         """Number of the ground; -1 when there is none."""
 
     def add_ground(self, height: float = 0.0) -> int:
         """The level ground at z = `height` [m]; its number."""
         self._wake()
+        self._measures.fixed.add_ground(height)
         self.ground = self._make.ground(height)
         return self.ground
 
@@ -79,6 +82,7 @@ class Bullet:
         A step costs time for each thing, not for each solid: what belongs together is added together.
         """
         self._wake()
+        self._measures.fixed.add(shapes)
         return self._make.static(shapes)
 
     def add_looks(self, shape: Shape) -> int:
@@ -89,6 +93,7 @@ class Bullet:
         """A free rigid body of one `shape` and `mass` [kg]; its number."""
         body = self._make.single(shape, mass)
         self._below[body] = (0.0, 0.0, 0.0)
+        self._radii[body] = shape.radius
         self._sleep.watch(body)
         self._wake()
         return body
@@ -99,18 +104,20 @@ class Bullet:
         Its joints are the driven wheels in the order of `spec.wheels`, then of each steered wheel the knuckle and the
         wheel itself.
         """
-        return self._enter(self._make.wheeled(spec, position, rotation), spec.centre_of_mass)
+        return self._enter(self._make.wheeled(spec, position, rotation), spec)
 
     def add_floating(self, spec: Floating, position: Vec3, rotation: Quat) -> int:
         """A single free body; its number."""
-        return self._enter(self._make.floating(spec, position, rotation), spec.centre_of_mass)
+        return self._enter(self._make.floating(spec, position, rotation), spec)
 
-    def _enter(self, body: int, com: Vec3) -> int:
-        """Put a vehicle into a collision group of its own, and keep where its centre of mass is."""
+    def _enter(self, body: int, spec: WheeledBody | Floating) -> int:
+        """Put a vehicle into a collision group of its own, and keep where its centre of mass is and how far it reaches."""
+        com = spec.centre_of_mass
         self._groups[body] = group = _FIRST_GROUP << (len(self._groups) % _GROUPS)
         for link in range(-1, p.getNumJoints(body, physicsClientId=self._client)):
             p.setCollisionFilterGroupMask(body, link, group, _ALL_GROUPS, physicsClientId=self._client)
         self._below[body] = (-com[0], -com[1], -com[2])
+        self._radii[body] = spec.radius
         self._sleep.watch(body)
         self._wake()
         return body
@@ -193,6 +200,19 @@ class Bullet:
         While nothing moves, the very same lists give the very same array, which is not to be changed.
         """
         return self._measures.rays(body, start, end)
+
+    def fan(self, body: int, start: Vec3, *, first: float, step: float, count: int, reach: float) -> Fan:
+        """Beams from `start` [m] of the body's frame, level in it, as `sweep` takes them; see `Fan`."""
+        (point,) = self.ray_points(body, [start])
+        return Fan(point, first, step, count, reach)
+
+    def sweep(self, body: int, fan: Fan) -> NDArray[np.float64]:
+        """Reach of each beam of a `fan`, as a part of its length: 1 when it meets nothing; the body itself is not met.
+
+        As `rays` would give it, to a millimetre. While nothing moves, the very same fan gives the very same array, which is not to
+        be changed.
+        """
+        return self._measures.sweep(body, fan)
 
     def ray_points(self, body: int, points: Sequence[Vec3]) -> list[Vec3]:
         """`points` of the body's frame as `rays` takes them."""

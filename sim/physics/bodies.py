@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from sim.core.shapes import Quat, Shape, Vec3
@@ -68,6 +69,14 @@ class WheeledBody:
     steered: tuple[Vec3, ...] = ()
     """Centres of the wheels that roll freely on steered knuckles; of the same make as the driven ones."""
 
+    @property
+    def radius(self) -> float:
+        """Of a sphere about its centre of mass that all of it fits in [m]."""
+        com = self.centre_of_mass
+        rolling = (math.dist(centre, com) + self.wheel_radius for centre in (*self.wheels, *self.steered))
+        sliding = (math.dist(centre, com) + self.caster_radius for centre in self.casters)
+        return max(math.dist(self.shell.position, com) + self.shell.radius, *rolling, *sliding)
+
 
 @dataclass(frozen=True, slots=True)
 class Floating:
@@ -82,3 +91,8 @@ class Floating:
     centre_of_mass: Vec3
     friction: float
     """Against other things."""
+
+    @property
+    def radius(self) -> float:
+        """Of a sphere about its centre of mass that it fits in [m]."""
+        return math.dist(self.shell.position, self.centre_of_mass) + self.shell.radius

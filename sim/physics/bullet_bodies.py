@@ -61,6 +61,12 @@ class BodyMaker:
 
     def static(self, shapes: Sequence[Shape]) -> int:
         """One thing made of solids that nothing moves; of one with many solids, the number of its first part."""
+        if len(shapes) > 1 and any(shape.is_tapered for shape in shapes):
+            # of a thing with several solids the engine leaves out those that are tapered, and says nothing
+            straight = [shape for shape in shapes if not shape.is_tapered]
+            parts = [straight, *([shape] for shape in shapes if shape.is_tapered)]
+            numbers = [self.static(part) for part in parts if part]
+            return numbers[0]
         if len(shapes) > _MAX_SOLIDS:
             first = self.static(shapes[:_MAX_SOLIDS])
             self.static(shapes[_MAX_SOLIDS:])

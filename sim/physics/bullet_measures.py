@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.core.shapes import Vec3
+from sim.core.shapes import Quat, Vec3, rotate_back
 from sim.physics.bodies import Contact
+from sim.physics.fans import Fan, FixedSolids
 from sim.physics.quiet_pybullet import p
 
 __all__ = ["Measures"]
@@ -16,6 +17,8 @@ __all__ = ["Measures"]
 _MAX_KEPT = 32
 """Sweeps that are kept."""
 _ALL_GROUPS = -1
+_FIXED_GROUP = 2
+"""Collision group that the engine puts everything into that nothing moves."""
 
 Reach = NDArray[np.float64]
 
@@ -23,17 +26,25 @@ Reach = NDArray[np.float64]
 class Measures:
     """Of one world; who moves something calls `forget`."""
 
-    def __init__(self, client: int, groups: Mapping[int, int]) -> None:
-        """Of the world `client`; `groups` are the collision groups of its vehicles, which their own rays look through."""
-        self._client, self._groups = client, groups
+    def __init__(self, client: int, groups: Mapping[int, int], radii: Mapping[int, float]) -> None:
+        """Of the world `client`; `groups` are the collision groups of its vehicles, which their own rays look through.
+
+        `radii` are those of spheres round all that can move, about its centre of mass [m].
+        """
+        self._client, self._groups, self._radii = client, groups, radii
+        self.fixed = FixedSolids()
+        """What nothing moves, as fans meet it."""
+        self._fanned: dict[tuple[int, int], tuple[Fan, Reach]] = {}
+        """By body and the very fan; the fan too, so that its id stays its own."""
         self._swept: dict[tuple[int, int, int], tuple[Sequence[Vec3], Sequence[Vec3], Reach]] = {}
         """By body and the very lists of a sweep's ends; the lists too, so that their ids stay theirs."""
         self._touched: dict[int, list[Contact]] = {}
 
     def forget(self) -> None:
         """Something moved."""
-        if self._swept or self._touched:
+        if self._swept or self._touched or self._fanned:
             self._swept.clear()
+            self._fanned.clear()
             self._touched.clear()
 
     def rays(self, body: int, start: Sequence[Vec3], end: Sequence[Vec3]) -> Reach:
@@ -52,14 +63,45 @@ class Measures:
             self._touched[body] = [Contact(point[2], point[6]) for point in points or () if point[8] <= 0.0]
         return self._touched[body]
 
-    def _sweep(self, body: int, start: Sequence[Vec3], end: Sequence[Vec3]) -> Reach:
+    def sweep(self, body: int, fan: Fan) -> Reach:
+        """As `Bullet.sweep` has it; the array is not to be changed."""
+        key = body, id(fan)
+        if key not in self._fanned:
+            if len(self._fanned) >= _MAX_KEPT:
+                self._fanned.clear()
+            position, rotation = p.getBasePositionAndOrientation(body, physicsClientId=self._client)
+            reach = self.fixed.sweep(fan, position, rotation)
+            self._meet_movers(body, fan, position, rotation, reach)
+            reach.setflags(write=False)
+            self._fanned[key] = fan, reach
+        return self._fanned[key][1]
+
+    def _meet_movers(self, body: int, fan: Fan, position: Vec3, rotation: Quat, reach: Reach) -> None:
+        """Shorten `reach` of the beams that may meet something that moves, as the engine says."""
+        beams: set[int] = set()
+        for other, radius in self._radii.items():
+            if other != body:
+                there, _ = p.getBasePositionAndOrientation(other, physicsClientId=self._client)
+                apart = rotate_back(
+                    rotation, (there[0] - position[0], there[1] - position[1], there[2] - position[2])
+                )
+                beams.update(fan.towards(apart, radius))
+        if beams:
+            few = sorted(beams)
+            start, ends = [fan.start] * len(few), [fan.end(number) for number in few]
+            hits = self._sweep(body, start, ends, _ALL_GROUPS ^ _FIXED_GROUP)
+            reach[few] = np.minimum(reach[few], hits)
+
+    def _sweep(
+        self, body: int, start: Sequence[Vec3], end: Sequence[Vec3], groups: int = _ALL_GROUPS
+    ) -> Reach:
         hits = p.rayTestBatch(
             start,
             end,
             numThreads=1,
             parentObjectUniqueId=body,
             parentLinkIndex=-1,
-            collisionFilterMask=_ALL_GROUPS ^ self._groups.get(body, 0),
+            collisionFilterMask=groups & ~self._groups.get(body, 0),
             physicsClientId=self._client,
         )
         reach = np.fromiter((hit[2] for hit in hits), dtype=np.float64, count=len(hits))

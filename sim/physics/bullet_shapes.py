@@ -51,7 +51,7 @@ def _geometry(shape: Shape) -> dict[str, Any]:
     """The arguments that make `shape` in its own frame."""
     if shape.kind == "sphere":
         return {"shapeType": p.GEOM_SPHERE, "radius": shape.size[0] / 2}
-    if shape.taper != (1.0, 1.0):
+    if shape.is_tapered:
         plain = Shape(shape.kind, shape.size, taper=shape.taper)
         return {"shapeType": p.GEOM_MESH, "vertices": plain.corners()}
     if shape.kind == "cylinder":

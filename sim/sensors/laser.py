@@ -38,14 +38,18 @@ class Laser:
         breadth = parameters.field_of_view
         whole = breadth >= math.tau
         step = breadth / (parameters.beams if whole else parameters.beams - 1)
-        angles = [-breadth / 2 + step * i for i in range(parameters.beams)]
-        reach, height, ahead = parameters.range_max, parameters.height, parameters.ahead
-        ends = [(ahead + reach * math.cos(angle), reach * math.sin(angle), height) for angle in angles]
-        self._from = backend.ray_points(body, [(ahead, 0.0, height)] * len(angles))
-        self._to = backend.ray_points(body, ends)
+        first = -breadth / 2
+        self._fan = backend.fan(
+            body,
+            (parameters.ahead, 0.0, parameters.height),
+            first=first,
+            step=step,
+            count=parameters.beams,
+            reach=parameters.range_max,
+        )
         self._blank = LaserScan(
-            angle_min=angles[0],
-            angle_max=angles[-1],
+            angle_min=first,
+            angle_max=first + step * (parameters.beams - 1),
             angle_increment=step,
             scan_time=1 / parameters.rate,
             range_min=parameters.range_min,
@@ -55,7 +59,7 @@ class Laser:
     def measure(self, stamp: float) -> LaserScan:
         """One sweep, all beams at `stamp` [s]; +inf where nothing is in range, -inf where it is too near (REP-117)."""
         parameters = self._parameters
-        hits = self._backend.rays(self._body, self._from, self._to)
+        hits = self._backend.sweep(self._body, self._fan)
         missed = hits >= 1.0
         ranges = hits * parameters.range_max + self._noise.normals(parameters.noise, len(hits))
         ranges[ranges < parameters.range_min] = -np.inf

@@ -114,6 +114,15 @@ def test_a_thing_of_many_solids_has_them_all(backend, count):
     assert (hits < 1.0).all()
 
 
+def test_a_thing_of_several_solids_has_the_tapered_ones_too(backend):
+    tapered = Shape("cylinder", (0.2, 0.2, 1.0), (1.0, 0.0, 0.0), taper=(0.7, 0.7))
+    first = backend.add_static((tapered, Shape("sphere", (0.2, 0.2, 0.2), (2.0, 0.0, 0.0))))
+    eye = backend.add_body(Shape("sphere", (0.01, 0.01, 0.01)), 0.001)
+    hits = backend.rays(eye, [(0.0, 0.0, 0.0), (2.0, 0.0, 2.0)], [(1.5, 0.0, 0.0), (2.0, 0.0, 0.0)])
+    assert hits * (1.5, 2.0) == pytest.approx((0.915, 1.9), abs=5e-3)
+    assert first >= 0
+
+
 BUOY = Floating(Shape("box", (0.4, 0.4, 0.4)), 1.0, (0.1, 0.1, 0.1), (0.0, 0.0, 0.1), 0.4)
 
 

@@ -142,7 +142,7 @@ def test_a_flat_battery_brings_it_to_rest(truck):
 
 
 def test_its_front_laser_sees_three_quarters_of_the_circle_from_its_bumper():
-    robot = alone(COMMANDER, room(20.0, 30.0))
+    robot = alone(COMMANDER, room(20.0, 30.0, height=1.0))  # its laser is half a metre above the ground
     scan = next(m for name, m in robot.read(0.2) if name == "/scan")
     robot.close()
     assert len(scan.ranges) == 271
