@@ -48,15 +48,13 @@ Builder.load_string("""
     size_hint_y: None
     height: theme.target + dp(10)
     canvas.before:
-        Color:
+        Rounded:
             rgba: theme.glass
-        SmoothRoundedRectangle:
             pos: root.track[0], root.track[1]
             size: root.track[2], root.track[3]
             radius: [root.track[3] / 2]
-        Color:
+        Rounded:
             rgba: theme.roles[root.role][:3] + [.3]
-        SmoothRoundedRectangle:
             pos: root.track[0], root.track[1]
             size: root.knob[0] - root.track[0] + root.track[3] / 2, root.track[3]
             radius: [root.track[3] / 2]

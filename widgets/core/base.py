@@ -36,17 +36,13 @@ MIN_FONT_SIZE = 10.0
 Builder.load_string("""
 <RobotWidget>:
     canvas.after:
-        Color:
+        Rounded:
             rgba: root.veil
-        RoundedRectangle:
             pos: root.veil_box[:2]
-            # what is clear need not be drawn: over a whole screen it costs as much as a picture; Kivy leaves
-            # a rounded rectangle without any size as it was
-            size: root.veil_box[2:] if root.veil[3] else (1, 1)
+            size: root.veil_box[2:]
             radius: [root.veil_radius]
-        Color:
+        Rounded:
             rgba: theme.raised if root.badge else (0, 0, 0, 0)
-        RoundedRectangle:
             pos: root.badge_pos
             size: root.badge_size
             radius: [root.badge_size[1] / 2]

@@ -19,24 +19,21 @@ __all__ = ["Edged", "EdgedBox", "Glass", "Outlined", "Pressable"]
 Builder.load_string("""
 <Outlined>:
     canvas.before:
-        Color:
+        Rounded:
             rgba: theme.roles[self.rim] if self.rim else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
             pos: self.pos
             size: self.size
             radius: [self.corner]
-        Color:
+        Rounded:
             rgba: theme.roles[self.ground] if self.ground else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
             pos: self.x + self.rim_width, self.y + self.rim_width
             size: self.width - 2 * self.rim_width, self.height - 2 * self.rim_width
             radius: [self.corner - self.rim_width]
 
 <Pressable>:
     canvas.before:
-        Color:
+        Rounded:
             rgba: theme.roles[self.press_role][:3] + [self.press_share if self.state == 'down' else 0]
-        RoundedRectangle:
             pos: self.pos
             size: self.size
             radius: [self.corner]
@@ -56,9 +53,8 @@ Builder.load_string("""
 
 <Glass>:
     canvas.before:
-        Color:
+        Rounded:
             rgba: theme.glass if self.card else (0, 0, 0, 0)
-        RoundedRectangle:  # the smooth one draws its edge beyond a roll that it is cut off by, unless it is opaque
             pos: self.pos
             size: self.size
             radius: [self.card_corner]

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from kivy.core.text import DEFAULT_FONT, LabelBase
 from kivy.event import EventDispatcher
+from kivy.factory import Factory
 from kivy.lang import global_idmap
 from kivy.metrics import Metrics, mm
 from kivy.properties import (
@@ -232,3 +233,4 @@ _register_fonts()
 theme = Theme()
 """The one theme of this process; kv knows it under the same name."""
 global_idmap.update(theme=theme, icons=ICONS)
+Factory.register("Rounded", module="widgets.core.rounded")

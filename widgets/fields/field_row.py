@@ -23,15 +23,13 @@ Builder.load_string("""
 <FieldRow>:
     size_hint: None, None
     canvas.before:
-        Color:
+        Rounded:
             rgba: theme.raised if root.foldable else (0, 0, 0, 0)
-        RoundedRectangle:
             pos: self.x + root.indent - dp(8), self.y + dp(2)
             size: self.width - root.indent + dp(8), self.height - dp(4)
             radius: [theme.corner * .7]
-        Color:
+        Rounded:
             rgba: theme.text[:3] + [.14 if root.state == 'down' else 0]
-        RoundedRectangle:
             pos: self.x + root.indent - dp(8), self.y + dp(2)
             size: self.width - root.indent + dp(8), self.height - dp(4)
             radius: [theme.corner * .7]

@@ -61,25 +61,23 @@ Builder.load_string("""
     size_hint: None, None
     size: dp(74), dp(38)
     canvas:
-        Color:
+        Rounded:
             rgba: theme.roles[root.role]
-        SmoothRoundedRectangle:
             pos: self.right - dp(5), self.center_y - dp(7)
             size: dp(5), dp(14)
             radius: [dp(2.5)]
-        SmoothRoundedRectangle:
+        Rounded:
+            rgba: theme.roles[root.role]
             pos: self.pos
             size: self.width - dp(7), self.height
             radius: [dp(7)]
-        Color:
+        Rounded:
             rgba: theme.surface
-        SmoothRoundedRectangle:
             pos: self.x + dp(2.5), self.y + dp(2.5)
             size: self.width - dp(12), self.height - dp(5)
             radius: [dp(5)]
-        Color:
+        Rounded:
             rgba: theme.roles[root.role] if root.filled else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
             pos: self.x + dp(5), self.y + dp(5)
             size: root.filled, self.height - dp(10)
             radius: [dp(3)]

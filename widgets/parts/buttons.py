@@ -89,23 +89,19 @@ Builder.load_string("""
     size_hint: None, None
     size: dp(64), max(dp(64), theme.target)
     canvas.before:
-        Color:
+        Rounded:
             rgba: theme.raised if root.active and root.framed else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
             pos: self.pos
             size: self.size
             radius: [theme.corner]
-        Color:
+        Rounded:
             rgba: theme.text[:3] + [.12 if root.state == 'down' else 0]
-        RoundedRectangle:
             pos: self.pos
             size: self.size
             radius: [theme.corner]
     canvas.after:
-        Color:
-            rgb: theme.danger[:3] if root.urgent else theme.warn[:3]
-            a: 1 if root.count else 0
-        SmoothRoundedRectangle:
+        Rounded:
+            rgba: (theme.danger if root.urgent else theme.warn)[:3] + [1 if root.count else 0]
             pos: root.badge_pos
             size: root.badge_size
             radius: [root.badge_size[1] / 2]

@@ -79,15 +79,13 @@ Builder.load_string("""
     padding: theme.gap, 0, theme.gap, theme.gap
     spacing: theme.gap * .9
     canvas.before:
-        Color:
+        Rounded:
             rgba: theme.line
-        SmoothRoundedRectangle:
             pos: self.pos
             size: self.size
             radius: [theme.radius * 1.3, theme.radius * 1.3, 0, 0]
-        Color:
+        Rounded:
             rgba: theme.surface
-        SmoothRoundedRectangle:
             pos: self.pos
             size: self.width, self.height - theme.outline
             radius: [theme.radius * 1.3 - theme.outline, theme.radius * 1.3 - theme.outline, 0, 0]
@@ -97,9 +95,8 @@ Builder.load_string("""
     size_hint_y: None
     height: dp(22)
     canvas:
-        Color:
+        Rounded:
             rgba: theme.line if theme.name != 'sunlight' else theme.muted
-        SmoothRoundedRectangle:
             pos: self.center_x - dp(22), self.center_y - dp(3)
             size: dp(44), dp(5)
             radius: [dp(2.5)]

@@ -42,9 +42,8 @@ Builder.load_string("""
     valign: 'middle'
     text_size: self.width - dp(16), self.height
     canvas.before:
-        Color:
+        Rounded:
             rgba: theme.accent if self.chosen else (theme.text[:3] + [.12 if self.state == 'down' else 0])
-        SmoothRoundedRectangle:
             pos: self.pos
             size: self.size
             radius: self.radii
@@ -58,15 +57,13 @@ Builder.load_string("""
     size_hint: None, None
     size: dp(54), theme.target
     canvas:
-        Color:
+        Rounded:
             rgba: theme.accent if self.active else theme.muted
-        SmoothRoundedRectangle:
             pos: self.track_pos
             size: dp(54), dp(31)
             radius: [dp(15.5)]
-        Color:
+        Rounded:
             rgba: theme.accent if self.active else theme.raised
-        SmoothRoundedRectangle:
             pos: self.track_pos[0] + dp(1.5), self.track_pos[1] + dp(1.5)
             size: dp(51), dp(28)
             radius: [dp(14)]
@@ -75,9 +72,8 @@ Builder.load_string("""
         SmoothEllipse:
             pos: self.track_pos[0] + dp(3.5) + dp(23) * self.travel, self.track_pos[1] + dp(3.5)
             size: dp(24), dp(24)
-        Color:
+        Rounded:
             rgba: theme.surface[:3] + [.62 if root.disabled else 0]
-        RoundedRectangle:
             pos: self.track_pos
             size: dp(54), dp(31)
             radius: [dp(15.5)]

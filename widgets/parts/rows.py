@@ -29,15 +29,13 @@ Builder.load_string("""
     rim: 'accent' if root.chosen else 'line'
     rim_width: dp(3) if root.chosen else 1.5
     canvas.before:
-        Color:
+        Rounded:
             rgba: theme.accent[:3] + [.16 if root.chosen else 0]
-        RoundedRectangle:
             pos: self.pos
             size: self.size
             radius: [self.corner]
-        Color:
+        Rounded:
             rgba: theme.accent[:3] + [1 if root.chosen else 0]
-        SmoothRoundedRectangle:
             pos: self.pos
             size: dp(9), self.height
             radius: [self.corner, 0, 0, self.corner]

@@ -25,9 +25,8 @@ Builder.load_string("""
     height: dp(10)
     corner: self.height / 2
     canvas.before:
-        Color:
+        Rounded:
             rgba: theme.roles[root.role] if self.filled else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
             pos: self.pos
             size: max(self.filled, self.height), self.height
             radius: [self.height / 2]
@@ -36,18 +35,18 @@ Builder.load_string("""
     size_hint_x: None
     width: max(dp(88), theme.target)
     canvas:
-        Color:
+        Rounded:
             rgba: theme.line
-        SmoothRoundedRectangle:
             pos: self.center_x - dp(6), self.low
             size: dp(12), self.high - self.low
             radius: [dp(6)]
-        Color:
+        Rounded:
             rgba: theme.accent
-        SmoothRoundedRectangle:
             pos: self.center_x - dp(6), self.low
             size: dp(12), max(self.knob_y - self.low, dp(12))
             radius: [dp(6)]
+        Color:
+            rgba: theme.accent
         SmoothEllipse:
             pos: self.center_x - dp(20), self.knob_y - dp(20)
             size: dp(40), dp(40)

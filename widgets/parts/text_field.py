@@ -44,15 +44,13 @@ Builder.load_string("""
             size: root.label_size  # kv does not see a texture's size change
             pos: self.x + dp(14), self.top - dp(5) - root.label_size[1]
     canvas.before:
-        Color:
+        Rounded:
             rgba: theme.danger if root.wrong else theme.accent if root.focus else theme.line
-        SmoothRoundedRectangle:
             pos: self.pos
             size: self.size
             radius: [theme.corner]
-        Color:
+        Rounded:
             rgba: theme.raised
-        SmoothRoundedRectangle:
             pos: self.x + dp(1.5), self.y + dp(1.5)
             size: self.width - dp(3), self.height - dp(3)
             radius: [theme.corner - dp(1.5)]

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, ClassVar
 
 import numpy as np
-from kivy.graphics import Color, Rectangle, SmoothRoundedRectangle
+from kivy.graphics import Color, Rectangle
 from kivy.graphics.texture import Texture
 from kivy.metrics import dp, sp
 from kivy.properties import (
@@ -30,6 +30,7 @@ from widgets.core.base import VEIL, fitting_size, text_texture
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, shader, tint
 from widgets.core.geometry import contain, cover
 from widgets.core.icons import icon
+from widgets.core.rounded import Rounded
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.sensors.video_marks import draw_box, draw_pointer
@@ -116,19 +117,18 @@ class Video(Drawing):
 
     def __init__(self, **kwargs: Any) -> None:
         self._texture: Texture | None = None
-        self._ground = Color()
-        self._frame = SmoothRoundedRectangle(radius=[0], size=(0, 0))
+        self._frame = Rounded()
         self._lens = shader(FRAGMENT, corner=0, strength=0)
         self._lens["half_size"] = self._lens["seen"] = (1.0, 1.0)
         self._picture = Rectangle(size=(0, 0), tex_coords=WHOLE)
         self._lens.add(self._picture)
         self._plain_colour, self._plain = Color(1, 1, 1, 1), Rectangle(size=(0, 0))
         self._ink, self._words, self._chip_words = Ink(), Words(), Words()
-        self._chip_ground, self._chip = Color(), SmoothRoundedRectangle(size=(0, 0))
+        self._chip = Rounded()
         super().__init__(**kwargs)
         for part in (
-            self._ground, self._frame, self._lens, self._plain_colour, self._plain,
-            self._ink, self._words.canvas, self._chip_ground, self._chip, self._chip_words.canvas,
+            self._frame, self._lens, self._plain_colour, self._plain,
+            self._ink, self._words.canvas, self._chip, self._chip_words.canvas,
         ):  # fmt: skip
             self.canvas.add(part)
         self.bind(corner=self.setter("veil_radius"))
@@ -173,11 +173,10 @@ class Video(Drawing):
 
     def draw(self) -> None:
         """Bring the frame, the boxes and the words up to date; the picture itself comes by `show_frame`."""
-        self._ground.rgba = theme.raised if self._texture is None else theme.bg
+        self._frame.rgba = theme.raised if self._texture is None else theme.bg
         self._place_picture()
-        # Kivy leaves a rounded rectangle without any size as it was
-        self._frame.pos, self._frame.size = self.pos, (1, 1) if self._fills() else self.size
-        self._frame.radius = [max(self.corner, 0.01)]
+        self._frame.pos, self._frame.size = self.pos, (0, 0) if self._fills() else self.size
+        self._frame.radius = [self.corner]
         shapes = Shapes()
         self._words.write([*self._box_marks(shapes), *self._pointers(shapes), *self._sentence()])
         self._ink.fill(shapes)
@@ -286,13 +285,13 @@ class Video(Drawing):
     def _draw_chip(self) -> None:
         text = self.chip_text() if self.show_chip and self.state != "stale" else ""
         if not text:
-            self._chip_ground.a = 0
+            self._chip.size = 0, 0
             self._chip_words.write(())
             return
         size = sp(12.5)
         wide, high = text_texture(text, round(size, 1), theme.font).size
         left, top = self.x + self.insets[0] + dp(8), self.top - self.insets[3] - dp(8)
-        self._chip_ground.rgba = tint(theme.surface, 0.86)
+        self._chip.rgba = tint(theme.surface, 0.86)
         self._chip.pos, self._chip.size = (left, top - high - dp(5)), (wide + dp(14), high + dp(5))
         self._chip.radius = [dp(6)]
         middle = top - (high + dp(5)) / 2

@@ -88,9 +88,8 @@ Builder.load_string("""
     padding: dp(8), 0, dp(7), 0
     spacing: dp(8)
     canvas.before:
-        Color:
+        Rounded:
             rgba: theme.accent if root.missed else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
             pos: self.x, self.y + dp(3)
             size: dp(4), max(dp(8), self.height - dp(6))
             radius: [dp(2)]

@@ -62,27 +62,23 @@ Builder.load_string("""
     padding: dp(14), 0, dp(14), 0
     spacing: dp(12)
     canvas.before:
-        Color:
+        Rounded:
             rgba: theme.accent if root.chosen else theme.line
-        SmoothRoundedRectangle:
             pos: self.x, self.y + dp(4)
             size: self.width, self.height - dp(8)
             radius: [theme.corner]
-        Color:
+        Rounded:
             rgba: theme.raised
-        SmoothRoundedRectangle:
             pos: self.x + root.edge, self.y + dp(4) + root.edge
             size: self.width - 2 * root.edge, self.height - dp(8) - 2 * root.edge
             radius: [theme.corner - root.edge]
-        Color:
+        Rounded:
             rgba: theme.accent if root.chosen else (0, 0, 0, 0)  # a mark, and not a hue alone
-        RoundedRectangle:
             pos: self.x + dp(4), self.y + dp(14)
             size: dp(4), self.height - dp(28)
             radius: [dp(2)]
-        Color:
+        Rounded:
             rgba: theme.text[:3] + [.14 if root.state == 'down' else 0]
-        RoundedRectangle:
             pos: self.x, self.y + dp(4)
             size: self.width, self.height - dp(8)
             radius: [theme.corner]

@@ -1,9 +1,10 @@
 from __future__ import annotations
 
 import pytest
-from kivy.graphics import Color, Rectangle, SmoothRoundedRectangle
+from kivy.graphics import Color, Rectangle
 from kivy.uix.widget import Widget
 
+from widgets.core.rounded import Rounded
 from widgets.core.surfaces import Edged, Glass, Outlined, Pressable
 from widgets.core.theme import theme
 
@@ -25,11 +26,11 @@ class Pane(Glass, Widget):
 
 
 def colours(widget):
-    return [list(part.rgba) for part in widget.canvas.before.children if isinstance(part, Color)]
+    return [list(part.rgba) for part in widget.canvas.before.children if isinstance(part, (Color, Rounded))]
 
 
-def rectangles(widget):
-    return [part for part in widget.canvas.before.children if isinstance(part, SmoothRoundedRectangle)]
+def boxes(widget):
+    return [part for part in widget.canvas.before.children if isinstance(part, Rounded)]
 
 
 @pytest.mark.parametrize("name", ["dark", "night"])
@@ -41,15 +42,15 @@ def test_a_box_has_the_colours_of_its_roles_in_every_theme(stage, name):
 
 
 def test_without_a_role_nothing_is_seen(stage):
-    assert colours(stage.show(Box(rim="", ground=""))) == [[0, 0, 0, 0]] * 2
+    assert [box.drawn for box in boxes(stage.show(Box(rim="", ground="")))] == [False] * 2
 
 
 def test_the_ground_lies_within_the_border(stage):
     box = stage.show(Box(corner=8, rim_width=2), size=(100, 50))
-    outer, inner = rectangles(box)
+    outer, inner = boxes(box)
     x, y = box.pos
-    assert (outer.pos, outer.size, outer.radius[0]) == ((x, y), (100, 50), (8, 8))
-    assert (inner.pos, inner.size, inner.radius[0]) == ((x + 2, y + 2), (96, 46), (6, 6))
+    assert (outer.pos, outer.size, outer.radius[0]) == ((x, y), (100, 50), 8)
+    assert (inner.pos, inner.size, inner.radius[0]) == ((x + 2, y + 2), (96, 46), 6)
 
 
 def test_a_finger_changes_what_it_presses(stage):

@@ -41,15 +41,13 @@ GAMEPAD = {
 Builder.load_string("""
 <Stick>:
     canvas.after:
-        Color:
+        Rounded:
             rgba: theme.roles[root.sign_role] if root.sign_role else (0, 0, 0, 0)
-        RoundedRectangle:
             pos: root.sign_pos
             size: root.sign_size
             radius: [root.sign_size[1] / 2]
-        Color:
+        Rounded:
             rgba: theme.surface if root.sign_role else (0, 0, 0, 0)
-        RoundedRectangle:
             pos: root.sign_pos[0] + theme.outline, root.sign_pos[1] + theme.outline
             size: root.sign_size[0] - 2 * theme.outline, root.sign_size[1] - 2 * theme.outline
             radius: [root.sign_size[1] / 2 - theme.outline]

@@ -20,9 +20,8 @@ __all__ = ["Captioned"]
 Builder.load_string("""
 <Captioned>:
     canvas.after:
-        Color:
+        Rounded:
             rgba: theme.surface if root.captioned else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
             pos: root.words_pos[0] - dp(4), root.words_pos[1] + dp(1)
             size: root.words_size[0] + dp(8), root.words_size[1] - dp(2)
             radius: [dp(4)]

@@ -34,9 +34,8 @@ Builder.load_string("""
     corner: theme.radius
     rim_width: dp(2)
     canvas.before:
-        Color:
+        Rounded:
             rgba: theme.shade[:3] + [.22 if root.pressed else 0]
-        SmoothRoundedRectangle:
             pos: self.pos
             size: self.size
             radius: [theme.radius]

@@ -68,15 +68,13 @@ Builder.load_string("""
     corner: theme.radius * 1.3
     rim_width: dp(3)
     canvas.before:
-        Color:
+        Rounded:
             rgba: (theme.stop if root.phase == 'stopped' else theme.shade)[:3] + [.4 if root.held else 0]
-        SmoothRoundedRectangle:
             pos: self.pos
             size: max(self.width * root.held, theme.radius * 2.6), self.height
             radius: [theme.radius * 1.3]
-        Color:
+        Rounded:
             rgba: theme.shade[:3] + [.22 if root.pressed and root.phase != 'stopped' else 0]
-        SmoothRoundedRectangle:
             pos: self.pos
             size: self.size
             radius: [theme.radius * 1.3]

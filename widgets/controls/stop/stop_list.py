@@ -67,9 +67,8 @@ Builder.load_string("""
 
 <HoldButton>:
     canvas.after:
-        Color:
+        Rounded:
             rgba: theme.danger[:3] + [.35 if root.held else 0]
-        SmoothRoundedRectangle:
             pos: self.pos
             size: max(self.width * root.held, theme.corner * 2), self.height
             radius: [theme.corner]
