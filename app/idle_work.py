@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import Any, Protocol
 
 from kivy.clock import Clock
+from kivy.core.window import Window
 
 from app.core.optional_parts import is_included
 from app.frame_pacing import is_touched
@@ -65,8 +66,8 @@ SOON = (
 )
 """Modules that a robot needs, in the order in which they are imported before there is one; a screen that is seldom shown
 is not among them."""
-FIRST_FRAMES = 2
-"""Frames that are drawn before it begins."""
+MAX_WAIT = 30
+"""So many turns of the loop without a frame on the glass, and it begins nevertheless: there is nothing to be drawn."""
 
 
 def imports(modules: Iterable[str]) -> list[Callable[[], object]]:
@@ -91,7 +92,9 @@ class IdleWork:
     ) -> None:
         """A frame in which `may` is false does nothing; `spent` is the clock that the budget is measured by [s]."""
         self._steps, self._may, self._spent = deque(steps), may, spent
-        self._frames = 0
+        self._waits = MAX_WAIT
+        """Turns of the loop that are still waited for a frame on the glass: nothing comes before that."""
+        Window.bind(on_flip=self._begin)
         self._event = Clock.schedule_interval(lambda _: self._work(), 0)
 
     @property
@@ -101,12 +104,18 @@ class IdleWork:
 
     def close(self) -> None:
         """Do no more of it."""
+        Window.unbind(on_flip=self._begin)
         self._event.cancel()
         self._steps.clear()
 
+    def _begin(self, *_: object) -> None:
+        self._waits = 0
+
     def _work(self) -> None:
-        self._frames += 1
-        if self._frames <= FIRST_FRAMES or not self._may():
+        if self._waits:
+            self._waits -= 1
+            return
+        if not self._may():
             return
         end = self._spent() + BUDGET
         while self._steps and self._spent() < end:
