@@ -35,6 +35,7 @@ __all__ = [
     "length_text",
     "nearest",
     "nice_floor",
+    "not_exceeded_by",
     "occupancy_pixels",
     "rounded",
     "scan_points",
@@ -306,6 +307,20 @@ def scan_reach(farthest: float, before: float = 0.0) -> float:
     """How far the picture of a sweep should go that sees to `farthest` [m]; it grows at once and shrinks late."""
     wanted = next((reach for reach in REACHES if reach >= farthest), REACHES[-1])
     return before if wanted < before < 1.6 * farthest else wanted
+
+
+def not_exceeded_by(values: NDArray[np.float64], share: float) -> float:
+    """What a `share` of the values, 0 to 1, does not exceed, between two of them in proportion; ValueError for none.
+
+    As numpy's percentile, which loads a megabyte for masked arrays when it is first asked.
+    """
+    if not len(values):
+        raise ValueError("There are no values of which a share could be taken.")
+    ordered = np.sort(values)
+    place = (len(ordered) - 1) * share
+    low = math.floor(place)
+    high = min(low + 1, len(ordered) - 1)
+    return float(ordered[low] + (ordered[high] - ordered[low]) * (place - low))
 
 
 def thinned(points: Points, apart: float) -> Points:

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.sensor_msgs import LaserScan
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, ground, tint
-from widgets.core.geometry import DASH, Points, length_text, scan_points, scan_reach
+from widgets.core.geometry import DASH, Points, length_text, not_exceeded_by, scan_points, scan_reach
 from widgets.core.icons import icon
 from widgets.core.shapes import Shapes
 from widgets.core.surfaces import Glass
@@ -196,7 +196,7 @@ def _goes_round(angles: NDArray[np.float64]) -> bool:
 def _farthest(measured: NDArray[np.float64], range_max: float) -> float:
     """Distance that nine in ten returns do not exceed [m]; the sensor's own range when it sees nothing."""
     seen = measured[np.isfinite(measured)]
-    return float(np.percentile(seen, 90)) if len(seen) else min(max(range_max, 1.0), 6.0)
+    return not_exceeded_by(seen, 0.9) if len(seen) else min(max(range_max, 1.0), 6.0)
 
 
 def _scan(*, around: bool = False, step_back: float = 0.0) -> LaserScan:

@@ -21,7 +21,7 @@ from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.pilothouse_msgs import Bumper, SonarRing
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, ground, tint
-from widgets.core.geometry import DASH, Points, length_text, scan_reach
+from widgets.core.geometry import DASH, Points, length_text, not_exceeded_by, scan_reach
 from widgets.core.icons import icon
 from widgets.core.sensor_geometry import away_text, side_text
 from widgets.core.shapes import Shapes
@@ -169,7 +169,7 @@ class SonarRingView(Gauge):
         ring = self.ring or SonarRing(range_max=3.0)
         ranges = self.echoes[1]
         seen = ranges[np.isfinite(ranges)]
-        farthest = float(np.percentile(seen, 60)) if len(seen) else min(max(ring.range_max, 1.0), 3.0)
+        farthest = not_exceeded_by(seen, 0.6) if len(seen) else min(max(ring.range_max, 1.0), 3.0)
         self._reach = self.reach or scan_reach(farthest, self._reach)
         own = max(ring.radius, 0.0)
         scale = radius / (self._reach + own)

@@ -224,3 +224,14 @@ def test_many_small_changes_are_followed():
 def test_what_becomes_known_or_unknown_is_told():
     assert geometry.steady(math.nan, 2.0, 0.1) == 2.0
     assert math.isnan(geometry.steady(2.0, math.nan, 0.1))
+
+
+@given(st.lists(finite, min_size=1, max_size=40), st.sampled_from([0.0, 0.1, 0.5, 0.6, 0.9, 1.0]))
+def test_a_share_of_the_values_does_not_exceed_their_percentile(values, share):
+    ours = geometry.not_exceeded_by(np.array(values), share)
+    assert ours == pytest.approx(float(np.percentile(values, share * 100)), abs=1e-9)
+
+
+def test_of_no_values_there_is_no_share():
+    with pytest.raises(ValueError, match="no values"):
+        geometry.not_exceeded_by(np.array([]), 0.5)
