@@ -88,7 +88,29 @@ def test_the_old_are_left_until_much_has_grown_old_with_them(collector: Collecto
     assert gone() is not None
     kept += [[] for _ in range(garbage.OLD)]
     collector.step()
+    collector.step()
     assert gone() is None
+
+
+def test_while_much_is_being_made_the_old_are_left_until_it_is_there(collector: Collector) -> None:
+    cycle, gone = old()
+    del cycle
+    kept = [[] for _ in range(garbage.OLD)]
+    for _ in range(3):
+        kept += [[] for _ in range(2 * garbage.GROWTH)]
+        collector.step()
+        assert gone() is not None
+    collector.step()
+    assert gone() is None
+
+
+def test_what_is_made_without_end_does_not_put_it_off_for_good(collector: Collector) -> None:
+    cycle, gone = old()
+    del cycle
+    kept = [[] for _ in range(garbage.MAX_PUSHED + garbage.OLD)]
+    collector.step()
+    assert gone() is None
+    assert kept
 
 
 def test_where_much_is_made_and_goes_again_the_old_are_left(collector: Collector) -> None:
