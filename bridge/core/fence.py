@@ -195,5 +195,7 @@ def _cut(start: Points, end: Points, starts: Points, ends: Points) -> Points:
     # an edge in the same line meets it nowhere in particular, but the next one of its ring does at the corner
     meets = (there > -_ASIDE) & (there < 1.0 + _ASIDE) & np.isfinite(here)
     cuts = np.sort(np.concatenate(([0.0, 1.0], here[meets & (here > 0.0) & (here < 1.0)])))
-    cuts = cuts[np.concatenate(([True], np.diff(cuts) > 0.0))]  # numpy's `unique` would load its masked arrays
+    cuts = cuts[
+        np.concatenate(([True], np.diff(cuts) > 0.0))
+    ]  # numpy's `unique` would load its masked arrays
     return np.asarray(start + cuts[:, None] * along)
