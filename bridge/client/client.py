@@ -23,7 +23,7 @@ from bridge.client.message_receiver import MessageReceiver
 from bridge.client.reconnecting import Reconnecting
 from bridge.client.registrations import Registrations
 from bridge.client.service_calls import ServiceCalls
-from bridge.codec import to_json
+from bridge.codec import to_server_json
 from bridge.core.address import BadAddress, LinkLost, NotAccepted
 from bridge.core.link_state import LinkFault, LinkState, Phase
 from bridge.discovery.network_changes import Network, NetworkChanges, SystemNetwork
@@ -148,7 +148,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         if stamp is not None and not even_late and self._too_late(msg, stamp, connection, heartbeat):
             return False
         stamp = None if stamp is not None and not math.isfinite(stamp) else stamp
-        return self._send(Publish(topic=topic, msg=Raw(to_json(msg, self._session.ros2)), stamp=stamp))
+        return self._send(Publish(topic=topic, msg=Raw(to_server_json(msg, self._session.ros2)), stamp=stamp))
 
     def _too_late(self, msg: Msg, stamp: float, connection: Connection, heartbeat: Heartbeat) -> bool:
         """Whether a drive command would wait on its way. A foreign server where it would not is asked for a sign of

@@ -10,7 +10,7 @@ import msgspec
 from msgspec import Raw
 
 from bridge.client.client_goals import Goal, action_of, part_of, reason
-from bridge.codec import from_json, to_json
+from bridge.codec import from_json, to_server_json
 from bridge.core.errors import NoReply, NotConnected, ProtocolError, Refused
 from bridge.msgs import TYPES, Msg, ros1_name
 from bridge.protocol import ClientSession, Id, Op, ServiceResponse, ros2_name
@@ -39,7 +39,7 @@ class ServiceCalls:
         Raises Refused with the robot's own sentence, NotConnected, NoReply, or ProtocolError for an answer that is no
         `response`.
         """
-        args = b"{}" if request is None else to_json(request, self._session.ros2)
+        args = b"{}" if request is None else to_server_json(request, self._session.ros2)
         return from_json(await self._ask(service, args, timeout), response)
 
     async def _ask(self, service: str, args: bytes, timeout: float) -> Raw:
@@ -110,7 +110,9 @@ class ServiceCalls:
             lambda: self._cancel(ids[0]),
         )
         feedback_to = None if on_feedback is None else made.on_feedback
-        op = self._session.goal(action, name, to_json(goal, self._session.ros2), feedback_to, made.on_result)
+        op = self._session.goal(
+            action, name, to_server_json(goal, self._session.ros2), feedback_to, made.on_result
+        )
         ids.append(op.id)
         if not self._send(op):
             self._session.goals.forget(op.id)

@@ -11,7 +11,7 @@ from typing import Any
 import msgspec
 from msgspec import Raw
 
-from bridge.codec import to_json
+from bridge.codec import to_server_json
 from bridge.core.errors import BridgeError, ProtocolError
 from bridge.msgs import TYPES, Msg
 from bridge.msgs.action_msgs import GoalStatus
@@ -89,7 +89,7 @@ class ServiceProvider:
     async def _respond(self, op: CallService, request: type[Msg], call: Call) -> None:
         try:
             answer = call(arguments(op.args, request))
-            text = to_json(await answer if inspect.isawaitable(answer) else answer, self._session.ros2)
+            text = to_server_json(await answer if inspect.isawaitable(answer) else answer, self._session.ros2)
         except BridgeError as error:
             self._decline(op, str(error))
         except Exception:
@@ -128,12 +128,14 @@ class ServiceProvider:
     async def _carry_out(self, op: SendActionGoal, goal: type[Msg], run: Run) -> None:
         def on_feedback(feedback: Msg) -> None:
             if op.feedback and op.id in self._session.given:
-                values = Raw(to_json(feedback, self._session.ros2))
+                values = Raw(to_server_json(feedback, self._session.ros2))
                 self._send(ActionFeedback(id=op.id, action=op.action, values=values))
 
         try:
             found = await run(arguments(op.args, goal), on_feedback)
-            outcome = _result(op, to_json(found, self._session.ros2), GoalStatus.STATUS_SUCCEEDED, ok=True)
+            outcome = _result(
+                op, to_server_json(found, self._session.ros2), GoalStatus.STATUS_SUCCEEDED, ok=True
+            )
         except asyncio.CancelledError:
             outcome = _result(op, b"{}", GoalStatus.STATUS_CANCELED, ok=True)
         except BridgeError as error:

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import builtins
 import functools
-import keyword
 import re
-import typing
-from collections.abc import Callable, Mapping, Sequence
-from typing import Annotated, Any
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import msgspec
-from msgspec import Meta
 
-from bridge.codec.fields import CODES, fields_of
+from bridge.codec.fields import fields_of, ros_fields
 from bridge.core.errors import ProtocolError
-from bridge.msgs import TYPES, Msg, base
-from bridge.msgs.arrays import ARRAYS
-from bridge.msgs.builtin_interfaces import Duration, Time
+from bridge.msgs import TYPES, Msg
+from bridge.msgs.making import BUILT_IN, SCALARS, make_class, rostype
 
 __all__ = ["learn"]
 
@@ -30,20 +26,6 @@ MAX_DEPTH = 50
 MAX_ELEMENTS = 1_000_000
 """Most values in the fixed arrays of an empty message."""
 
-_SCALARS: dict[str, Any] = {
-    "bool": bool,
-    "string": str,
-    "wstring": str,
-    "float32": float,
-    "float64": float,
-    "char": base.char,
-    "byte": base.byte,
-    **{
-        f"{sign}int{bits}": getattr(base, f"{sign}int{bits}")
-        for sign in ("", "u")
-        for bits in (8, 16, 32, 64)
-    },
-}
 _OTHER_NAMES = {
     "boolean": "bool",
     "octet": "byte",
@@ -55,10 +37,6 @@ _OTHER_NAMES = {
     "Header": "std_msgs/Header",
 }
 """Other names of types in rosapi's answers: those of IDL, and the class of a bounded text."""
-_ARRAY_OF = {kind: cls for kind, code in CODES.items() for cls in ARRAYS.values() if cls.code == code}
-_ZEROS: dict[Any, Any] = {"bool": False, "string": "", "wstring": "", "float32": 0.0, "float64": 0.0}
-_BYTES = ("uint8", "char", "byte")
-_BUILT_IN: dict[str, type[Msg]] = {"time": Time, "duration": Duration}
 _NAME = re.compile(r"[A-Za-z]\w{0,199}", re.ASCII)
 _TYPE = re.compile(r"[A-Za-z]\w{0,99}(?:/[A-Za-z]\w{0,99}){1,2}", re.ASCII)
 _BOUND = re.compile(
@@ -66,7 +44,7 @@ _BOUND = re.compile(
 )
 _SEQUENCE = re.compile(r"sequence<(?P<inner>.+)>")
 _PART = re.compile(r"_(Request|Response|Goal|Result|Feedback)$")
-_CONSTANT = re.compile(r"(?!SLOT_TYPES$|MSGTYPE$|ROSTYPES$)[A-Z][A-Z0-9_]*")
+_CONSTANT = re.compile(r"(?!SLOT_TYPES$|MSGTYPE$|ROSTYPES$|CONSTTYPES$)[A-Z][A-Z0-9_]*")
 
 
 class _Typedef(msgspec.Struct, frozen=True):
@@ -105,7 +83,7 @@ def _learned(answer: bytes) -> type[Msg]:
             f"{definitions[0].type} is made of {len(definitions)} types; at most {MAX_TYPES} are taken."
         )
     known = {_named(each.type): each for each in definitions}
-    return _made(_named(definitions[0].type), known, dict(_BUILT_IN), ())
+    return _made(_named(definitions[0].type), known, dict(BUILT_IN), ())
 
 
 def _made(
@@ -123,7 +101,7 @@ def _made(
         return TYPES[name]
     kinds = _kinds(name, definition)
     fields = tuple(
-        (field, kind, None if kind[0] in _SCALARS else _made(kind[0], definitions, made, (*way, name)))
+        (field, kind, None if kind[0] in SCALARS else _made(kind[0], definitions, made, (*way, name)))
         for field, kind in kinds.items()
     )
     made[name] = _class(name, fields, _constants(definition, kinds))
@@ -171,7 +149,7 @@ def _kind(spelling: str, length: int, where: str) -> tuple[str, int]:
 
 def _named(spelling: str) -> str:
     """The ROS 1 name of a type: `std_srvs/srv/SetBool_Request` is `std_srvs/SetBoolRequest`."""
-    if spelling in _SCALARS or spelling in _BUILT_IN:
+    if spelling in SCALARS or spelling in BUILT_IN:
         return spelling
     if spelling in _OTHER_NAMES:
         return _OTHER_NAMES[spelling]
@@ -208,23 +186,13 @@ def _class(
     fields: tuple[tuple[str, tuple[str, int], type[Msg] | None], ...],
     constants: tuple[tuple[str, Any], ...],
 ) -> type[Msg]:
-    rostypes = tuple(_rostype(*kind) for _, kind, _ in fields)
+    rostypes = tuple(rostype(*kind) for _, kind, _ in fields)
     known = TYPES.get(name)
     if known is not None and _same(known, fields, rostypes):
         return known
     if sum(_elements(length, inner) for _, (_, length), inner in fields) > MAX_ELEMENTS:
         raise ProtocolError(f"{name} holds more than {MAX_ELEMENTS} values when it is empty.")
-    namespace = dict(constants) | {
-        "MSGTYPE": name,
-        "ROSTYPES": rostypes,
-        "__doc__": f"{name}, as the robot described it.",
-    }
-    parts = [_field(field, kind, length, inner) for field, (kind, length), inner in fields]
-    called = name.partition("/")[2]
-    made = msgspec.defstruct(
-        called, parts, bases=(Msg,), namespace=namespace, module=__name__, frozen=True, gc=False
-    )
-    return typing.cast(type[Msg], made)
+    return make_class(name, fields, constants, source="as the robot described it.")
 
 
 def _same(
@@ -232,14 +200,13 @@ def _same(
 ) -> bool:
     """Whether `known` has these fields, of classes that are known themselves; bounds are not described and do not
     count."""
-    names = [field.encode_name for field in msgspec.structs.fields(known)]
+    told = tuple((name, rostype) for (name, _, _), rostype in zip(fields, rostypes, strict=True))
+    ours = [
+        tuple((field.key, re.sub(r"<=\d+", "", field.rostype)) for field in ros_fields(known, ros2))
+        for ros2 in (False, True)
+    ]
     inside = all(inner is None or TYPES.get(inner.MSGTYPE) is inner for _, _, inner in fields)
-    bare = tuple(re.sub(r"<=\d+", "", rostype) for rostype in known.ROSTYPES)
-    return inside and [name for name, _, _ in fields] == names and rostypes == bare
-
-
-def _rostype(kind: str, length: int) -> str:
-    return kind if length < 0 else f"{kind}[{length or ''}]"
+    return inside and told in ours
 
 
 def _elements(length: int, inner: type[Msg] | None) -> int:
@@ -251,32 +218,3 @@ def _elements(length: int, inner: type[Msg] | None) -> int:
 def _held(type: builtins.type[Msg]) -> int:
     lengths = [((field.length or 0) if field.array else -1, field.type) for field in fields_of(type)]
     return max(sum(_elements(length, inner) for length, inner in lengths), 1)
-
-
-def _field(name: str, kind: str, length: int, inner: type[Msg] | None) -> tuple[str, Any, Any]:
-    attribute = f"{name}_" if keyword.iskeyword(name) or name == "ROSTYPES" or hasattr(Msg, name) else name
-    hint, default = _hint(kind, length, inner)
-    renamed = name if attribute != name else None
-    if callable(default):
-        return attribute, hint, msgspec.field(default_factory=default, name=renamed)
-    return attribute, hint, msgspec.field(default=default, name=renamed)
-
-
-def _hint(kind: str, length: int, inner: type[Msg] | None) -> tuple[Any, Any]:
-    """The annotation of a field and its default, or the factory of its default."""
-    item: Any = _SCALARS[kind] if inner is None else inner
-    if length < 0:
-        return item, inner if inner is not None else _ZEROS.get(kind, 0)
-    size = Meta(min_length=length, max_length=length)
-    if kind in _BYTES:
-        return (Annotated[bytes, size] if length else bytes), bytes(length)
-    if not length:
-        return (_ARRAY_OF[kind],) * 2 if kind in _ARRAY_OF else (list[item], list)
-    return Annotated[list[item], size], _filled(kind, length, inner)
-
-
-def _filled(kind: str, length: int, inner: type[Msg] | None) -> Callable[[], list[Any]]:
-    if inner is not None:
-        return lambda: [inner() for _ in range(length)]
-    zero = _ZEROS.get(kind, 0)
-    return lambda: [zero] * length

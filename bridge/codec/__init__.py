@@ -13,7 +13,7 @@ from bridge.codec.binary import from_cbor, to_cbor
 from bridge.codec.heads import check_cbor
 from bridge.codec.reader import from_builtins, shown, to_builtins
 from bridge.codec.selection import check_paths, select
-from bridge.codec.text import from_json, to_json
+from bridge.codec.text import from_json, to_json, to_server_json
 from bridge.codec.unread import Unread, unread
 from bridge.codec.weight import weight
 
@@ -29,6 +29,7 @@ __all__ = [
     "to_builtins",
     "to_cbor",
     "to_json",
+    "to_server_json",
     "unread",
     "weight",
 ]

@@ -24,7 +24,7 @@ def to_cbor(obj: object, ros2: bool = False) -> bytes:
     """A message, or a structure of plain values that may hold messages, as CBOR; ProtocolError when it has no such form.
 
     Every number array is a typed array of its field's width, whether the class keeps a list or an array; with `ros2` times
-    have ROS 2's names.
+    and headers are those of ROS 2.
     """
     try:
         return _written(obj, ros2)

@@ -15,7 +15,7 @@ from typing import Any
 
 import cbor2
 
-from bridge.codec.fields import CODES, Field, bare, fields_of, is_time
+from bridge.codec.fields import CODES, Field, bare, is_time, ros_fields
 from bridge.codec.stamps import ROS2_NAMES
 from bridge.msgs import Msg
 
@@ -36,7 +36,7 @@ value of another kind."""
 
 @functools.lru_cache(maxsize=1024)
 def message_writer(cls: type[Msg], ros2: bool) -> Writer:
-    """The writer of `cls`; with `ros2` times have ROS 2's names. ProtocolError for a class that has no CBOR form."""
+    """The writer of `cls`; with `ros2` times and headers are those of ROS 2. ProtocolError for a class that has no CBOR form."""
     before, paths, writers = b"", [], []
     for part in _parts(cls, "", ros2):
         if isinstance(part, bytes):
@@ -66,7 +66,7 @@ def _parts(
     cls: type[Msg], prefix: str, ros2: bool
 ) -> Iterator[bytes | tuple[str, Callable[[bytes], Writer]]]:
     """The constant bytes of a `cls`, and for each value its path and the maker of its writer from the bytes before it."""
-    fields = fields_of(cls)
+    fields = ros_fields(cls, ros2)
     names = ROS2_NAMES if ros2 and is_time(cls) else {}
     yield head(MAP, len(fields))
     for field in fields:

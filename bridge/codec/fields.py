@@ -16,7 +16,7 @@ from bridge.msgs import Msg
 from bridge.msgs.arrays import Float32Array, Float64Array, Int8Array
 from bridge.msgs.std_msgs import Time
 
-__all__ = ["CODES", "TIMES", "Field", "bare", "fields_of", "is_time"]
+__all__ = ["CODES", "HEADER", "TIMES", "Field", "bare", "fields_of", "is_time", "ros_fields"]
 
 CODES = {
     "bool": "?",
@@ -42,6 +42,9 @@ TIMES = {
     "builtin_interfaces/Duration": "iI",
 }
 """The codes of a time's two numbers, by its name in ROS 1 and in ROS 2."""
+
+HEADER = "std_msgs/Header"
+"""The one type that ROS 1 and ROS 2 make of different fields: the count of messages, `seq`, is ROS 1's alone."""
 
 _ROSTYPE = re.compile(r"(?P<base>[\w/]+)(?:<=\d+)?(?P<array>\[(?:<=)?(?P<length>\d*)\])?")
 _DERIVED: dict[Any, str] = {
@@ -89,6 +92,16 @@ def fields_of(cls: type[Msg]) -> tuple[Field, ...]:
             f"{cls.MSGTYPE or cls.__name__} has {len(known)} fields and {len(told)} ROS types."
         )
     return tuple(_field(field, rostype) for field, rostype in zip(known, told, strict=True))
+
+
+@functools.lru_cache(maxsize=1024)
+def ros_fields(cls: type[Msg], ros2: bool) -> tuple[Field, ...]:
+    """The fields of `cls` as ROS 1 has them in their order, or as ROS 2 has them."""
+    fields = fields_of(cls)
+    if cls.MSGTYPE != HEADER:
+        return fields
+    count = () if ros2 else tuple(field for field in fields if field.key == "seq")
+    return (*count, *[field for field in fields if field.key != "seq"])
 
 
 def is_time(cls: type[Msg] | None) -> bool:

@@ -1,4 +1,4 @@
-"""Times in the naming of ROS 2: `sec` and `nanosec` instead of ROS 1's `secs` and `nsecs`."""
+"""Messages as ROS 2 has them: times are `sec` and `nanosec` instead of `secs` and `nsecs`, headers without a count."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Any
 import msgspec
 
 from bridge.codec.fields import Field, fields_of, is_time
+from bridge.codec.headers import without_count
 from bridge.msgs import Msg
 
 __all__ = ["ROS2_NAMES", "named_for_ros2"]
@@ -20,7 +21,8 @@ Renamer = Callable[[dict[str, Any]], None]
 
 
 def named_for_ros2(text: bytes, cls: type[Msg]) -> bytes:
-    """A `cls` as JSON text, its times named as in ROS 2."""
+    """A `cls` as JSON text that the codec wrote, with times and headers as in ROS 2."""
+    text = without_count(text, cls)
     rename = _renamer(cls)
     if rename is None:
         return text

@@ -9,12 +9,13 @@ from typing import Any, TypeVar
 
 import msgspec
 
+from bridge.codec.headers import without_count
 from bridge.codec.reader import from_builtins
 from bridge.codec.stamps import named_for_ros2
 from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
 
-__all__ = ["from_json", "to_json"]
+__all__ = ["from_json", "to_json", "to_server_json"]
 
 M = TypeVar("M", bound=Msg)
 
@@ -23,13 +24,22 @@ def to_json(msg: Msg, ros2: bool = False) -> bytes:
     """`msg` as JSON text in UTF-8; NaN and infinities become `null`. ProtocolError for values that JSON cannot
     represent.
 
-    With `ros2` times have ROS 2's names.
+    With `ros2` times and headers are those of ROS 2.
     """
     try:
         text = _ENCODER.encode(msg)
     except (UnicodeEncodeError, TypeError) as error:
         raise ProtocolError(f"{msg.MSGTYPE} cannot be sent: {error}.") from error
     return named_for_ros2(text, type(msg)) if ros2 else text
+
+
+def to_server_json(msg: Msg, ros2: bool = False) -> bytes:
+    """As `to_json`, for a server of another maker: without the count of headers.
+
+    A server of ROS 1 counts itself, and one of ROS 2 drops a message with a field that it does not know.
+    """
+    text = to_json(msg, ros2)
+    return text if ros2 else without_count(text, type(msg))
 
 
 def from_json(raw: bytes | str | msgspec.Raw, type: type[M]) -> M:

@@ -14,6 +14,7 @@ from bridge.msgs import (
     geometry_msgs,
     nav_msgs,
     pilothouse_msgs,
+    rosgraph_msgs,
     sensor_msgs,
     tf2_msgs,
     vision_msgs,
@@ -167,6 +168,15 @@ TOPICS: tuple[Topic, ...] = (
         "the guided person: following or not, and the distance",
     ),
     Topic("/events", pilothouse_msgs.Event, 0, "handheld", "events, each once", once=True),
+    Topic(
+        "/rosout",
+        rosgraph_msgs.Log,
+        0,
+        "handheld",
+        "the same events as ROS's own log",
+        on_demand=True,
+        once=True,
+    ),
     Topic("/diagnostics", diagnostic_msgs.DiagnosticArray, 1, "handheld", "health of the robot's parts"),
     Topic("/tf", tf2_msgs.TFMessage, 20, "handheld", "transforms of map, odom and base_link"),
     Topic(

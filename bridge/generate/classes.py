@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from bridge.generate.comments import unit_in
-from bridge.generate.extras import BASES, DEFAULTS
+from bridge.generate.extras import BASES, DEFAULTS, ROS1_FIELDS
 from bridge.generate.hints import NUMBERS, RANGES, Names, default_of, hint_of, literal, python_name
 from bridge.generate.library import Library
 from bridge.generate.model import Constant, Field, Kind, Part, TextError
@@ -21,9 +22,10 @@ _CONSTANTS = {"bool": "bool", "string": "str", "wstring": "str"}
 
 def class_text(part: Part, library: Library, names: Names) -> str:
     """The Python text of the class of `part`; the names that it uses are noted in `names`."""
+    part = replace(part, fields=(*part.fields, *ROS1_FIELDS.get(part.rosname, ())))
     parent = library.ancestor(part)
     fields = part.fields[len(parent.fields) if parent else 0 :]
-    constants = [] if parent else part.constants
+    constants = () if parent else part.constants
     attributes = {each.name for each in part.fields}
     if clash := next((each.name for each in part.constants if each.name in attributes), None):
         raise TextError(f"{part.rosname} has a field and a constant called {clash}.")
@@ -36,6 +38,8 @@ def class_text(part: Part, library: Library, names: Names) -> str:
         [f'"{each.kind.rostype}"' for each in part.fields],
         "()",
     )
+    if constants:
+        lines += _constant_types(constants)
     if units := _units(part, set(names.local.values())):
         items = [f'"{name}": "{unit}"' for name, unit in units.items()]
         lines += listed(f"{_INDENT}UNITS: ClassVar[dict[str, str]] = ", items, "{}")
@@ -88,6 +92,13 @@ def _base(part: Part, parent: Part | None, names: Names) -> str:
         return f"additions.{BASES[part.rosname]}"
     names.base.add("Msg")
     return "Msg"
+
+
+def _constant_types(constants: Sequence[Constant]) -> list[str]:
+    start, kinds = f"{_INDENT}CONSTTYPES: ClassVar[tuple[str, ...]] = ", [each.base for each in constants]
+    if len(kinds) > 1 and len(set(kinds)) == 1:
+        return [f'{start}("{kinds[0]}",) * {len(kinds)}']
+    return listed(start, [f'"{each}"' for each in kinds], "()")
 
 
 def _constant(constant: Constant, part: Part, names: Names) -> Iterator[str]:

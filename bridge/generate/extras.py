@@ -6,7 +6,9 @@ None of it changes the messages on the wire. Types that are not named here are m
 
 from __future__ import annotations
 
-__all__ = ["ALSO", "BASES", "DEFAULTS", "EXTENDS"]
+from bridge.generate.model import Field, Kind
+
+__all__ = ["ALSO", "BASES", "DEFAULTS", "EXTENDS", "ROS1_FIELDS"]
 
 BASES = {
     "geometry_msgs/Quaternion": "Quaternion",
@@ -49,6 +51,17 @@ EXTENDS = {
     "pilothouse_msgs/RecallMissionResponse": "pilothouse_msgs/CommandResponse",
 }
 """Classes that begin with all fields of another one, whose subclass they are."""
+
+ROS1_FIELDS = {
+    "std_msgs/Header": (
+        Field(
+            "seq",
+            Kind("uint32"),
+            comment="Number of the message as its publisher counts. ROS 1 alone has it, as the first field; 0 where nobody counts.",
+        ),
+    )
+}
+"""Fields that the text of ROS 2 lacks and ROS 1 has; they stand behind the others in the class."""
 
 ALSO: dict[str, dict[str, tuple[str, ...]]] = {
     "std_msgs": {"bridge.msgs.builtin_interfaces": ("Duration", "Time")},

@@ -42,6 +42,7 @@ _TAKEN = {
     "field",
     "list",
     "math",
+    "CONSTTYPES",
     "MSGTYPE",
     "ROSTYPES",
     "UNITS",

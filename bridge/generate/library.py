@@ -15,8 +15,8 @@ _LIST = re.compile(r"(?!(?:uint8|char|byte)\b).*\]")
 
 
 def known(rosname: str) -> bool:
-    """Whether bridge.msgs has a class called `rosname`."""
-    return rosname in TYPES
+    """Whether a module of bridge.msgs has a class called `rosname`."""
+    return rosname in set(TYPES)
 
 
 class Library:

@@ -34,6 +34,7 @@ class CancelGoalResponse(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "action_msgs/CancelGoalResponse"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("int8", "action_msgs/GoalInfo[]")
+    CONSTTYPES: ClassVar[tuple[str, ...]] = ("int8",) * 4
 
     ERROR_NONE: ClassVar[int] = 0
     ERROR_REJECTED: ClassVar[int] = 1
@@ -52,6 +53,7 @@ class GoalStatus(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "action_msgs/GoalStatus"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("action_msgs/GoalInfo", "int8")
+    CONSTTYPES: ClassVar[tuple[str, ...]] = ("int8",) * 7
 
     STATUS_UNKNOWN: ClassVar[int] = 0
     STATUS_ACCEPTED: ClassVar[int] = 1

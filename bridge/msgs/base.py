@@ -51,3 +51,6 @@ class Msg(msgspec.Struct, frozen=True, gc=False):
 
     Only these know a number's width. Every generated or learned class has them.
     """
+
+    CONSTTYPES: ClassVar[tuple[str, ...]] = ()
+    """The exact ROS type of each constant of the class in their order; empty where nobody gave them."""

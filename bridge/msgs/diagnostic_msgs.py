@@ -50,6 +50,7 @@ class DiagnosticStatus(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "diagnostic_msgs/DiagnosticStatus"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("byte", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+    CONSTTYPES: ClassVar[tuple[str, ...]] = ("byte",) * 4
 
     OK: ClassVar[int] = 0
     WARN: ClassVar[int] = 1

@@ -142,6 +142,7 @@ class LoadMapResponse(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "nav_msgs/LoadMapResponse"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("nav_msgs/OccupancyGrid", "uint8")
+    CONSTTYPES: ClassVar[tuple[str, ...]] = ("uint8",) * 5
 
     RESULT_SUCCESS: ClassVar[int] = 0
     RESULT_MAP_DOES_NOT_EXIST: ClassVar[int] = 1

@@ -71,6 +71,7 @@ class BatteryState(Msg, frozen=True, gc=False):
         "string",
         "string",
     )
+    CONSTTYPES: ClassVar[tuple[str, ...]] = ("uint8",) * 21
     UNITS: ClassVar[dict[str, str]] = {
         "voltage": "V",
         "temperature": "degC",
@@ -359,6 +360,7 @@ class JoyFeedback(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "sensor_msgs/JoyFeedback"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("uint8", "uint8", "float32")
+    CONSTTYPES: ClassVar[tuple[str, ...]] = ("uint8",) * 3
 
     TYPE_LED: ClassVar[int] = 0
     TYPE_RUMBLE: ClassVar[int] = 1
@@ -521,6 +523,16 @@ class NavSatStatus(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "sensor_msgs/NavSatStatus"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("int8", "uint16")
+    CONSTTYPES: ClassVar[tuple[str, ...]] = (
+        "int8",
+        "int8",
+        "int8",
+        "int8",
+        "uint16",
+        "uint16",
+        "uint16",
+        "uint16",
+    )
 
     STATUS_NO_FIX: ClassVar[int] = -1
     STATUS_FIX: ClassVar[int] = 0
@@ -553,6 +565,7 @@ class NavSatFix(Msg, frozen=True, gc=False):
         "float64[9]",
         "uint8",
     )
+    CONSTTYPES: ClassVar[tuple[str, ...]] = ("uint8",) * 4
     UNITS: ClassVar[dict[str, str]] = {
         "latitude": "deg",
         "longitude": "deg",
@@ -601,6 +614,7 @@ class PointField(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "sensor_msgs/PointField"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "uint32", "uint8", "uint32")
+    CONSTTYPES: ClassVar[tuple[str, ...]] = ("uint8",) * 8
     UNITS: ClassVar[dict[str, str]] = {"offset": "byte"}
 
     INT8: ClassVar[int] = 1
@@ -669,6 +683,7 @@ class Range(Msg, frozen=True, gc=False):
         "float32",
         "float32",
     )
+    CONSTTYPES: ClassVar[tuple[str, ...]] = ("uint8",) * 2
     UNITS: ClassVar[dict[str, str]] = {
         "field_of_view": "rad",
         "min_range": "m",

@@ -173,11 +173,15 @@ class Header(Msg, frozen=True, gc=False):
     """When and in which frame a message was measured."""
 
     MSGTYPE: ClassVar[str] = "std_msgs/Header"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "string")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "string", "uint32")
     stamp: Time = Time()
     """When it was measured, by the clock of who measured it."""
     frame_id: str = ""
     """Name of the coordinate frame (REP-105): map, odom, base_link, or a sensor's."""
+    seq: uint32 = 0
+    """Number of the message as its publisher counts. ROS 1 alone has it, as the first field; 0 where
+    nobody counts.
+    """
 
 
 class Int16(Msg, frozen=True, gc=False):

@@ -66,6 +66,7 @@ class TF2Error(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "tf2_msgs/TF2Error"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("uint8", "string")
+    CONSTTYPES: ClassVar[tuple[str, ...]] = ("uint8",) * 7
 
     NO_ERROR: ClassVar[int] = 0
     LOOKUP_ERROR: ClassVar[int] = 1

@@ -2,28 +2,28 @@
 
 from __future__ import annotations
 
-from bridge.codec.fields import CODES, TIMES, Field, fields_of
+from bridge.codec.fields import CODES, HEADER, TIMES, Field, ros_fields
 from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.msgs.std_msgs import Duration
 
-__all__ = ["CDR_LITTLE_ENDIAN", "counted", "fields_with_widths", "time_codes"]
+__all__ = ["CDR_LITTLE_ENDIAN", "fields_with_widths", "lacks_count", "time_codes"]
 
 CDR_LITTLE_ENDIAN = b"\x00\x01\x00\x00"
 """Header of a message in CDR; alignment counts from behind it."""
 
 
-def fields_with_widths(cls: type[Msg]) -> tuple[Field, ...]:
-    """The fields of `cls`; ProtocolError when it does not have the widths of its numbers."""
-    fields = fields_of(cls)
+def fields_with_widths(cls: type[Msg], cdr: bool) -> tuple[Field, ...]:
+    """The fields of `cls` in ROS 1, or with `cdr` in ROS 2; ProtocolError when it does not have the widths of its numbers."""
+    fields = ros_fields(cls, cdr)
     if not hasattr(cls, "ROSTYPES") and any(field.base in CODES for field in fields):
         raise ProtocolError(f"{cls.MSGTYPE or cls.__name__} does not give the widths of its numbers.")
     return fields
 
 
-def counted(cls: type[Msg], cdr: bool) -> bool:
-    """Whether ROS 1 has the publisher's count of messages before the stamp of `cls`, which the class leaves out."""
-    return cls.MSGTYPE == "std_msgs/Header" and not cdr and fields_of(cls)[0].name != "seq"
+def lacks_count(cls: type[Msg], cdr: bool) -> bool:
+    """Whether ROS 1 has the publisher's count of messages before the stamp of `cls`, and the class leaves it out."""
+    return cls.MSGTYPE == HEADER and not cdr and all(field.key != "seq" for field in ros_fields(cls, cdr))
 
 
 def time_codes(cls: type[Msg], cdr: bool) -> str:

@@ -12,7 +12,7 @@ from typing import Any, TypeVar, cast
 from bridge.codec.fields import CODES, Field, bare, is_time
 from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
-from bridge.rosbytes.layout import CDR_LITTLE_ENDIAN, counted, fields_with_widths, time_codes
+from bridge.rosbytes.layout import CDR_LITTLE_ENDIAN, fields_with_widths, lacks_count, time_codes
 
 __all__ = ["deserialize"]
 
@@ -81,10 +81,10 @@ def _message(cls: type[Msg], cdr: bool) -> Read:
     if is_time(cls):
         codes = time_codes(cls, cdr)
         return lambda cursor: cls(*[cursor.number(code) for code in codes])
-    fields = fields_with_widths(cls)
+    fields = fields_with_widths(cls, cdr)
     reads = [(field.name, _field(field, cdr)) for field in fields]
     # Of what the class leaves out: ROS 1's count in a header, and the byte of an empty structure in CDR.
-    ahead = 4 if counted(cls, cdr) else 1 if cdr and not fields else 0
+    ahead = 4 if lacks_count(cls, cdr) else 1 if cdr and not fields else 0
 
     def read(cursor: _Cursor) -> Msg:
         cursor.read(ahead)

@@ -13,7 +13,7 @@ from typing import Any
 from bridge.codec.fields import CODES, Field, is_time
 from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
-from bridge.rosbytes.layout import CDR_LITTLE_ENDIAN, counted, fields_with_widths, time_codes
+from bridge.rosbytes.layout import CDR_LITTLE_ENDIAN, fields_with_widths, lacks_count, time_codes
 
 __all__ = ["serialize"]
 
@@ -61,10 +61,10 @@ def _parts(cls: type[Msg], prefix: str, cdr: bool) -> Iterator[tuple[str, str] |
     if is_time(cls):
         yield from zip((f"{prefix}secs", f"{prefix}nsecs"), time_codes(cls, cdr), strict=True)
         return
-    fields = fields_with_widths(cls)
+    fields = fields_with_widths(cls, cdr)
     if cdr and not fields:
         yield "", "x"  # IDL knows no empty structure: ROS 2 puts one byte there
-    if counted(cls, cdr):
+    if lacks_count(cls, cdr):
         yield "", "4x"
     for field in fields:
         yield from _field(field, f"{prefix}{field.name}", cdr)

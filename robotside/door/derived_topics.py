@@ -1,6 +1,7 @@
-"""Topics derived from arrays: one per sonar and per motor, for clients that do not know our messages.
+"""Topics derived from our messages, for clients that do not know them.
 
-A ring of sonars as `/sonar/0`, `/sonar/1`, … and each motor's temperature as `/temperature/NAME`; only what somebody wants.
+A ring of sonars as `/sonar/0`, `/sonar/1`, …, each motor's temperature as `/temperature/NAME` and events as `/rosout`; only
+what somebody wants.
 """
 
 from __future__ import annotations
@@ -11,8 +12,10 @@ from collections.abc import Iterable
 
 from bridge.core.topics import SONARS, Topic
 from bridge.msgs import Msg
-from bridge.msgs.pilothouse_msgs import MotorArray, SonarRing
+from bridge.msgs.pilothouse_msgs import Event, MotorArray, SonarRing
+from bridge.msgs.rosgraph_msgs import Log
 from bridge.msgs.sensor_msgs import Range, Temperature
+from bridge.msgs.std_msgs import Header
 from robotside.core.bus import Bus
 
 __all__ = ["DerivedTopics"]
@@ -23,6 +26,10 @@ _EARLY = 0.01
 """A temperature may come so much before it is due [s]: motors are measured at a rate of their own."""
 MAX_MOTORS = 64
 """Motors that have a topic of their own."""
+LOG = "/rosout"
+"""Where ROS tools look for what programs say."""
+_LEVELS = {"info": Log.INFO, "ok": Log.INFO, "warn": Log.WARN, "alarm": Log.ERROR}
+_NODE = "/pilothouse"
 _NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
 
 
@@ -35,7 +42,11 @@ class DerivedTopics:
         self._wanted: set[str] = set()
         self._motors: tuple[str, ...] = ()
         self._due: dict[str, float] = {}
-        self._leave = (bus.subscribe("/sonar", self._ring), bus.subscribe("/motors", self._warmth))
+        self._leave = (
+            bus.subscribe("/sonar", self._ring),
+            bus.subscribe("/motors", self._warmth),
+            bus.subscribe("/events", self._log),
+        )
 
     @property
     def topics(self) -> tuple[Topic, ...]:
@@ -82,6 +93,13 @@ class DerivedTopics:
             topic = _warm(name)
             if topic in self._wanted and self._falls(topic, now):
                 self._bus.publish(topic, Temperature(msg.header, float(temperature)))
+
+    def _log(self, _: str, msg: Msg) -> None:
+        """Log an event; one that comes again because somebody acknowledged it is not logged twice."""
+        if LOG in self._wanted and isinstance(msg, Event) and not msg.acknowledged_by:
+            level = _LEVELS.get(msg.level, Log.INFO)
+            line = Log(Header(msg.stamp), level, _NODE, msg.text, function=msg.code, topics=["/events"])
+            self._bus.publish(LOG, line)
 
     def _falls(self, topic: str, now: float) -> bool:
         """It is time for another one; on average they come at the rate, at any rate of the motors."""

@@ -12,7 +12,7 @@ from bridge.codec import shown
 from bridge.core.errors import ProtocolError
 from bridge.msgs import ros1_name
 from bridge.msgs.std_msgs import Time
-from bridge.protocol import MAX_ARGUMENT_BYTES, absolute
+from bridge.protocol import MAX_ARGUMENT_BYTES, absolute, spells_ros2
 from bridge.server.rosapi.parameters import Parameters
 from bridge.server.rosapi.ros_text import full_text
 from bridge.server.rosapi.type_descriptions import typedefs
@@ -86,7 +86,7 @@ class RosApi:
             "topics_and_raw_types": ((), lambda _: self._raw_types()),
             "topic_type": (("topic",), lambda given: {"type": topics().get(absolute(given["topic"]), "")}),
             "topics_for_type": (("type",), lambda given: {"topics": _of_type(topics(), given["type"])}),
-            "message_details": (("type",), lambda given: {"typedefs": typedefs(ros1_name(given["type"]))}),
+            "message_details": (("type",), lambda given: {"typedefs": _typedefs(given["type"])}),
             "publishers": (("topic",), lambda given: {"publishers": self._who(given["topic"], "publishes")}),
             "subscribers": (
                 ("topic",),
@@ -200,7 +200,12 @@ def _of_type(known: Mapping[str, str], type: str) -> list[str]:
 
 
 def _details(type: str, half: str) -> dict[str, Any]:
-    return {"typedefs": typedefs(f"{ros1_name(type)}{half}")}
+    return {"typedefs": _typedefs(type, half)}
+
+
+def _typedefs(type: str, half: str = "") -> list[dict[str, Any]]:
+    """The description of a type in the terms of the ROS that it is spelled as."""
+    return typedefs(f"{ros1_name(type)}{half}", ros2=spells_ros2(type))
 
 
 def _given(args: Raw, fields: tuple[str, ...]) -> dict[str, str]:

@@ -85,9 +85,14 @@ def test_a_type_that_is_told_as_we_know_it_is_ours():
 
 
 def test_a_type_that_is_told_otherwise_is_made_anew():
-    Header = learn([told("std_msgs/Header", seq=("uint32", -1), stamp=("time", -1), frame_id=("string", -1))])
-    assert Header is not TYPES["std_msgs/Header"]
-    assert from_json(b'{"seq":7}', Header).seq == 7
+    Vector = learn([told("geometry_msgs/Vector3", x=("float64", -1), w=("float64", -1))])
+    assert Vector is not TYPES["geometry_msgs/Vector3"]
+    assert from_json(b'{"w":7}', Vector).w == 7
+
+
+@pytest.mark.parametrize("ros2", [False, True])
+def test_a_header_is_ours_whether_it_counts_or_not(ros2):
+    assert learn(typedefs("std_msgs/Header", ros2=ros2)) is TYPES["std_msgs/Header"]
 
 
 def test_a_type_that_is_only_named_must_be_one_of_ours():

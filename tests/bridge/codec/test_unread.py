@@ -11,7 +11,7 @@ from msgspec import Raw
 
 from bridge.codec import from_json, to_json, unread
 from bridge.core.errors import ProtocolError
-from bridge.msgs import TYPES, nav_msgs, sensor_msgs, std_msgs
+from bridge.msgs import TYPES, geometry_msgs, nav_msgs, sensor_msgs, std_msgs
 from bridge.server.flow.outgoing_messages import Form, OutgoingMessage
 from tests.bridge.strategies import messages
 
@@ -63,7 +63,38 @@ def test_times_of_ros_2_must_be_read():
     header = {"stamp": {"sec": 1, "nanosec": 2}, "frame_id": "map"}
     assert unread(Raw(json.dumps(header).encode()), std_msgs.Header) is None
     header["stamp"] = {"secs": 1, "nsecs": 2}
-    assert unread(Raw(json.dumps(header).encode()), std_msgs.Header) is not None
+    assert unread(Raw(json.dumps({**header, "seq": 3}).encode()), std_msgs.Header) is not None
+
+
+HEADER = {"stamp": {"secs": 1, "nsecs": 2}, "frame_id": 'a "header":{'}
+
+
+@pytest.mark.parametrize(
+    ("kind", "text"),
+    [
+        (geometry_msgs.PointStamped, {"header": HEADER, "point": {"x": 1.0, "y": 2.0, "z": None}}),
+        (
+            nav_msgs.Path,
+            {
+                "header": HEADER,
+                "poses": [{**json.loads(to_json(geometry_msgs.PoseStamped())), "header": HEADER}],
+            },
+        ),
+    ],
+)
+def test_a_header_without_a_count_gets_one_and_needs_no_reading(kind, text):
+    for spaces in (None, (",", ":")):
+        raw = Raw(json.dumps(text, separators=spaces).encode())
+        found = unread(raw, kind)
+        assert found is not None
+        assert json.loads(found.text) == json.loads(to_json(from_json(raw, kind)))
+
+
+def test_headers_of_which_some_count_must_be_read():
+    pose = json.loads(to_json(geometry_msgs.PoseStamped()))
+    path = {"header": HEADER, "poses": [pose]}
+    assert unread(Raw(json.dumps(path).encode()), nav_msgs.Path) is None
+    assert unread(Raw(json.dumps(HEADER).encode()), std_msgs.Header) is None
 
 
 @pytest.mark.parametrize(

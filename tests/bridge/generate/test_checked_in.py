@@ -18,7 +18,15 @@ from tests.looped import looped
 ROOT = Path(__file__).parents[3]
 MSGS = ROOT / "bridge" / "msgs"
 TEXT = [ROOT / "bridge" / "definitions", ROOT / "pilothouse_msgs"]
-BY_HAND = {"__init__.py", "additions.py", "arrays.py", "base.py", "builtin_interfaces.py"}
+BY_HAND = {
+    "__init__.py",
+    "additions.py",
+    "arrays.py",
+    "base.py",
+    "builtin_interfaces.py",
+    "common.py",
+    "making.py",
+}
 LIBRARY = library.Library(definitions(TEXT, None, lambda name: False))
 FILES = {
     f"{package}.py": modules.package_module(package, LIBRARY, "bridge.msgs") for package in LIBRARY.packages

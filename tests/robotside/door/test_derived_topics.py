@@ -8,7 +8,8 @@ import pytest
 
 from bridge.msgs import Msg
 from bridge.msgs.arrays import Float32Array, Float64Array
-from bridge.msgs.pilothouse_msgs import MotorArray, SonarRing
+from bridge.msgs.pilothouse_msgs import Event, MotorArray, SonarRing
+from bridge.msgs.rosgraph_msgs import Log
 from bridge.msgs.sensor_msgs import Range, Temperature
 from bridge.msgs.std_msgs import Header, Time
 from robotside.core.bus import Bus
@@ -110,3 +111,30 @@ def test_it_listens_no_longer_once_it_is_closed() -> None:
     table.apart.close()
     table.ring(1.0)
     assert table.heard("/sonar/0") == []
+
+
+def test_an_event_is_a_line_of_ros_s_log_for_who_reads_that() -> None:
+    table = Table()
+    alarm = Event(1, "boot", Time(5, 6), "alarm", text="The battery is low.", code="battery_low")
+    table.bus.publish("/events", alarm)
+    table.apart.want("/rosout", True)
+    table.bus.publish("/events", alarm)
+    table.bus.publish("/events", Event(2, "boot", Time(7, 0), "ok", text="It is charged."))
+    low, charged = table.heard("/rosout")
+    assert low == Log(
+        Header(Time(5, 6)),
+        Log.ERROR,
+        "/pilothouse",
+        "The battery is low.",
+        function="battery_low",
+        topics=["/events"],
+    )
+    assert (charged.level, charged.msg) == (Log.INFO, "It is charged.")
+
+
+def test_an_event_that_comes_again_with_who_acknowledged_it_is_logged_once() -> None:
+    table = Table()
+    table.apart.want("/rosout", True)
+    table.bus.publish("/events", Event(1, text="Once."))
+    table.bus.publish("/events", Event(1, text="Once.", acknowledged_by="Ann"))
+    assert [line.msg for line in table.heard("/rosout")] == ["Once."]

@@ -34,6 +34,7 @@ MADE = {
     "/limits",
     "/checklist",
     "/events",
+    "/rosout",
     "/diagnostics",
     "/tf",
     "/sim/ground_truth",

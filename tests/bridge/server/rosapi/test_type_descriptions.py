@@ -7,7 +7,7 @@ from typing import ClassVar
 from bridge.msgs import TYPES
 from bridge.msgs.base import Msg
 from bridge.msgs.sensor_msgs import Imu, NavSatStatus
-from bridge.server.rosapi.type_descriptions import constants, typedefs
+from bridge.server.rosapi.type_descriptions import constant_types, constants, typedefs
 from tests.looped import looped
 
 
@@ -62,6 +62,7 @@ def test_constants_are_told_with_their_values():
     assert told["STATUS_NO_FIX"] == "-1"
     assert constants(NavSatStatus)["SERVICE_GALILEO"] == 8
     assert "MSGTYPE" not in told
+    assert constant_types(NavSatStatus)["SERVICE_GALILEO"] == "uint16"
 
 
 def test_examples_are_the_defaults():
@@ -72,8 +73,18 @@ def test_examples_are_the_defaults():
 
 def test_a_time_is_built_in_and_needs_no_definition():
     (header,) = typedefs("std_msgs/Header")
-    assert header["fieldtypes"] == ["time", "string"]
-    assert header["examples"] == ["{}", ""]
+    assert header["fieldtypes"] == ["uint32", "time", "string"]
+    assert header["examples"] == ["0", "{}", ""]
+
+
+def test_ros_2_has_headers_without_a_count_and_times_as_messages():
+    header, time = typedefs("std_msgs/Header", ros2=True)
+    assert (header["fieldnames"], header["fieldtypes"]) == (
+        ["stamp", "frame_id"],
+        ["builtin_interfaces/Time", "string"],
+    )
+    assert (time["type"], time["fieldnames"]) == ("builtin_interfaces/Time", ["sec", "nanosec"])
+    assert len(typedefs("std_msgs/String", ros2=True)) == 1
 
 
 def test_what_is_told_can_be_changed_without_harm():
@@ -93,3 +104,8 @@ def test_every_type_can_be_told_with_columns_of_one_length(name):
 
 def test_an_unknown_type_has_no_definition():
     assert typedefs("nobody_msgs/Nothing") == []
+
+
+@looped("name", sorted(set(TYPES) - {"time", "duration"}))
+def test_every_constant_has_its_type(name):
+    assert list(constant_types(TYPES[name])) == list(constants(TYPES[name]))
