@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from kivy.core.window import Window
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.widget import Widget
+
+from widgets.core.theme import theme
 
 __all__ = ["Root"]
 
@@ -15,6 +18,16 @@ class Root(FloatLayout):
 
     over: Widget | None = None
     """Stays on top of whatever is added."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        theme.bind(bg=self._lay_ground)
+        self._lay_ground()
+
+    def _lay_ground(self, *_: object) -> None:
+        """Have the window begin each frame in the theme's colour: no page draws a ground that its picture then covers."""
+        Window.clearcolor = theme.bg
+        Window.canvas.ask_update()
 
     def add_widget(self, widget: Widget, *args: Any, **kwargs: Any) -> None:
         """Put it on top, but below `over`."""

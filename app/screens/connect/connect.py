@@ -136,12 +136,6 @@ Builder.load_string("""
         on_release: root.dispatch('on_connect')
 
 <ConnectScreen>:
-    canvas.before:
-        Color:
-            rgba: theme.bg
-        Rectangle:
-            pos: self.pos
-            size: self.size
     BoxLayout:
         orientation: 'vertical'
         EdgedBox:

@@ -22,12 +22,6 @@ BAR = 56.0
 
 Builder.load_string("""
 <InputsPage>:
-    canvas.before:
-        Color:
-            rgba: theme.bg
-        Rectangle:
-            pos: self.pos
-            size: self.size
     EdgedBox:
         size_hint: None, None
         pos: root.x, root.top - dp(56)

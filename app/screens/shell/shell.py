@@ -45,12 +45,6 @@ NO_CONTROL = "This robot has no control handling: any pushed stick drives it."
 
 Builder.load_string("""
 <Shell>:
-    canvas.before:
-        Color:
-            rgba: theme.bg
-        Rectangle:
-            pos: self.pos
-            size: self.size
     FloatLayout:
         id: body
         size_hint: None, None
