@@ -235,9 +235,10 @@ class Drawing(RobotWidget):
         _see(self.canvas, self.opacity)
 
     def _draw_now(self, *_: object) -> None:
-        self._on_opacity()
         if self.width > 1 and self.height > 1:
             self.draw()
+        if self.opacity != 1:  # ink that is new does not know of it yet
+            self._on_opacity()
 
     def draw(self) -> None:
         """Bring the canvas up to date. Called at most once a frame."""

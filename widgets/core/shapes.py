@@ -134,28 +134,13 @@ class Shapes:
 
     def polygon(self, points: Sequence[tuple[float, float]], colour: Colour) -> None:
         """A filled shape that can be seen whole from its first corner; corners in order."""
-        corners = np.asarray(points, dtype=np.float64)
+        corners = [(float(x), float(y)) for x, y in points]
         last = len(corners) - 2
+        rows: list[list[float]] = []
         for index in range(1, last + 1):
-            inner = (index != last, False, index != 1)
-            self._triangle(corners[[0, index, index + 1]], inner, colour)
-
-    def _triangle(self, corners: Points, inner: tuple[bool, bool, bool], colour: Colour) -> None:
-        """One triangle; `inner` names the edges (2-0, 1-2, 0-1) are no edges of the whole shape."""
-        opposite = np.roll(corners, -2, axis=0) - np.roll(corners, -1, axis=0)
-        area = abs(float(np.linalg.det(np.c_[corners, np.ones(3)])))
-        heights = area / np.maximum(np.hypot(opposite[:, 0], opposite[:, 1]), 1e-9)
-        distances = np.diag(heights)
-        for vertex, hidden in ((1, inner[0]), (0, inner[1]), (2, inner[2])):
-            if hidden:
-                distances[:, vertex] = _FAR
-        vertices = np.zeros((3, FLOATS), np.float32)
-        vertices[:, :2] = corners
-        vertices[:, 2:4] = distances[:, :2]
-        vertices[:, 4] = EDGES
-        vertices[:, 5] = distances[:, 2]
-        vertices[:, 8:] = colour
-        self._add(vertices, np.arange(3))
+            inner = (False, index != last, index != 1)
+            rows += _triangle((corners[0], corners[index], corners[index + 1]), inner, colour)
+        self._add(np.array(rows, np.float32).reshape(-1, FLOATS), np.arange(len(rows)))
 
     def _rounds(
         self,
@@ -183,6 +168,24 @@ class Shapes:
         self._vertices.append(vertices)
         self._indices.append((indices + self._count).astype(np.uint16))
         self._count += len(vertices)
+
+
+def _triangle(
+    corners: Sequence[tuple[float, float]], inner: tuple[bool, bool, bool], colour: Colour
+) -> list[list[float]]:
+    """Vertices of one triangle; `inner` says which edges, each by the corner across from it, are no edges of the whole shape."""
+    (ax, ay), (bx, by), (cx, cy) = corners
+    area = abs((bx - ax) * (cy - ay) - (cx - ax) * (by - ay))
+    edges = math.hypot(cx - bx, cy - by), math.hypot(ax - cx, ay - cy), math.hypot(bx - ax, by - ay)
+    heights = [area / max(edge, 1e-9) for edge in edges]
+    rows = []
+    for number, (x, y) in enumerate(corners):
+        away = [
+            _FAR if hidden else heights[number] if edge == number else 0.0
+            for edge, hidden in enumerate(inner)
+        ]
+        rows.append([x, y, away[0], away[1], EDGES, away[2], 0.0, 0.0, *colour])
+    return rows
 
 
 def _per_shape(colour: Colour | NDArray[np.float32]) -> NDArray[np.float32]:

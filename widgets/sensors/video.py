@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, ClassVar
 
 import numpy as np
+from kivy.clock import Clock
 from kivy.graphics import Color, Rectangle
 from kivy.graphics.texture import Texture
 from kivy.metrics import dp, sp
@@ -33,6 +34,7 @@ from widgets.core.icons import icon
 from widgets.core.rounded import Rounded
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
+from widgets.core.unblended import Unblended
 from widgets.sensors.video_marks import draw_box, draw_pointer
 
 __all__ = ["Video", "samples"]
@@ -67,8 +69,7 @@ class Video(Drawing):
 
     accepts: ClassVar = (Detection2DArray,)
     drawn_from: ClassVar = (
-        "frame_size", "taken_size", "fit", "boxes", "rate", "latency", "age", "show_chip", "chip_room", "corner", "insets",
-        "below", "marks", "field_of_view", "refusal",
+        "frame_size", "taken_size", "fit", "boxes", "age", "corner", "insets", "below", "marks", "field_of_view", "refusal",
     )  # fmt: skip
 
     frame_size: ListProperty[int] = ListProperty([0, 0])
@@ -122,12 +123,23 @@ class Video(Drawing):
         self._lens["half_size"] = self._lens["seen"] = (1.0, 1.0)
         self._picture = Rectangle(size=(0, 0), tex_coords=WHOLE)
         self._lens.add(self._picture)
-        self._plain_colour, self._plain = Color(1, 1, 1, 1), Rectangle(size=(0, 0))
+        self._plain, self._unblended = Rectangle(size=(0, 0)), Unblended()
+        for part in (Color(1, 1, 1, 1), self._plain):
+            self._unblended.add_part(part)
         self._ink, self._words, self._chip_words = Ink(), Words(), Words()
         self._chip = Rounded()
+        self._chip_as_drawn: tuple[object, ...] = ()
+        self._redraw_chip = Clock.create_trigger(lambda _: self._draw_chip(), -1)
         super().__init__(**kwargs)
+        for name in (
+            "rate",
+            "latency",
+            "show_chip",
+            "chip_room",
+        ):  # with each picture: the marks stay as they are
+            self.fbind(name, self._redraw_chip)
         for part in (
-            self._frame, self._lens, self._plain_colour, self._plain,
+            self._frame, self._lens, self._unblended,
             self._ink, self._words.canvas, self._chip, self._chip_words.canvas,
         ):  # fmt: skip
             self.canvas.add(part)
@@ -195,6 +207,7 @@ class Video(Drawing):
         place = self.center_x - seen[0] / 2, self.center_y - seen[1] / 2
         self._picture.pos = self._plain.pos = place
         self._picture.size, self._plain.size = ((0, 0), seen) if self._fills() else (seen, (0, 0))
+        self._unblended.on = self._fills()
         x, y = seen[0] / wide / 2, seen[1] / high / 2
         self._plain.tex_coords = (0.5 - x, 0.5 + y, 0.5 + x, 0.5 + y, 0.5 + x, 0.5 - y, 0.5 - x, 0.5 - y)
         whole = seen == (self.width, self.height)
@@ -284,6 +297,10 @@ class Video(Drawing):
 
     def _draw_chip(self) -> None:
         text = self.chip_text() if self.show_chip and self.state != "stale" else ""
+        drawn = text, self.late, self.x, self.top, *self.insets, tuple(theme.surface), tuple(theme.text)
+        if drawn == self._chip_as_drawn:
+            return
+        self._chip_as_drawn = drawn
         if not text:
             self._chip.size = 0, 0
             self._chip_words.write(())

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 
 import numpy as np
 from kivy.metrics import dp, sp
@@ -24,9 +23,10 @@ def draw_box(shapes: Shapes, box: Box, text: str, frame: Box, *, small: bool) ->
     left, bottom, right, top = box
     edge, size = (dp(1.6), sp(10)) if small else (dp(3), sp(15))
     corners = np.array([[left, bottom], [right, bottom], [right, top], [left, top], [left, bottom]])
-    for start, end in pairwise(corners):
-        ahead = (end - start) / max(np.hypot(*(end - start)), 1e-9) * edge / 2
-        shapes.segments((start - ahead)[None], (end + ahead)[None], edge, theme.danger)
+    starts, ends = corners[:-1], corners[1:]
+    along = ends - starts
+    ahead = along / np.maximum(np.hypot(along[:, 0], along[:, 1]), 1e-9)[:, None] * edge / 2
+    shapes.segments(starts - ahead, ends + ahead, edge, theme.danger)
     wide, high = text_texture(text, round(size, 1), theme.font, bold=True).size
     x, y = min(left - edge / 2, frame[2] - wide - size), top if top + high < frame[3] else bottom - high
     tab = [(x, y), (x + wide + size * 0.7, y), (x + wide + size * 0.7, y + high), (x, y + high)]

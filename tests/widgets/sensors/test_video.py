@@ -212,3 +212,34 @@ def test_an_old_picture_is_faded_and_a_fresh_one_is_not(video, stage, corner, fi
         strength = video._lens["strength"] if through_the_lens else 1.0
         assert (strength < 0.5) is faded, state
         assert (video._plain.size[0] > 0) is not through_the_lens, "drawn once, plain or by the lens"
+
+
+def test_a_new_rate_and_latency_write_the_chip_and_draw_nothing_else_anew(video, stage, monkeypatch):
+    video.show_frame(64, 48, FRAME)
+    video.state = "live"
+    stage.frames(2)
+    drawn = []
+    monkeypatch.setattr(Video, "draw", lambda _: drawn.append("all"))
+    video.rate, video.latency = 15.0, 0.042
+    stage.frames(2)
+    assert video._chip_words.texts == ["64×48 · 15 fps · 42 ms"]
+    video.show_chip = False
+    stage.frames(2)
+    assert (video._chip_words.texts, video._chip.drawn) == ([], False)
+    video.show_chip = True
+    stage.frames(2)
+    assert video._chip.drawn
+    assert drawn == []
+
+
+def test_a_picture_is_mixed_with_the_ground_only_where_it_does_not_fill_its_frame(video, stage):
+    video.corner = 0
+    stage.frames(2)
+    assert not video._unblended.on, "there is no picture yet"
+    video.state = "live"
+    video.show_frame(64, 48, FRAME)
+    stage.frames(2)
+    assert video._unblended.on
+    video.state = "stale"
+    stage.frames(2)
+    assert not video._unblended.on
