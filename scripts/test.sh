@@ -51,9 +51,9 @@ elif [ "${1:-}" = slow ]; then
     mapfile -t undrawn < <(slow_files --exclude-dir={pixels,e2e} tests)
     mapfile -t drawn < <(slow_files tests/{pixels,e2e})
     ring slow -n 2 --dist worksteal -m slow "${undrawn[@]}"
-    [ ${#drawn[@]} -eq 0 ] || ring slow-drawn -n 2 --dist worksteal -m slow "${drawn[@]}"
+    [ ${#drawn[@]} -eq 0 ] || ring slow-drawn -n 2 --dist loadfile -m slow "${drawn[@]}"
 else
-    ring logic -n 2 --dist loadscope -m 'not slow'
+    ring logic -n 2 --dist worksteal -m 'not slow'
     present 'tests/pixels/test_*.py' && ring pixels -n 2 -m 'not slow' tests/pixels
     present 'tests/e2e/test_*.py' && ring e2e -n 2 --dist loadfile -m 'not slow' tests/e2e
 fi

@@ -49,6 +49,7 @@ def errors(tmp_path_factory, pytestconfig):
     return set(re.findall(r"^([\w/]+\.py):(\d+): error: .*\[([\w-]+)\]$", said, re.MULTILINE))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_the_type_checker_finds(errors, mistake):
     file, was, _, code = MISTAKES[mistake]

@@ -10,6 +10,8 @@ from bench.hostile import Attacked, attacked
 from bench.support.attack.frames import BREAKING, KINDS, chosen
 from bench.support.attack.requests import hostile_handshake, hostile_request
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def found() -> Attacked:
