@@ -31,6 +31,7 @@ from robotside.options import One, UserMistake
 from robotside.records.landmarks import take_over
 from robotside.records.opening import open_records
 from robotside.serving.fleet_server import FleetServer
+from robotside.serving.garbage import set_aside
 from robotside.serving.malloc_trim import trim
 from robotside.serving.station_keys import StationKeys
 from robotside.serving.station_server import Addresses, StationServer
@@ -105,6 +106,7 @@ class _Fleet:
                 loop.add_signal_handler(signal_number, together.end)
             # what the maps were made of is freed by the first steps
             later = loop.call_later(SETTLED, trim)
+            set_aside()
             await together.run(self._say_ready)
             later.cancel()
 
