@@ -163,7 +163,8 @@ class PilothouseApp(App):
             now=self.now,
         )
         self.mailbox, self.robot_list.trust.attempts = self._network.mailbox, self._network.pairing
-        self.timers = Timers(self._look, self._beat, self._list, poll=self._poll)
+        pushed = lambda: self.inputs.pushed  # noqa: E731 - it is made below
+        self.timers = Timers(self._look, self._beat, self._list, pushed=pushed, poll=self._poll)
         self.inputs = Inputs(self, self.now)
         self.inputs.open()
         self.methods.open()

@@ -8,6 +8,7 @@ Whoever writes into what is being drawn from would wait as well, and asks here f
 
 from __future__ import annotations
 
+import logging
 import math
 import time
 from collections.abc import Callable
@@ -17,8 +18,11 @@ from kivy.base import EventLoop
 from kivy.clock import Clock
 
 from app.core.waking import waking
+from bridge.core.codes import Code
 
 __all__ = ["Fences", "FramePacer", "is_touched"]
+
+log = logging.getLogger(__name__)
 
 FRAME_PERIOD = 1 / 60
 """Least time between the beginnings of two frames while a hand is at work [s]."""
@@ -29,7 +33,7 @@ CALM_DELAY = 1.0
 MAX_FRAME_PERIOD = 1 / 15
 """Greatest one that is kept for the fingers' sake, or because drawing is slow [s]."""
 FINGER_SHARE = 0.5
-"""Of the time, how much is spent on drawing at most while a finger is down."""
+"""Of the time, how much is spent on drawing at most while a finger is down or a control is pushed."""
 FINGER_PERIOD = 1 / 125
 """Between two looks at the fingers while one is down [s]."""
 SENDING_PAUSE = 0.001
@@ -73,14 +77,16 @@ class FramePacer:
         window: Any,
         fences: Fences | None,
         *,
+        pushed: Callable[[], bool] = lambda: False,
         now: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], object] = time.sleep,
     ) -> None:
         """`window` is Kivy's. Without `fences` a frame is through when it was drawn.
 
+        `pushed` says whether a control is out of its middle, whatever pushes it: the hand on a gamepad is a hand at work.
         `now` is our clock [s], `sleep` lets other threads work for so long [s].
         """
-        self._window, self._fences = window, fences
+        self._window, self._fences, self._pushed = window, fences, pushed
         self._now, self._sleep = now, sleep
         self._begun = -math.inf
         self._cost = 0.0
@@ -173,13 +179,15 @@ class FramePacer:
         self._row = self._row + 1 if other else 0
         if self._row >= JUDGED_FRAMES:
             self.slow, self._row = not self.slow, 0
+            code = Code.DRAWING_SLOW if self.slow else Code.DRAWING_FAST
+            log.warning("%s: %s A frame takes %.3f s.", code, code.meaning, self._cost)
 
     @property
     def _period(self) -> float:
         """Between the beginnings of the last frame and of the next [s]."""
         if self.slow:
             return MAX_FRAME_PERIOD
-        if self.touched:
+        if self.touched or self._pushed():
             return min(max(self._cost / FINGER_SHARE, FRAME_PERIOD), MAX_FRAME_PERIOD)
         return FRAME_PERIOD if self._now() - self._moved_at < CALM_DELAY else CALM_PERIOD
 

@@ -32,13 +32,14 @@ class Timers:
         beat: Callable[[], object],
         refresh_list: Callable[[], object],
         *,
+        pushed: Callable[[], bool],
         poll: bool,
     ) -> None:
-        """`poll` looks for fingers once more a frame, and before it is drawn, and begins a frame when the one before is through.
+        """`pushed` says whether a control is out of its middle. `poll` looks for fingers once more a frame, and before it is drawn, and begins a frame when the one before is through.
 
         It is for desktops: Android's window system paces frames by itself, and this was not tried on a phone.
         """
-        self.pacer = FramePacer(Window, GlFences.of(sdl_library()) if poll else None)
+        self.pacer = FramePacer(Window, GlFences.of(sdl_library()) if poll else None, pushed=pushed)
         self._events = [
             Clock.schedule_interval(lambda _: look(), GLASS_PERIOD),
             Clock.schedule_interval(lambda _: beat(), BEAT_PERIOD),

@@ -298,3 +298,12 @@ class Code(StrEnum):
     CAMERA_UNREADABLE = "camera_unreadable", "The camera's pictures cannot be shown.", "format"
     EQUIPMENT_REFUSED = "equipment_refused", "The robot's own part refuses it."
     ARM_GOAL_MISSING = "arm_goal_missing", "Nothing says where the arm shall go."
+
+    # the handheld
+
+    DRAWING_SLOW = (
+        "drawing_slow",
+        "The handheld draws fewer frames than usual, for each takes it long.",
+        "seconds",
+    )
+    DRAWING_FAST = "drawing_fast", "The handheld draws as many frames as usual again.", "seconds"

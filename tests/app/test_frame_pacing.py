@@ -27,6 +27,7 @@ from app.frame_pacing import (
 from app.link.camera_decoder import PICTURE, Picture
 from app.link.feeds import Post
 from app.screens.shell.standing_banners import SLOW_DRAWING
+from bridge.core.codes import Code
 from bridge.msgs.geometry_msgs import Twist
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass, running
@@ -80,9 +81,11 @@ class Screen:
 
         monkeypatch.setattr(kind, "on_draw", drawn)
         monkeypatch.setattr(kind, "on_flip", lambda _: self.done.append("flip"))
+        self.pushed = False
         self.pacer = FramePacer(
             stage.window,
             fences,
+            pushed=lambda: self.pushed,
             now=stage.time,
             sleep=lambda seconds: self.done.append(f"{seconds * 1e3:g} ms for the others"),
         )
@@ -332,6 +335,39 @@ def test_with_a_finger_down_drawing_takes_half_of_the_time_and_the_glass_goes_on
     made.turns(10)
     finger.touch_down()
     assert made.turns(512, 1 / 512).count("draw") == pytest.approx(1 / 0.07, rel=0.15)
+
+
+@pytest.mark.parametrize(("cost", "drawn"), [(0.0, 60), (0.025, FINGER_SHARE / 0.025)])
+def test_a_hand_on_a_gamepad_is_a_hand_at_work(
+    screen: Callable[..., Screen], stage: Stage, cost: float, drawn: float
+) -> None:
+    made = screen(cost)
+    stage.run_for(CALM_DELAY)
+    assert made.turns(512, 1 / 512).count("draw") <= 33, "nobody is at work"
+    made.pushed = True
+    assert made.turns(512, 1 / 512).count("draw") == pytest.approx(drawn, rel=0.15)
+    made.pushed = False
+    assert made.turns(512, 1 / 512).count("draw") <= 33
+
+
+def test_the_app_tells_it_of_a_control_that_is_pushed(driving: Glass) -> None:
+    pacer, stick = driving.app.timers.pacer, driving.app.screens["drive"].stick
+    assert not pacer._pushed()
+    stick.lean(0.5, 0.0)
+    assert pacer._pushed()
+    stick.rest()
+    assert not pacer._pushed()
+
+
+def test_slow_drawing_and_its_end_are_logged_once_each_by_their_codes(
+    screen: Callable[..., Screen], caplog: pytest.LogCaptureFixture
+) -> None:
+    made = screen(0.055)
+    made.turns(JUDGED_FRAMES * 8)
+    made.gl.cost = 0.01
+    made.turns(1000)
+    told = [record.getMessage().partition(":")[0] for record in caplog.records]
+    assert told == [Code.DRAWING_SLOW, Code.DRAWING_FAST]
 
 
 def test_below_twenty_frames_a_second_it_is_slow_and_draws_fifteen(screen: Callable[..., Screen]) -> None:
