@@ -26,6 +26,7 @@ from robotside.core.config import BadConfig, Config
 from robotside.core.robot import Robot
 from robotside.core.worker_thread import WorkerThread
 from robotside.foreign.foreign_robot import ForeignRobot
+from robotside.gateway_options import for_robot
 from robotside.kinds.registry import kind_of
 from robotside.options import One, UserMistake
 from robotside.records.landmarks import take_over
@@ -138,15 +139,20 @@ class _Fleet:
         )
         take_over(robot, records, station.events.say)
         addresses = Addresses(self._options.host, *ports)
-        keys = StationKeys(
-            state,
+        return StationServer(
             station,
-            self._certificate or _own_certificate(state),
-            config.trust,
-            plain=Role.read(self._options.plain) if self._options.plain else None,
+            self._clock,
+            self._wall,
+            addresses,
+            keys=self._keys(state, station, config),
+            origins=self._options.allow_origin,
+            gateways=for_robot(self._options.gateways, number),
         )
-        origins = self._options.allow_origin
-        return StationServer(station, self._clock, self._wall, addresses, keys=keys, origins=origins)
+
+    def _keys(self, state: Path, station: Station, config: Config) -> StationKeys:
+        plain = Role.read(self._options.plain) if self._options.plain else None
+        certificate = self._certificate or _own_certificate(state)
+        return StationKeys(state, station, certificate, config.trust, plain=plain)
 
     def _say_ready(self, serving: StationServer) -> None:
         if self._options.plain:
@@ -182,6 +188,11 @@ def _show_offer(serving: StationServer, offer: Offer) -> None:
 def _say_ready(serving: StationServer) -> None:
     where, name = serving.addresses, serving.station.info.name
     print(f"robotside: ready bridge={where.bridge} http={where.http} robot={name}", flush=True)
+    for protocol, url in serving.gateways.endpoints.items():
+        print(f"robotside: gateway {protocol}={url}", flush=True)
+    guide = serving.gateways.guide()
+    if guide:
+        print(f"\n{guide}\n", flush=True)
 
 
 def _robots(options: argparse.Namespace, ones: Sequence[One]) -> tuple[Sequence[Robot], str]:

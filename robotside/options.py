@@ -18,6 +18,8 @@ from robotside.commands import audit, erase, pair, people, token
 from robotside.commands.state_directory import base
 from robotside.commands.user_mistake import UserMistake
 from robotside.core.config import DEFAULT_CONFIG, Config, load
+from robotside.gateway_options import add_options as add_gateways
+from robotside.gateway_options import wishes
 from robotside.gateways.addresses import is_here
 from robotside.trust.people_file import PeopleFile, Unkept
 
@@ -121,7 +123,7 @@ def _add_serve(serve: argparse.ArgumentParser) -> None:
 
 def _add_more(serve: argparse.ArgumentParser) -> None:
     add = serve.add_argument
-    add("--protocols", default="", help="rosbridge and http; both always run")
+    add_gateways(serve)
     add("--seed", type=int, default=0, help="seed of the random numbers of simulation and patrol")
     add("--speed", type=float, default=1.0, help="simulated seconds per second; commands expire in real time")
     add(
@@ -187,9 +189,7 @@ def _check(options: argparse.Namespace) -> None:
                 raise UserMistake(f"--{option} is for simulated robots only.")
     if options.gui and not os.environ.get("DISPLAY"):
         raise UserMistake("--gui needs a display, and DISPLAY is not set.")
-    unknown = set(filter(None, options.protocols.split(","))) - {"rosbridge", "http"}
-    if unknown:
-        raise UserMistake(f"There is no protocol {', '.join(sorted(unknown))}; there are rosbridge and http.")
+    options.gateways = wishes(options)
 
 
 def _check_trust(options: argparse.Namespace) -> None:

@@ -212,6 +212,7 @@ def test_the_widgets_of_the_documentation_are_a_program_of_the_examples():
 NAMED_OTHERWISE = {
     "hibari": "hibari-tts",
     "PIL": "pillow",
+    "paho": "paho-mqtt",
     "kivy_garden": "kivy-garden.mapview",
     "pybullet_data": "pybullet",
 }
@@ -224,7 +225,7 @@ WHO_INSTALLS = {
 }
 
 
-ALSO = {"app": ("voice", "vosk", "espeak")}
+ALSO = {"app": ("voice", "vosk", "espeak"), "robotside": ("gateways",)}
 """Extras that a folder makes use of where they are installed."""
 
 

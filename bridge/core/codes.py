@@ -66,6 +66,26 @@ class Code(StrEnum):
     PAIRING_OPENED = "pairing_opened", "Pairing is open for somebody.", "role"
     TRUST_PLAIN = "trust_plain", "Everybody in the network is let in without a key.", "role"
 
+    # gateways
+
+    GATEWAY_UP = "gateway_up", "The gateway reaches its broker.", "gateway"
+    GATEWAY_LOST = (
+        "gateway_lost",
+        "The gateway does not reach its broker and tries again.",
+        "gateway",
+        "reason",
+    )
+    GATEWAY_OPEN = (
+        "gateway_open",
+        "Everybody who reaches the gateway has a role without a key.",
+        "gateway",
+        "role",
+    )
+    GATEWAY_UNDATED = "gateway_undated", "Nothing says how old the command is.", "operation"
+    GATEWAY_RETAINED = "gateway_retained", "A command is not kept by a broker for later.", "operation"
+    GATEWAY_FULL = "gateway_full", "Too many clients use the gateway.", "max"
+    GATEWAY_LEFT_OUT = "gateway_left_out", "The gateway does not carry that.", "operation"
+
     # control
 
     CONTROL_TAKEN = "control_taken", "The actor has control.", "name"

@@ -10,7 +10,7 @@ from typing import Any
 
 from bridge.codec import shown
 from bridge.core.errors import BridgeError, Refused
-from bridge.core.identity import STRANGER
+from bridge.core.identity import STRANGER, Role
 from bridge.core.robot_catalogue import Action, Operator, Service
 from bridge.core.robot_door import Callback
 from bridge.core.topics import TOPICS, Topic
@@ -18,7 +18,7 @@ from bridge.msgs import Msg
 from robotside.core.bus import Bus
 from robotside.core.topic_demand import Demand
 from robotside.door.calls_in_progress import CallsInProgress
-from robotside.door.gate import OPEN, Gate, check_role
+from robotside.door.gate import OPEN, Gate, check_role, who_comes
 from robotside.services.audit_trail import AuditTrail
 
 __all__ = ["URGENT", "Door"]
@@ -58,8 +58,7 @@ class Door:
 
         `on_message(operator, topic, msg, stamp)` takes what operators publish, `on_demand(topic, wanted)` is called when
         the first asker comes who wants a topic and when the last one left, `on_gone(operator)` when an operator left.
-        `gate` knows who may do what; without one everybody may do everything. What is refused
-        at the door is recorded in `trail`.
+        `gate` knows who may do what; without one everybody may do everything. What is refused at the door is recorded in `trail`.
         """
         self.services = {service.name: service for service in services}
         """By absolute name."""
@@ -71,8 +70,7 @@ class Door:
         self.now = now
         """The operators' clock [s]."""
         self._on_message, self._on_gone = on_message, on_gone
-        self._bus = bus or Bus()
-        self._gate, self._trail = gate, trail
+        self._bus, self._gate, self._trail = bus or Bus(), gate, trail
         self._demand = Demand(on_demand)
         self._numbers = itertools.count(1)
         self._operators: set[Operator] = set()
@@ -104,24 +102,31 @@ class Door:
         return known
 
     def join(
-        self, address: str, *, way: str = "", secure: bool = False, token: str = "", trusted: bool = True
+        self,
+        address: str,
+        *,
+        way: str = "",
+        secure: bool = False,
+        token: str = "",
+        trusted: bool = True,
+        role: Role | None = None,
     ) -> Operator:
         """A client came from `address`, `HOST:PORT`; the operator that it is from now on, with an id that no other has.
 
-        It came by the gateway `way`, over TLS when `secure`, and showed `token`, empty for none. One that is not `trusted`
-        never counts as a program of this machine: a web page may have opened it. Raises Refused for a wrong token.
+        It came by the gateway `way`, over TLS when `secure`, and showed `token`, empty for none. One that is not `trusted` never
+        counts as a program of this machine: a web page may have opened it. `role` is that of everybody who comes that way
+        without a token, None where the address decides. Raises Refused for a wrong token.
         """
         try:
-            known = self._gate.identify(token, address) if token else None
+            identity = who_comes(self._gate, address, token, trusted=trusted, role=role)
         except Refused as refusal:
             if self._trail:
                 self._trail.unknown(address, way, refusal)
             raise
-        identity = known or self._gate.admit(address, trusted=trusted)
         number = str(next(self._numbers))
         operator = Operator(number, address, self.now(), identity=identity, way=way, secure=secure)
         self._operators.add(operator)
-        if known and self._trail:
+        if token and self._trail:
             self._trail.did(operator, "auth")
         return operator
 

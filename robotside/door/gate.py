@@ -11,7 +11,7 @@ from bridge.core.robot_catalogue import Operator
 from robotside.core.notice import Notice
 from robotside.trust.permissions import needed_role
 
-__all__ = ["OPEN", "Gate", "check_role"]
+__all__ = ["OPEN", "Gate", "check_role", "who_comes"]
 
 
 class Gate(Protocol):
@@ -45,6 +45,16 @@ class _Open:
 
 OPEN: Gate = _Open()
 """The gate of a robot that only this process reaches."""
+
+
+def who_comes(gate: Gate, address: str, token: str, *, trusted: bool, role: Role | None) -> Identity:
+    """Who a client is: by its token, else with the `role` that everybody has who comes its way, None where its address decides.
+
+    Raises Refused for a wrong token.
+    """
+    if token:
+        return gate.identify(token, address)
+    return gate.admit(address, trusted=trusted) if role is None else Identity("", "", role)
 
 
 def check_role(gate: Gate, operator: Operator, now: float, verb: str, name: str) -> None:

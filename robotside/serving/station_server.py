@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import AsyncIterator, Callable, Iterable, Mapping
 from contextlib import AsyncExitStack, asynccontextmanager
+from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
 from bridge.discovery.beacon import Beacon, Hello
@@ -11,13 +12,18 @@ from bridge.server.reception.pages import PagePolicy
 from bridge.server.reception.reception import anyone
 from robotside.core.clock import RobotClock
 from robotside.door.station_door import StationDoor
+from robotside.gateways.adapter import Adapter, Surroundings
 from robotside.gateways.gateway import Gateway
 from robotside.gateways.http.gateway import HttpGateway
 from robotside.gateways.rosbridge.gateway import RosbridgeGateway
 from robotside.gateways.scaling.picture_scaling import PictureScaler
 from robotside.serving.fleet_server import FleetServer, RunningServer
+from robotside.serving.gateway_owner import GatewayOwner
 from robotside.serving.station_keys import StationKeys
 from robotside.station.station import Station
+
+if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load it
+    from robotside.gateways.gateway_url import GatewayUrl
 
 __all__ = ["Addresses", "StationServer"]
 
@@ -52,10 +58,12 @@ class StationServer:
         keys: StationKeys | None = None,
         origins: Iterable[str] = (),
         wanted: Callable[[], bool] = lambda: True,
+        gateways: Iterable[tuple[Adapter, GatewayUrl]] = (),
     ) -> None:
         """`keys` know who may do what; without them everybody may do everything, and nothing is encrypted.
 
         Web pages of `origins`, beside its own, may speak to it. `wanted` is asked once a second and ends the serving when it says no.
+        `gateways` are brought up beside rosbridge and HTTP.
         """
         self.addresses = addresses
         self.station = station
@@ -66,12 +74,11 @@ class StationServer:
         """The door that all its gateways stand behind."""
         self._alone = FleetServer([self], clock, wall, wanted=wanted)
         self._pictures = PictureScaler()
-        host = addresses.host
         tls, plain_from = (keys.context, keys.plain_from) if keys else (None, anyone)
         pages = PagePolicy(origins, keys.names if keys else (), web_port=lambda: self._http.port)
         self._rosbridge = RosbridgeGateway(
             self.door,
-            host,
+            addresses.host,
             addresses.port,
             self._pictures,
             clock.real,
@@ -81,20 +88,28 @@ class StationServer:
         )
         self.server = self._rosbridge.server
         """The rosbridge server."""
-        self._http = HttpGateway(
+        around = Surroundings(self.door, station.events.say, tls=tls, plain_from=plain_from, pages=pages)
+        self._http = self._web_site(around)
+        self._gateways: tuple[Gateway, ...] = (self._http, self._rosbridge)
+        """In the order in which they start."""
+        self._wished = tuple(gateways)
+        self.gateways = GatewayOwner(around)
+        """The gateways beside those two, which come and go while it runs."""
+
+    def _web_site(self, around: Surroundings) -> HttpGateway:
+        keys, addresses = self.keys, self.addresses
+        return HttpGateway(
             self.door,
-            host,
+            addresses.host,
             addresses.http_port,
             self._pictures,
             lambda: addresses.bridge,
-            tls=tls,
-            plain_from=plain_from,
-            pages=pages,
+            tls=around.tls,
+            plain_from=around.plain_from,
+            pages=around.pages,
             stop_from_pages=keys.stop_from_pages if keys else True,
             pairing=keys.pairing if keys else None,
         )
-        self._gateways: tuple[Gateway, ...] = (self._http, self._rosbridge)
-        """In the order in which they start."""
 
     def _door(self) -> StationDoor:
         if self.keys is None:
@@ -122,12 +137,15 @@ class StationServer:
             opened.push_async_callback(self._pictures.close)
             for gateway in self._gateways:
                 opened.push_async_callback(gateway.stop)
+            opened.push_async_callback(self.gateways.close)
             opened.callback(self.station.robot.stop)  # before all else
             endpoints: dict[str, str] = {}
             for gateway in self._gateways:
                 await gateway.start()
                 endpoints.update(gateway.endpoints())
             self.addresses.note(endpoints)
+            for adapter, url in self._wished:
+                await self.gateways.bring_up(adapter, url)
             beacon = Beacon(self._hello, host=self.addresses.host)
             if self.keys is None:
                 yield RunningServer((beacon.run,), beacon.close)

@@ -1,0 +1,60 @@
+"""The form of an adapter: a gateway that a user asks for by name, and what it is given of its robot."""
+
+from __future__ import annotations
+
+import ssl
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+from bridge.server.reception.pages import PagePolicy
+from robotside.door.station_door import StationDoor
+from robotside.gateways.gateway import Gateway
+from robotside.records.events import Say
+
+if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load it
+    from robotside.gateways.gateway_url import GatewayUrl
+
+__all__ = ["Adapter", "AdapterGateway", "Surroundings"]
+
+
+class AdapterGateway(Gateway, Protocol):
+    """A gateway that tells how it is used."""
+
+    def guide(self) -> str:
+        """How a client uses it now, with examples that can be pasted; known once started."""
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What a gateway is given of its robot."""
+
+    door: StationDoor
+    say: Say
+    """Writes an event."""
+    tls: ssl.SSLContext | None = None
+    """With which clients may come encrypted to a socket that listens."""
+    plain_from: Callable[[str], bool] = lambda _: True
+    """Whether a client from a host may come without TLS."""
+    pages: PagePolicy | None = None
+    """The web pages that may connect; None for none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Adapter:
+    """One protocol that a user can ask for."""
+
+    name: str
+    """As the user writes it; the name of its folder."""
+    doc: str
+    """What it is, in a few words."""
+    schemes: Mapping[str, int]
+    """The schemes of its URLs, with the port of each where none is given."""
+    default: str
+    """The URL that counts where the user gives none."""
+    package: str
+    """The library that must be installed, empty for none."""
+    make: Callable[[Surroundings, GatewayUrl], AdapterGateway]
+    """Makes the gateway, which imports its library."""
+    listens: bool = False
+    """It listens at its URL; otherwise it goes there, to a broker."""

@@ -1,0 +1,263 @@
+"""One connection to a broker that comes back by itself: a queue of its own, and nothing from before it was made."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import math
+import secrets
+import socket
+import ssl
+from collections import deque
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterable
+from contextlib import asynccontextmanager, suppress
+from typing import NamedTuple
+
+import aiomqtt
+from paho.mqtt.packettypes import PacketTypes
+from paho.mqtt.properties import Properties
+from paho.mqtt.subscribeoptions import SubscribeOptions
+
+from bridge.core.async_tasks import cancel_all
+from robotside.gateways.gateway_url import GatewayUrl
+
+__all__ = ["BrokerLine", "Heard", "Reply"]
+
+log = logging.getLogger(__name__)
+
+KEEPALIVE = 2
+"""Between two signs of life [s]; a broker gives up after one and a half of it, and publishes the last will."""
+CONNECT_TIMEOUT = 5.0
+"""For one answer of the broker [s]."""
+MIN_BACKOFF, MAX_BACKOFF = 0.25, 5.0
+"""Between two tries to connect [s]; it doubles from one to the next."""
+STALL_PERIOD, STALL_TIMEOUT = 0.25, 1.0
+"""The loop is looked at so often [s]; when it stood still for longer than that [s], what waited meanwhile is too old."""
+MAX_IN = 1024
+"""Messages that wait to be handled; more are dropped."""
+MAX_REPLIES = 256
+"""Answers that wait to be sent; beyond them the oldest are dropped."""
+
+
+class Heard(NamedTuple):
+    """A message that a client published."""
+
+    topic: str
+    payload: bytes
+    retained: bool
+    """It was published to be kept."""
+    expiry: float
+    """How long it was still good for when the broker passed it on [s]; infinite without an expiry."""
+    wish: str
+    """Where an answer is wanted; empty when nothing was said."""
+    correlation: bytes | None
+    """To be repeated in the answer."""
+    properties: dict[str, str]
+    """The sender's own, each once."""
+
+
+class Reply(NamedTuple):
+    """An answer to a client."""
+
+    topic: str
+    payload: bytes
+    correlation: bytes | None
+
+
+class BrokerLine:
+    """Connects, subscribes, and does it again whenever that ends; owns its tasks."""
+
+    def __init__(
+        self,
+        url: GatewayUrl,
+        subscriptions: Iterable[str],
+        on_message: Callable[[Heard], None],
+        *,
+        will: tuple[str, bytes] | None = None,
+        on_up: Callable[[], Awaitable[None]] | None = None,
+        on_down: Callable[[str], None] | None = None,
+        drops_stale: bool = True,
+    ) -> None:
+        """`on_up()` is awaited after each connection, `on_down(reason)` called whenever it is lost, or not to be had.
+
+        `will` is the topic and retained message that the broker publishes when this end is gone without a word. With
+        `drops_stale` a line whose program stood still connects anew instead of hearing what waited.
+        """
+        self._url, self._subscriptions, self._on_message = url, tuple(subscriptions), on_message
+        self._will, self._on_up, self._on_down = will, on_up, on_down
+        self._drops_stale = drops_stale
+        self._client: aiomqtt.Client | None = None
+        self._replies: deque[Reply] = deque(maxlen=MAX_REPLIES)
+        self._wake = asyncio.Event()
+        self._beat = math.inf
+        self._stalled = False
+
+    @property
+    def is_up(self) -> bool:
+        """It is connected and subscribed."""
+        return self._client is not None
+
+    async def run(self) -> None:
+        """Keep the line up until cancelled."""
+        backoff = MIN_BACKOFF
+        while True:
+            try:
+                await self._connect()
+                reason, backoff = "its program stood still", MIN_BACKOFF
+            except Exception as error:  # whatever it is, the robot goes on and the broker is tried again
+                if not isinstance(error, aiomqtt.MqttError):
+                    log.exception("The connection to the MQTT broker failed")
+                backoff = MIN_BACKOFF if self.is_up else min(2 * backoff, MAX_BACKOFF)
+                reason = _reason(error)
+            finally:
+                self._client = None
+                self._replies.clear()
+            if self._on_down is not None:
+                self._on_down(reason)
+            await asyncio.sleep(backoff)
+
+    def reply(self, reply: Reply) -> None:
+        """Send an answer as soon as that can be; it is dropped when the line is lost before."""
+        if self.is_up:
+            self._replies.append(reply)
+            self._wake.set()
+
+    async def publish(
+        self,
+        topic: str,
+        payload: bytes,
+        *,
+        retain: bool = False,
+        qos: int = 0,
+        timeout: float = CONNECT_TIMEOUT,
+    ) -> None:
+        """Publish a message; with `qos` 1 it waits for the broker, `timeout` [s] at most. Dropped without a connection."""
+        client = self._client
+        if client is not None:
+            with suppress(aiomqtt.MqttError):  # the line's own task learns of it too
+                await client.publish(topic, payload, qos=qos, retain=retain, timeout=timeout)
+
+    async def _connect(self) -> None:
+        """One connection from its beginning to its end; returns when what waits is too old to be heard."""
+        async with _opened(self._new_client()) as client:
+            for each in self._subscriptions:
+                options = SubscribeOptions(
+                    qos=1,
+                    noLocal=True,
+                    retainAsPublished=True,
+                    retainHandling=SubscribeOptions.RETAIN_DO_NOT_SEND,
+                )
+                await client.subscribe(each, options=options)
+            self._client, self._stalled = client, False
+            self._beat = asyncio.get_running_loop().time()
+            helpers = [
+                asyncio.create_task(self._watch_loop()),
+                asyncio.create_task(self._send_replies(client)),
+            ]
+            try:
+                if self._on_up is not None:
+                    await self._on_up()
+                async for message in client.messages:
+                    if self._is_stale():
+                        return
+                    self._handle(message)
+            finally:
+                await cancel_all(helpers)
+
+    def _new_client(self) -> aiomqtt.Client:
+        url, tls = self._url, ssl.create_default_context() if self._url.scheme == "mqtts" else None
+        will = aiomqtt.Will(self._will[0], self._will[1], qos=1, retain=True) if self._will else None
+        return aiomqtt.Client(
+            url.host,
+            url.port,
+            username=url.user or None,
+            password=url.password or None,
+            identifier=f"pilothouse-{secrets.token_hex(6)}",
+            protocol=aiomqtt.ProtocolVersion.V5,
+            will=will,
+            clean_start=True,
+            keepalive=KEEPALIVE,
+            timeout=CONNECT_TIMEOUT,
+            max_queued_incoming_messages=MAX_IN,
+            tls_context=tls,
+            # without it an answer waits for the broker's acknowledgement of what went before
+            socket_options=[(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)],
+            logger=_quiet_log(),
+        )
+
+    async def _watch_loop(self) -> None:
+        """Notice that this process stood still."""
+        loop = asyncio.get_running_loop()
+        while True:
+            await asyncio.sleep(STALL_PERIOD)
+            self._stalled = self._stalled or self._is_late()
+            self._beat = loop.time()
+
+    def _is_late(self) -> bool:
+        return asyncio.get_running_loop().time() - self._beat > STALL_PERIOD + STALL_TIMEOUT
+
+    def _is_stale(self) -> bool:
+        return self._drops_stale and (self._stalled or self._is_late())
+
+    async def _send_replies(self, client: aiomqtt.Client) -> None:
+        while True:
+            await self._wake.wait()
+            self._wake.clear()
+            while self._replies:
+                reply = self._replies.popleft()
+                properties = Properties(PacketTypes.PUBLISH)  # type: ignore[no-untyped-call]
+                if reply.correlation is not None:
+                    properties.CorrelationData = reply.correlation
+                with suppress(aiomqtt.MqttError):
+                    await client.publish(reply.topic, reply.payload, qos=0, properties=properties)
+
+    def _handle(self, message: aiomqtt.Message) -> None:
+        try:
+            self._on_message(_heard(message))
+        except Exception:
+            log.exception("A message on %s failed", message.topic)
+
+
+@asynccontextmanager
+async def _opened(client: aiomqtt.Client) -> AsyncIterator[aiomqtt.Client]:
+    """The client, connected for as long as this is open. A thread connects: given up meanwhile, it is waited for and closed."""
+    opening = asyncio.ensure_future(client.__aenter__())
+    try:
+        await asyncio.shield(opening)
+    except asyncio.CancelledError:
+        with suppress(aiomqtt.MqttError):
+            await opening
+            await client.__aexit__(None, None, None)
+        raise
+    try:
+        yield client
+    finally:
+        with suppress(aiomqtt.MqttError):  # it is gone already
+            await client.__aexit__(None, None, None)
+
+
+def _heard(message: aiomqtt.Message) -> Heard:
+    said = message.properties
+    payload = message.payload
+    return Heard(
+        str(message.topic),
+        bytes(payload) if isinstance(payload, bytes | bytearray) else str(payload).encode(),
+        message.retain,
+        getattr(said, "MessageExpiryInterval", math.inf),
+        getattr(said, "ResponseTopic", ""),
+        getattr(said, "CorrelationData", None),
+        dict(getattr(said, "UserProperty", ())),
+    )
+
+
+def _reason(error: Exception) -> str:
+    """Why there is no connection, as part of a sentence."""
+    text = str(error.__cause__ or error).strip() or "it does not answer"
+    return text.removeprefix("[code:").rstrip(".")[:200]
+
+
+def _quiet_log() -> logging.Logger:
+    """The library's log, without what is normal for a broker that comes and goes."""
+    quiet = logging.getLogger("robotside.gateways.mqtt.library")
+    quiet.setLevel(logging.CRITICAL)
+    return quiet

@@ -1,0 +1,85 @@
+"""Names of MQTT topics: where a robot publishes, and what a client's topic asks for.
+
+    PREFIX/ROBOT/state                          online, offline, or lost by the last will; retained
+    PREFIX/ROBOT/guide                          how it is used; retained
+    PREFIX/ROBOT/topics/NAME                    the robot's topic /NAME
+    PREFIX/ROBOT/clients/CLIENT/publish/NAME    CLIENT publishes on the robot's topic /NAME
+    PREFIX/ROBOT/clients/CLIENT/call/NAME       CLIENT calls the service /NAME
+    PREFIX/ROBOT/clients/CLIENT/answer/NAME     the answer
+    PREFIX/ROBOT/clients/CLIENT/bye             CLIENT is gone; meant as its last will
+
+A broker that lets each user write below `clients/USER` alone proves who is behind each name.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+__all__ = ["BYE", "CALL", "PREFIX", "PUBLISH", "Asked", "TopicNames"]
+
+PREFIX = "pilothouse"
+"""Where the URL of the gateway names no other."""
+PUBLISH, CALL, BYE = "publish", "call", "bye"
+MAX_CLIENT_NAME = 64
+"""Characters of a client's name."""
+
+
+class Asked(NamedTuple):
+    """What a client's topic asks for."""
+
+    client: str
+    verb: str
+    """`PUBLISH`, `CALL` or `BYE`."""
+    name: str
+    """Absolute name of the topic or service; empty for `BYE`."""
+
+
+class TopicNames:
+    """The topics of one robot at one broker."""
+
+    def __init__(self, prefix: str, robot: str) -> None:
+        """`robot` is its name for people, of which what MQTT cannot have in a name becomes a hyphen."""
+        name = re.sub(r"[^\w.-]+", "-", robot).strip("-")
+        self.root = f"{prefix or PREFIX}/{name or 'robot'}"
+        self.state = f"{self.root}/state"
+        self.guide = f"{self.root}/guide"
+        self._clients = f"{self.root}/clients/"
+
+    def topic(self, name: str) -> str:
+        """Where the robot's topic `name` is published."""
+        return f"{self.root}/topics{name}"
+
+    def command(self, client: str, verb: str, name: str = "") -> str:
+        """Where `client` asks for something."""
+        return f"{self._clients}{client}/{verb}{name}"
+
+    def answer(self, client: str, name: str, wish: str = "") -> str:
+        """Where `client` is answered about `name`: at its own `wish` when that is below its own answers."""
+        own = f"{self._clients}{client}/answer"
+        # another topic may be one that the robot may write and the client may not
+        if (wish == own or wish.startswith(f"{own}/")) and not re.search(r"[+#\0]", wish):
+            return wish
+        return own + name
+
+    @property
+    def commands(self) -> tuple[str, ...]:
+        """What the robot subscribes to for commands."""
+        return tuple(f"{self._clients}+/{verb}" for verb in (f"{PUBLISH}/#", f"{CALL}/#", BYE))
+
+    @property
+    def stop(self) -> tuple[str, ...]:
+        """What it subscribes to for STOP alone."""
+        return (f"{self._clients}+/{CALL}/stop",)
+
+    def read(self, topic: str) -> Asked | None:
+        """What a topic asks for; None when it is no command, or its client's name is too long or cannot be shown."""
+        if not topic.startswith(self._clients):
+            return None
+        client, _, rest = topic[len(self._clients) :].partition("/")
+        verb, _, name = rest.partition("/")
+        if not client or len(client) > MAX_CLIENT_NAME or not client.isprintable():
+            return None
+        if (verb, name) == (BYE, ""):
+            return Asked(client, BYE, "")
+        return Asked(client, verb, f"/{name}") if verb in (PUBLISH, CALL) and name else None

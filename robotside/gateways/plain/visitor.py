@@ -1,0 +1,147 @@
+"""One client that speaks plain JSON: its messages and calls through the robot's door, and its answers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Awaitable, Collection
+
+import msgspec
+from msgspec.structs import replace
+
+from bridge.codec import from_builtins, to_json
+from bridge.core.codes import Code
+from bridge.core.errors import BridgeError, ProtocolError, Refused
+from bridge.core.robot_catalogue import Operator
+from bridge.msgs import Msg
+from bridge.msgs.pilothouse_msgs import CommandRequest
+from bridge.msgs.rosapi_msgs import GetTimeResponse
+from bridge.msgs.std_msgs import Time
+from robotside.control.command_expiry import MAX_CLOCK_LEAD
+from robotside.core.notice import Notice
+from robotside.core.text import number
+from robotside.door.station_door import StationDoor
+from robotside.gateways.payloads.table import key_of
+from robotside.gateways.plain.strict_json import decode, read_message
+
+__all__ = ["STOP", "TIME", "VALID_TIME", "Visitor", "refusal"]
+
+VALID_TIME = 5.0
+"""A message that is sent once counts for so long after its stamp [s], as a call does unless it says otherwise."""
+
+STOP = "/stop"
+TIME = "/rosapi/get_time"
+"""Its answer is the operators' clock, by which a client stamps its commands."""
+
+
+def refusal(error: BridgeError) -> bytes:
+    """The answer that says why something is not done: `success` false, a sentence, and its code where it has one."""
+    said = error.args[0] if error.args else ""
+    code = said.code if isinstance(said, Notice) else ""
+    return msgspec.json.encode({"success": False, "message": str(error), "code": code})
+
+
+class Visitor:
+    """A client with an operator of its own at the door."""
+
+    def __init__(self, door: StationDoor, operator: Operator, keys: Collection[str], name: str = "") -> None:
+        """It reaches the payloads `keys`. `name` is how it calls itself where nothing else says it."""
+        self.operator = operator
+        self.name = name
+        self._door, self._keys = door, keys
+
+    def heard(self) -> None:
+        """A message of it came."""
+        self.operator.last_heard = self._door.now()
+
+    def publish(self, topic: str, raw: bytes, stamp: float = math.nan, *, dated: bool = True) -> None:
+        """Give a message to the robot, meant at `stamp` [s, operators' clock]; raises BridgeError for what it does not take.
+
+        What is sent once, such as a goal, must be as fresh as a call; of a stream the robot judges each message by itself.
+        """
+        self._check_carried(topic)
+        self._door.check_listens(topic)
+        known = self._door.topics[topic]
+        msg = read_message(decode(raw), known.type)
+        if not known.rate:
+            self._check_fresh(topic, stamp, dated=dated)
+        self._door.publish(self.operator, topic, msg, None if math.isnan(stamp) else stamp)
+
+    def call(
+        self, service: str, raw: bytes, stamp: float = math.nan, *, dated: bool = True
+    ) -> bytes | Awaitable[bytes]:
+        """The answer of a service, at once where it can be had at once; a refusal is an answer too.
+
+        A request without a stamp has `stamp` [s, operators' clock]. Where nothing else says that the call is fresh (`dated`
+        False), one without any stamp is refused. STOP is pressed whatever the message says, or fails to say.
+        """
+        try:
+            if service == TIME:
+                return self._time()
+            self._check_carried(service)
+            request = self._request(service, raw, stamp, dated=dated)
+            answer = self._door.call(self.operator, service, request)
+        except BridgeError as error:
+            return refusal(error)
+        return to_json(answer) if isinstance(answer, Msg) else _later(answer)
+
+    def _request(self, service: str, raw: bytes, stamp: float, *, dated: bool) -> Msg:
+        known = self._door.service(service).request
+        if service == STOP:
+            return self._named(_any_request(raw, known))
+        request = read_message(decode(raw), known)
+        if not isinstance(request, CommandRequest):
+            return request
+        if math.isnan(request.stamp):
+            request = replace(request, stamp=stamp)
+        if math.isnan(request.stamp):  # of one with a stamp the service judges
+            self._check_fresh(service, math.nan, dated=dated)
+        return self._named(request)
+
+    def _check_fresh(self, name: str, stamp: float, *, dated: bool) -> None:
+        """Raises Refused for a command that is older than `VALID_TIME` by its stamp, or may be where nothing says it is not."""
+        if math.isnan(stamp):
+            if not dated:
+                said = f"{name} is not done: nothing says how old it is. Give a stamp, or an expiry of the message."
+                raise Refused(Notice(Code.GATEWAY_UNDATED, said, operation=name))
+            return
+        age = self._door.now() - stamp
+        if age > VALID_TIME:
+            late = f"{name} is too old: given {number(age)} s ago, valid for {number(VALID_TIME)} s."
+            raise Refused(Notice(Code.COMMAND_LATE, late, age=age, allowed=VALID_TIME))
+        if age < -MAX_CLOCK_LEAD:
+            ahead = f"{name} is not done: its clock is {number(-age)} s ahead of the robot's."
+            raise Refused(Notice(Code.COMMAND_AHEAD, ahead, seconds=-age, allowed=MAX_CLOCK_LEAD))
+
+    def _named(self, request: Msg) -> Msg:
+        """The request with the client's own name and id, where it gives none."""
+        if not isinstance(request, CommandRequest) or not self.name:
+            return request
+        own = f"{self.operator.way}:{self.name}"
+        return replace(
+            request, client_id=request.client_id or own, client_name=request.client_name or self.name
+        )
+
+    def _time(self) -> bytes:
+        self._door.check(self.operator, "rosapi", TIME)
+        self.operator.asked_time = True
+        return to_json(GetTimeResponse(Time.at(self._door.now())))
+
+    def _check_carried(self, name: str) -> None:
+        if key_of(name) not in self._keys:
+            said = f"This gateway does not carry {name[:100]}."
+            raise Refused(Notice(Code.GATEWAY_LEFT_OUT, said, operation=name[:100]))
+
+
+def _any_request(raw: bytes, known: type[Msg]) -> Msg:
+    """What can be read of a STOP; an empty request when nothing can."""
+    try:
+        return from_builtins(decode(raw), known)
+    except ProtocolError:
+        return known()
+
+
+async def _later(answer: Awaitable[Msg]) -> bytes:
+    try:
+        return to_json(await answer)
+    except BridgeError as error:
+        return refusal(error)

@@ -1,0 +1,453 @@
+"""The MQTT gateway at a real broker: STOP first, then who may do what, what is too old, and a broker that comes and goes."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import socket
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+from typing import Any
+
+import aiomqtt
+import pytest
+from paho.mqtt.packettypes import PacketTypes
+from paho.mqtt.properties import Properties
+
+from bridge.core.codes import Code
+from bridge.core.identity import Role
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import Event
+from robotside.core.config import TrustSettings
+from robotside.door.station_door import StationDoor
+from robotside.gateways.adapter import Surroundings
+from robotside.gateways.gateway_url import read_url
+from robotside.gateways.mqtt.gateway import MqttGateway
+from robotside.trust.people import TOKEN
+from robotside.trust.people_file import PeopleFile
+from robotside.trust.trust import Trust
+from tests.fakes import FakeRobot
+from tests.lacking import lacking
+from tests.looped import looped
+from tests.robotside.gateways.mqtt.broker import MOSQUITTO, Broker
+from tests.robotside.scene import Scene
+
+ROOT = "pilothouse/Fake-1"
+AHEAD = {"linear": {"x": 0.2}}
+FRESH = 2
+"""Expiry of a command [s]."""
+
+
+@pytest.fixture
+def broker(tmp_path: Path) -> Iterator[Broker]:
+    made = Broker(tmp_path)
+    yield made
+    made.thaw()
+    made.kill()
+
+
+@pytest.fixture(autouse=True)
+async def no_pool_left() -> AsyncIterator[None]:
+    """End the threads of the loop's own pool, in which connections are made."""
+    yield
+    await asyncio.get_running_loop().shutdown_default_executor()
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Scene:
+    made = Scene(FakeRobot(), tmp_path)
+    made.run(1.0)
+    return made
+
+
+@asynccontextmanager
+async def serving(
+    scene: Scene, url: str, options: str = "role=drive", door: StationDoor | None = None
+) -> AsyncIterator[MqttGateway]:
+    say = scene.station.events.say
+    address = read_url(f"{url}?{options}", {"mqtt": 1883})
+    gateway = MqttGateway(Surroundings(door or scene.door, say), address)
+    async with asyncio.timeout(60):
+        await gateway.start()
+        try:
+            yield gateway
+        finally:
+            await gateway.stop()
+
+
+async def until(so: Callable[[], object]) -> None:
+    """Wait until it is so; the test's own time-out ends what never is."""
+    while not so():  # noqa: ASYNC110 - what is waited for is no event
+        await asyncio.sleep(0.005)
+
+
+class Client:
+    """Another program at the broker."""
+
+    def __init__(self, mqtt: aiomqtt.Client, name: str) -> None:
+        self.mqtt, self.name = mqtt, name
+        self.heard: dict[str, list[Any]] = {}
+        """Messages by topic."""
+        self._listening = asyncio.create_task(self._listen())
+
+    async def _listen(self) -> None:
+        async for message in self.mqtt.messages:
+            topic, text = str(message.topic), bytes(message.payload).decode(errors="replace")
+            is_own = f"/clients/{self.name}/" in topic and "/answer" not in topic
+            kept = json.loads(text) if text.startswith("{") and not is_own else text
+            self.heard.setdefault(topic, []).append(kept)
+
+    async def send(
+        self,
+        what: str,
+        message: object = None,
+        *,
+        expiry: int | None = None,
+        retain: bool = False,
+        wish: str = "",
+        **properties: str,
+    ) -> None:
+        said = Properties(PacketTypes.PUBLISH)
+        if expiry is not None:
+            said.MessageExpiryInterval = expiry
+        if wish:
+            said.ResponseTopic = wish
+        if properties:
+            said.UserProperty = list(properties.items())
+        raw = message if isinstance(message, bytes) else json.dumps(message or {}).encode()
+        topic = f"{ROOT}/clients/{self.name}/{what}"
+        await self.mqtt.publish(topic, raw, qos=1, retain=retain, properties=said)
+
+    async def ask(self, what: str, message: object = None, **said: Any) -> dict[str, Any]:
+        """The answer to a command."""
+        topic = said.get("wish") or f"{ROOT}/clients/{self.name}/answer/{what.partition('/')[2]}"
+        had = len(self.heard.get(topic, ()))
+        await self.send(what, message, **said)
+        await until(lambda: len(self.heard.get(topic, ())) > had)
+        answer = self.heard[topic][-1]
+        assert isinstance(answer, dict)
+        return answer
+
+    async def told(self, topic: str) -> Any:
+        """The newest message on a topic of the robot."""
+        await until(lambda: f"{ROOT}/{topic}" in self.heard)
+        return self.heard[f"{ROOT}/{topic}"][-1]
+
+    async def close(self) -> None:
+        self._listening.cancel()
+        await asyncio.gather(self._listening, return_exceptions=True)
+
+
+@asynccontextmanager
+async def client(broker: Broker, name: str = "me") -> AsyncIterator[Client]:
+    async with aiomqtt.Client("127.0.0.1", broker.port, protocol=aiomqtt.ProtocolVersion.V5) as mqtt:
+        made = Client(mqtt, name)
+        await mqtt.subscribe(f"{ROOT}/#", qos=1)
+        try:
+            yield made
+        finally:
+            await made.close()
+
+
+def codes(scene: Scene) -> list[str]:
+    return [msg.code for _, msg in scene.said if isinstance(msg, Event)]
+
+
+async def online(me: Client) -> None:
+    await until(
+        lambda: {"state": "online", "robot": "Fake-1", "boot": "b1"} in me.heard.get(f"{ROOT}/state", ())
+    )
+
+
+async def driving(scene: Scene, me: Client) -> None:
+    """The client drives the robot."""
+    await me.ask("call/rosapi/get_time")
+    await me.send("publish/cmd_vel", AHEAD, stamp=str(scene.clock))
+    await until(lambda: not scene.robot.at_rest)
+
+
+STOPS = (b"", b"{}", b"stop!", b'{"client_name": "Fred", "surprise": 1}', b"\xff", b"[" * 70000)
+
+
+@looped("raw", STOPS)
+def test_anybody_stops_the_robot_whatever_the_message_says(raw: bytes, tmp_path: Path) -> None:
+    asyncio.run(_stops(raw, tmp_path))
+
+
+async def _stops(raw: bytes, folder: Path) -> None:
+    scene, broker = Scene(FakeRobot(), folder), Broker(folder)
+    try:
+        scene.drive(Twist.planar(0.3, 0.0))
+        async with serving(scene, broker.url, "role=none"), client(broker) as me:
+            await online(me)
+            assert (await me.ask("call/stop", raw, token="wrong"))["success"]
+            assert scene.station.controls.stopped
+            assert scene.robot.at_rest
+    finally:
+        broker.kill()
+
+
+async def test_stop_comes_through_while_others_flood_the_robot(scene: Scene, broker: Broker) -> None:
+    async with serving(scene, broker.url), client(broker) as me, client(broker, "noise") as noise:
+        await online(me)
+
+        async def flood() -> None:
+            while True:
+                await noise.send("publish/cmd_vel", AHEAD)
+
+        flooding = [asyncio.create_task(flood()) for _ in range(4)]
+        assert (await me.ask("call/stop"))["success"]
+        for task in flooding:
+            task.cancel()
+        await asyncio.gather(*flooding, return_exceptions=True)
+    assert scene.station.controls.stopped
+
+
+async def test_a_driver_drives_with_a_stamp_and_rests_when_it_says_goodbye(
+    scene: Scene, broker: Broker
+) -> None:
+    async with serving(scene, broker.url), client(broker) as me:
+        await online(me)
+        await driving(scene, me)
+        await me.send("bye")
+        await until(lambda: scene.robot.at_rest)
+        assert not scene.control.driver
+
+
+async def test_a_goodbye_in_another_ones_name_needs_its_token(scene: Scene, broker: Broker) -> None:
+    async with serving(scene, broker.url), client(broker) as me:
+        await online(me)
+        await driving(scene, me)
+        await me.send("bye", token="another")
+        await me.ask("call/rosapi/get_time")
+        assert not scene.robot.at_rest
+
+
+async def test_a_drive_command_of_unknown_or_too_great_age_moves_nothing(
+    scene: Scene, broker: Broker
+) -> None:
+    async with serving(scene, broker.url), client(broker) as me:
+        await online(me)
+        await me.send("publish/cmd_vel", AHEAD)
+        await me.send("publish/cmd_vel", AHEAD, stamp=str(scene.clock))  # of a clock that was never compared
+        await me.ask("call/rosapi/get_time")
+        await me.send("publish/cmd_vel", AHEAD, expiry=FRESH)
+        await me.send("publish/cmd_vel", AHEAD, stamp=str(scene.clock - 1.0))
+        await me.ask("call/rosapi/get_time")
+        assert scene.robot.at_rest
+
+
+async def test_the_robot_rests_when_its_broker_dies_and_obeys_nothing_old_when_it_is_back(
+    scene: Scene, broker: Broker
+) -> None:
+    async with serving(scene, broker.url):
+        async with client(broker) as me:
+            await online(me)
+            await driving(scene, me)
+            broker.kill()
+            await until(lambda: scene.robot.at_rest)
+        assert not scene.control.driver
+        assert Code.GATEWAY_LOST in codes(scene)
+        broker.start()
+        async with client(broker) as me:
+            await me.send("call/task/start", {"order": {"task": "hold"}}, expiry=FRESH)
+            await online(me)
+            assert Code.GATEWAY_UP in codes(scene)
+            await me.ask("call/rosapi/get_time")
+            assert scene.robot.at_rest
+
+
+async def test_a_broker_that_is_absent_is_an_event_and_is_reached_when_it_comes(
+    scene: Scene, broker: Broker
+) -> None:
+    broker.kill()
+    async with serving(scene, broker.url):
+        await until(lambda: Code.GATEWAY_LOST in codes(scene))
+        broker.start()
+        async with client(broker) as me:
+            await online(me)
+            assert (await me.ask("call/control/acquire", expiry=FRESH))["success"]
+    assert codes(scene).count(Code.GATEWAY_LOST) == 1
+
+
+async def test_a_broker_that_falls_silent_leaves_the_robot_at_rest(scene: Scene, broker: Broker) -> None:
+    async with serving(scene, broker.url), client(broker) as me:
+        await online(me)
+        await driving(scene, me)
+        broker.freeze()
+        await until(lambda: scene.robot.at_rest)
+        broker.thaw()
+        await until(lambda: Code.GATEWAY_UP in codes(scene))
+
+
+async def test_a_call_needs_something_that_says_how_old_it_is(scene: Scene, broker: Broker) -> None:
+    async with serving(scene, broker.url), client(broker) as me:
+        await online(me)
+        for said in ({}, {"expiry": 3600}):
+            answer = await me.ask("call/control/acquire", **said)
+            assert (answer["success"], answer["code"]) == (False, Code.GATEWAY_UNDATED)
+        late = await me.ask("call/control/acquire", stamp=str(scene.clock - 60), expiry=FRESH)
+        assert (late["success"], late["code"]) == (False, Code.COMMAND_LATE)
+        assert not scene.control.driver
+        assert (await me.ask("call/control/acquire", {"stamp": scene.clock}))["success"]
+        assert (await me.ask("call/control/release", expiry=FRESH))["success"]
+        assert (await me.ask("call/control/acquire", stamp=str(scene.clock)))["success"]
+        assert scene.control.driver == "me"
+
+
+async def test_a_retained_command_from_before_is_not_heard(scene: Scene, broker: Broker) -> None:
+    async with client(broker) as me:
+        await me.send("call/control/acquire", retain=True, expiry=FRESH)
+        async with serving(scene, broker.url):
+            await online(me)
+            await me.ask("call/rosapi/get_time")
+            assert not scene.control.driver
+
+
+async def test_a_command_that_is_to_be_retained_is_refused(scene: Scene, broker: Broker) -> None:
+    if not MOSQUITTO:
+        lacking("mosquitto", "the other broker does not pass on what is retained")
+    async with serving(scene, broker.url), client(broker) as me:
+        await online(me)
+        answer = await me.ask("call/control/acquire", retain=True, expiry=FRESH)
+        assert (answer["success"], answer["code"]) == (False, Code.GATEWAY_RETAINED)
+        assert not scene.control.driver
+
+
+async def test_a_command_that_is_sent_twice_is_done_once(scene: Scene, broker: Broker) -> None:
+    async with serving(scene, broker.url), client(broker) as me:
+        await online(me)
+        place = {"command_id": "c1", "place": {"name": "Office", "x": 1.0, "y": 1.0}}
+        first = await me.ask("call/places/set", place, expiry=FRESH)
+        await me.send("bye")  # the next one comes by another operator
+        again = await me.ask("call/places/set", place, expiry=FRESH)
+        assert first["success"]
+        assert again == first
+    assert [place.name for place in scene.station.records.places.all()] == ["Office"]
+
+
+WRONG: dict[str, tuple[bytes, str]] = {
+    "publish/cmd_vel": (b'{"linear": {"x": "0.2"}}', "linear.x must be a number or null"),
+    "publish/cmd_manoeuvre": (b'{"kind": "rest", "colour": 1}', "has no field"),
+    "publish/goal_pose": (b'{"pose": {"position": {"x": NaN}}}', "not JSON"),
+    "publish/initialpose": (b"[1]", "must be an object"),
+    "publish/odom": (b"{}", "does not listen to"),
+    "publish/nothing": (b"{}", "does not carry /nothing"),
+    "call/task/start": (b'{"task": 1e999}', "not JSON"),
+    "call/mode/set": (b'{"mode": true}', "mode must be a text"),
+    "call/people/list": (b"{}", "does not carry /people/list"),
+    "call/nothing": (b"{}", "does not carry /nothing"),
+    "call/places/set": (b'{"place": {"name": "' + b"x" * 70000 + b'"}}', "at most 65536 bytes"),
+}
+
+
+async def test_what_is_wrong_with_a_message_is_answered_and_nothing_is_done(
+    scene: Scene, broker: Broker
+) -> None:
+    async with serving(scene, broker.url), client(broker) as me:
+        await online(me)
+        for what, (raw, why) in WRONG.items():
+            answer = await me.ask(what, raw, expiry=FRESH)
+            assert not answer["success"], what
+            assert why in answer["message"], what
+        late = await me.ask("call/task/start", {}, stamp="soon")
+        assert "is a time in seconds, not 'soon'" in late["message"]
+    assert scene.robot.at_rest
+
+
+async def test_who_has_no_token_has_the_role_of_the_gateway_and_a_token_gives_more(
+    scene: Scene, broker: Broker, tmp_path: Path
+) -> None:
+    trust = Trust(PeopleFile(tmp_path), scene.station.clock, TrustSettings())
+    _, token = await trust.add("Anna", Role.DRIVE, TOKEN)
+    door = StationDoor(scene.station, trust)
+    try:
+        async with serving(scene, broker.url, "role=watch", door), client(broker) as me:
+            await online(me)
+            refused = await me.ask("call/control/acquire", expiry=FRESH)
+            assert (refused["success"], refused["code"]) == (False, Code.TRUST_ROLE)
+            wrong = await me.ask("call/control/acquire", expiry=FRESH, token=token[:-1] + "~")
+            assert (wrong["success"], wrong["code"]) == (False, Code.TRUST_KEY)
+            assert (await me.ask("call/control/acquire", expiry=FRESH, token=token))["success"]
+            assert scene.control.driver == "Anna"
+        assert Code.GATEWAY_OPEN not in codes(scene)
+    finally:
+        door.close()
+        trust.close()
+
+
+async def test_without_a_role_the_gateway_lets_watch(scene: Scene, broker: Broker, tmp_path: Path) -> None:
+    async with serving(scene, broker.url, ""), client(broker) as me:
+        await online(me)
+        assert (await me.told("topics/control/status"))["mode"]
+        refused = await me.ask("call/control/acquire", expiry=FRESH)
+        assert refused["code"] == Code.TRUST_ROLE
+
+
+async def test_a_gateway_that_lets_everybody_drive_says_so(scene: Scene, broker: Broker) -> None:
+    async with serving(scene, broker.url, "role=drive"):
+        assert Code.GATEWAY_OPEN in codes(scene)
+
+
+async def test_an_answer_goes_below_the_clients_own_topic_and_nowhere_else(
+    scene: Scene, broker: Broker
+) -> None:
+    async with serving(scene, broker.url), client(broker) as me:
+        await online(me)
+        mine = f"{ROOT}/clients/me/answer/42"
+        assert "time" in await me.ask("call/rosapi/get_time", wish=mine)
+        await me.send("call/rosapi/get_time", wish=f"{ROOT}/clients/other/call/stop")
+        await until(lambda: f"{ROOT}/clients/me/answer/rosapi/get_time" in me.heard)
+    assert not scene.station.controls.stopped
+
+
+async def test_topics_come_with_the_newest_state_kept_and_no_payload_that_was_not_chosen(
+    scene: Scene, broker: Broker
+) -> None:
+    async with serving(scene, broker.url, "payloads=wheels&rate=50"), client(broker) as me:
+        await online(me)
+        assert (await me.told("topics/robot/info"))["name"] == "Fake-1"
+        scene.run(1.0)
+        assert "pose" in await me.told("topics/odom")
+        async with client(broker, "late") as late:
+            assert (await late.told("topics/control/status"))["mode"] == "MANUAL"
+        left_out = await me.ask("call/task/start", expiry=FRESH)
+        assert left_out["code"] == Code.GATEWAY_LEFT_OUT
+        assert not [topic for topic in me.heard if topic.endswith(("/scan", "/task/status"))]
+
+
+async def test_the_state_is_offline_after_an_end_and_lost_by_the_last_will(
+    scene: Scene, broker: Broker
+) -> None:
+    async with client(broker) as me:
+        async with serving(scene, broker.url) as gateway:
+            await online(me)
+            guide = await me.told("guide")
+            assert guide == gateway.guide()
+        await until(lambda: me.heard[f"{ROOT}/state"][-1]["state"] == "offline")
+        async with serving(scene, broker.url) as gateway:
+            await until(lambda: me.heard[f"{ROOT}/state"][-1]["state"] == "online")
+            gateway._commands._client._client.socket().shutdown(
+                socket.SHUT_RDWR
+            )  # as a robot that is cut off
+            await until(lambda: "lost" in [each["state"] for each in me.heard[f"{ROOT}/state"]])
+
+
+async def test_nothing_is_left_of_a_gateway_that_was_stopped(scene: Scene, broker: Broker) -> None:
+    before = asyncio.all_tasks()
+    async with serving(scene, broker.url), client(broker) as me:
+        await online(me)
+        await driving(scene, me)
+    assert asyncio.all_tasks() == before
+    assert scene.robot.at_rest
+    assert not scene.door._operators
+    assert not scene.door._subscriptions
+
+
+async def test_a_gateway_is_stopped_without_having_been_started(scene: Scene) -> None:
+    gateway = MqttGateway(
+        Surroundings(scene.door, scene.station.events.say), read_url("mqtt://127.0.0.1", {"mqtt": 1})
+    )
+    await gateway.stop()
+    assert gateway.endpoints() == {"mqtt": f"mqtt://127.0.0.1:1/{ROOT}"}

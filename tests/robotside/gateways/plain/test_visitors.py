@@ -1,0 +1,118 @@
+"""Clients that a broker passes on: their number is bounded, the silent leave, and a robot that one of them drove rests."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import pytest
+
+from bridge.core.codes import Code
+from bridge.core.errors import Refused
+from bridge.core.identity import Role
+from robotside.gateways.payloads.table import KEYS
+from robotside.gateways.plain.visitor import TIME, VALID_TIME, Visitor
+from robotside.gateways.plain.visitors import IDLE_TIMEOUT, MAX_VISITORS, Visitors
+from tests.fakes import FakeRobot
+from tests.robotside.scene import Scene
+
+AHEAD = b'{"linear": {"x": 0.2}}'
+GOAL = b'{"header": {"frame_id": "map"}, "pose": {"position": {"x": 2.0}, "orientation": {"w": 1.0}}}'
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Scene:
+    made = Scene(FakeRobot(), tmp_path)
+    made.run(5.0)
+    return made
+
+
+@pytest.fixture
+def visitors(scene: Scene) -> Visitors:
+    return Visitors(scene.door, "broker", "192.0.2.7:1883", KEYS, role=Role.DRIVE, secure=False)
+
+
+def drive(visitor: Visitor, stamp: float) -> None:
+    visitor.call(TIME, b"")
+    visitor.publish("/cmd_vel", AHEAD, stamp)
+
+
+def test_a_driver_whose_broker_is_gone_leaves_a_robot_at_rest(scene: Scene, visitors: Visitors) -> None:
+    drive(visitors.visit("anna"), scene.clock)
+    assert not scene.robot.at_rest
+    visitors.leave_all()
+    assert scene.robot.at_rest
+    assert not len(visitors)
+
+
+def test_without_a_stamp_nothing_moves_however_new_the_client_is(scene: Scene, visitors: Visitors) -> None:
+    visitor = visitors.visit("anna")
+    visitor.call(TIME, b"")
+    visitor.publish("/cmd_vel", AHEAD)
+    assert scene.robot.at_rest
+
+
+def test_a_stamp_counts_only_of_a_clock_that_was_compared(scene: Scene, visitors: Visitors) -> None:
+    visitors.visit("anna").publish("/cmd_vel", AHEAD, scene.clock)
+    assert scene.robot.at_rest
+
+
+def test_a_goal_is_as_fresh_as_a_call_or_is_not_driven_to(scene: Scene, visitors: Visitors) -> None:
+    visitor = visitors.visit("anna")
+    for stamp, code in (
+        (math.nan, Code.GATEWAY_UNDATED),
+        (scene.clock - VALID_TIME - 0.1, Code.COMMAND_LATE),
+        (scene.clock + 60, Code.COMMAND_AHEAD),
+    ):
+        with pytest.raises(Refused) as refused:
+            visitor.publish("/goal_pose", GOAL, stamp, dated=False)
+        assert refused.value.args[0].code == code
+        assert scene.task.task == ""
+    visitor.publish("/goal_pose", GOAL, scene.clock, dated=False)
+    assert scene.task.task == "go_to"
+
+
+def test_the_silent_leave_and_the_others_stay(scene: Scene, visitors: Visitors) -> None:
+    visitors.visit("anna")
+    scene.run(IDLE_TIMEOUT / 2)
+    visitors.visit("bert")
+    scene.run(IDLE_TIMEOUT / 2 + 0.1)
+    visitors.leave_silent()
+    assert len(visitors) == 1
+
+
+def test_places_are_bounded_and_the_quietest_yields_when_it_is_silent(
+    scene: Scene, visitors: Visitors
+) -> None:
+    for number in range(MAX_VISITORS):
+        visitors.visit(f"client {number}")
+    with pytest.raises(Refused, match=f"{MAX_VISITORS} clients use this gateway"):
+        visitors.visit("one more")
+    scene.run(5.1)
+    visitors.visit("one more")
+    assert len(visitors) == MAX_VISITORS
+
+
+def test_a_name_is_one_client_and_another_token_is_another(visitors: Visitors) -> None:
+    first = visitors.visit("anna")
+    assert visitors.visit("anna") is first
+    with pytest.raises(Refused):
+        visitors.visit("anna", "token")  # this robot knows no keys
+    visitors.leave_name("anna", "token")
+    assert visitors.visit("anna") is first
+
+
+def test_who_is_expelled_is_gone(scene: Scene, visitors: Visitors) -> None:
+    visitors.visit("anna").operator.on_expelled()
+    assert not len(visitors)
+
+
+def test_who_gives_no_name_in_a_call_has_that_of_the_client(scene: Scene, visitors: Visitors) -> None:
+    visitor = visitors.visit("anna")
+    answer = visitor.call("/control/acquire", b"{}")
+    assert isinstance(answer, bytes)
+    assert json.loads(answer)["success"]
+    assert scene.control.driver == "anna"
+    visitor.call("/control/acquire", b'{"client_name": "Anna B"}')
+    assert scene.control.driver == "Anna B"

@@ -1,0 +1,66 @@
+"""Discovery of adapters: by their folders, without the library of any."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import robotside.gateways
+from robotside.gateways.discovery import adapters, missing_package, read_wish
+
+FOLDERS = sorted(path.parent.name for path in Path(robotside.gateways.__path__[0]).glob("*/adapter.py"))
+BARE = """
+import sys
+import robotside.__main__, robotside.serving.station_server
+print(*sys.modules)
+"""
+CHOSEN = """
+import sys
+from robotside.gateways.discovery import adapters, missing_package, read_wish
+for name in adapters():
+    read_wish(name)
+    missing_package(adapters()[name])
+print(*sys.modules)
+"""
+
+
+def _modules(code: str) -> set[str]:
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return set(done.stdout.split())
+
+
+def test_each_folder_with_an_adapter_is_one_of_its_name() -> None:
+    found = adapters()
+    assert list(found) == FOLDERS
+    assert "mqtt" in found
+    for name, adapter in found.items():
+        assert adapter.name == name
+        assert read_wish(name) == read_wish(f"{name}={adapter.default}")
+
+
+def test_a_robot_without_gateways_loads_none_and_a_look_at_them_loads_no_library() -> None:
+    libraries = {adapter.package for adapter in adapters().values()} - {""}
+    bare = _modules(BARE)
+    own = {name for name in bare if name.startswith("robotside.gateways.")}
+    assert not bare & (libraries | {"paho"})
+    assert not own & {
+        f"robotside.gateways.{name}" for name in (*FOLDERS, "plain", "payloads", "discovery", "gateway_url")
+    }
+    assert not _modules(CHOSEN) & (libraries | {"paho"})
+
+
+def test_what_is_not_there_is_named_with_what_is() -> None:
+    with pytest.raises(ValueError, match="There is no gateway 'carrier pigeon'; there are .*mqtt"):
+        read_wish("carrier pigeon=coop://roof")
+    with pytest.raises(ValueError, match="mqtt= needs a URL, as mqtt=mqtt://"):
+        read_wish("mqtt=")
+
+
+def test_a_library_that_is_not_installed_is_named() -> None:
+    mqtt = adapters()["mqtt"]
+    assert missing_package(replace(mqtt, package="no_such_library")) == "no_such_library"
+    assert missing_package(replace(mqtt, package="")) == ""

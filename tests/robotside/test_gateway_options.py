@@ -1,0 +1,51 @@
+"""Gateways as users ask for them: by option, by protocol, by the environment."""
+
+from __future__ import annotations
+
+import pytest
+
+from robotside.commands.user_mistake import UserMistake
+from robotside.gateway_options import VARIABLE, for_robot, wishes
+from robotside.gateways.discovery import read_wish
+from robotside.options import read
+
+
+def asked(words: str, environment: str = "") -> list[str]:
+    options = read(["serve", *words.split()])
+    return [f"{adapter.name} {url.shown}" for adapter, url in wishes(options, {VARIABLE: environment})]
+
+
+def test_nothing_is_asked_for_where_nothing_is_said() -> None:
+    assert asked("") == []
+    assert asked("--protocols rosbridge,http") == []
+
+
+def test_all_three_ways_ask_for_the_same() -> None:
+    usual = ["mqtt mqtt://127.0.0.1:1883"]
+    assert asked("--gateway mqtt") == asked("--protocols http,mqtt") == asked("", "mqtt") == usual
+    assert asked("--gateway mqtt=mqtt://h:99/lab --protocols mqtt") == ["mqtt mqtt://h:99/lab"]
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        ("--gateway pigeon", "There is no gateway 'pigeon'"),
+        ("--gateway mqtt=http://h", "A URL is written as mqtt://HOST"),
+        ("--gateway mqtt --gateway mqtt=mqtt://h", "asks for mqtt twice"),
+        ("--protocols http,pigeon", "There is no protocol pigeon; there are rosbridge, http, "),
+    ],
+)
+def test_a_mistake_is_one_sentence(words: str, why: str) -> None:
+    with pytest.raises(UserMistake, match=why):
+        read(["serve", *words.split()])
+
+
+def test_a_broker_is_the_same_for_all_robots_and_a_listener_has_the_next_port() -> None:
+    from dataclasses import replace
+
+    broker, url = read_wish("mqtt")
+    listener = replace(broker, listens=True)
+    wished = [(broker, url), (listener, url), (listener, replace(url, port=0))]
+    assert [each.port for _, each in for_robot(wished, 2)] == [1883, 1885, 0]
+    with pytest.raises(UserMistake, match="Robot 3 would have port 65537 for mqtt"):
+        for_robot([(listener, replace(url, port=65535))], 2)
