@@ -23,7 +23,7 @@ longitude = -73.0
 length = {length}
 width = {width}
 [wall]
-height = {height}
+height = 0.5
 thickness = 0.2
 [start]
 x = {x}
@@ -43,15 +43,13 @@ def room(
     height: float = 0.5,
 ) -> World:
     """An empty room with walls of `height` [m], the robot at (x, y) [m] facing `yaw` [deg]; `extra` is more TOML."""
-    text = ROOM.format(length=length, width=width, x=x, y=y, yaw=yaw, height=height)
-    return parse(text + extra, "room.toml")
+    text = ROOM.replace("height = 0.5", f"height = {height}")
+    return parse(text.format(length=length, width=width, x=x, y=y, yaw=yaw) + extra, "room.toml")
 
 
 def plain(extra: str = "", z: float = 0.0) -> World:
     """Level ground without end and without anything on it, the robot at height `z` [m]; `extra` is more TOML."""
-    text = ROOM.replace("[wall]\nheight = {height}\nthickness = 0.2\n", "").replace(
-        "[start]", f"[start]\nz = {z}"
-    )
+    text = ROOM.replace("[wall]\nheight = 0.5\nthickness = 0.2\n", "").replace("[start]", f"[start]\nz = {z}")
     return parse(text.format(length=10.0, width=10.0, x=0.0, y=0.0, yaw=0.0) + extra, "plain.toml")
 
 

@@ -18,7 +18,7 @@ from tests.sim.rooms import ROOM, robot_in, room
 def painted(marks: str, **place: float) -> World:
     """A room of 40 m with `marks` on its ground."""
     spot = {"length": 40.0, "width": 40.0, "x": 0.0, "y": 0.0, "yaw": 0.0, **place}
-    return parse(ROOM.format(**spot, height=0.5) + marks, "room.toml")
+    return parse(ROOM.format(**spot) + marks, "room.toml")
 
 
 ALONG = "[[lines]]\nfrom = [-5.0, {0}]\nto = [5.0, {0}]\nwidth = 0.06\n"

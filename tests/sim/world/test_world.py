@@ -11,7 +11,7 @@ from sim.world.occupancy import occupancy
 from sim.world.world_files import WORLDS, WorldError, load, parse
 from tests.sim.rooms import ROOM, room
 
-TEXT = ROOM.format(length=20, width=10, x=0, y=0, yaw=0, height=0.5)
+TEXT = ROOM.format(length=20, width=10, x=0, y=0, yaw=0)
 
 
 def test_the_parking_lot_is_as_large_and_as_full_as_its_task_needs():
