@@ -27,7 +27,7 @@ from bridge.msgs.std_msgs import Header, Time
 from bridge.msgs.tf2_msgs import TFMessage
 from robotside.core.bus import Publish
 from robotside.core.notice import Notice
-from robotside.core.pose2 import Points, Pose2
+from robotside.core.pose2 import ORIGIN, Points, Pose2
 from robotside.kinds.registry import kind_of
 from robotside.localisation.position_uncertainty import PositionUncertainty
 from robotside.localisation.scan_matching import Field, Localiser
@@ -88,28 +88,38 @@ _NO_LASER = Notice(
 )
 
 
+MAX_AHEAD = 0.1
+"""A pose is told for a moment so long after the newest odometry at most [s]: twice the time until the next."""
+
+
 class OdometryTrack:
     """The last seconds of poses, to ask where the robot was when a sensor measured."""
 
     def __init__(self) -> None:
         self._poses: deque[tuple[float, Pose2]] = deque(maxlen=60)
+        self._velocity = ORIGIN
 
-    def add(self, stamp: float, pose: Pose2) -> None:
-        """Remember `pose` at `stamp` [s]."""
+    def add(self, stamp: float, pose: Pose2, velocity: Pose2 = ORIGIN) -> None:
+        """Remember `pose` at `stamp` [s], and the `velocity` from there on, ahead and left [m/s] and turning [rad/s]; NaN for unknown."""
         self._poses.append((stamp, pose))
+        self._velocity = velocity if math.isfinite(sum(velocity)) else ORIGIN
 
     def forget(self) -> None:
         """The remembered path was wrong."""
         self._poses.clear()
 
     def at(self, stamp: float) -> Pose2 | None:
-        """The pose at `stamp` [s], between its neighbours; the nearest one outside of what is remembered."""
+        """The pose at `stamp` [s], between its neighbours, or a little after the newest one as it went on from there; else the nearest one."""
         poses = self._poses
         if not poses:
             return None
         after = bisect.bisect_left(poses, stamp, key=lambda entry: entry[0])
-        if after in (0, len(poses)):
-            return poses[min(after, len(poses) - 1)][1]
+        if after == 0:
+            return poses[0][1]
+        if after == len(poses):
+            newest, pose = poses[-1]
+            since = min(stamp - newest, MAX_AHEAD)
+            return pose.then(Pose2(*(part * since for part in self._velocity)))
         (start, a), (end, b) = poses[after - 1], poses[after]
         part = (stamp - start) / (end - start) if end > start else 0.0
         return Pose2(
@@ -253,7 +263,8 @@ class PoseEstimator:
         self._suppose(odom, stamp.seconds)
         pose = self._localiser.pose
         if pose is not None:
-            self.track.add(stamp.seconds, pose)
+            ahead = msg.twist.twist.linear
+            self.track.add(stamp.seconds, pose, Pose2(ahead.x, ahead.y, self.turn))
             self._publish_pose(stamp, pose, odom, self._localiser)
 
     def _against(self) -> float:

@@ -10,15 +10,21 @@ from sim.core.constants import STEPS_PER_SECOND
 __all__ = ["Schedule"]
 
 _NONE: tuple[str, ...] = ()
+_TOGETHER: Mapping[str, int] = {}
 
 
 class Schedule:
-    """Names with rates; each falls due at the first step at or after every whole period, and at step 0."""
+    """Names with rates; each falls due at the first step at or after every whole period, and at step 0.
 
-    def __init__(self, rates: Mapping[str, float]) -> None:
-        """`rates` in [Hz], each at most one a step."""
+    One that falls due `after` has some steps between a whole period and its own, so that not all fall due together.
+    """
+
+    def __init__(self, rates: Mapping[str, float], after: Mapping[str, int] = _TOGETHER) -> None:
+        """`rates` in [Hz], each at most one a step; `after` in steps, each less than its period."""
         self._periods = {name: STEPS_PER_SECOND / rate for name, rate in rates.items()}
-        self._counts = dict.fromkeys(rates, 0)
+        self._after = {name: after.get(name, 0) for name in rates}
+        # one that has steps of its own falls due at step 0 as well, and so counts one period more
+        self._counts = {name: -1 if steps else 0 for name, steps in self._after.items()}
         self._next = dict.fromkeys(rates, 0)
         self._soonest = 0
 
@@ -37,6 +43,7 @@ class Schedule:
         names = tuple(name for name, next_ in self._next.items() if next_ <= step)
         for name in names:
             self._counts[name] += 1
-            self._next[name] = math.ceil(self._counts[name] * self._periods[name] - 1e-9)
+            whole = math.ceil(self._counts[name] * self._periods[name] - 1e-9)
+            self._next[name] = whole + self._after[name]
         self._soonest = min(self._next.values())
         return names

@@ -23,7 +23,7 @@ from sim.physics.backend_bullet import State
 from sim.sensors.laser import Laser, LaserParameters
 from sim.sensors.line import LineCells, LineParameters
 from sim.sensors.sonar import Sonar, SonarParameters
-from sim.sensors.suite import Measurement
+from sim.sensors.suite import AFTER_WHEELS, Measurement
 from sim.sensors.ultrasound import SIDES, UltrasoundParameters, Ultrasounds
 from sim.vehicles.model import Vehicle
 from sim.world.paint import Paint
@@ -90,7 +90,9 @@ class MountedLaser(_Plain):
         )
         scene, vehicle.laser_x = vehicle.scene, at[0]
         laser = Laser(parameters, scene.backend, vehicle.body, scene.generator("payload laser"))
-        vehicle.suite.add("laser", figures.rate, lambda _, stamp: [("/scan", laser.measure(stamp))])
+        vehicle.suite.add(
+            "laser", figures.rate, lambda _, stamp: [("/scan", laser.measure(stamp))], after=AFTER_WHEELS
+        )
 
 
 class MountedSonar(_Plain):

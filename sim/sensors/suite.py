@@ -20,7 +20,19 @@ from sim.core.sensor_schedule import Schedule
 from sim.core.shapes import rotate_back
 from sim.physics.backend_bullet import State
 
-__all__ = ["Measure", "Measurement", "SensorSuite", "as_odometry"]
+__all__ = [
+    "AFTER_GROUND",
+    "AFTER_LASER",
+    "AFTER_WHEELS",
+    "Measure",
+    "Measurement",
+    "SensorSuite",
+    "as_odometry",
+]
+
+AFTER_WHEELS, AFTER_LASER, AFTER_GROUND = 4, 8, 16
+"""Steps between the odometry and what measures next: the laser, then what looks at the ground, then what echoes; a robot side takes
+four steps at a time."""
 
 Measurement = tuple[str, Msg]
 """A topic and its message."""
@@ -34,16 +46,21 @@ class SensorSuite:
     def __init__(self) -> None:
         """No sensors yet."""
         self._sensors: dict[str, tuple[float, Measure]] = {}
+        self._after: dict[str, int] = {}
         self._schedule: Schedule | None = None
 
     def __contains__(self, name: str) -> bool:
         return name in self._sensors
 
-    def add(self, name: str, rate: float, measure: Measure) -> None:
-        """One more, that measures `rate` times a second; before the first `measure`."""
+    def add(self, name: str, rate: float, measure: Measure, *, after: int = 0) -> None:
+        """One more, that measures `rate` times a second; before the first `measure`.
+
+        It does so some steps `after` the others, so that a robot side has not to take in all of them at once.
+        """
         if name in self._sensors:
             raise ValueError(f"There is a sensor {name!r} already.")
         self._sensors[name] = (rate, measure)
+        self._after[name] = after
 
     def anything_due(self, step: int) -> bool:
         """Whether any sensor measures after `step`; a step after which none does need not be measured."""
@@ -64,7 +81,7 @@ class SensorSuite:
 
     def _planned(self) -> Schedule:
         if self._schedule is None:
-            self._schedule = Schedule({name: rate for name, (rate, _) in self._sensors.items()})
+            self._schedule = Schedule({name: rate for name, (rate, _) in self._sensors.items()}, self._after)
         return self._schedule
 
 

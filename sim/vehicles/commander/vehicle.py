@@ -19,7 +19,7 @@ from sim.physics.motors import Motors
 from sim.sensors.gps import Gps
 from sim.sensors.laser import Laser
 from sim.sensors.odometry import WheelOdometry
-from sim.sensors.suite import Measurement
+from sim.sensors.suite import AFTER_LASER, AFTER_WHEELS, Measurement
 from sim.vehicles.commander.looks import looks
 from sim.vehicles.commander.parameters import PARAMETERS, CommanderParameters
 from sim.vehicles.model import Model
@@ -69,8 +69,15 @@ class Commander(Wheeled[CommanderParameters]):
         )
         self.add_bumper_and_imu()
         suite.add("odometry", parameters.odometry.rate, self._measure_wheels)
-        suite.add("laser", parameters.laser.rate, lambda _, at: [("/scan", laser.measure(at))])
-        suite.add("gps", parameters.gps.rate, lambda state, at: [("/fix", gps.measure(state, at))])
+        suite.add(
+            "laser", parameters.laser.rate, lambda _, at: [("/scan", laser.measure(at))], after=AFTER_WHEELS
+        )
+        suite.add(
+            "gps",
+            parameters.gps.rate,
+            lambda state, at: [("/fix", gps.measure(state, at))],
+            after=AFTER_LASER,
+        )
         self.add_power()
         self.add_order()
         self.add_truth()

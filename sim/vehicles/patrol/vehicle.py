@@ -8,7 +8,7 @@ from sim.physics.backend_bullet import State
 from sim.sensors.gps import Gps
 from sim.sensors.laser import Laser
 from sim.sensors.line import LineCells
-from sim.sensors.suite import Measurement
+from sim.sensors.suite import AFTER_GROUND, AFTER_LASER, AFTER_WHEELS, Measurement
 from sim.sensors.ultrasound import Ultrasounds
 from sim.vehicles.model import Model
 from sim.vehicles.patrol.looks import looks
@@ -31,10 +31,17 @@ class Patrol(TwoWheeled[PatrolParameters]):
         self._ultrasounds = Ultrasounds(
             own.ultrasound, scene.backend, self.body, scene.generator("ultrasound")
         )
-        suite.add("laser", own.laser.rate, lambda _, at: [("/scan", laser.measure(at))])
-        suite.add("gps", own.gps.rate, lambda state, at: [("/fix", gps.measure(state, at))])
-        suite.add("line_sensor", own.line.rate, lambda state, at: [("/line_sensor", line.measure(state, at))])
-        suite.add("ultrasound", own.ultrasound.rate, self._measure_echoes)
+        suite.add("laser", own.laser.rate, lambda _, at: [("/scan", laser.measure(at))], after=AFTER_WHEELS)
+        suite.add(
+            "gps", own.gps.rate, lambda state, at: [("/fix", gps.measure(state, at))], after=AFTER_GROUND
+        )
+        suite.add(
+            "line_sensor",
+            own.line.rate,
+            lambda state, at: [("/line_sensor", line.measure(state, at))],
+            after=AFTER_LASER,
+        )
+        suite.add("ultrasound", own.ultrasound.rate, self._measure_echoes, after=AFTER_GROUND)
 
     def _measure_echoes(self, _: State, stamp: float) -> Iterator[Measurement]:
         for side, echo in self._ultrasounds.measure(stamp):

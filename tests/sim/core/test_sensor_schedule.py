@@ -13,6 +13,15 @@ def test_a_sensor_falls_due_exactly_as_often_as_its_rate_says(rate):
     assert len(due) == 10 * rate
 
 
+def test_one_that_falls_due_after_the_others_keeps_its_rate_and_its_distance():
+    schedule = Schedule({"odometry": 20, "laser": 10}, {"laser": 4})
+    due = {step: names for step in range(100) if (names := schedule.due(step))}
+    assert due[0] == ("odometry", "laser")
+    assert [step for step, names in due.items() if "laser" in names] == [0, 4, 28, 52, 76]
+    assert [step for step, names in due.items() if "odometry" in names] == list(range(0, 100, 12))
+    assert all(len(names) == 1 for step, names in due.items() if step)
+
+
 def test_names_that_fall_due_together_keep_their_order():
     schedule = Schedule({"second": 10, "first": 20})
     assert schedule.due(0) == ("second", "first")
