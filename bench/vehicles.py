@@ -58,7 +58,7 @@ FIGURES = (
             target,
             "more",
         )
-        for count, target in zip(CROWDS, (40, None, 1), strict=True)
+        for count, target in zip(CROWDS, (100, None, 1), strict=True)
     ),
     Figure("added patrol", "µs", "a step more for each patrol robot more, of twenty"),
     Figure(

@@ -42,9 +42,18 @@ class Serving:
 
     def cpu(self) -> float:
         """CPU time since its start, of all its threads and of the process that draws for it [s]."""
-        process = psutil.Process(self.child.process.pid)
-        times = [each.cpu_times() for each in (process, *process.children(recursive=True))]
-        return float(sum(each.user + each.system for each in times))
+        return self.own_cpu() + sum(
+            map(_cpu, psutil.Process(self.child.process.pid).children(recursive=True))
+        )
+
+    def own_cpu(self) -> float:
+        """CPU time since its start, of all its threads without the process that draws for it [s]."""
+        return _cpu(psutil.Process(self.child.process.pid))
+
+
+def _cpu(process: psutil.Process) -> float:
+    times = process.cpu_times()
+    return float(times.user + times.system)
 
 
 @contextmanager
