@@ -10,12 +10,37 @@ import pytest
 
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass, running
+from tests.app.sleeper import sleeper
 from tests.headless import Stage
 
 
+@pytest.fixture(autouse=True)
+def left_open() -> Iterator[None]:
+    """In a fork, where it is quick: what a test did not close complains while that test is the one that is told of."""
+    yield
+    if sleeper():
+        gc.collect()
+
+
 @pytest.fixture
-def robot() -> Iterator[FakeRobot]:
-    robot = FakeRobot()
+def stage() -> Iterator[Stage]:
+    """An empty window, or the one with the app that slept, on a clock that only the test moves."""
+    asleep = sleeper()
+    stage = asleep.stage if asleep else Stage()
+    yield stage
+    stage.close()
+
+
+@pytest.fixture
+def port() -> int:
+    """Where the robot has to serve; 0 for anywhere."""
+    asleep = sleeper()
+    return asleep.port if asleep else 0
+
+
+@pytest.fixture
+def robot(port: int) -> Iterator[FakeRobot]:
+    robot = FakeRobot(port)
     yield robot
     robot.close()
 
@@ -31,12 +56,22 @@ def collecting() -> Iterator[None]:
 
 
 @pytest.fixture
+def fresh() -> None:
+    """The app starts in the test itself, and makes each screen when it is first looked at."""
+
+
+@pytest.fixture
 def glass(
     request: pytest.FixtureRequest, stage: Stage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[Glass]:
     # Kivy: where this folder is named, this file is read before tests/conftest.py prepares it
     from app.garbage_collector import Collector
 
+    if asleep := sleeper():
+        asleep.move(tmp_path)
+        yield asleep.glass
+        asleep.glass.end()
+        return
     if "collecting" not in request.fixturenames:  # a look at all that an app is takes as long as half a test
         monkeypatch.setattr(Collector, "step", lambda _, **__: None)
 
@@ -47,9 +82,9 @@ def glass(
 @pytest.fixture
 def driving(glass: Glass, robot: FakeRobot) -> Glass:
     """Connected, in control, on the drive screen."""
-    glass.app.open(robot.url)
-    glass.until(lambda: glass.app.shell is not None, "no screens")
-    glass.until(lambda: glass.app.session.control == "mine", "no control")
-    glass.app.show("drive")
-    glass.until(lambda: glass.app.screens["drive"].stick.state == "live", "no stick")
+    if asleep := sleeper():
+        asleep.wake(robot)
+    else:
+        glass.app.open(robot.url)
+    glass.drives()
     return glass

@@ -131,9 +131,10 @@ class KnowsAll:
 
 
 class FakeRobot:
-    """Serves on a free port of this machine; everything here may be called from the test's thread."""
+    """Serves on this machine; everything here may be called from the test's thread."""
 
-    def __init__(self) -> None:
+    def __init__(self, port: int = 0) -> None:
+        """`port` is a free one of this machine where it is 0."""
         self.network = NetworkThread("fake robot")
         self.asked: list[tuple[str, CommandRequest]] = []
         self.heard: list[tuple[str, Any]] = []
@@ -158,7 +159,7 @@ class FakeRobot:
         self._answering = asyncio.Event()
         self._answering.set()
         self._awake = threading.Event()
-        self.port = 0
+        self.port = port
         self.control = ControlStatus()
         self._server: BridgeServer | None = None
         self.start()

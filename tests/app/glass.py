@@ -10,7 +10,7 @@ from typing import Any
 
 from tests.headless import Stage
 
-__all__ = ["Glass", "running"]
+__all__ = ["PATIENCE", "Glass", "running"]
 
 PATIENCE = 30.0
 """A fault, not a delay, uses this up [s]."""
@@ -22,11 +22,36 @@ class Glass:
     def __init__(self, app: Any, stage: Stage) -> None:
         self.app, self.stage = app, stage
 
+    @classmethod
+    def start(cls, stage: Stage, folder: Path, *, poll: bool = False) -> Glass:
+        """Start the app with its settings in `folder`; `poll` as `PilothouseApp` has it. Whoever does so ends it."""
+        # Kivy: the first import comes after tests/conftest.py prepared it
+        from app.application import PilothouseApp
+
+        app = PilothouseApp(settings_dir=folder, theme="dark", discover=False, poll=poll)
+        app.root = app.build()
+        stage.show(app.root, stage.window.size)
+        app.on_start()
+        return cls(app, stage)
+
+    def end(self) -> None:
+        from widgets.core.theme import theme
+
+        self.app.on_stop()
+        theme.name = "dark"
+
     def until(self, condition: Callable[[], Any], what: str) -> None:
         end = time.monotonic() + PATIENCE
         while not condition():
             assert time.monotonic() < end, repr(what)
             self.stage.frames(1)
+
+    def drives(self) -> None:
+        """Go on to the drive screen once the robot has answered, and until its stick can be pushed."""
+        self.until(lambda: self.app.shell is not None, "no screens")
+        self.until(lambda: self.app.session.control == "mine", "no control")
+        self.app.show("drive")
+        self.until(lambda: self.app.screens["drive"].stick.state == "live", "no stick")
 
     def tap(self, widget: Any) -> None:
         self.stage.frames(3)
@@ -46,16 +71,8 @@ class Glass:
 @contextmanager
 def running(stage: Stage, folder: Path, *, poll: bool = False) -> Iterator[Glass]:
     """The app from its start to its end, with its settings in `folder`; `poll` as `PilothouseApp` has it."""
-    # Kivy: the first import comes after tests/conftest.py prepared it
-    from app.application import PilothouseApp
-    from widgets.core.theme import theme
-
-    app = PilothouseApp(settings_dir=folder, theme="dark", discover=False, poll=poll)
-    app.root = app.build()
-    stage.show(app.root, stage.window.size)
-    app.on_start()
+    glass = Glass.start(stage, folder, poll=poll)
     try:
-        yield Glass(app, stage)
+        yield glass
     finally:
-        app.on_stop()
-        theme.name = "dark"
+        glass.end()

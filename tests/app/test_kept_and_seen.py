@@ -16,21 +16,24 @@ NIGHT = Mission(name="Night", waypoints=[Waypoint(5.0, 5.0)])
 
 
 @pytest.fixture
-def tasks(glass: Glass, robot: FakeRobot) -> Any:
+def tasks(kept: FakeRobot, driving: Glass) -> Any:
     """Connected, in control, on the tasks screen."""
+    driving.until(lambda: driving.app.session.logbook.alarms == 1, "no events")
+    driving.app.show("tasks")
+    driving.stage.run_for(0.3)
+    return driving.app.screens["tasks"]
+
+
+@pytest.fixture
+def kept(robot: FakeRobot) -> FakeRobot:
+    """A robot with events and a mission."""
     robot.events = [
         Event(id=1, boot="a", level="alarm", kind="contact", text="It touched something."),
         Event(id=2, boot="a", level="warn", kind="battery", text="Battery at 20 %."),
         Event(id=3, boot="a", text="Waypoint 1 reached"),
     ]
     robot.missions = {"Night": NIGHT}
-    glass.app.open(robot.url)
-    glass.until(lambda: glass.app.shell is not None, "no screens")
-    glass.until(lambda: glass.app.session.control == "mine", "no control")
-    glass.until(lambda: glass.app.session.logbook.alarms == 1, "no events")
-    glass.app.show("tasks")
-    glass.stage.run_for(0.3)
-    return glass.app.screens["tasks"]
+    return robot
 
 
 def asked(robot: FakeRobot, service: str) -> list[Any]:

@@ -13,6 +13,8 @@ from app.inputs.methods import ON_DEMAND
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 
+pytestmark = pytest.mark.usefixtures("fresh")
+
 ROOT = Path(__file__).parents[2]
 
 FIRST_FRAME = """

@@ -26,11 +26,11 @@ STATE = ArmState(
 
 
 @pytest.fixture
-def robot(monkeypatch: pytest.MonkeyPatch) -> Any:
+def robot(monkeypatch: pytest.MonkeyPatch, port: int) -> Any:
     """One with an arm."""
     monkeypatch.setitem(fakes.REQUESTS, "/arm/move", MoveArmRequest)
     monkeypatch.setitem(fakes.RESPONSES, "/arm/move", MoveArmResponse)
-    robot = FakeRobot()
+    robot = FakeRobot(port)
     yield robot
     robot.close()
 

@@ -31,15 +31,12 @@ GO, PATROL = TaskOrder(id=3, task="go_to", places=["Lab"]), TaskOrder(id=4, task
 
 
 @pytest.fixture
-def tasks(glass: Glass, robot: FakeRobot) -> Any:
+def tasks(driving: Glass, robot: FakeRobot) -> Any:
     """Connected, in control, on the tasks screen of a robot that knows some places."""
     robot.know(*SOME)
-    glass.app.open(robot.url)
-    glass.until(lambda: glass.app.shell is not None, "no screens")
-    glass.until(lambda: glass.app.session.control == "mine", "no control")
-    glass.app.show("tasks")
-    screen = glass.app.screens["tasks"]
-    glass.until(lambda: len(screen.places.places) == len(SOME), "no places")
+    driving.app.show("tasks")
+    screen = driving.app.screens["tasks"]
+    driving.until(lambda: len(screen.places.places) == len(SOME), "no places")
     return screen
 
 
