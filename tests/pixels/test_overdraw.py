@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
 import pytest
 from kivy.graphics import Color, Rectangle
 from kivy.uix.boxlayout import BoxLayout
@@ -12,7 +13,9 @@ from kivy.uix.widget import Widget
 from bench.support.overdraw import Overdraw
 from tests.headless import Stage
 from widgets.controls.stop.stop_button import StopButton
+from widgets.core.canvas_ink import Ink
 from widgets.core.rounded import RIM, Rounded
+from widgets.core.shapes import Shapes
 from widgets.parts.kit import Card, PrimaryButton
 
 SIDE = 100
@@ -75,3 +78,23 @@ def test_what_a_widget_costs(stage: Stage, build: Callable[[], Widget], most: fl
     """A picture that is clear where nothing is pressed, chosen or stale costs nothing."""
     widget = build()
     assert 0.9 < shaded(stage, widget)[type(widget).__name__] < most
+
+
+@pytest.mark.parametrize("dashes", [0, 36])
+def test_a_large_ring_looks_as_if_its_whole_square_were_shaded(stage: Stage, dashes: int) -> None:
+    seen, cost = [], []
+    for whole in (True, False):
+        shapes, ink, widget = Shapes(), Ink(), Widget()
+        if whole:
+            period = 2 * np.pi * 40 / dashes if dashes else 0.0
+            shapes._rounds(np.array([[50.3, 49.8]]), 40.0, 1.5, (1, 0, 0, 1), period)
+        else:
+            shapes.ring(50.3, 49.8, 40, 3, (1, 0, 0, 1), dashes=dashes)
+        ink.fill(shapes)
+        widget.canvas.add(ink)
+        cost.append(shaded(stage, widget)["Widget"])
+        seen.append(stage.pixels(widget).astype(int))
+        stage.clear()
+    assert np.abs(seen[0] - seen[1]).max() <= 2
+    assert seen[0][..., 0].max() == 255
+    assert cost[1] < 0.3 * cost[0]

@@ -25,6 +25,33 @@ LINE, EDGES, SECTOR = -1.0, -2.0, -3.0
 
 _CORNERS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], dtype=np.float32)
 _QUAD = np.array([0, 1, 2, 2, 3, 0], dtype=np.uint16)
+RING_SIDES = 32
+"""Corners of the rim that stands for a large ring: the shader makes it round."""
+MIN_HOLLOW = 12.0
+"""Within a ring less room is shaded with it [px]."""
+_AROUND = np.stack(
+    [
+        np.cos(np.arange(RING_SIDES) * math.tau / RING_SIDES),
+        np.sin(np.arange(RING_SIDES) * math.tau / RING_SIDES),
+    ],
+    axis=1,
+)
+_RIM = np.stack(
+    [
+        [
+            side,
+            side + RING_SIDES,
+            (side + 1) % RING_SIDES + RING_SIDES,
+            (side + 1) % RING_SIDES + RING_SIDES,
+            (side + 1) % RING_SIDES,
+            side,
+        ]
+        for side in range(RING_SIDES)
+    ]
+).ravel()
+"""Of the rim's corners, first the inner and then the outer ones, those of its triangles."""
+_DASH = 0.28
+"""Half a dash of a ring, of the way from one to the next."""
 _FEATHER = 1.0
 _MITRE = 2.0
 """Longest mitre at a sharp corner, in half widths."""
@@ -66,7 +93,19 @@ class Shapes:
     ) -> None:
         """A circle `width` wide, in `dashes` dashes when that is not 0."""
         period = math.tau * radius / dashes if dashes else 0.0
-        self._rounds(np.array([[x, y]]), radius, width / 2, colour, period)
+        hollow = radius - width / 2 - _FEATHER
+        if hollow < MIN_HOLLOW:
+            self._rounds(np.array([[x, y]]), radius, width / 2, colour, period)
+            return
+        # of a large one only the rim is shaded: within it and beyond its corners there is nothing to see
+        reach = (radius + width / 2 + _FEATHER) / math.cos(math.pi / RING_SIDES)
+        local = np.concatenate([_AROUND * hollow, _AROUND * reach])
+        vertices = np.zeros((2 * RING_SIDES, FLOATS), np.float32)
+        vertices[:, :2] = local + np.array([x, y])
+        vertices[:, 2:4] = local
+        vertices[:, 4:8] = radius, width / 2, period, period * _DASH
+        vertices[:, 8:] = colour
+        self._add(vertices, _RIM)
 
     def line(self, points: Points, width: float, colour: Colour | NDArray[np.float32]) -> None:
         """A line through `points`; `colour` may be one, or one for each point, shape (n, 4)."""
@@ -113,12 +152,14 @@ class Shapes:
         self, x: float, y: float, radius: float, *, yaw: float, half_angle: float, colour: Colour
     ) -> None:
         """A slice of a disc to `half_angle` (below pi / 2) [rad] on both sides of the direction `yaw` [rad]."""
-        local = _CORNERS * (radius + _FEATHER)
+        reach, narrow = radius + _FEATHER, math.sin(half_angle)
+        behind, aside = min(reach, _FEATHER / max(narrow, 1e-9)), reach * narrow + _FEATHER
+        local = np.array([[-behind, -aside], [reach, -aside], [reach, aside], [-behind, aside]])
         turned = local @ np.array([[math.cos(yaw), math.sin(yaw)], [-math.sin(yaw), math.cos(yaw)]])
         vertices = np.zeros((1, 4, FLOATS), np.float32)
         vertices[0, :, :2] = turned + np.array([x, y])
         vertices[0, :, 2:4] = local
-        vertices[0, :, 4:8] = SECTOR, radius, math.sin(half_angle), math.cos(half_angle)
+        vertices[0, :, 4:8] = SECTOR, radius, narrow, math.cos(half_angle)
         vertices[0, :, 8:] = colour
         self._quads(vertices)
 
@@ -154,7 +195,7 @@ class Shapes:
         vertices = np.zeros((len(centres), 4, FLOATS), np.float32)
         vertices[:, :, :2] = centres[:, None, :] + _CORNERS * reach
         vertices[:, :, 2:4] = _CORNERS * reach
-        vertices[:, :, 4:8] = radius, half, period, period * 0.28
+        vertices[:, :, 4:8] = radius, half, period, period * _DASH
         vertices[:, :, 8:] = _per_shape(colour)
         self._quads(vertices)
 

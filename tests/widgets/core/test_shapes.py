@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from widgets.core.shapes import EDGES, FLOATS, LINE, Shapes
+from widgets.core.shapes import EDGES, FLOATS, LINE, RING_SIDES, Shapes
 
 RED = (1.0, 0.0, 0.0, 1.0)
 
@@ -105,3 +105,49 @@ def test_no_more_is_drawn_than_indices_can_name():
     assert len(vertices(shapes)) == 0
     shapes.disc(0, 0, 1, RED)
     assert len(vertices(shapes)) == 4
+
+
+def area(shapes: Shapes) -> float:
+    """Of all triangles [px²]."""
+    places, (_, indices) = vertices(shapes)[:, :2], shapes.arrays()
+    one, two, three = (places[indices[corner::3]].astype(float) for corner in range(3))
+    across = two - one, three - one
+    return float(np.abs(across[0][:, 0] * across[1][:, 1] - across[0][:, 1] * across[1][:, 0]).sum() / 2)
+
+
+@pytest.mark.parametrize(("radius", "width"), [(100, 2), (40, 6), (300, 1)])
+def test_of_a_large_ring_only_the_rim_is_shaded(radius, width):
+    shapes = Shapes()
+    shapes.ring(7, 9, radius, width, RED)
+    made = vertices(shapes)
+    away = np.hypot(made[:, 2], made[:, 3])
+    middles = np.hypot(*((made[:RING_SIDES, 2:4] + np.roll(made[:RING_SIDES, 2:4], -1, 0)) / 2).T)
+    outer = np.hypot(*((made[RING_SIDES:, 2:4] + np.roll(made[RING_SIDES:, 2:4], -1, 0)) / 2).T)
+    assert away[:RING_SIDES].max() <= radius - width / 2 - 0.5, "no soft edge is cut off within"
+    assert middles.max() < away.max()
+    assert outer.min() >= radius + width / 2 + 0.5, "nor at the sides of the outer corners"
+    assert np.allclose(made[:, :2] - made[:, 2:4], (7, 9), atol=1e-3)
+    rim = math.tau * radius * (width + 2)
+    assert area(shapes) == pytest.approx(rim, rel=0.6)
+    assert area(shapes) < 0.35 * (2 * radius) ** 2
+
+
+def test_a_small_ring_is_a_square():
+    shapes = Shapes()
+    shapes.ring(0, 0, 8, 2, RED)
+    assert area(shapes) == pytest.approx((2 * (8 + 1 + 1)) ** 2)
+
+
+@pytest.mark.parametrize("half_angle", [0.01, 0.28, 1.0, 1.5])
+def test_a_sector_has_room_for_all_of_it_and_for_little_else(half_angle):
+    shapes, radius = Shapes(), 50.0
+    shapes.sector(3, 4, radius, yaw=0.7, half_angle=half_angle, colour=RED)
+    made = vertices(shapes)
+    left, low = made[:, 2:4].min(0)
+    right, high = made[:, 2:4].max(0)
+    for turn in np.linspace(-half_angle, half_angle, 9):
+        rim = (radius + 0.5) * math.cos(turn), (radius + 0.5) * math.sin(turn)
+        assert low - 1e-3 <= rim[1] <= high + 1e-3
+        assert rim[0] <= right
+    assert left <= -0.5
+    assert area(shapes) <= (2 * (radius + 1)) ** 2 * max(0.06, math.sin(half_angle)) * 1.01
