@@ -22,6 +22,7 @@ from tests.bridge.wires import TIMEOUT
 from tests.certificates import client_context, tls
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
+from tests.robotside.visitor import visitor
 
 COUNT = 200
 """Connections of a flood: more than there are places on either socket."""
@@ -166,5 +167,5 @@ async def test_viewers_of_the_camera_are_few_and_never_all_who_are_let_in(served
     assert camera_streams.MAX_VIEWERS < 48
     async with flood(served.web.port, NOTHING["streams that nobody reads"], ONE):
         where = f"http://127.0.0.1:{served.web.port}"
-        async with httpx.AsyncClient(base_url=where, timeout=TIMEOUT) as web:
+        async with visitor(where, timeout=TIMEOUT) as web:
             assert (await web.get("/healthz")).json()["ok"]

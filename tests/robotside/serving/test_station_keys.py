@@ -12,7 +12,6 @@ from contextlib import asynccontextmanager
 from dataclasses import replace
 from pathlib import Path
 
-import httpx
 import pytest
 
 from bridge.client.client import BridgeClient, LinkState, Phase
@@ -35,6 +34,7 @@ from robotside.trust.people_file import PeopleFile
 from tests.fakes import FakeRobot
 from tests.robotside.scene import records_at
 from tests.robotside.serving.test_station_server import connected
+from tests.robotside.visitor import visitor
 
 
 @asynccontextmanager
@@ -221,7 +221,7 @@ def test_who_may_speak_without_tls(tmp_path: Path, host: str, plain: Role | None
 @pytest.mark.parametrize("allowed", [True, False])
 async def test_pages_of_others_press_stop_unless_the_settings_say_no(tmp_path: Path, allowed: bool) -> None:
     async with serving(tmp_path, settings=TrustSettings(stop_from_pages=allowed)) as (serves, _, _):
-        async with httpx.AsyncClient(base_url=serves.addresses.http) as web:
+        async with visitor(serves.addresses.http) as web:
             await web.post("/stop", headers={"Origin": "https://page.example"})
         assert serves.station.controls.stopped is allowed
 

@@ -14,7 +14,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import ClassVar
 
-import httpx
 import msgspec
 import pytest
 
@@ -31,6 +30,7 @@ from robotside.serving.station_server import Addresses, StationServer
 from robotside.station.station import Station
 from tests.fakes import FakeRobot
 from tests.robotside.scene import records_at
+from tests.robotside.visitor import visitor
 
 
 @asynccontextmanager
@@ -152,7 +152,7 @@ async def test_a_browser_gets_a_page_its_health_and_a_sentence_for_a_camera_that
 ) -> None:
     async with (
         serving(tmp_path, FakeRobot()) as serves,
-        httpx.AsyncClient(base_url=serves.addresses.http) as web,
+        visitor(serves.addresses.http) as web,
     ):
         page = await web.get("/")
         assert "Rex" in page.text
@@ -182,7 +182,7 @@ class Photographer(FakeRobot):
 
 async def test_a_picture_is_made_for_whoever_asks_and_only_then(tmp_path: Path) -> None:
     robot = Photographer()
-    async with serving(tmp_path, robot) as serves, httpx.AsyncClient(base_url=serves.addresses.http) as web:
+    async with serving(tmp_path, robot) as serves, visitor(serves.addresses.http) as web:
         robot.show = serves.station.bus.publish
         answer = await web.get("/snapshot/front.jpg")
         assert (answer.content, answer.headers["content-type"]) == (b"a picture", "image/jpeg")
@@ -192,7 +192,7 @@ async def test_a_picture_is_made_for_whoever_asks_and_only_then(tmp_path: Path) 
 async def test_each_camera_shows_its_own_pictures(tmp_path: Path) -> None:
     robot = Photographer()
     robot.info = msgspec.structs.replace(robot.info, cameras=["front", "rear"])
-    async with serving(tmp_path, robot) as serves, httpx.AsyncClient(base_url=serves.addresses.http) as web:
+    async with serving(tmp_path, robot) as serves, visitor(serves.addresses.http) as web:
         sent: list[str] = []
         serves.server.publish_frame = lambda camera, _: sent.append(camera)  # type: ignore[method-assign]
         robot.show = lambda topic, _: serves.station.bus.publish(topic, CompressedImage(data=topic.encode()))

@@ -6,7 +6,6 @@ import json
 import math
 from pathlib import Path
 
-import httpx
 import pytest
 from websockets.asyncio.client import ClientConnection, connect
 
@@ -19,6 +18,7 @@ from tests.fakes import FakeRobot
 from tests.releasing import release_stop
 from tests.robotside.foreign.test_foreign_link import until
 from tests.robotside.serving.test_station_server import connected, serving
+from tests.robotside.visitor import visitor
 
 SPEED = Twist.planar(0.3, 0.1)
 
@@ -39,7 +39,7 @@ async def test_anybody_stops_the_robot_over_http(tmp_path: Path) -> None:
     async with (
         serving(tmp_path, robot) as serves,
         connected(serves) as client,
-        httpx.AsyncClient(base_url=serves.addresses.http) as web,
+        visitor(serves.addresses.http) as web,
     ):
         client.publish("/cmd_vel", SPEED)
         await until(lambda: SPEED in robot.commands)
@@ -62,7 +62,7 @@ async def test_anybody_stops_the_robot_over_http(tmp_path: Path) -> None:
 async def test_a_stop_over_http_that_may_not_have_reached_the_robot_says_so(tmp_path: Path) -> None:
     robot = FakeRobot()
     robot.silent = {"/odom"}
-    async with serving(tmp_path, robot) as serves, httpx.AsyncClient(base_url=serves.addresses.http) as web:
+    async with serving(tmp_path, robot) as serves, visitor(serves.addresses.http) as web:
         robot.trouble = "The robot cannot be reached: nobody answers."
         answer = await web.post("/stop")
         assert (answer.status_code, answer.text) == (

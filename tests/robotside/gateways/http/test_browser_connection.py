@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 from pathlib import Path
 
-import httpx
 import pytest
 
 from bridge.server.reception.places import FULL, Limits
@@ -14,6 +13,7 @@ from robotside.gateways.http import gateway
 from tests.fakes import FakeRobot
 from tests.robotside.gateways.http.test_camera_streams import filming, looking
 from tests.robotside.serving.test_station_server import serving
+from tests.robotside.visitor import visitor
 
 
 async def end_of(reader: asyncio.StreamReader) -> bytes:
@@ -42,7 +42,7 @@ async def test_for_one_connection_too_many_the_oldest_that_asks_nothing_is_close
     monkeypatch.setattr(gateway, "LIMITS", Limits(total=2))
     async with (
         serving(tmp_path, FakeRobot()) as serves,
-        httpx.AsyncClient(base_url=serves.addresses.http) as web,
+        visitor(serves.addresses.http) as web,
     ):
         slow = [await asyncio.open_connection("127.0.0.1", serves.addresses.http_port) for _ in range(2)]
         for _, writer in slow:
@@ -61,7 +61,7 @@ async def test_while_all_others_are_answered_one_too_many_may_press_stop_and_not
     monkeypatch.setattr(gateway, "LIMITS", Limits(total=1))
     async with filming(tmp_path) as (robot, serves, web), looking(web):
         await robot.until(True)
-        async with httpx.AsyncClient(base_url=serves.addresses.http) as late:
+        async with visitor(serves.addresses.http) as late:
             answer = await late.get("/healthz")
             assert (answer.status_code, answer.text) == (503, f"{FULL}\n")
             assert (await late.post("/stop")).status_code == 200

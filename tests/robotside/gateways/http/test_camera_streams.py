@@ -20,6 +20,7 @@ from robotside.serving.station_server import StationServer
 from tests.fakes import FakeRobot
 from tests.robotside.gateways.scaling.test_picture_scaling import PHOTO, size
 from tests.robotside.serving.test_station_server import serving
+from tests.robotside.visitor import visitor
 
 STREAM = "/stream/front.mjpeg"
 
@@ -46,7 +47,7 @@ class Filming(FakeRobot):
 @asynccontextmanager
 async def filming(state: Path) -> AsyncIterator[tuple[Filming, StationServer, httpx.AsyncClient]]:
     robot = Filming()
-    async with serving(state, robot) as serves, httpx.AsyncClient(base_url=serves.addresses.http) as web:
+    async with serving(state, robot) as serves, visitor(serves.addresses.http) as web:
         yield robot, serves, web
 
 

@@ -20,6 +20,7 @@ from robotside.gateways.scaling.picture_scaling import PictureScaler
 from robotside.trust.permissions import needed_role
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
+from tests.robotside.visitor import visitor
 
 KEYS = {"w.key": Role.WATCH, "n.key": Role.NONE, "m.key": Role.MANAGE}
 
@@ -47,7 +48,7 @@ class Site:
 
     def visit(self, token: str = "", **headers: str) -> httpx.AsyncClient:
         shown = {"Authorization": f"Bearer {token}"} if token else {}
-        return httpx.AsyncClient(base_url=self.gateway.endpoints()["http"], headers=shown | headers)
+        return visitor(self.gateway.endpoints()["http"], headers=shown | headers)
 
     @property
     def stopped_by(self) -> str:
@@ -209,7 +210,7 @@ async def test_who_comes_in_clear_where_that_is_not_allowed_may_press_stop_and_n
     )
     await gateway.start()
     try:
-        async with httpx.AsyncClient(base_url=gateway.endpoints()["http"]) as web:
+        async with visitor(gateway.endpoints()["http"]) as web:
             for path in ("/", "/healthz", "/snapshot/front.jpg"):
                 answer = await web.get(path, headers={"Authorization": "Bearer m.key"})
                 assert answer.status_code == 426

@@ -13,6 +13,7 @@ from robotside.gateways.http.gateway import HttpGateway
 from robotside.gateways.scaling.picture_scaling import PictureScaler
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
+from tests.robotside.visitor import visitor
 
 
 @pytest.fixture
@@ -36,7 +37,7 @@ async def test_stop_goes_by_the_door(scene: Scene, pictures: PictureScaler) -> N
     await gateway.start()
     where = gateway.endpoints()["http"]
     assert where == f"http://127.0.0.1:{gateway.port}"
-    async with httpx.AsyncClient(base_url=where) as web:
+    async with visitor(where) as web:
         assert "ws://192.0.2.7:9090" in (await web.get("/")).text
         answer = await web.post("/stop?name=Fred")
         await gateway.stop()
