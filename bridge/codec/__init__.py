@@ -11,6 +11,8 @@ from __future__ import annotations
 
 from bridge.codec.binary import from_cbor, to_cbor
 from bridge.codec.heads import check_cbor
+from bridge.codec.misspelt import unknown_fields
+from bridge.codec.now import from_json_now
 from bridge.codec.reader import from_builtins, shown, to_builtins
 from bridge.codec.selection import check_paths, select
 from bridge.codec.text import from_json, to_json, to_server_json
@@ -24,12 +26,14 @@ __all__ = [
     "from_builtins",
     "from_cbor",
     "from_json",
+    "from_json_now",
     "select",
     "shown",
     "to_builtins",
     "to_cbor",
     "to_json",
     "to_server_json",
+    "unknown_fields",
     "unread",
     "weight",
 ]

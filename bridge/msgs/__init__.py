@@ -17,6 +17,7 @@ from bridge.msgs import (
     nav_msgs,
     pilothouse_msgs,
     rosapi_msgs,
+    rosbridge_msgs,
     rosgraph_msgs,
     sensor_msgs,
     std_msgs,
@@ -46,6 +47,7 @@ _PACKAGES = (
     unique_identifier_msgs,
     action_msgs,
     rosapi_msgs,
+    rosbridge_msgs,
     rosgraph_msgs,
     pilothouse_msgs,
 )

@@ -43,6 +43,10 @@ __all__ = [
     "NodesResponse",
     "PublishersRequest",
     "PublishersResponse",
+    "SearchParamRequest",
+    "SearchParamResponse",
+    "ServiceHostRequest",
+    "ServiceHostResponse",
     "ServiceNodeRequest",
     "ServiceNodeResponse",
     "ServiceProvidersRequest",
@@ -364,6 +368,41 @@ class PublishersResponse(Msg, frozen=True, gc=False):
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string[]",)
     publishers: list[str] = []
     """Nodes."""
+
+
+class SearchParamRequest(Msg, frozen=True, gc=False):
+    """What `SearchParam` is asked."""
+
+    MSGTYPE: ClassVar[str] = "rosapi_msgs/SearchParamRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string",)
+    name: str = ""
+    """A name, as a node at the root would write it."""
+
+
+class SearchParamResponse(Msg, frozen=True, gc=False):
+    """What `SearchParam` answers."""
+
+    MSGTYPE: ClassVar[str] = "rosapi_msgs/SearchParamResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string",)
+    global_name: str = ""
+    """The full name of the parameter that is meant; empty when there is none."""
+
+
+class ServiceHostRequest(Msg, frozen=True, gc=False):
+    """What `ServiceHost` is asked."""
+
+    MSGTYPE: ClassVar[str] = "rosapi_msgs/ServiceHostRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string",)
+    service: str = ""
+
+
+class ServiceHostResponse(Msg, frozen=True, gc=False):
+    """What `ServiceHost` answers."""
+
+    MSGTYPE: ClassVar[str] = "rosapi_msgs/ServiceHostResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string",)
+    host: str = ""
+    """The machine that answers it; empty for an unknown service."""
 
 
 class ServiceNodeRequest(Msg, frozen=True, gc=False):

@@ -8,8 +8,10 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
+import msgspec
 from msgspec import UNSET
 
+from bridge.codec import unknown_fields
 from bridge.core.errors import ProtocolError, Refused
 from bridge.core.robot_catalogue import Operator
 from bridge.protocol import (
@@ -37,6 +39,7 @@ from bridge.protocol import (
     Unsubscribe,
     absolute,
     complaint,
+    service_and_id,
 )
 from bridge.server.action_goals import ActionGoals
 from bridge.server.client_faults import ClientFaults
@@ -49,7 +52,7 @@ from bridge.server.reception.log_limit import STRANGERS
 from bridge.server.reception.places import FULL, Place
 from bridge.server.server_context import ServerContext
 from bridge.server.service_operations import ServiceOperations
-from bridge.server.topic_operations import TopicOperations
+from bridge.server.topic_operations import MAX_READ_BYTES, TopicOperations
 
 __all__ = ["RosbridgeSession"]
 
@@ -226,12 +229,35 @@ class RosbridgeSession:
                 raise ProtocolError(FULL)
             if handler is not None:
                 handler(arrival)
+                if self.protocol.wants("warning"):
+                    self._remark_misspelt(arrival)
             elif isinstance(arrival, ProtocolError):
                 self._report(arrival, arrival)
             elif isinstance(arrival, Op):
                 raise ProtocolError(f"{arrival.__struct_config__.tag} is not for a server.")
         except ProtocolError as error:
             self._report(error, arrival)
+
+    def _remark_misspelt(self, arrival: Arrival) -> None:
+        """Name the fields of a message or of arguments that are passed over because their type has no such field."""
+        cls = raw = None
+        if isinstance(arrival, Publish):
+            channel = self._context.switchboard.channels.get(absolute(arrival.topic))
+            cls, raw, about = channel.cls if channel else None, arrival.msg, arrival.topic
+        elif isinstance(arrival, CallService):
+            about, raw = service_and_id(arrival)[0], arrival.args
+            known = self._context.door.services.get(about)
+            cls = known.request if known else None
+        if cls is None or raw is None or len(raw) > MAX_READ_BYTES:
+            return
+        try:
+            names = unknown_fields(msgspec.json.decode(raw), cls)
+        except msgspec.MsgspecError:
+            return  # a number beyond all numbers in a field that is passed over
+        if names:
+            said = f"{about} ({cls.MSGTYPE}) has no field {', '.join(names)}; it is passed over."
+            remark = complaint(ProtocolError(said, op=str(arrival.__struct_config__.tag)))
+            self.send(msgspec.structs.replace(remark, level="warning", id=arrival.id))
 
     def _only_stop(self) -> bool:
         return self._place is not None and self._place.only_stop

@@ -34,6 +34,7 @@ from bridge.msgs import Msg
 from bridge.protocol import MAX_SERVER_FRAME
 from bridge.server.callback_connection import CallbackConnection
 from bridge.server.camera_socket import CameraSocket
+from bridge.server.client_list import CLIENT_TOPICS, publish_clients
 from bridge.server.client_services import ClientServices
 from bridge.server.flow.message_reducing import MessageReducer
 from bridge.server.flow.outgoing_messages import Reduce
@@ -69,6 +70,9 @@ _CHECK_PERIOD = 1.0
 """Time between two checks of every client [s]."""
 _CLOSE_TIMEOUT = 0.5
 """Time for clients to close before they are cut off [s]."""
+
+
+_MADE_HERE = frozenset(topic.name for topic in CLIENT_TOPICS)
 
 
 def _ignore(topic: str, msg: Msg) -> None:
@@ -110,8 +114,13 @@ class BridgeServer:
         self._wanted: dict[str, Callable[[], None]] = {}
         """By topic with subscribers, the function that ends its messages."""
         self._switchboard = Switchboard(
-            door.topics.values(), self._want, reduce=reduce, now=now, cameras=cameras or ()
+            (*door.topics.values(), *CLIENT_TOPICS),
+            self._want,
+            reduce=reduce,
+            now=now,
+            cameras=cameras or (),
         )
+        publish_clients((), self._switchboard.publish)
         client_services = ClientServices(door.services, door.actions)
         self._clients: dict[Operator, RosbridgeSession] = {}
         nodes = NodeGraph(
@@ -216,6 +225,8 @@ class BridgeServer:
 
     def _want(self, topic: str, wanted: bool) -> None:
         """Note the first subscriber of a topic of the robot, or that the last one left."""
+        if topic in _MADE_HERE:
+            return
         if wanted:
             own = topic in self._door.topics  # pictures of a camera may go as frames alone
             self._wanted[topic] = self._door.subscribe(self, topic, self.publish if own else _ignore)
@@ -266,10 +277,12 @@ class BridgeServer:
         ws.batch = batch
         self._clients[operator] = client
         client.measure_round_trip()
+        publish_clients(self._clients, self._switchboard.publish)
         try:
             await ws.serve(client)
         finally:
             del self._clients[operator]
+            publish_clients(self._clients, self._switchboard.publish)
             try:
                 self._door.leave(operator)
             finally:

@@ -36,6 +36,10 @@ class Parameters:
         """Whether there is a parameter of this name."""
         return _resolved(name) in self._values
 
+    def search(self, name: str) -> str:
+        """The full name of the parameter that `name` means at the root; empty when there is none."""
+        return _resolved(name) if name and self.has(name) else ""
+
     def get(self, name: str, default: str = "") -> str:
         """The JSON text of a value; `default`, or `null` without one, when there is none."""
         return self._values.get(_resolved(name), default or "null")

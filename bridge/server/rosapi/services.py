@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import platform
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
@@ -64,7 +65,7 @@ class RosApi:
             **self._about_params(),
         }
         self._answers = {f"/rosapi/{name}": known for name, known in table.items()}
-        self.types = {name: f"rosapi/{_camel(name)}" for name in self._answers}
+        self.types = {name: f"rosapi/{_TYPES.get(name) or _camel(name)}" for name in self._answers}
         """Type by name of the services that are answered here."""
 
     def answer(self, service: str, args: Raw) -> bytes | None:
@@ -105,6 +106,7 @@ class RosApi:
             "services_for_type": (("type",), lambda given: {"services": _of_type(services(), given["type"])}),
             "service_request_details": (("type",), lambda given: _details(given["type"], "Request")),
             "service_response_details": (("type",), lambda given: _details(given["type"], "Response")),
+            "service_host": (("service",), lambda given: {"host": self._host(given["service"])}),
             "service_node": (("service",), lambda given: {"node": self._server(given["service"])}),
             "service_providers": (
                 ("service",),
@@ -138,6 +140,7 @@ class RosApi:
         return {
             "get_param": (("name", "default"), self._get_param),
             "set_param": (("name", "value"), self._set_param),
+            "search_param": (("name",), lambda given: {"global_name": params.search(given["name"])}),
             "has_param": (("name",), lambda given: {"exists": params.has(given["name"])}),
             "delete_param": (("name",), self._delete_param),
             "get_param_names": ((), lambda _: {"names": params.names}),
@@ -158,6 +161,10 @@ class RosApi:
 
     def _server(self, service: str) -> str:
         return NODE if absolute(service) in self.types else next(iter(self._who(service, "services")), "")
+
+    def _host(self, service: str) -> str:
+        """This machine, by which the services of clients are reached as well."""
+        return platform.node() if absolute(service) in self._services() else ""
 
     def _node_details(self, given: dict[str, str]) -> dict[str, Any]:
         node = self._graph.nodes().get(absolute(given["node"]), Node([], [], [], []))
@@ -182,6 +189,10 @@ class RosApi:
         return {"time": {"secs": now.secs, "nsecs": now.nsecs}}
 
 
+_TYPES = {"/rosapi/action_servers": "GetActionServers", "/rosapi/get_ros_version": "GetROSVersion"}
+"""The services whose types are not called as they are."""
+_PACKAGE = "rosapi_msgs/"
+"""ROS 2's package of their types, after which the classes are called; ROS 1 has them in `rosapi`."""
 _DONE = {"successful": True, "reason": ""}
 
 
@@ -205,7 +216,16 @@ def _details(type: str, half: str) -> dict[str, Any]:
 
 def _typedefs(type: str, half: str = "") -> list[dict[str, Any]]:
     """The description of a type in the terms of the ROS that it is spelled as."""
-    return typedefs(f"{ros1_name(type)}{half}", ros2=spells_ros2(type))
+    name, ros2 = f"{ros1_name(type)}{half}", spells_ros2(type)
+    if not name.startswith("rosapi/"):
+        return typedefs(name, ros2=ros2)
+    return [_of_rosapi(each) for each in typedefs(name.replace("rosapi/", _PACKAGE, 1), ros2=ros2)]
+
+
+def _of_rosapi(definition: dict[str, Any]) -> dict[str, Any]:
+    """The same definition under ROS 1's name of the package."""
+    kinds = [each.replace(_PACKAGE, "rosapi/") for each in definition["fieldtypes"]]
+    return definition | {"type": definition["type"].replace(_PACKAGE, "rosapi/"), "fieldtypes": kinds}
 
 
 def _given(args: Raw, fields: tuple[str, ...]) -> dict[str, str]:

@@ -16,7 +16,7 @@ from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import CommandResponse, ControlStatus, Event, RobotInfo
 from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
-from bridge.msgs.std_msgs import Header
+from bridge.msgs.std_msgs import Header, Time
 from bridge.server.server import BridgeServer
 from robotside.door.door import Door
 from tests.bridge.peers import bare, peer
@@ -87,6 +87,55 @@ async def test_a_throttled_subscriber_gets_the_newest_when_its_time_has_come():
             robot.publish("/odom", Odometry(child_frame_id=name))
         assert (await foreign.hear())["msg"]["child_frame_id"] == "third"
         assert clock() - began >= 0.045
+
+
+@pytest.mark.parametrize(
+    ("op", "said"),
+    [
+        (
+            {"op": "publish", "topic": "/cmd_vel", "msg": {"linaer": {"x": 1}}},
+            "publish: /cmd_vel (geometry_msgs/Twist) has no field linaer; it is passed over.",
+        ),
+        (
+            {"op": "call_service", "service": "/stop", "args": {"client_nmae": "A"}, "id": "7"},
+            "call_service: /stop (pilothouse_msgs/CommandRequest) has no field client_nmae; it is passed over.",
+        ),
+    ],
+)
+async def test_a_misspelt_field_is_remarked_to_who_wants_warnings(op, said):
+    async with server() as robot, peer(robot) as foreign:
+        await foreign.say(op="set_level", level="warning")
+        await foreign.say(**op)
+        remarks = []
+        while not remarks:
+            heard = await foreign.hear()
+            remarks += [heard] if heard["op"] == "status" else []
+        assert (remarks[0]["level"], remarks[0]["msg"], remarks[0].get("id")) == (
+            "warning",
+            said,
+            op.get("id"),
+        )
+
+
+async def test_nothing_is_remarked_of_what_is_spelled_right_or_to_who_wants_errors_only():
+    async with server() as robot, peer(robot) as foreign:
+        for level, msg in (("warning", {"linear": {"x": 0}}), ("error", {"linaer": {}})):
+            await foreign.say(op="set_level", level=level)
+            await foreign.say(op="publish", topic="/cmd_vel", msg=msg)
+            await foreign.settled()
+
+
+async def test_a_client_s_message_without_a_stamp_gets_that_of_now_and_an_order_does_not():
+    heard = Record()
+    async with server(on_message=heard, now=lambda: 12.5) as robot, peer(robot) as foreign:
+        await foreign.say(op="subscribe", topic="/goal", type="geometry_msgs/PointStamped")
+        await foreign.say(op="advertise", topic="/goal", type="geometry_msgs/PointStamped")
+        await foreign.say(op="publish", topic="/goal", msg={"header": {"frame_id": "map"}})
+        header = (await foreign.hear())["msg"]["header"]
+        assert header == {"stamp": {"secs": 12, "nsecs": 500_000_000}, "frame_id": "map", "seq": 0}
+        await foreign.say(op="publish", topic="/cmd_manoeuvre", msg={"kind": "tilt"})
+        (order,) = await heard.reach(1)
+        assert order[2].header.stamp == Time()
 
 
 async def test_a_published_command_arrives_typed_with_its_session_and_stamp():

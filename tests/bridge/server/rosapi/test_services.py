@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import platform
 
 import pytest
 from msgspec import Raw
@@ -72,6 +73,8 @@ def test_services_include_those_that_answer_this():
         ("has_param", b'{"name":"/robot"}', {"exists": True}),
         ("has_param", b'{"name":"/x"}', {"exists": False}),
         ("get_param_names", b"{}", {"names": ["/robot"]}),
+        ("search_param", b'{"name":"robot"}', {"global_name": "/robot"}),
+        ("search_param", b'{"name":"x"}', {"global_name": ""}),
     ],
 )
 def test_questions_have_answers(service, args, answer):
@@ -120,6 +123,30 @@ def test_both_halves_of_a_service_are_told():
         names[half] = found["typedefs"][0]["fieldnames"]
     assert "command_id" in names["request"]
     assert "success" in names["response"]
+
+
+def test_the_types_of_its_own_services_are_told_in_both_names_of_their_package():
+    for type, service in API.types.items():
+        for half in ("Request", "Response"):
+            found = ask(f"/rosapi/service_{half.lower()}_details", json.dumps({"type": service}).encode())
+            assert found["typedefs"][0]["type"] == f"{service}{half}", type
+    for name in ("rosapi/TopicsForType", "rosapi_msgs/srv/TopicsForType"):
+        found = ask("/rosapi/service_response_details", json.dumps({"type": name}).encode())
+        assert found["typedefs"][0]["fieldnames"] == ["topics"]
+    found = ask("/rosapi/service_response_details", b'{"type":"rosapi/MessageDetails"}')
+    assert found["typedefs"][0]["fieldtypes"] == ["rosapi/TypeDef"]
+    assert found["typedefs"][1]["type"] == "rosapi/TypeDef"
+
+
+def test_ros_1_and_ros_2_have_headers_of_their_own():
+    for name, first in (("std_msgs/Header", "seq"), ("std_msgs/msg/Header", "stamp")):
+        found = ask("/rosapi/message_details", json.dumps({"type": name}).encode())
+        assert found["typedefs"][0]["fieldnames"][0] == first
+
+
+def test_every_service_is_on_this_machine():
+    assert ask("/rosapi/service_host", b'{"service":"/stop"}') == {"host": platform.node()}
+    assert ask("/rosapi/service_host", b'{"service":"/nowhere"}') == {"host": ""}
 
 
 def test_types_are_told_as_ros_text_beside_their_topics():

@@ -1,0 +1,28 @@
+"""The clients of a server as topics, as rosbridge_server has them: `/client_count` and `/connected_clients`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+
+from bridge.core.robot_catalogue import Operator
+from bridge.core.topics import Topic
+from bridge.msgs import Msg
+from bridge.msgs.rosbridge_msgs import ConnectedClient, ConnectedClients
+from bridge.msgs.std_msgs import Int32, Time
+
+__all__ = ["CLIENT_TOPICS", "publish_clients"]
+
+COUNT = Topic("/client_count", Int32, 0, "handheld", "number of clients of this server")
+CLIENTS = Topic("/connected_clients", ConnectedClients, 0, "handheld", "clients of this server")
+CLIENT_TOPICS = (COUNT, CLIENTS)
+"""Latched; a server adds them to the robot's own."""
+
+
+def publish_clients(operators: Collection[Operator], publish: Callable[[str, Msg], None]) -> None:
+    """Publish who is connected now; to be called when that has changed."""
+    publish(COUNT.name, Int32(len(operators)))
+    clients = [
+        ConnectedClient(each.address.rpartition(":")[0].strip("[]"), Time.at(each.opened))
+        for each in operators
+    ]
+    publish(CLIENTS.name, ConnectedClients(clients))
