@@ -65,8 +65,8 @@ class Driving(RobotScreen):
         self.instruments = Instruments(layout, self.dashboard, session.feeds)
         self.hands = DriveControls(layout, session, self.dashboard, self.does, self.in_vain)
         self.senses = SmallSensors(session.feeds)
-        for gauge, topics in self.instruments.senses:
-            self.senses.add(gauge, topics)
+        for make, topics in self.instruments.senses:
+            self.senses.add(make, topics)
         self.senses.bind(open=self._cover_up, opacity=self._cover_up)
         self.fill(layout)
         self.low = BoxLayout(orientation="vertical", spacing="8dp", size_hint=(None, None))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from kivy.uix.widget import Widget
@@ -43,8 +45,9 @@ class Instruments:
         self._dashboard, self._feeds = dashboard, feeds
         self.places: dict[str, list[Widget]] = {}
         """Widgets by slot, in the order of the layout; those of `readouts` are figures."""
-        self.senses: list[tuple[Any, tuple[str, ...]]] = []
-        """Small sensors with their topics."""
+        self.senses: list[tuple[Callable[[], Any], tuple[str, ...]]] = []
+        """What makes each small sensor, with its topics: most robots have one or none of those that any may carry."""
+        self._offer: Capabilities | None = None
         self._titled: list[tuple[Any, Instrument]] = []
         self._places_told: list[tuple[Readout, Instrument]] = []
         shown = {name for one in layout.instruments for name in one.topics}
@@ -52,14 +55,22 @@ class Instruments:
             self._add(one)
 
     def _add(self, one: Instrument) -> None:
-        widget = self._figure(one) if one.widget == "Readout" else self._picture(one)
         if one.slot == SENSES:
-            self.senses.append((widget, one.topics))
+            self.senses.append((partial(self._sense, one), one.topics))
             return
+        widget = self._made(one)
         self.places.setdefault(one.slot, []).append(widget)
         for name in one.topics:
             # what it shows beside its own topic makes it neither younger nor older
             self._dashboard.bind(widget, name, fresh=name == one.topic)
+
+    def _sense(self, one: Instrument) -> Any:
+        widget = self._made(one)
+        self.name_sources(self._offer)
+        return widget
+
+    def _made(self, one: Instrument) -> Any:
+        return self._figure(one) if one.widget == "Readout" else self._picture(one)
 
     def _figure(self, one: Instrument) -> Readout:
         widget = Readout(
@@ -91,6 +102,7 @@ class Instruments:
 
     def name_sources(self, offer: Capabilities | None) -> None:
         """An instrument that shows a topic of another name than the usual one says which."""
+        self._offer = offer
         for widget, one in self._titled:
             source = offer.source(one.topic) if offer is not None else None
             widget.title = f"{one.title} · {_brief(source)}" if source and source != one.topic else one.title

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 from kivy.metrics import dp
@@ -38,7 +39,10 @@ class SmallSensors(Card):
     def __init__(self, feeds: Feeds, **kwargs: Any) -> None:
         super().__init__(**{"floating": True, "padding": 0, "size_hint": (None, None), **kwargs})
         self._feeds = feeds
-        self._all: list[tuple[Gauge, tuple[str, ...]]] = []
+        self._makers: list[tuple[Callable[[], Gauge], tuple[str, ...]]] = []
+        """Of every sensor that the robot may have, with its topics; in the layout's order."""
+        self._made: dict[int, Gauge] = {}
+        """Those that it has told something of, by their places in `_makers`."""
         self.shown: tuple[Gauge, ...] = ()
         """What the robot has told something of, in the layout's order."""
         self._newest: dict[str, Msg] = {}
@@ -47,11 +51,9 @@ class SmallSensors(Card):
         self._sign = Icon(name="expand_more", role="muted", size_hint=(None, None))
         self._finger: Any = None
 
-    def add(self, gauge: Gauge, topics: tuple[str, ...]) -> None:
-        """Have one more sensor, which shows what comes on `topics`."""
-        gauge.card = False
-        gauge.size_hint = (None, None)
-        self._all.append((gauge, topics))
+    def add(self, make: Callable[[], Gauge], topics: tuple[str, ...]) -> None:
+        """Have one more sensor, which shows what comes on `topics`; it is made when something has come."""
+        self._makers.append((make, topics))
 
     @property
     def foldable(self) -> bool:
@@ -75,15 +77,18 @@ class SmallSensors(Card):
 
     def tick(self) -> None:
         """Bring up to date which sensors there are and how old each is."""
-        present = tuple(gauge for gauge, topics in self._all if any(map(self._heard, topics)))
-        if present != self.shown:
-            self.shown = present
+        for place, (make, topics) in enumerate(self._makers):
+            if place not in self._made and any(map(self._heard, topics)):
+                self._made[place] = gauge = make()
+                gauge.card, gauge.size_hint = False, (None, None)
+        if len(self.shown) != len(self._made):
+            self.shown = tuple(self._made[place] for place in sorted(self._made))
             self._arrange()
-        for gauge, topics in self._all:
+        for place, gauge in self._made.items():
+            topics = self._makers[place][1]
             for topic in topics:
                 self._show(gauge, topic)
-            if gauge in present:
-                self._refresh(gauge, [topic for topic in topics if self._heard(topic)])
+            self._refresh(gauge, [topic for topic in topics if self._heard(topic)])
         self._say_once()
 
     def _show(self, gauge: Gauge, topic: str) -> None:

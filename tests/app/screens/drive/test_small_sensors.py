@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import math
+from functools import partial
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from app.layout.arrange import Rect
+from app.layout.layout import load
 from app.link.feeds import Feeds, Post
+from app.screens.drive.instruments import Instruments
 from app.screens.drive.small_sensors import SmallSensors
+from app.session.dashboard import Dashboard
 from bridge.msgs import Msg
 from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
@@ -18,7 +23,7 @@ from bridge.msgs.sensor_msgs import JointState, Range
 from bridge.msgs.std_msgs import Header, Time
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
-from widgets import EncodersView, LineSensorView, UltrasoundView
+from widgets import CATALOGUE, EncodersView, LineSensorView, UltrasoundView
 
 STRIP, ROOM = Rect(10, 400, 380, 54), Rect(10, 200, 380, 190)
 SIDES = ("/range/front", "/range/left")
@@ -33,12 +38,20 @@ class Held:
         self.feeds.link(True)
         self.card = SmallSensors(self.feeds)
         self.ultrasound, self.line, self.encoders = UltrasoundView(), LineSensorView(), EncodersView()
-        self.card.add(self.ultrasound, SIDES)
-        self.card.add(self.line, ("/line_sensor",))
-        self.card.add(self.encoders, ("/joint_states",))
+        self.made: list[Any] = []
+        for gauge, topics in (
+            (self.ultrasound, SIDES),
+            (self.line, ("/line_sensor",)),
+            (self.encoders, ("/joint_states",)),
+        ):
+            self.card.add(partial(self.make, gauge), topics)
         stage.window.add_widget(self.card)
         self.card.place(STRIP, ROOM)
         self.stage = stage
+
+    def make(self, gauge: Any) -> Any:
+        self.made.append(gauge)
+        return gauge
 
     def hear(self, topic: str, message: Msg) -> None:
         self.feeds.put(topic, Post(message, self.now, 1))
@@ -69,6 +82,17 @@ def test_only_what_the_robot_has_told_of_has_a_place(held: Held) -> None:
     assert held.encoders.parent is None
     held.hear_all()
     assert held.card.shown == (held.ultrasound, held.line, held.encoders)
+
+
+def test_a_sensor_is_made_once_and_not_before_the_robot_tells_something_of_it(held: Held) -> None:
+    held.card.tick()
+    assert held.made == []
+    held.hear("/line_sensor", LineSensor())
+    held.hear("/range/left", Range(range=2.0))
+    held.hear("/range/front", Range(range=1.0))
+    assert held.made == [held.line, held.ultrasound]
+    assert held.card.shown == (held.ultrasound, held.line)
+    assert [gauge.card for gauge in held.card.shown] == [False, False]
 
 
 def test_a_tap_unfolds_the_strip_and_another_folds_it(held: Held) -> None:
@@ -183,3 +207,13 @@ def test_what_the_unfolded_sensors_cover_is_not_seen_until_they_fold(
     assert screen.video.opacity == screen.stick.opacity == 1
     screen.senses.open = False
     assert laser.opacity == 1
+
+
+def test_a_sensor_that_is_made_late_says_where_what_it_shows_comes_from(stage: Any) -> None:
+    feeds = Feeds(lambda: 0.0)
+    instruments = Instruments(load("patrol", CATALOGUE), Dashboard(feeds), feeds)
+    offer: Any = SimpleNamespace(source=lambda _: "/ring_of_sonars", pose_by_odometry=False)
+    instruments.name_sources(offer)
+    make = next(make for make, topics in instruments.senses if "/sonar" in topics)
+    title = make().title
+    assert title == "Sonar · …ing_of_sonars"
