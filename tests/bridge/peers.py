@@ -41,6 +41,10 @@ class Peer:
         answer = await self.call("/rosapi/nodes", id="settled")
         assert answer["id"] == "settled", answer
 
+    async def hears_nothing(self) -> bool:
+        """Whether the next thing that comes is the answer to what is asked now; what was said before is heard by then."""
+        return (await self.call("/rosapi/nodes", id="asked now")).get("id") == "asked now"
+
 
 @asynccontextmanager
 async def peer(made: BridgeServer | Wire, path: str = "", **options: Any) -> AsyncIterator[Peer]:

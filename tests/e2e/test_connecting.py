@@ -58,12 +58,12 @@ def says(glass: Handheld, *parts: str) -> str:
 def test_nobody_listening_is_said_with_the_address(tmp_path: Path) -> None:
     port = free_port()
     with handheld(tmp_path, url=f"ws://127.0.0.1:{port}", discover=False) as glass:
-        says(glass, f"127.0.0.1:{port}")
+        assert says(glass, f"127.0.0.1:{port}")
 
 
 def test_a_server_that_is_no_rosbridge_is_said(tmp_path: Path) -> None:
     with chatterbox() as port, handheld(tmp_path, url=f"ws://127.0.0.1:{port}", discover=False) as glass:
-        says(glass, "is a WebSocket but no robot")
+        assert says(glass, "is a WebSocket but no robot")
 
 
 @pytest.mark.parametrize("typed", ["not an address", "http://10.0.0.3:9090", "ws://10.0.0.3:99999"])

@@ -10,6 +10,7 @@ from typing import Any
 
 from bench.support.child import Child
 from bench.support.pair import PHONE, app
+from bridge.core.codes import Code
 from examples.demo.robot import RobotProcess
 from tests.e2e.handheld import PATIENCE, Handheld, handheld
 
@@ -84,7 +85,7 @@ def test_a_task_outlives_the_phone_that_started_it_and_the_next_one_knows_everyt
         assert (status.task, status.state) == ("hold", "RUNNING")
         glass.until(lambda: session.feeds.state("/task/progress") == "live", "its progress")
         glass.until(
-            lambda: any(event.text == "Control is free." for event in session.logbook.events),
+            lambda: any(event.code == Code.CONTROL_FREE for event in session.logbook.events),
             "what happened while there was no phone",
         )
         answer = glass.ask(

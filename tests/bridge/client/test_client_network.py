@@ -73,7 +73,7 @@ async def test_waking_up_ends_the_wait():
         await made.sentence(Phase.WAITING)
         async with server(port=port):
             network.sleep = 600.0
-            await made.connected()
+            assert await made.connected(), "and does not wait for a minute"
 
 
 async def test_a_connection_from_an_address_that_is_gone_is_given_up_at_once():

@@ -164,6 +164,7 @@ async def test_one_that_hangs_up_at_once_leaves_nothing(context: ssl.SSLContext)
             async with bare(robot) as (_, writer):
                 writer.write(said)
         await nobody_left(robot)
+        assert not robot._reception.places
 
 
 async def test_the_server_ends_with_connections_in_every_state(context: ssl.SSLContext) -> None:
