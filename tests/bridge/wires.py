@@ -27,6 +27,19 @@ class Clock:
         return self.time
 
 
+async def until(true: Callable[[], object]) -> None:
+    """Wait for what no event tells of."""
+    async with asyncio.timeout(TIMEOUT):
+        while not true():  # noqa: ASYNC110 - there is no event to wait for
+            await asyncio.sleep(0.005)
+
+
+async def arrived() -> None:
+    """Whatever was on its way through this process has arrived: each turn of its loop takes what the sockets hold."""
+    for _ in range(50):
+        await asyncio.sleep(0)
+
+
 class FakeNetwork:
     """A machine whose address and sleep the test decides."""
 
@@ -87,6 +100,12 @@ class Link:
         found: LinkState = next(state for state in states if state.phase is phase)
         states.clear()
         return found.sentence
+
+    async def heard_at(self, time: float) -> None:
+        """Something came when the client's clock showed `time`, or the link is lost."""
+        beating = self.client._heartbeat
+        assert beating is not None
+        await until(lambda: beating.liveness._heard == time or self.client._heartbeat is not beating)
 
     async def connected(self) -> BridgeClient:
         await self.states.until(lambda _: self.client.state.phase is Phase.CONNECTED)

@@ -17,19 +17,13 @@ from bridge.client import connection, heartbeat
 from bridge.client.client import BridgeClient, Phase
 from bridge.msgs.geometry_msgs import Twist
 from tests.bridge.client.foreign_server import foreign
-from tests.bridge.wires import TIMEOUT, Clock, FakeNetwork, Record, link, server, url, wire
+from tests.bridge.wires import Clock, FakeNetwork, Record, arrived, link, server, until, url, wire
 
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
     monkeypatch.setattr(heartbeat, "PING_PERIOD", 0.02)
     monkeypatch.setattr(module, "CHANGE_CHECK_PERIOD", 0.01)
-
-
-async def until(true):
-    async with asyncio.timeout(TIMEOUT):
-        while not true():  # noqa: ASYNC110 - no event tells of it
-            await asyncio.sleep(0.005)
 
 
 def attempts(seed: int, until: float) -> list[float]:
@@ -58,8 +52,8 @@ async def test_a_new_way_to_the_robot_ends_the_wait():
     async with link(f"ws://127.0.0.1:{port}", backoff=(60.0, 60.0), network=network) as made:
         await made.sentence(Phase.WAITING)
         async with server(port=port):
-            network.address = None
-            await asyncio.sleep(0.05)
+            network.address, looked = None, len(network.asked)
+            await until(lambda: len(network.asked) > looked + 1)
             assert made.client.state.phase is Phase.WAITING
             network.address = "10.0.0.5"
             await made.connected()
@@ -97,8 +91,9 @@ async def test_a_silent_link_is_lost_one_second_after_the_network_changed_or_the
     ):
         await made.connected()
         cable.freeze()
+        await arrived()
         setattr(network, change, {"address": "10.0.0.5", "sleep": 600.0}[change])
-        await asyncio.sleep(0.1)
+        await until(lambda: made.client._heartbeat.liveness._alert < math.inf)
         clock.time += 1.1
         sentence = await made.sentence(Phase.WAITING)
         assert sentence == f"Nothing came from 127.0.0.1:{cable.port} after the network changed."
@@ -110,8 +105,8 @@ async def test_a_link_that_lives_on_survives_a_change_of_the_network():
         await made.connected()
         network.address = "10.0.0.5"
         for _ in range(8):
-            await asyncio.sleep(0.05)
             clock.time += 0.5
+            await made.heard_at(clock.time)
         assert made.client.state.phase is Phase.CONNECTED
 
 
@@ -158,10 +153,9 @@ async def test_a_drive_command_without_a_known_clock_goes_unstamped_to_a_foreign
         async with link(place, now=clock) as made:
             await heard.reach(1)
             for _ in range(4):
-                await asyncio.sleep(0.05)
                 clock.time += 0.9
+                await made.heard_at(clock.time)
             client = await made.connected()
-            await asyncio.sleep(0.05)
             assert client.foreign
             assert math.isnan(client.robot_time())
             assert client.publish("/cmd_vel", Twist(), stamp=client.robot_time())
@@ -184,7 +178,7 @@ async def test_while_nothing_comes_from_the_robot_no_drive_command_is_sent():
     async with server() as robot, wire(robot.port) as cable, link(url(cable), now=clock) as made:
         client = await made.connected()
         cable.freeze()
-        await asyncio.sleep(0.05)
+        await arrived()
         clock.time += 1.1
         assert not client.publish("/cmd_vel", Twist(), stamp=1.0)
 
@@ -227,7 +221,7 @@ async def test_a_link_on_which_nothing_came_for_a_second_says_so():
         client = await made.connected()
         assert not client.late
         cable.freeze()
-        await asyncio.sleep(0.05)
+        await arrived()
         clock.time += 1.1
         assert client.late
         cable.thaw()
@@ -239,7 +233,7 @@ async def test_a_link_that_is_given_up_is_late_until_its_state_says_so():
     async with server() as robot, wire(robot.port) as cable, link(url(cable), now=clock) as made:
         client = await made.connected()
         cable.freeze()
-        await asyncio.sleep(0.05)
+        await arrived()
         clock.time += 3.1
         while client.state.phase is Phase.CONNECTED:
             seen.append(client.late)

@@ -88,7 +88,7 @@ async def test_a_websocket_that_answers_nothing_but_pings_is_in_the_end_taken_fo
         async with link(f"ws://{place}", now=clock) as made:
             await met.reach(1)
             for _ in range(3):
-                await asyncio.sleep(0.05)  # pings are answered meanwhile
+                await made.heard_at(clock.time)  # pings are answered meanwhile
                 assert made.client.state.phase is Phase.CONNECTING
                 clock.time += 1.0
             sentence = await made.sentence(Phase.CONNECTED)
