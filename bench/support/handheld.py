@@ -324,8 +324,20 @@ class Script:
             "pictures": list(self.pictures),
         }
 
+    def overdraw(self) -> dict[str, float]:
+        """How often each pixel of the glass is shaded for one frame."""
+        return {"times": in_ui(_overdraw)}
+
     def _spent(self) -> dict[str, float]:
         return {"main": time.thread_time(), "process": time.process_time(), "frames": next(self._frames)}
+
+
+def _overdraw() -> float:
+    from kivy.core.window import Window
+
+    from bench.support.overdraw import Overdraw
+
+    return sum(Overdraw(Window).frame().values()) / (Window.width * Window.height)
 
 
 def count_frames() -> Iterator[int]:
