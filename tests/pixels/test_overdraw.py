@@ -98,3 +98,10 @@ def test_a_large_ring_looks_as_if_its_whole_square_were_shaded(stage: Stage, das
     assert np.abs(seen[0] - seen[1]).max() <= 2
     assert seen[0][..., 0].max() == 255
     assert cost[1] < 0.3 * cost[0]
+
+
+def test_a_box_with_square_corners_is_as_bright_at_its_edges_as_in_its_middle(stage: Stage) -> None:
+    widget = Widget()
+    widget.canvas.add(Rounded((1, 1, 1, 1), (0, 0), (SIDE, SIDE), [0]))
+    stage.show(widget, (SIDE, SIDE))
+    assert (stage.pixels(widget) == 255).all()

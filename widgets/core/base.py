@@ -46,23 +46,21 @@ Builder.load_string("""
             pos: root.badge_pos
             size: root.badge_size
             radius: [root.badge_size[1] / 2]
-        Color:
+        Outline:
             rgba: theme.muted if root.badge else (0, 0, 0, 0)
-        SmoothLine:
             rounded_rectangle: root.badge_pos + root.badge_size + (root.badge_size[1] / 2,)
             width: theme.outline
-        Color:
+        Tinted:
             rgba: theme.text if root.badge else (0, 0, 0, 0)
-        Rectangle:
             pos: root.badge_text_pos
             size: root.badge_size[0] - dp(16), root.badge_size[1] - dp(6)  # kv does not see a texture's size change
             texture: root.badge_texture
-        Color:
+        Outline:
             rgba: theme.danger if root.alarmed else (0, 0, 0, 0)
-        SmoothLine:
             rounded_rectangle: root.pos + root.size + [root.veil_radius]
             width: dp(1.5)
-        Rectangle:
+        Tinted:
+            rgba: theme.danger if root.alarmed else (0, 0, 0, 0)
             pos: root.right - root.alarm_texture.width - dp(6), root.top - root.alarm_texture.height - dp(6)
             size: root.alarm_texture.size
             texture: root.alarm_texture

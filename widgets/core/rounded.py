@@ -17,9 +17,11 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
-from kivy.graphics import BorderImage, Color, InstructionGroup
+from kivy.graphics import BorderImage
 from kivy.graphics.texture import Texture
 from numpy.typing import NDArray
+
+from widgets.core.visible import Visible
 
 __all__ = ["Rounded", "coverage"]
 
@@ -35,9 +37,14 @@ Corners = tuple[int, int, int, int]
 """Radii [px]: upper left, upper right, lower right, lower left."""
 
 
+def _border(corners: Corners) -> int:
+    """Of the picture's parts that are not stretched [px]: what is stretched has full pixels round it, or its edges would fade."""
+    return max(*corners, 1) + RIM
+
+
 def coverage(corners: Corners) -> NDArray[np.float64]:
     """How much of each pixel the smallest box with such corners covers, 0 to 1, lowest row first, with an empty rim of RIM."""
-    reach = max(corners) + RIM
+    reach = _border(corners)
     side = 2 * reach + 1
     picture = np.zeros((side, side))
     picture[RIM:-RIM, RIM:-RIM] = 1.0
@@ -67,7 +74,7 @@ def _texture(corners: Corners) -> Texture:
     return made
 
 
-class Rounded(InstructionGroup):
+class Rounded(Visible):
     """A box in one colour. What nobody could see, by its colour or by its size, is not drawn."""
 
     def __init__(
@@ -78,24 +85,12 @@ class Rounded(InstructionGroup):
         radius: Sequence[float] = (10,),
     ) -> None:
         """As the properties of the same names."""
-        super().__init__()
-        # a rule makes its instructions within its canvas, to which they would add themselves
-        self._colour, self._image = Color(*rgba, noadd=True), BorderImage(size=(0, 0), noadd=True)
+        self._image = BorderImage(size=(0, 0), noadd=True)
         self._pos, self._size = (float(pos[0]), float(pos[1])), (float(size[0]), float(size[1]))
         self._radius = tuple(radius)
         self._corners: Corners | None = None
+        super().__init__(self._image, rgba)
         self._place()
-
-    @property
-    def rgba(self) -> list[float]:
-        """Colour with its opacity, each 0 to 1."""
-        return list(self._colour.rgba)
-
-    @rgba.setter
-    def rgba(self, value: Sequence[float]) -> None:
-        if list(value) != self.rgba:
-            self._colour.rgba = value
-            self._show()
 
     @property
     def pos(self) -> tuple[float, float]:
@@ -133,9 +128,9 @@ class Rounded(InstructionGroup):
             self._place()
 
     @property
-    def drawn(self) -> bool:
-        """There is something to see."""
-        return bool(self.children)
+    def covers(self) -> bool:
+        """It has a width and a height."""
+        return min(self._size) > 0
 
     def _place(self) -> None:
         """Bring the picture to its size, with its corners."""
@@ -148,18 +143,7 @@ class Rounded(InstructionGroup):
         if corners != self._corners:
             self._corners = corners
             self._image.texture = _texture(corners)
-            self._image.border = [max(corners) + RIM] * 4
+            self._image.border = [_border(corners)] * 4
         self._image.size = self._size[0] + 2 * RIM, self._size[1] + 2 * RIM
         self._image.pos = self._pos[0] - RIM, self._pos[1] - RIM
-        self._show()
-
-    def _show(self) -> None:
-        seen = self._colour.a > 0 and min(self._size) > 0
-        if seen == self.drawn:
-            return
-        if seen:
-            self.add(self._colour)
-            self.add(self._image)
-        else:
-            for part in (self._image, self._colour):  # Kivy's `clear` leaves some
-                self.remove(part)
+        self.refresh()

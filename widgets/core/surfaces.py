@@ -58,9 +58,8 @@ Builder.load_string("""
             pos: self.pos
             size: self.size
             radius: [self.card_corner]
-        Color:
+        Outline:
             rgba: theme.line if self.card else (0, 0, 0, 0)
-        SmoothLine:
             rounded_rectangle: self.pos + self.size + [self.card_corner]
             width: theme.outline
 """)

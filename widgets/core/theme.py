@@ -233,4 +233,5 @@ _register_fonts()
 theme = Theme()
 """The one theme of this process; kv knows it under the same name."""
 global_idmap.update(theme=theme, icons=ICONS)
-Factory.register("Rounded", module="widgets.core.rounded")
+for name, module in {"Rounded": "rounded", "Outline": "visible", "Tinted": "visible"}.items():
+    Factory.register(name, module=f"widgets.core.{module}")

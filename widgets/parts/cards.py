@@ -39,9 +39,8 @@ Builder.load_string("""
     ground: '' if root.floating else root.role
     corner: theme.radius
     canvas.before:
-        Color:
+        Outline:
             rgba: theme.roles[root.outline] if root.floating else (0, 0, 0, 0)
-        SmoothLine:
             rounded_rectangle: self.x + .5, self.y + .5, self.width - 1, self.height - 1, theme.radius
             width: theme.outline * .7
 

@@ -5,12 +5,12 @@ import math
 import weakref
 
 import pytest
-from kivy.graphics import Rectangle
 from kivy.metrics import sp
 
 from bridge.msgs.std_msgs import Float64
 from widgets.core.base import STATES, Control, RobotWidget, age_text, text_texture
 from widgets.core.theme import theme
+from widgets.core.visible import Tinted
 
 
 def test_a_new_widget_was_never_heard_and_a_new_control_is_live():
@@ -104,5 +104,18 @@ def test_an_age_that_comes_later_is_drawn_as_wide_as_it_is(stage):
     widget.age, widget.state = 12.0, "stale"
     stage.frames(2)
     texture = text_texture("12 s old", sp(12), theme.font)
-    drawn = [one for one in widget.canvas.after.children if isinstance(one, Rectangle)]
+    drawn = [one for one in widget.canvas.after.children if isinstance(one, Tinted) and one.drawn]
     assert tuple(texture.size) in [tuple(one.size) for one in drawn if one.texture is texture]
+
+
+def test_what_is_live_has_nothing_over_it_and_an_alarm_or_an_age_has(stage):
+    widget = stage.show(RobotWidget(state="live"), (200, 200))
+
+    def over():
+        return [part for part in widget.canvas.after.children if part.drawn]
+
+    assert over() == []
+    for state, count in (("stale", 4), ("alarm", 2), ("disabled", 1), ("live", 0)):
+        widget.state, widget.age = state, 12.0
+        stage.frames(2)
+        assert len(over()) == count, state

@@ -22,9 +22,17 @@ def image(box: Rounded) -> Any:
     return found
 
 
+def coverage_of(box: Rounded) -> np.ndarray:
+    """Of the picture that it draws."""
+    radii = box._corners
+    assert radii is not None
+    return coverage(radii)
+
+
 def corners(box: Rounded) -> float:
     """Of the picture's part that is not stretched [px]."""
-    return image(box).border[0] - RIM
+    border = image(box).border[0] - RIM
+    return 0 if coverage_of(box)[-1 - RIM, RIM] == 1 else border
 
 
 @pytest.mark.parametrize(
@@ -88,6 +96,16 @@ def test_boxes_alike_share_a_picture_and_more_kinds_than_are_kept_are_drawn() ->
     for radius in range(MAX_TEXTURES + 5):
         assert corners(Rounded(RED, (0, 0), (500, 500), [radius])) == radius
     assert image(one).texture is not None
+
+
+@pytest.mark.parametrize("radius", [0, 1, 14])
+def test_what_is_stretched_lies_within_full_pixels(radius: int) -> None:
+    """A picture is smoothed between its pixels: beside clear ones the stretched middle would fade out."""
+    picture, border = coverage((radius,) * 4), int(image(Rounded(RED, (0, 0), (90, 90), [radius])).border[0])
+    middle = len(picture) // 2
+    assert len(picture) == 2 * border + 1
+    assert (picture[middle, middle - 1 : middle + 2] == 1).all()
+    assert (picture[middle - 1 : middle + 2, middle] == 1).all()
 
 
 def test_a_corner_is_a_quarter_of_a_disc() -> None:

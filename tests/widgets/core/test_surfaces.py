@@ -7,6 +7,7 @@ from kivy.uix.widget import Widget
 from widgets.core.rounded import Rounded
 from widgets.core.surfaces import Edged, Glass, Outlined, Pressable
 from widgets.core.theme import theme
+from widgets.core.visible import Visible
 
 
 class Box(Outlined, Widget):
@@ -26,7 +27,7 @@ class Pane(Glass, Widget):
 
 
 def colours(widget):
-    return [list(part.rgba) for part in widget.canvas.before.children if isinstance(part, (Color, Rounded))]
+    return [list(part.rgba) for part in widget.canvas.before.children if isinstance(part, (Color, Visible))]
 
 
 def boxes(widget):

@@ -51,13 +51,13 @@ Builder.load_string("""
             pos: root.sign_pos[0] + theme.outline, root.sign_pos[1] + theme.outline
             size: root.sign_size[0] - 2 * theme.outline, root.sign_size[1] - 2 * theme.outline
             radius: [root.sign_size[1] / 2 - theme.outline]
-        Color:
+        Tinted:
             rgba: theme.roles[root.sign_role] if root.sign_role else (0, 0, 0, 0)
-        Rectangle:
             texture: root.sign
             size: root.sign.size
             pos: root.sign_pos[0] + dp(7), root.sign_pos[1] + (root.sign_size[1] - root.sign.height) / 2
-        Rectangle:
+        Tinted:
+            rgba: theme.roles[root.sign_role] if root.sign_role else (0, 0, 0, 0)
             texture: root.sign_word
             size: root.sign_word.size
             pos: root.sign_pos[0] + root.sign.width + dp(11), root.sign_pos[1] + (root.sign_size[1] - root.sign_word.height) / 2

@@ -25,9 +25,8 @@ Builder.load_string("""
             pos: root.words_pos[0] - dp(4), root.words_pos[1] + dp(1)
             size: root.words_size[0] + dp(8), root.words_size[1] - dp(2)
             radius: [dp(4)]
-        Color:
+        Tinted:
             rgba: theme.muted if root.captioned else (0, 0, 0, 0)
-        Rectangle:
             texture: root.words
             size: root.words_size
             pos: root.words_pos
