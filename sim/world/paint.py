@@ -42,6 +42,8 @@ class Paint:
         self._halves = strips[:, 4] / 2
         self._arrows = [np.array(arrow_corners(arrow)) for arrow in world.arrows]
         self._middles = [corners.mean(axis=0).tolist() for corners in self._arrows]
+        self._clear: tuple[tuple[float, float], float] = ((0.0, 0.0), -math.inf)
+        """A place, and a distance from there within which there is no paint [m]."""
 
     def share(self, points: Points, radius: float) -> NDArray[np.float64]:
         """Part, 0 to 1, of a spot of `radius` [m] round each of `points` that is painted, to a tenth of it."""
@@ -49,7 +51,11 @@ class Paint:
         if not len(self._starts) and not self._arrows:
             return painted
         reach = radius + 2 * float(np.abs(points - points[0]).max())
-        near = self._near(points[0], reach)
+        here: tuple[float, float] = tuple(points[0].tolist())
+        place, clear = self._clear
+        if math.dist(here, place) + reach < clear:
+            return painted
+        near = self._near(here, reach)
         if len(near):
             starts, ahead = self._starts[near], self._ahead[near]
             x, y = (points[:, axis, None] - starts[:, axis] for axis in (0, 1))
@@ -59,19 +65,21 @@ class Paint:
             beside = _covered(across, radius, -halves, halves)
             painted = (beside * _covered(along, radius, 0.0, self._lengths[near])).max(axis=1)
         for corners, middle in zip(self._arrows, self._middles, strict=True):
-            if math.dist(middle, points[0]) < _REACH + reach:
+            if math.dist(middle, here) < _REACH + reach:
                 spots = (points[:, None, :] + _CROSS * radius).reshape(-1, 2)
                 hit = _inside(spots, corners).reshape(len(points), -1).mean(axis=1)
                 painted = np.maximum(painted, hit)
         return painted
 
-    def _near(self, point: Points, reach: float) -> NDArray[np.intp]:
-        """Which strips come nearer to a point than `reach` [m]; mostly there is none."""
-        x, y = (point - self._starts).T
+    def _near(self, point: tuple[float, float], reach: float) -> NDArray[np.intp]:
+        """Which strips come nearer to a point than `reach` [m]; mostly there is none. Keeps how far it is clear round it."""
+        x, y = (np.array(point) - self._starts).T
         ahead_x, ahead_y = self._ahead.T
         along, across = x * ahead_x + y * ahead_y, y * ahead_x - x * ahead_y
-        inside = (np.abs(across) < self._halves + reach) & (along > -reach) & (along < self._lengths + reach)
-        return np.flatnonzero(inside)
+        gaps = np.maximum(np.abs(across) - self._halves, np.maximum(-along, along - self._lengths))
+        arrows = (math.dist(middle, point) - _REACH for middle in self._middles)
+        self._clear = point, min(float(gaps.min(initial=math.inf)), min(arrows, default=math.inf))
+        return np.flatnonzero(gaps < reach)
 
 
 def _bay_lines(world: World) -> Iterator[tuple[float, float, float, float, float]]:
