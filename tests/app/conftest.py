@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,12 +14,16 @@ from tests.app.glass import Glass, running
 from tests.app.sleeper import sleeper
 from tests.headless import Stage
 
+QUICK = 400_000
+"""Blocks of memory that a look at all that a test has made may be for: more of them take longer than most tests."""
+
 
 @pytest.fixture(autouse=True)
 def left_open() -> Iterator[None]:
-    """In a fork, where it is quick: what a test did not close complains while that test is the one that is told of."""
+    """In a fork: what a test did not close complains while that test is the one that is told of."""
+    before = sys.getallocatedblocks()
     yield
-    if sleeper():
+    if sleeper() and sys.getallocatedblocks() - before < QUICK:
         gc.collect()
 
 

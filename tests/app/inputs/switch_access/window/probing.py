@@ -48,28 +48,31 @@ class Probe(MotionEvent):
 
 def taken(skip: list[Any], room: Any = None) -> dict[int, Any]:
     """Every widget that takes a finger somewhere in the window, or in `room`; `skip` are those that act at once."""
-    found: dict[int, Any] = {}
+    found: dict[tuple[int, int], list[Any]] = {}
     left, low, right, top = (0, 0, Window.width, Window.height) if room is None else box(room)
     boxes = [box(one) for one in skip]
     with lying_still():
-        for x, y in _spots():
-            on_glass = left <= x < right and low <= y < top
-            if on_glass and not any(b[0] <= x <= b[2] and b[1] <= y <= b[3] for b in boxes):
-                found.update({id(widget): widget for widget in probe(x, y)})
-    return found
+        for one in _listening():
+            for x, y in _spots(one):
+                on_glass = left <= x < right and low <= y < top
+                if (x, y) not in found:
+                    free = on_glass and not any(b[0] <= x <= b[2] and b[1] <= y <= b[3] for b in boxes)
+                    found[x, y] = list(probe(x, y)) if free else []
+                if any(widget is one for widget in found[x, y]):
+                    break  # what lies over the rest of it listens too, and has spots of its own
+    return {id(widget): widget for widgets in found.values() for widget in widgets}
 
 
-def _spots() -> set[tuple[int, int]]:
-    """Where a finger may find something: on everything that does not leave fingers to what is in it."""
-    spots = set()
-    for root in Window.children:
-        for one in root.walk(restrict=True):
-            if not _listens(one) or not one.opacity:
-                continue
-            left, low, right, top = box(one)
-            for across, up in SHARES:
-                spots.add((round(left + across * (right - left)), round(low + up * (top - low))))
-    return spots
+def _listening() -> list[Any]:
+    """All that is seen and does not leave fingers to what is in it."""
+    every = [one for root in Window.children for one in root.walk(restrict=True)]
+    return [one for one in every if one.opacity and _listens(one)]
+
+
+def _spots(one: Any) -> list[tuple[int, int]]:
+    """Where a finger may find it."""
+    left, low, right, top = box(one)
+    return [(round(left + across * (right - left)), round(low + up * (top - low))) for across, up in SHARES]
 
 
 def _listens(widget: Any) -> bool:
