@@ -90,7 +90,6 @@ class BrokerLine:
         self._replies: deque[Reply] = deque(maxlen=MAX_REPLIES)
         self._wake = asyncio.Event()
         self._beat = math.inf
-        self._stalled = False
 
     @property
     def is_up(self) -> bool:
@@ -148,21 +147,25 @@ class BrokerLine:
                     retainHandling=SubscribeOptions.RETAIN_DO_NOT_SEND,
                 )
                 await client.subscribe(each, options=options)
-            self._client, self._stalled = client, False
+            self._client = client
             self._beat = asyncio.get_running_loop().time()
-            helpers = [
-                asyncio.create_task(self._watch_loop()),
-                asyncio.create_task(self._send_replies(client)),
-            ]
+            if self._on_up is not None:
+                await self._on_up()
+            ends = [asyncio.create_task(self._listen(client)), asyncio.create_task(self._watch_loop())]
+            helpers = [*ends, asyncio.create_task(self._send_replies(client))]
             try:
-                if self._on_up is not None:
-                    await self._on_up()
-                async for message in client.messages:
-                    if self._is_stale():
-                        return
-                    self._handle(message)
+                done, _ = await asyncio.wait(ends, return_when=asyncio.FIRST_COMPLETED)
             finally:
                 await cancel_all(helpers)
+            for each in done:
+                each.result()
+
+    async def _listen(self, client: aiomqtt.Client) -> None:
+        """Hear messages until they are too old."""
+        async for message in client.messages:
+            if self._is_stale():
+                return
+            self._handle(message)
 
     def _new_client(self) -> aiomqtt.Client:
         url, tls = self._url, ssl.create_default_context() if self._url.scheme == "mqtts" else None
@@ -186,18 +189,14 @@ class BrokerLine:
         )
 
     async def _watch_loop(self) -> None:
-        """Notice that this process stood still."""
-        loop = asyncio.get_running_loop()
-        while True:
+        """Return when this process stood still, so that what came meanwhile is too old."""
+        while not self._is_stale():
+            self._beat = asyncio.get_running_loop().time()
             await asyncio.sleep(STALL_PERIOD)
-            self._stalled = self._stalled or self._is_late()
-            self._beat = loop.time()
-
-    def _is_late(self) -> bool:
-        return asyncio.get_running_loop().time() - self._beat > STALL_PERIOD + STALL_TIMEOUT
 
     def _is_stale(self) -> bool:
-        return self._drops_stale and (self._stalled or self._is_late())
+        late = asyncio.get_running_loop().time() - self._beat > STALL_PERIOD + STALL_TIMEOUT
+        return late and self._drops_stale
 
     async def _send_replies(self, client: aiomqtt.Client) -> None:
         while True:

@@ -47,6 +47,8 @@ class Visitor:
         """It reaches the payloads `keys`. `name` is how it calls itself where nothing else says it."""
         self.operator = operator
         self.name = name
+        # so that a command that is sent again after the broker was gone counts as the same one
+        self._client_id = f"{operator.way}:{name}" if name else ""
         self._door, self._keys = door, keys
 
     def heard(self) -> None:
@@ -113,13 +115,12 @@ class Visitor:
             raise Refused(Notice(Code.COMMAND_AHEAD, ahead, seconds=-age, allowed=MAX_CLOCK_LEAD))
 
     def _named(self, request: Msg) -> Msg:
-        """The request with the client's own name and id, where it gives none."""
-        if not isinstance(request, CommandRequest) or not self.name:
+        """The request with the id and name that the client gave before, or its own, where it gives none."""
+        if not isinstance(request, CommandRequest):
             return request
-        own = f"{self.operator.way}:{self.name}"
-        return replace(
-            request, client_id=request.client_id or own, client_name=request.client_name or self.name
-        )
+        self._client_id = request.client_id or self._client_id
+        self.name = request.client_name or self.name
+        return replace(request, client_id=self._client_id, client_name=self.name)
 
     def _time(self) -> bytes:
         self._door.check(self.operator, "rosapi", TIME)

@@ -1,7 +1,7 @@
 """Hundreds of random sequences of what operators may do with control: never two drivers, never a stranger's command, STOP always.
 
-Once with the controls alone; once with a whole station behind its door, where operators come by rosbridge and by a gateway
-in memory, and STOP by HTTP as well. Sequences of eight there are all gone through by `tests/slow`; these are longer.
+Once with the controls alone; once with a whole station behind its door, where operators come by rosbridge, by a gateway
+in memory and by a broker in plain JSON, and STOP by HTTP as well. Sequences of eight there are all gone through by `tests/slow`; these are longer.
 """
 
 from __future__ import annotations
@@ -257,7 +257,7 @@ class OperatorsAtTheDoor(Operators):
         self.gateways.close()
 
     def _fresh(self, name: str) -> Operator:
-        how = ("rosbridge", "memory")[next(self.numbers) % 2]
+        how = ("rosbridge", "memory", "broker")[next(self.numbers) % 3]
         client = self.gateways.connect(how, name)
         self.by_id[client.operator.id] = client
         self._call(client.operator, "/missions/get", client_id=name, client_name=name.capitalize())

@@ -15,6 +15,9 @@ from bridge.server.flow.send_queue import WriteBatch
 from bridge.server.rosbridge_session import RosbridgeSession
 from robotside.door.station_door import StationDoor
 from robotside.gateways.http.gateway import HttpGateway
+from robotside.gateways.payloads.table import KEYS
+from robotside.gateways.plain.visitor import TIME
+from robotside.gateways.plain.visitors import Visitors
 from robotside.gateways.rosbridge.gateway import RosbridgeGateway
 from robotside.gateways.scaling.picture_scaling import PictureScaler
 from tests.bridge.server.flow.test_send_queue import FrameWriter
@@ -42,10 +45,13 @@ class Gateways:
         self.rosbridge = RosbridgeGateway(door, "127.0.0.1", 0, self._pictures, lambda now: now)
         self.http = HttpGateway(door, "127.0.0.1", 0, self._pictures, lambda: "")
         self.memory = MemoryGateway(door, door.now)
+        self._visitors = Visitors(door, "broker", "broker:1", KEYS, role=None, secure=False)
         self._door = door
 
     def connect(self, how: str, name: str) -> Client:
-        """A client that comes by `rosbridge` or `memory`."""
+        """A client that comes by `rosbridge`, `memory` or a `broker`."""
+        if how == "broker":
+            return _Visiting(self._visitors, name)
         return _Direct(self.memory, name) if how == "memory" else self.run(self._connect(name))
 
     async def _connect(self, name: str) -> Client:
@@ -97,6 +103,28 @@ class _Direct:
         answer = self._client.call(service, request)
         assert isinstance(answer, CommandResponse)
         return answer
+
+
+class _Visiting:
+    """A client that a broker passes on, and that speaks plain JSON."""
+
+    def __init__(self, visitors: Visitors, name: str) -> None:
+        self._visitors, self._visitor = visitors, visitors.newcomer(name)
+        self.operator = self._visitor.operator
+        self._visitor.call(TIME, b"")
+
+    def publish(self, topic: str, msg: Msg, stamp: float) -> None:
+        self._visitor.heard()
+        self._visitor.publish(topic, to_json(msg), stamp, dated=False)
+
+    def ask(self, service: str, request: CommandRequest) -> CommandResponse:
+        self._visitor.heard()
+        answer = self._visitor.call(service, to_json(request))
+        assert isinstance(answer, bytes)
+        return from_json(answer, CommandResponse)
+
+    def leave(self) -> None:
+        self._visitors.leave(self._visitor)
 
 
 class _Rosbridge:

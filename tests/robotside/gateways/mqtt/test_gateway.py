@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import socket
+import time
 from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -23,6 +24,7 @@ from robotside.core.config import TrustSettings
 from robotside.door.station_door import StationDoor
 from robotside.gateways.adapter import Surroundings
 from robotside.gateways.gateway_url import read_url
+from robotside.gateways.mqtt import broker_line
 from robotside.gateways.mqtt.gateway import MqttGateway
 from robotside.trust.people import TOKEN
 from robotside.trust.people_file import PeopleFile
@@ -52,6 +54,13 @@ async def no_pool_left() -> AsyncIterator[None]:
     """End the threads of the loop's own pool, in which connections are made."""
     yield
     await asyncio.get_running_loop().shutdown_default_executor()
+
+
+@pytest.fixture(autouse=True)
+def patient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A busy computer on which these tests are slow is no robot that stood still, and no client that is lost."""
+    monkeypatch.setattr(broker_line, "STALL_TIMEOUT", 60.0)
+    monkeypatch.setattr(broker_line, "KEEPALIVE", 60)
 
 
 @pytest.fixture
@@ -106,6 +115,7 @@ class Client:
         expiry: int | None = None,
         retain: bool = False,
         wish: str = "",
+        qos: int = 1,
         **properties: str,
     ) -> None:
         said = Properties(PacketTypes.PUBLISH)
@@ -117,7 +127,7 @@ class Client:
             said.UserProperty = list(properties.items())
         raw = message if isinstance(message, bytes) else json.dumps(message or {}).encode()
         topic = f"{ROOT}/clients/{self.name}/{what}"
-        await self.mqtt.publish(topic, raw, qos=1, retain=retain, properties=said)
+        await self.mqtt.publish(topic, raw, qos=qos, retain=retain, properties=said)
 
     async def ask(self, what: str, message: object = None, **said: Any) -> dict[str, Any]:
         """The answer to a command."""
@@ -271,7 +281,10 @@ async def test_a_broker_that_is_absent_is_an_event_and_is_reached_when_it_comes(
     assert codes(scene).count(Code.GATEWAY_LOST) == 1
 
 
-async def test_a_broker_that_falls_silent_leaves_the_robot_at_rest(scene: Scene, broker: Broker) -> None:
+async def test_a_broker_that_falls_silent_leaves_the_robot_at_rest(
+    scene: Scene, broker: Broker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(broker_line, "KEEPALIVE", 2)
     async with serving(scene, broker.url), client(broker) as me:
         await online(me)
         await driving(scene, me)
@@ -279,6 +292,24 @@ async def test_a_broker_that_falls_silent_leaves_the_robot_at_rest(scene: Scene,
         await until(lambda: scene.robot.at_rest)
         broker.thaw()
         await until(lambda: Code.GATEWAY_UP in codes(scene))
+
+
+async def test_a_robot_that_stood_still_does_nothing_that_waited_meanwhile_but_stop(
+    scene: Scene, broker: Broker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async with serving(scene, broker.url), client(broker) as me:
+        await online(me)
+        broker.freeze()  # so that all of it comes while the robot stands still
+        await me.send("call/control/acquire", expiry=FRESH, qos=0)
+        await me.send("call/stop", qos=0)
+        monkeypatch.setattr(broker_line, "STALL_TIMEOUT", 0.25)
+        broker.thaw()
+        time.sleep(1.0)  # noqa: ASYNC251 - the loop stands still
+        await until(lambda: Code.GATEWAY_LOST in codes(scene))
+        monkeypatch.setattr(broker_line, "STALL_TIMEOUT", 60.0)
+        await until(lambda: Code.GATEWAY_UP in codes(scene) and scene.station.controls.stopped)
+        await me.ask("call/rosapi/get_time")
+        assert not scene.control.driver
 
 
 async def test_a_call_needs_something_that_says_how_old_it_is(scene: Scene, broker: Broker) -> None:

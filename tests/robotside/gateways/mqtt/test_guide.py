@@ -18,9 +18,11 @@ from robotside.gateways.mqtt.topic_names import TopicNames
 from robotside.gateways.payloads.offered import offered
 from tests.lacking import lacking
 from tests.robotside.gateways.mqtt.broker import Broker
-from tests.robotside.gateways.mqtt.test_gateway import client, online
+from tests.robotside.gateways.mqtt.test_gateway import client, no_pool_left, online, patient
 from tests.robotside.gateways.payloads.test_table import EquippedRobot
 from tests.robotside.scene import Scene
+
+__all__ = ["no_pool_left", "patient"]
 
 NEEDED = ("mosquitto_pub", "mosquitto_sub")
 
@@ -77,7 +79,6 @@ async def test_every_command_of_the_guide_can_be_pasted_and_is_understood(
     finally:
         await gateway.stop()
         broker.kill()
-        await asyncio.get_running_loop().shutdown_default_executor()
 
 
 def test_it_names_the_topics_that_are_published_and_what_a_secured_broker_needs(scene: Scene) -> None:

@@ -10,11 +10,12 @@ import pytest
 
 from bridge.core.codes import Code
 from bridge.core.errors import Refused
-from bridge.core.identity import Role
+from bridge.core.identity import Role, public_id
 from robotside.gateways.payloads.table import KEYS
 from robotside.gateways.plain.visitor import TIME, VALID_TIME, Visitor
 from robotside.gateways.plain.visitors import IDLE_TIMEOUT, MAX_VISITORS, Visitors
 from tests.fakes import FakeRobot
+from tests.looped import looped
 from tests.robotside.scene import Scene
 
 AHEAD = b'{"linear": {"x": 0.2}}'
@@ -114,5 +115,23 @@ def test_who_gives_no_name_in_a_call_has_that_of_the_client(scene: Scene, visito
     assert isinstance(answer, bytes)
     assert json.loads(answer)["success"]
     assert scene.control.driver == "anna"
-    visitor.call("/control/acquire", b'{"client_name": "Anna B"}')
-    assert scene.control.driver == "Anna B"
+    own = scene.control.driver_id
+    for request in (b'{"client_name": "Anna B", "client_id": "a1"}', b"{}"):
+        visitor.call("/control/acquire", request)
+        assert scene.control.driver == "Anna B"
+        assert scene.control.driver_id == public_id("a1") != own
+
+
+@looped("raw", [b"", b"{", b"\xff", b'{"surprise": 1}', b'{"stamp": "soon"}', b"[" * 70000])
+def test_stop_is_pressed_whatever_the_message_says(raw: bytes, tmp_path: Path) -> None:
+    scene = Scene(FakeRobot(), tmp_path)
+    visitors = Visitors(scene.door, "broker", "192.0.2.7:1883", KEYS, role=Role.NONE, secure=False)
+    visitors.newcomer("anna").call("/stop", raw, dated=False)
+    assert scene.station.controls.stopped
+
+
+def test_a_command_without_any_age_is_refused_and_stop_never(scene: Scene, visitors: Visitors) -> None:
+    answer = visitors.visit("anna").call("/control/acquire", b"{}", dated=False)
+    assert isinstance(answer, bytes)
+    assert json.loads(answer)["code"] == Code.GATEWAY_UNDATED
+    assert not scene.control.driver
