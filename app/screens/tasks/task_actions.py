@@ -12,6 +12,7 @@ from app.screens.shell.screen_host import ScreenHost
 from app.screens.tasks.event_list import EventList
 from app.screens.tasks.order_pane import OrderPane
 from app.screens.tasks.place_pane import PlacePane
+from app.screens.tasks.task_panes import TaskPanes
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Place, ScheduledTask
 from widgets import PlaceForm, PlaceList
@@ -32,9 +33,16 @@ class TasksView(Protocol):
     events: EventList
     places: PlaceList
     pane: OrderPane
-    place_pane: PlacePane
+    panes: TaskPanes
     mission_pane: MissionPane
-    form: PlaceForm
+
+    @property
+    def place_pane(self) -> PlacePane:
+        """The pane of a place, made when it is first asked for."""
+
+    @property
+    def form(self) -> PlaceForm:
+        """The place that is made or changed."""
 
     @property
     def app(self) -> ScreenHost:
@@ -108,16 +116,21 @@ class TaskActions(ListButtons):
         for_detail = {
             "order": ["start", "queue"],
             "schedule": ["save", *(["unschedule"] if self._scheduled_id() else [])],
-            "place": ["keep", *(["forget", "go", "move"] if screen.form.shown.id else [])],
+            "place": self._for_place() if shown == "place" else [],
             "mission": ["recall" if screen.mission_pane.chosen is not None else "keep_mission"],
         }.get(shown, [])
         if self._session.robot.lacks_tasks:
             for_list = for_detail = []
-        if shown == "place" and not screen.place_pane.there:
-            for_detail = []
         names = for_list if tall and not shown else for_detail
         self.lay(screen.ids.strip, names, [] if tall else for_list, form=form, stop=stop)
         self.tick()
+
+    def _for_place(self) -> list[str]:
+        """Those of the place that is looked at, which is none before one was chosen."""
+        screen = self._screen
+        if not screen.place_pane.there:
+            return []
+        return ["keep", *(["forget", "go", "move"] if screen.form.shown.id else [])]
 
     def _scheduled_id(self) -> int:
         scheduled = self._screen.pane.scheduled
@@ -130,7 +143,8 @@ class TaskActions(ListButtons):
         buttons["start"].disabled = not complete or session.robot_stop.latched or session.running
         buttons["queue"].disabled = not complete
         buttons["save"].disabled = not complete
-        buttons["keep"].disabled = not mine or bool(screen.form.lacking)
+        place = screen.panes.made_place
+        buttons["keep"].disabled = not mine or (place is not None and bool(place.form.lacking))
         for name in ("forget", "unschedule", "here"):
             buttons[name].disabled = not mine
         buttons["recall"].disabled = not mine or not session.robot.offers("/mission/recall")

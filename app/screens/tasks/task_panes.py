@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from typing import Any, cast
 
 from kivy.uix.widget import Widget
 
@@ -18,48 +19,99 @@ __all__ = ["TaskPanes"]
 
 
 class TaskPanes:
-    """One pane at a time is on the glass."""
+    """One pane at a time is on the glass; those of a place and of the settings are made when they are first asked for."""
 
-    def __init__(self, session: Session, dashboard: Dashboard, on_close: Callable[[], object]) -> None:
-        """`on_close` is called when a finger wants back to the lists."""
-        self._session = session
-        self.order, self.place = OrderPane(session), PlacePane(session)
-        self.mission, self.settings = MissionPane(session), SettingsPane(session)
-        bind = dashboard.bind
-        bind(self.place.form, "/places", self.place.name_places, fresh=False)
-        bind(self.settings.options, "/control/status", fresh=False)
-        for form in (self.place.form, self.order.form):
-            bind(form, "/pose", fresh=False)
-        bind(self.order.form, "/places", fresh=False)
-        for pane in (self.order, self.place, self.mission, self.settings):
+    def __init__(
+        self,
+        session: Session,
+        dashboard: Dashboard,
+        *,
+        on_close: Callable[[], object],
+        on_place: Callable[[PlacePane], object],
+        on_settings: Callable[[SettingsPane], object],
+    ) -> None:
+        """`on_close` is called when a finger wants back to the lists, `on_place` and `on_settings` with their pane once it is made."""
+        self._session, self._dashboard, self._on_close = session, dashboard, on_close
+        self._on_place, self._on_settings = on_place, on_settings
+        self._form = ""
+        self.order, self.mission = OrderPane(session), MissionPane(session)
+        self.made_place: PlacePane | None = None
+        """The pane of a place; None until it was needed."""
+        self.made_settings: SettingsPane | None = None
+        """The same of the settings."""
+        for topic in ("/pose", "/places"):
+            dashboard.bind(self.order.form, topic, fresh=False)
+        for pane in (self.order, self.mission):
             pane.bind(on_close=lambda _: on_close())
+
+    @property
+    def place(self) -> PlacePane:
+        """The pane of a place."""
+        if self.made_place is None:
+            pane = self.made_place = PlacePane(self._session)
+            self._take_up(pane)
+            self._feed(pane.form, "/places", pane.name_places)
+            self._feed(pane.form, "/pose", pane.form.show)
+            self._on_place(pane)
+        return self.made_place
+
+    @property
+    def settings(self) -> SettingsPane:
+        """The pane of the settings."""
+        if self.made_settings is None:
+            pane = self.made_settings = SettingsPane(self._session)
+            self._take_up(pane)
+            self._feed(pane.options, "/control/status", pane.options.show)
+            pane.tick(self._session.may_ask)
+            self._on_settings(pane)
+        return self.made_settings
+
+    def _take_up(self, pane: PlacePane | SettingsPane) -> None:
+        pane.bind(on_close=lambda _: self._on_close())
+        pane.head.closable = self._form == "tall"
+
+    def _made(self) -> Iterator[PlacePane | SettingsPane]:
+        """Those of the two that there are."""
+        if self.made_place is not None:
+            yield self.made_place
+        if self.made_settings is not None:
+            yield self.made_settings
+
+    def _feed(self, widget: Widget, topic: str, show: Callable[[Any], None]) -> None:
+        """Have `show` called with what comes from now on, and with what came last."""
+        self._dashboard.bind(widget, topic, show, fresh=False)
+        newest = self._session.feeds.latest(topic)
+        if newest is not None:
+            show(newest)
 
     def arrange(self, form: str) -> None:
         """Show each as it fits a window of that `form`."""
+        self._form = form
         self.order.compact = form != "wide"
         self.order.closable = form == "tall"
         self.order.titled = form != "short"
-        for head in (self.place.head, self.mission.head, self.settings.head):
-            head.closable = form == "tall"
+        self.mission.head.closable = form == "tall"
+        for pane in self._made():
+            pane.head.closable = form == "tall"
 
     def of(self, name: str) -> Widget:
         """The pane of that name: `order`, `schedule`, `place`, `mission` or `settings`."""
-        panes: dict[str, Widget] = {"place": self.place, "mission": self.mission, "settings": self.settings}
-        if name in panes:
-            return panes[name]
+        if name in ("place", "mission", "settings"):
+            return cast("Widget", getattr(self, name))
         if (name == "schedule") != (self.order.scheduled is not None):
             self.order.schedule() if name == "schedule" else self.order.now()
         return self.order
 
     def on_outcome(self, outcome: Outcome) -> None:
         """The robot answered to a command."""
-        self.settings.on_outcome(outcome)
-        self.place.on_outcome(outcome)
+        for pane in self._made():
+            pane.on_outcome(outcome)
 
     def rest(self) -> None:
         """Fingers let go of what they hold."""
         self.order.rest()
-        self.place.form.rest()
+        if self.made_place is not None:
+            self.made_place.rest()
         self.mission.rest()
 
     def tick(self, *, mine: bool) -> None:
@@ -67,4 +119,5 @@ class TaskPanes:
         self.order.refresh()
         self.order.meet(self._session.robot.info)
         self.mission.refresh()
-        self.settings.tick(mine)
+        if self.made_settings is not None:
+            self.made_settings.tick(mine)

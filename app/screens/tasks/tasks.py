@@ -15,6 +15,8 @@ from app.link.feeds import Post
 from app.screens.parts.placing import Area, above, put  # noqa: F401 - a rule names the area
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.shell.screen_host import ScreenHost
+from app.screens.tasks.place_pane import PlacePane
+from app.screens.tasks.settings_pane import SettingsPane
 from app.screens.tasks.task_actions import TaskActions
 from app.screens.tasks.task_lists import TaskLists
 from app.screens.tasks.task_panes import TaskPanes
@@ -24,6 +26,7 @@ from bridge.msgs.pilothouse_msgs import (
     KeptMission,
     Place,
 )
+from widgets.tasks.place_form import PlaceForm
 
 __all__ = ["TasksScreen"]
 
@@ -71,10 +74,14 @@ class TasksScreen(RobotScreen):
         self.tabs, self.now, self.events = lists.tabs, lists.now, lists.events
         self.places, self.runs, self.schedule = lists.places, lists.runs, lists.schedule
         self.missions = lists.missions
-        self.panes = panes = TaskPanes(session, self.dashboard, self.close)
-        self.pane, self.place_pane = panes.order, panes.place
-        self.mission_pane, self.settings_pane = panes.mission, panes.settings
-        self.form = self.place_pane.form
+        self.panes = TaskPanes(
+            session,
+            self.dashboard,
+            on_close=self.close,
+            on_place=self._bind_place,
+            on_settings=lambda pane: pane.bind(on_reset=lambda _: self._ask_reset()),
+        )
+        self.pane, self.mission_pane = self.panes.order, self.panes.mission
         self._body, self._form, self._dp = Rect(0, 0, 1, 1), "", 1.0
         self._places: dict[str, Rect] = {}
         self._cover: Rect | None = None
@@ -87,16 +94,32 @@ class TasksScreen(RobotScreen):
     def _bind(self) -> None:
         self.places.bind(on_command=lambda _, place: self.edit_place(place))
         self.missions.bind(on_command=lambda _, mission: self._look_at(mission))
-        self.form.bind(on_command=lambda *_: self.acts.tick())
         self.schedule.bind(on_open=lambda _, task: self.open_scheduled(task))
         self.session.missions.on_recalled = self._recalled
         self.tabs.bind(
             tab=lambda _, tab: setattr(self, "tab", tab), on_settings=lambda _: self._turn_settings()
         )
-        self.settings_pane.bind(on_reset=lambda _: self._ask_reset())
-        self.place_pane.bind(on_back=lambda _, place: self.edit_place(place))
         self.pane.bind(complete=lambda *_: self.acts.tick())
         self.bind(tab=self._tab_changed, detail=self._lay)
+
+    def _bind_place(self, pane: PlacePane) -> None:
+        pane.form.bind(on_command=lambda *_: self.acts.tick())
+        pane.bind(on_back=lambda _, place: self.edit_place(place))
+
+    @property
+    def place_pane(self) -> PlacePane:
+        """The pane of a place, made when it is first asked for."""
+        return self.panes.place
+
+    @property
+    def settings_pane(self) -> SettingsPane:
+        """The pane of the robot's settings, made when it is first asked for."""
+        return self.panes.settings
+
+    @property
+    def form(self) -> PlaceForm:
+        """The place that is made or changed."""
+        return self.place_pane.form
 
     # what the shell calls
 
@@ -190,7 +213,8 @@ class TasksScreen(RobotScreen):
             area.add_widget(self.panes.of(shown))
         listed.opacity, area.opacity = float(not (tall and shown)), float(bool(shown))
         self.tabs.at_settings = shown == "settings"
-        self.place_pane.open = self.detail == "place"
+        if self.panes.made_place is not None:
+            self.panes.made_place.open = self.detail == "place"
         self.missions.chosen = self.mission_pane.chosen.name if self.mission_pane.chosen else ""
         (self.events.enter if self.events.parent is listed and self.dashboard.active else self.events.leave)()
         if self._places:
