@@ -22,6 +22,7 @@ from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import CommandResponse
 from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, Imu, LaserScan
 from tests.bridge.client.foreign_server import ForeignServer, foreign
+from tests.bridge.foreign_robot import PERIODS
 from tests.bridge.wires import TIMEOUT, Record, link, wire
 
 BOTH = pytest.mark.parametrize("ros", [1, 2])
@@ -189,7 +190,8 @@ async def test_its_ros_2_counts_for_whoever_sends_a_goal_until_it_is_cancelled()
 
 
 @BOTH
-async def test_every_topic_of_the_robot_arrives_typed(ros):
+async def test_every_topic_of_the_robot_arrives_typed(ros, monkeypatch):
+    monkeypatch.setitem(PERIODS, "/battery_state", (0.05, "sensor_msgs/BatteryState"))
     wanted = {
         "/odom": Odometry,
         "/scan": LaserScan,
