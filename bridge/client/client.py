@@ -27,6 +27,7 @@ from bridge.codec import to_server_json
 from bridge.core.address import BadAddress, LinkLost, NotAccepted
 from bridge.core.link_state import LinkFault, LinkState, Phase
 from bridge.discovery.network_changes import Network, NetworkChanges, SystemNetwork
+from bridge.driving.drive_rest import DriveRest
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.protocol import (
@@ -83,6 +84,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         self._connection: Connection | None = None
         self._address: tuple[str, int] | None = None
         self._heartbeat: Heartbeat | None = None
+        self._rest = DriveRest(self._send_rest, now)
 
     @property
     def rtt(self) -> float:
@@ -137,6 +139,8 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         not check the age of a command: for them a twist with a stamp is also dropped while they have left earlier
         data unread for 0.25 s.
 
+        A server of another maker gets zero speed when no drive command follows a twist with a stamp for 0.25 s, and at `close`.
+
         `even_late` is for commands to rest, which are right at any age: they are sent unless the socket is full.
         ProtocolError for values that JSON cannot represent.
         """
@@ -147,6 +151,8 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
             return False
         if stamp is not None and not even_late and self._too_late(msg, stamp, connection, heartbeat):
             return False
+        if stamp is not None and not connection.ours:
+            self._rest.note(topic, msg)
         stamp = None if stamp is not None and not math.isfinite(stamp) else stamp
         return self._send(Publish(topic=topic, msg=Raw(to_server_json(msg, self._session.ros2)), stamp=stamp))
 
@@ -163,8 +169,15 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         connection.probe(now)
         return False
 
+    def _send_rest(self, topic: str, msg: Msg) -> None:
+        self.publish(topic, msg, even_late=True)
+
     async def close(self) -> None:
-        """End the link for good; `run` returns. Takes 0.5 s at most."""
+        """End the link for good; `run` returns. Takes 0.5 s at most.
+
+        A robot behind a server of another maker that this client drives gets zero speed before.
+        """
+        self._rest.rest_all()
         await super().close()
         if self.state.phase is not Phase.CLOSED:
             self._set_state(Phase.CLOSED, "Not connected.")
@@ -216,6 +229,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         work = {
             asyncio.create_task(self._receive(connection, heartbeat.liveness)),
             asyncio.create_task(heartbeat.run()),
+            asyncio.create_task(self._rest.run()),
         }
         lost = False
         try:
@@ -230,6 +244,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
             raise
         finally:
             self._connection = None
+            self._rest.forget()
             for task in work:
                 task.cancel()
             await asyncio.gather(*work, return_exceptions=True)

@@ -23,7 +23,6 @@ from bridge.core.network_thread import NetworkThread
 from bridge.core.topics import topic as entry_of
 from bridge.msgs import Msg, ros1_name
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import CommandResponse
 from bridge.protocol import Reduction
 
 __all__ = ["RemoteGoal", "RemoteRobot"]
@@ -141,7 +140,7 @@ class RemoteRobot:
         self._client.advertise(topic, type, latch=latch)
 
     @overload
-    def call(self, service: str, request: Msg | None = None, *, timeout: float = 2.0) -> CommandResponse: ...
+    def call(self, service: str, request: Msg | None = None, *, timeout: float = 2.0) -> Any: ...
 
     @overload
     def call(self, service: str, request: Msg | None, response: type[M], *, timeout: float = 2.0) -> M: ...
@@ -153,14 +152,18 @@ class RemoteRobot:
         response: type[Msg] | None = None,
         *,
         timeout: float = 2.0,
-    ) -> Msg:
+    ) -> Any:
         """Call a service and wait for the response, for `timeout` [s] at most.
 
-        The response is a CommandResponse unless `response` names another class. Raises Refused, NotConnected or
+        Without the class `response` it is a CommandResponse where the answer says `success`, as those of a Pilothouse robot do,
+        and otherwise the answer's values, a dict. Raises Refused, NotConnected or
         NoReply; BridgeError when called from a callback, which must not wait.
         """
-        kind: type[Msg] = CommandResponse if response is None else response
-        return self._wait_for(self._client.call(service, request, kind, timeout=timeout), service, timeout)
+        if response is None:
+            asked = self._client.call_untyped(service, request, timeout=timeout)
+        else:
+            asked = self._client.call(service, request, response, timeout=timeout)
+        return self._wait_for(asked, service, timeout)
 
     def learn(self, type_name: str, *, timeout: float = 3.0) -> type[Msg]:
         """The class of a message type by its ROS name; the robot is asked about an unknown one. Raises as `call` does."""

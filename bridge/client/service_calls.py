@@ -13,6 +13,7 @@ from bridge.client.client_goals import Goal, action_of, part_of, reason
 from bridge.codec import from_json, to_server_json
 from bridge.core.errors import NoReply, NotConnected, ProtocolError, Refused
 from bridge.msgs import TYPES, Msg, ros1_name
+from bridge.msgs.pilothouse_msgs import CommandResponse
 from bridge.protocol import ClientSession, Id, Op, ServiceResponse, ros2_name
 
 __all__ = ["ServiceCalls"]
@@ -41,6 +42,19 @@ class ServiceCalls:
         """
         args = b"{}" if request is None else to_server_json(request, self._session.ros2)
         return from_json(await self._ask(service, args, timeout), response)
+
+    async def call_untyped(self, service: str, request: Msg | None, *, timeout: float = 2.0) -> Any:
+        """As `call`, for a response whose class is not known: a CommandResponse where it says `success`, else its values as
+        decoded JSON."""
+        args = b"{}" if request is None else to_server_json(request, self._session.ros2)
+        values = await self._ask(service, args, timeout)
+        try:
+            decoded = msgspec.json.decode(values)
+        except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
+            raise ProtocolError(f"The answer of {service} is not JSON: {error}.") from error
+        if isinstance(decoded, dict) and isinstance(decoded.get("success"), bool):
+            return from_json(values, CommandResponse)
+        return decoded
 
     async def _ask(self, service: str, args: bytes, timeout: float) -> Raw:
         answer: asyncio.Future[ServiceResponse | None] = asyncio.get_running_loop().create_future()

@@ -75,8 +75,15 @@ class Found:
 
 
 def usual() -> Found:
-    """What is supposed of a robot that does not tell, which a robot side of ours always does."""
-    topics = {part.ours: (part.ours, part.type) for part in _PARTS if part.ours != CONTROL}
+    """What is supposed of a robot that does not tell, which a robot side of ours always does.
+
+    Our own types are not asked for: a server of ROS reports an error for each that it cannot import.
+    """
+    topics = {
+        part.ours: (part.ours, part.type)
+        for part in _PARTS
+        if not part.type.MSGTYPE.startswith("pilothouse_msgs/")
+    }
     return Found(topics, remarks=(_NOT_TOLD,))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -27,9 +28,11 @@ class Wire:
         self.unread = 0.0
         self.probes: list[float] = []
         self.sent: list[dict[str, Any]] = []
+        self.on_sent: Callable[[], object] = int
 
     def send(self, text: str) -> bool:
         self.sent.append(json.loads(text))
+        self.on_sent()
         return True
 
     def unread_time(self, now: float) -> float:

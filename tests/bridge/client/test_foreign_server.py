@@ -349,6 +349,8 @@ def test_the_ten_lines_work_on_it(ros):
         remote.publish("/cmd_vel", Twist.planar(0.4, 0.0))
         assert isinstance(seen.get(timeout=TIMEOUT), Odometry)
         assert remote.call("/beep", response=Told).message == "beep"
+        assert remote.call("/beep").message == "beep"
+        assert "topics" in remote.call("/rosapi/topics"), "no success that the answer does not say"
         assert robot.robot.heard == 1
 
 

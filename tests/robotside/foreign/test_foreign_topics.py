@@ -91,3 +91,7 @@ def test_who_drives_is_asked_only_of_a_robot_side_of_ours_that_tells_its_topics(
     assert CONTROL in match({CONTROL: "pilothouse_msgs/ControlStatus"}).topics
     assert CONTROL not in match({CONTROL: "std_msgs/String"}).topics
     assert CONTROL not in usual().topics
+
+
+def test_a_robot_that_does_not_tell_is_not_asked_for_types_that_no_other_has() -> None:
+    assert not [kind.MSGTYPE for _, kind in usual().topics.values() if kind.MSGTYPE.startswith("pilothouse")]
