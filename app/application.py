@@ -57,6 +57,8 @@ class PilothouseApp(App):
     use_kivy_settings = False
     sensing: MotionSensing
     """The motion sensors; made with the input methods."""
+    inputs: Inputs
+    """The ways to give commands; made when the app starts."""
 
     def __init__(
         self,

@@ -6,8 +6,7 @@ plain.add_part(Rectangle(texture=frame))
 
 from __future__ import annotations
 
-from kivy.graphics import Callback, InstructionGroup
-from kivy.graphics.instructions import Instruction
+from kivy.graphics import Callback, Instruction, InstructionGroup
 from kivy.graphics.opengl import GL_BLEND, glDisable, glEnable
 
 __all__ = ["Unblended"]

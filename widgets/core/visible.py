@@ -12,8 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from kivy.graphics import Color, InstructionGroup, Rectangle, SmoothLine
-from kivy.graphics.instructions import Instruction
+from kivy.graphics import Color, Instruction, InstructionGroup, Rectangle, SmoothLine
 from kivy.graphics.texture import Texture
 
 __all__ = ["Outline", "Tinted", "Visible"]
@@ -97,7 +96,8 @@ class Tinted(Visible):
     @property
     def pos(self) -> tuple[float, float]:
         """Lower left corner [px]."""
-        return tuple(self._picture.pos)
+        x, y = self._picture.pos
+        return x, y
 
     @pos.setter
     def pos(self, value: Sequence[float]) -> None:
@@ -107,7 +107,8 @@ class Tinted(Visible):
     @property
     def size(self) -> tuple[float, float]:
         """[px]"""
-        return tuple(self._picture.size)
+        width, height = self._picture.size
+        return width, height
 
     @size.setter
     def size(self, value: Sequence[float]) -> None:

@@ -124,8 +124,8 @@ class Video(Drawing):
         self._picture = Rectangle(size=(0, 0), tex_coords=WHOLE)
         self._lens.add(self._picture)
         self._plain, self._unblended = Rectangle(size=(0, 0)), Unblended()
-        for part in (Color(1, 1, 1, 1), self._plain):
-            self._unblended.add_part(part)
+        for below in (Color(1, 1, 1, 1), self._plain):
+            self._unblended.add_part(below)
         self._ink, self._words, self._chip_words = Ink(), Words(), Words()
         self._chip = Rounded()
         self._chip_as_drawn: tuple[object, ...] = ()

@@ -97,6 +97,7 @@ class Color(ContextInstruction):
         b: float = ...,
         a: float = ...,
         mode: str = ...,
+        noadd: bool = False,
         group: str | None = None,
     ) -> None: ...
 
@@ -186,6 +187,7 @@ class Callback(Instruction):
         callback: Callable[..., Any] | None = None,
         *,
         reset_context: bool = False,
+        noadd: bool = False,
         group: str | None = None,
     ) -> None: ...
     def ask_update(self) -> None: ...
@@ -239,6 +241,7 @@ class Line(VertexInstruction):
         bezier: Sequence[float] = ...,
         dash_length: float = ...,
         dash_offset: float = ...,
+        noadd: bool = False,
         group: str | None = None,
     ) -> None: ...
     def add_point(self, x: float, y: float) -> None: ...
@@ -261,6 +264,7 @@ class Rectangle(VertexInstruction):
         texture: Texture | None = ...,
         source: str | None = ...,
         tex_coords: Sequence[float] = ...,
+        noadd: bool = False,
         group: str | None = None,
     ) -> None: ...
 
@@ -295,6 +299,11 @@ class RoundedRectangle(Rectangle):
         source: str | None = ...,
         group: str | None = None,
     ) -> None: ...
+
+class BorderImage(Rectangle):
+    border: Property[list[float], Sequence[float]]
+    auto_scale: str
+    display_border: Property[list[float], Sequence[float]]
 
 class SmoothRectangle(Rectangle): ...
 class SmoothEllipse(Ellipse): ...

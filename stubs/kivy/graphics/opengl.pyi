@@ -1,0 +1,6 @@
+"""OpenGL's own functions and constants, as far as they are used."""
+
+GL_BLEND: int
+
+def glEnable(cap: int) -> None: ...
+def glDisable(cap: int) -> None: ...
