@@ -124,9 +124,9 @@ def test_nor_any_value_within_the_tables(tmp_path: Any, value: Any) -> None:
         "study": {"plan": {"user": value, "row": value, "methods": value, "postures": [value]}},
         "intents": {"voice": {"start": value}},
     }.items():
-        Desk(tmp_path, {name: kept}).made(name)
+        assert len(Desk(tmp_path, {name: kept}).made(name)) < 600, f"{name}: a value was not cut short"
     Usage({"": {"pause": value}, "drive": value})
-    KnownRobots(lambda: 0.0, value)
+    assert all(entry.url for entry in KnownRobots(lambda: 0.0, value).entries())
 
 
 def test_a_mistake_is_one_sentence_with_the_value_and_what_is_allowed() -> None:

@@ -277,6 +277,9 @@ def test_loudness_is_told_and_the_noise_is_not_known(phone: Phone) -> None:
 def test_a_failure_never_reaches_java(phone: Phone) -> None:
     phone.listening()
     phone.service.listener.onResults(SimpleNamespace())
+    assert phone.results() == []
+    phone.says("go home")
+    assert [one.command for one in phone.results()] == ["go_home"], "it listens on"
 
 
 def test_stopped_it_lets_go_of_the_service_and_tells_nothing(phone: Phone) -> None:
