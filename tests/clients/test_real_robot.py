@@ -3,35 +3,26 @@
 from __future__ import annotations
 
 import asyncio
-import re
-import sys
-from contextlib import asynccontextmanager
-from pathlib import Path
+from collections.abc import Iterator
+
+import pytest
 
 from bench.support.wire import wire
+from examples.demo.robot import RobotProcess
 from tests.clients.peers import START, both, peer
 from tests.releasing import release_stop
 
-ROOT = Path(__file__).parents[2]
 VELOCITY = {"name": "/cmd_vel", "type": "geometry_msgs/Twist"}
 STOP = {"name": "/stop", "type": "std_srvs/Trigger"}
 
 
-@asynccontextmanager
-async def patrol_robot(state):
-    """The robot's own process; gives the port of its bridge."""
-    command = "-m robotside serve --robot sim:patrol --port 0 --http-port 0 --name Patrol-7 --state"
-    pipe = asyncio.subprocess.PIPE
-    process = await asyncio.create_subprocess_exec(
-        sys.executable, *command.split(), str(state), stdout=pipe, cwd=ROOT
-    )
-    try:
-        async with asyncio.timeout(START):
-            ready = (await process.stdout.readline()).decode()
-        yield int(re.search(r"bridge=\S*?:(\d+)", ready).group(1))
-    finally:
-        process.terminate()
-        await process.wait()
+@pytest.fixture(scope="module")
+def port(tmp_path_factory: pytest.TempPathFactory) -> Iterator[int]:
+    """Of the bridge of the robot's own process."""
+    folder = tmp_path_factory.mktemp("robot")
+    options = ("--robot", "sim:patrol", "--name", "Patrol-7", "--state", str(folder / "state"))
+    with RobotProcess(*options, log=folder / "robot.log") as robot:
+        yield int(robot.url.rsplit(":", 1)[1])
 
 
 async def push(script, speed=0.4):
@@ -56,8 +47,8 @@ async def speed(python, count):
     return (await python.message("/odom", count))["twist"]["twist"]["linear"]["x"]
 
 
-async def test_it_is_seen_driven_and_stopped_by_both(tmp_path):
-    async with patrol_robot(tmp_path) as port, both(port) as (python, script):
+async def test_it_is_seen_driven_and_stopped_by_both(port):
+    async with both(port) as (python, script):
         await python.do("subscribe", name="/robot/info", type="pilothouse_msgs/RobotInfo")
         assert (await python.message("/robot/info"))["name"] == "Patrol-7"
 
@@ -80,9 +71,8 @@ async def test_it_is_seen_driven_and_stopped_by_both(tmp_path):
         )
 
 
-async def test_a_stick_held_through_a_frozen_link_moves_nothing_before_it_was_at_zero(tmp_path):
+async def test_a_stick_held_through_a_frozen_link_moves_nothing_before_it_was_at_zero(port):
     async with (
-        patrol_robot(tmp_path) as port,
         wire(port) as link,
         peer("roslibpy", port) as watcher,
         peer("roslibpy", link.port) as driver,
