@@ -13,13 +13,12 @@ Kivy's own smooth box is drawn twice and once more along its edge as soon as its
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import lru_cache
 
-import numpy as np
 from kivy.graphics import BorderImage
 from kivy.graphics.texture import Texture
-from numpy.typing import NDArray
 
 from widgets.core.visible import Visible
 
@@ -42,32 +41,50 @@ def _border(corners: Corners) -> int:
     return max(*corners, 1) + RIM
 
 
-def coverage(corners: Corners) -> NDArray[np.float64]:
-    """How much of each pixel the smallest box with such corners covers, 0 to 1, lowest row first, with an empty rim of RIM."""
-    reach = _border(corners)
-    side = 2 * reach + 1
-    picture = np.zeros((side, side))
-    picture[RIM:-RIM, RIM:-RIM] = 1.0
-    for radius, (row, column) in zip(corners, ((-1, 0), (-1, -1), (0, -1), (0, 0)), strict=True):
-        if not radius:
-            continue
-        offset = np.arange(radius) + 0.5  # from the corner's middle to the middles of its pixels
-        inside = np.clip(radius + 0.5 - np.hypot(offset[:, None], offset[None, :]), 0.0, 1.0)
-        rows = slice(RIM, RIM + radius) if row == 0 else slice(side - RIM - radius, side - RIM)
-        columns = slice(RIM, RIM + radius) if column == 0 else slice(side - RIM - radius, side - RIM)
-        picture[rows, columns] = inside[:: -1 if row == 0 else 1, :: -1 if column == 0 else 1]
-    return picture
+def coverage(corners: Corners) -> list[bytes]:
+    """How much of each pixel the smallest box with such corners covers, 0 to 255, in rows from the lowest, with an empty rim of RIM."""
+    upper_left, upper_right, lower_right, lower_left = corners
+    side = 2 * _border(corners) + 1 - 2 * RIM
+    rim = bytes(RIM)
+    empty = bytes(side + 2 * RIM)
+    rows = [empty] * RIM
+    for low in range(side):
+        left = _row(low, side, lower_left, upper_left)[::-1]
+        right = _row(low, side, lower_right, upper_right)
+        rows.append(rim + left + b"\xff" * (side - len(left) - len(right)) + right + rim)
+    return rows + [empty] * RIM
+
+
+def _row(low: int, side: int, lower: int, upper: int) -> bytes:
+    """What the corners at one end of a row cover, from their middle outwards; `low` is the row, of `side` in all."""
+    if low < lower:
+        return _arc(lower)[lower - 1 - low]
+    return _arc(upper)[low - side + upper] if low >= side - upper else b""
+
+
+@lru_cache(MAX_TEXTURES)
+def _arc(radius: int) -> tuple[bytes, ...]:
+    """A quarter of a disc, from its middle to the right and upwards; in Python alone, for numpy would hold up the first frame."""
+    return tuple(_arc_row(radius, each + 0.5) for each in range(radius))
+
+
+def _arc_row(radius: int, away: float) -> bytes:
+    """One row of it, `away` from the corner's middle [px]: only where the edge is has each pixel to be looked at."""
+    full = max(0, int(math.sqrt(max((radius - 0.5) ** 2 - away**2, 0.0)) - 0.5))
+    ends = min(radius, math.ceil(math.sqrt((radius + 0.5) ** 2 - away**2)) + 1)
+    edge = (radius + 0.5 - math.hypot(each + 0.5, away) for each in range(full, ends))
+    return b"\xff" * full + bytes(round(255 * min(max(one, 0.0), 1.0)) for one in edge) + bytes(radius - ends)
 
 
 @lru_cache(MAX_TEXTURES)
 def _texture(corners: Corners) -> Texture:
-    picture = coverage(corners)
-    pixels = np.full((*picture.shape, 4), 255, np.uint8)
-    pixels[..., 3] = np.round(picture * 255)
-    made = Texture.create(size=picture.shape[::-1], colorfmt="rgba")
+    rows = coverage(corners)
+    pixels = bytearray(b"\xff" * (4 * len(rows) * len(rows[0])))
+    pixels[3::4] = b"".join(rows)
+    made = Texture.create(size=(len(rows[0]), len(rows)), colorfmt="rgba")
 
     def fill(texture: Texture) -> None:
-        texture.blit_buffer(pixels.tobytes(), colorfmt="rgba", bufferfmt="ubyte")
+        texture.blit_buffer(bytes(pixels), colorfmt="rgba", bufferfmt="ubyte")
 
     fill(made)
     made.add_reload_observer(fill)

@@ -11,10 +11,16 @@ from kivy.graphics import BorderImage, Color
 from kivy.lang import Builder
 from kivy.uix.widget import Widget
 
-from widgets.core.rounded import MAX_RADIUS, MAX_TEXTURES, RIM, Rounded, coverage
+from widgets.core import rounded
+from widgets.core.rounded import MAX_RADIUS, MAX_TEXTURES, RIM, Corners, Rounded
 from widgets.core.theme import theme
 
 RED = (1, 0, 0, 0.5)
+
+
+def coverage(corners: Corners) -> np.ndarray:
+    """Of each pixel, 0 to 1, lowest row first."""
+    return np.array([list(row) for row in rounded.coverage(corners)]) / 255
 
 
 def image(box: Rounded) -> Any:
