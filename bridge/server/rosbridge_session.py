@@ -14,6 +14,7 @@ from msgspec import UNSET
 from bridge.codec import unknown_fields
 from bridge.core.errors import ProtocolError, Refused
 from bridge.core.robot_catalogue import Operator
+from bridge.msgs import Msg
 from bridge.protocol import (
     ActionFeedback,
     ActionResult,
@@ -238,17 +239,20 @@ class RosbridgeSession:
         except ProtocolError as error:
             self._report(error, arrival)
 
-    def _remark_misspelt(self, arrival: Arrival) -> None:
+    def _remark_misspelt(self, op: Arrival) -> None:
         """Name the fields of a message or of arguments that are passed over because their type has no such field."""
-        cls = raw = None
-        if isinstance(arrival, Publish):
-            channel = self._context.switchboard.channels.get(absolute(arrival.topic))
-            cls, raw, about = channel.cls if channel else None, arrival.msg, arrival.topic
-        elif isinstance(arrival, CallService):
-            about, raw = service_and_id(arrival)[0], arrival.args
+        cls: type[Msg] | None = None
+        if isinstance(op, Publish):
+            about, raw = op.topic, op.msg
+            channel = self._context.switchboard.channels.get(absolute(about))
+            cls = channel.cls if channel else None
+        elif isinstance(op, CallService):
+            about, raw = service_and_id(op)[0], op.args
             known = self._context.door.services.get(about)
             cls = known.request if known else None
-        if cls is None or raw is None or len(raw) > MAX_READ_BYTES:
+        else:
+            return
+        if cls is None or len(raw) > MAX_READ_BYTES:
             return
         try:
             names = unknown_fields(msgspec.json.decode(raw), cls)
@@ -256,8 +260,8 @@ class RosbridgeSession:
             return  # a number beyond all numbers in a field that is passed over
         if names:
             said = f"{about} ({cls.MSGTYPE}) has no field {', '.join(names)}; it is passed over."
-            remark = complaint(ProtocolError(said, op=str(arrival.__struct_config__.tag)))
-            self.send(msgspec.structs.replace(remark, level="warning", id=arrival.id))
+            remark = complaint(ProtocolError(said, op=str(op.__struct_config__.tag)))
+            self.send(msgspec.structs.replace(remark, level="warning", id=op.id))
 
     def _only_stop(self) -> bool:
         return self._place is not None and self._place.only_stop
