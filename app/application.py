@@ -57,8 +57,6 @@ class PilothouseApp(App):
     use_kivy_settings = False
     sensing: MotionSensing
     """The motion sensors; made with the input methods."""
-    inputs: Inputs
-    """The ways to give commands; made when the app starts."""
 
     def __init__(
         self,
@@ -165,9 +163,8 @@ class PilothouseApp(App):
             now=self.now,
         )
         self.mailbox, self.robot_list.trust.attempts = self._network.mailbox, self._network.pairing
-        pushed = lambda: self.inputs.pushed  # noqa: E731 - it is made below
-        self.timers = Timers(self._look, self._beat, self._list, pushed=pushed, poll=self._poll)
-        self.inputs = Inputs(self, self.now)
+        self.timers = Timers(self._look, self._beat, self._list, lambda: self.inputs.pushed, poll=self._poll)
+        self.inputs: Inputs = Inputs(self, self.now)
         self.inputs.open()
         self.methods.open()
         Window.allow_screensaver = False

@@ -31,8 +31,8 @@ class Timers:
         look: Callable[[], object],
         beat: Callable[[], object],
         refresh_list: Callable[[], object],
-        *,
         pushed: Callable[[], bool],
+        *,
         poll: bool,
     ) -> None:
         """`pushed` says whether a control is out of its middle. `poll` looks for fingers once more a frame, and before it is drawn, and begins a frame when the one before is through.
