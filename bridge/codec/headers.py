@@ -27,8 +27,7 @@ def without_count(text: bytes, cls: type[Msg]) -> bytes:
         _forget(obj, cls)
         return msgspec.json.encode(obj)
     # A quote within a text is escaped, so that these bytes can be nothing but a key.
-    text = text.replace(b',"seq":0}', b"}")
-    return _COUNT.sub(b"", text) if b'"seq":' in text else text
+    return _COUNT.sub(b"", text, count=1 if _is_single(cls) else 0)
 
 
 def with_count(text: bytes, cls: type[Msg]) -> bytes | None:
@@ -38,13 +37,32 @@ def with_count(text: bytes, cls: type[Msg]) -> bytes | None:
     """
     if not has_header(cls):
         return text
-    return _BEGINNING.sub(rb'\g<0>"seq":0,', text) if _is_named(cls) else None
+    if not _is_named(cls):
+        return None
+    if not _is_single(cls):
+        return _BEGINNING.sub(rb'\g<0>"seq":0,', text)
+    found = _BEGINNING.search(text)
+    return None if found is None else b"".join((text[: found.end()], b'"seq":0,', text[found.end() :]))
 
 
 @functools.lru_cache(maxsize=1024)
 def has_header(cls: type[Msg]) -> bool:
     """Whether a `cls` is or holds a header."""
     return any(each.MSGTYPE == HEADER for each, _ in _owners(cls))
+
+
+@functools.lru_cache(maxsize=1024)
+def _is_single(cls: type[Msg]) -> bool:
+    """Whether every `cls` has one header and no more, so that the rest of its text need not be searched."""
+    return sum(_count_of(field) for field in fields_of(cls)) == 1
+
+
+def _count_of(field: Field) -> int:
+    """Number of headers in a field, 2 for more."""
+    if field.type is None:
+        return 0
+    inner = int(field.type.MSGTYPE == HEADER) or sum(_count_of(each) for each in fields_of(field.type))
+    return 2 if field.array and inner else min(inner, 2)
 
 
 @functools.lru_cache(maxsize=1024)

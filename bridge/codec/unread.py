@@ -44,7 +44,8 @@ def unread(raw: msgspec.Raw, type: type[Msg]) -> Unread | None:
     Headers without a count, as most programs write them, get one. Missing, ROS 2's and wrong fields are left to
     `from_json`, which fills in, translates and reports.
     """
-    counted = not has_header(type) or bytes(memoryview(raw)[:_HEADER_WITHIN]).find(b'"seq"') >= 0
+    text = bytes(raw)
+    counted = not has_header(type) or text.find(b'"seq"', 0, _HEADER_WITHIN) >= 0
     decoder = _decoder(type, counted)
     if decoder is None:
         return None
@@ -52,8 +53,8 @@ def unread(raw: msgspec.Raw, type: type[Msg]) -> Unread | None:
         decoder.decode(raw)
     except (msgspec.MsgspecError, OverflowError, UnicodeError, RecursionError):
         return None
-    text = bytes(raw) if counted else with_count(bytes(raw), type)
-    return None if text is None else Unread(text, type)
+    whole = text if counted else with_count(text, type)
+    return None if whole is None else Unread(whole, type)
 
 
 @functools.lru_cache(maxsize=1024)
