@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import copy
+import json
 
 import pytest
 from hypothesis import given, settings
@@ -240,5 +241,6 @@ def test_a_class_learned_from_what_is_told_decodes_all_that_the_original_encodes
     msg = data.draw(messages(TYPES[name]))
     learned = learn(strange(typedefs(name)))
     assert learned is not TYPES[name]
-    assert to_json(from_json(to_json(msg), learned)) == to_json(msg)
-    assert to_json(from_builtins(from_cbor(to_cbor(msg)), learned)) == to_json(msg)
+    said = json.loads(to_json(msg))
+    assert json.loads(to_json(from_json(to_json(msg), learned))) == said
+    assert json.loads(to_json(from_builtins(from_cbor(to_cbor(msg)), learned))) == said
