@@ -29,7 +29,7 @@ def add_options(serve: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="NAME[=URL]",
-        help="bring up a gateway, as mqtt=mqtt://HOST:1883?role=drive&payloads=arm,wheels&rate=5; may be given "
+        help="bring up a gateway: mqtt, which brings a broker, or mqtt=mqtt://HOST:1883?role=drive&payloads=arm,wheels&rate=5; may be given "
         f"several times, and in {VARIABLE} with spaces between. docs/gateways.md lists them",
     )
     serve.add_argument(
@@ -81,7 +81,7 @@ def for_robot(asked: list[tuple[Adapter, GatewayUrl]], number: int) -> list[tupl
     """The gateways of the robot of this number, from 0 on: those that listen have one more port for each further robot."""
     found = []
     for adapter, url in asked:
-        port = url.port + number if adapter.listens and url.port else url.port
+        port = url.port + number if url.scheme in adapter.listens and url.port else url.port
         if port > 65535:
             raise UserMistake(
                 f"Robot {number + 1} would have port {port} for {adapter.name}; a port is 0 to 65535."

@@ -56,5 +56,5 @@ class Adapter:
     """The library that must be installed, empty for none."""
     make: Callable[[Surroundings, GatewayUrl], AdapterGateway]
     """Makes the gateway, which imports its library."""
-    listens: bool = False
-    """It listens at its URL; otherwise it goes there, to a broker."""
+    listens: frozenset[str] = frozenset()
+    """The schemes by which it listens at its URL; by others it goes there, to a broker."""

@@ -11,7 +11,10 @@ from bridge.core.identity import Role
 from robotside.gateways.payloads.offered import chosen_keys
 from robotside.gateways.payloads.table import KEYS
 
-__all__ = ["MAX_RATE", "GatewayUrl", "read_url"]
+__all__ = ["MAX_RATE", "OWN", "GatewayUrl", "read_url"]
+
+OWN = "own"
+"""The scheme of a broker that the robot brings itself."""
 
 MAX_RATE = 50.0
 """Most messages a second of one topic that a gateway sends [Hz]."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from robotside.commands.user_mistake import UserMistake
@@ -21,7 +23,7 @@ def test_nothing_is_asked_for_where_nothing_is_said() -> None:
 
 
 def test_all_three_ways_ask_for_the_same() -> None:
-    usual = ["mqtt mqtt://127.0.0.1:1883"]
+    usual = ["mqtt own://127.0.0.1:1883"]
     assert asked("--gateway mqtt") == asked("--protocols http,mqtt") == asked("", "mqtt") == usual
     assert asked("--gateway mqtt=mqtt://h:99/lab --protocols mqtt") == ["mqtt mqtt://h:99/lab"]
 
@@ -41,11 +43,8 @@ def test_a_mistake_is_one_sentence(words: str, why: str) -> None:
 
 
 def test_a_broker_is_the_same_for_all_robots_and_a_listener_has_the_next_port() -> None:
-    from dataclasses import replace
-
-    broker, url = read_wish("mqtt")
-    listener = replace(broker, listens=True)
-    wished = [(broker, url), (listener, url), (listener, replace(url, port=0))]
-    assert [each.port for _, each in for_robot(wished, 2)] == [1883, 1885, 0]
+    own, broker = read_wish("mqtt"), read_wish("mqtt=mqtt://127.0.0.1")
+    free = own[0], replace(own[1], port=0)
+    assert [each.port for _, each in for_robot([broker, own, free], 2)] == [1883, 1885, 0]
     with pytest.raises(UserMistake, match="Robot 3 would have port 65537 for mqtt"):
-        for_robot([(listener, replace(url, port=65535))], 2)
+        for_robot([(own[0], replace(own[1], port=65535))], 2)

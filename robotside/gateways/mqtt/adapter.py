@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from robotside.gateways.adapter import Adapter, AdapterGateway, Surroundings
-from robotside.gateways.gateway_url import GatewayUrl
+from robotside.gateways.gateway_url import OWN, GatewayUrl
 
 __all__ = ["ADAPTER"]
 
@@ -17,8 +17,9 @@ def _make(robot: Surroundings, url: GatewayUrl) -> AdapterGateway:
 ADAPTER = Adapter(
     "mqtt",
     "topics and commands at an MQTT 5 broker",
-    {"mqtt": 1883, "mqtts": 8883},
-    "mqtt://127.0.0.1:1883",
+    {"mqtt": 1883, "mqtts": 8883, OWN: 1883},
+    f"{OWN}://127.0.0.1:1883",
     "aiomqtt",
     _make,
+    listens=frozenset({OWN}),
 )

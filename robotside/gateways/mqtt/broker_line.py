@@ -157,8 +157,8 @@ class BrokerLine:
                 done, _ = await asyncio.wait(ends, return_when=asyncio.FIRST_COMPLETED)
             finally:
                 await cancel_all(helpers)
-            for each in done:
-                each.result()
+            for ended in done:
+                ended.result()
 
     async def _listen(self, client: aiomqtt.Client) -> None:
         """Hear messages until they are too old."""

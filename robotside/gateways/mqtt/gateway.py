@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import math
 from collections.abc import Awaitable, Coroutine, Mapping
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -19,9 +20,10 @@ from bridge.core.topics import Topic
 from bridge.msgs import Msg
 from robotside.core.notice import Notice
 from robotside.gateways.adapter import Surroundings
-from robotside.gateways.gateway_url import GatewayUrl
+from robotside.gateways.gateway_url import OWN, GatewayUrl
 from robotside.gateways.mqtt.broker_line import BrokerLine, Heard, Reply
 from robotside.gateways.mqtt.guide import guide
+from robotside.gateways.mqtt.own_broker import OwnBroker
 from robotside.gateways.mqtt.topic_names import BYE, CALL, PUBLISH, Asked, TopicNames
 from robotside.gateways.payloads.offered import offered
 from robotside.gateways.payloads.table import key_of
@@ -45,10 +47,15 @@ class MqttGateway:
     """An `AdapterGateway`: the robot's topics at a broker, and commands from there."""
 
     def __init__(self, robot: Surroundings, url: GatewayUrl) -> None:
-        """Who shows no token has the role of the `url`; without one it may watch."""
+        """Who shows no token has the role of the `url`; without one it may watch, and at the robot's own broker do
+        what programs of this machine may. BridgeError when that cannot listen there.
+        """
+        self._broker = OwnBroker(url.host, url.port) if url.scheme == OWN else None
+        if self._broker is not None:
+            url = replace(url, scheme="mqtt", port=self._broker.port)
         self._door, self._say, self._url = robot.door, robot.say, url
         self._names = TopicNames(url.path, robot.door.info.name)
-        self._role = Role.WATCH if url.role is None else url.role
+        self._role = Role.WATCH if url.role is None and self._broker is None else url.role
         host = f"[{url.host}]" if ":" in url.host else url.host
         self._address = f"{host}:{url.port}"
         self._visitors = Visitors(
@@ -71,7 +78,9 @@ class MqttGateway:
 
     async def start(self) -> None:
         """Begin to reach for the broker; whether it is there or not, the robot goes on."""
-        if self._role > Role.WATCH:
+        if self._broker is not None:
+            await self._broker.start()
+        if self._role is not None and self._role > Role.WATCH:
             role = self._role.word
             said = f"Everybody who reaches the MQTT broker may {role} without a key."
             self._say("control", Notice(Code.GATEWAY_OPEN, said, gateway="mqtt", role=role), "warn")
@@ -88,6 +97,8 @@ class MqttGateway:
         self._visitors.leave_all()
         await cancel_all(self._tasks | self._calls)
         self._tasks.clear()
+        if self._broker is not None:
+            await self._broker.stop()
 
     def endpoints(self) -> Mapping[str, str]:
         """The broker's URL, with the topic that all of the robot's begin with."""
@@ -95,7 +106,10 @@ class MqttGateway:
 
     def guide(self) -> str:
         """How a client uses it now."""
-        return guide(self._url, self._names, offered(self._door, self._url.keys), self._role)
+        audience = self._door.join(self._address, way="mqtt", role=self._role)
+        role = audience.role(self._door.now())
+        self._door.leave(audience)
+        return guide(self._url, self._names, offered(self._door, self._url.keys), role)
 
     def _state(self, state: str) -> bytes:
         health = self._door.health

@@ -49,7 +49,7 @@ def test_a_robot_without_gateways_loads_none_and_a_look_at_them_loads_no_library
 def test_what_is_not_there_is_named_with_what_is() -> None:
     with pytest.raises(ValueError, match="There is no gateway 'carrier pigeon'; there are .*mqtt"):
         read_wish("carrier pigeon=coop://roof")
-    with pytest.raises(ValueError, match="mqtt= needs a URL, as mqtt=mqtt://"):
+    with pytest.raises(ValueError, match="mqtt= needs a URL, as mqtt=own://"):
         read_wish("mqtt=")
 
 
