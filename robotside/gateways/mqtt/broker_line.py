@@ -5,23 +5,26 @@ from __future__ import annotations
 import asyncio
 import logging
 import math
+import re
 import secrets
 import socket
 import ssl
 from collections import deque
 from collections.abc import AsyncIterator, Awaitable, Callable, Iterable
 from contextlib import asynccontextmanager, suppress
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import aiomqtt
 from paho.mqtt.packettypes import PacketTypes
 from paho.mqtt.properties import Properties
 from paho.mqtt.subscribeoptions import SubscribeOptions
 
-from bridge.core.async_tasks import cancel_all
+from bridge.core.async_tasks import cancel_all, is_cancelled_from_outside
 from robotside.gateways.gateway_url import GatewayUrl
 
-__all__ = ["BrokerLine", "Heard", "Reply"]
+__all__ = ["BrokerLine", "Heard", "Reply", "uncut"]
+
+T = TypeVar("T")
 
 log = logging.getLogger(__name__)
 
@@ -86,6 +89,8 @@ class BrokerLine:
         self._url, self._subscriptions, self._on_message = url, tuple(subscriptions), on_message
         self._will, self._on_up, self._on_down = will, on_up, on_down
         self._drops_stale = drops_stale
+        # the same each time, so that a broker ends what it still has of a line before, its last will included, first
+        self._id = f"pilothouse-{secrets.token_hex(6)}"
         self._client: aiomqtt.Client | None = None
         self._replies: deque[Reply] = deque(maxlen=MAX_REPLIES)
         self._wake = asyncio.Event()
@@ -103,6 +108,10 @@ class BrokerLine:
             try:
                 await self._connect()
                 reason, backoff = "its program stood still", MIN_BACKOFF
+            except asyncio.CancelledError:
+                if is_cancelled_from_outside():
+                    raise
+                reason = "its connection was cut"  # the library passes on what was cancelled within it
             except Exception as error:  # whatever it is, the robot goes on and the broker is tried again
                 if not isinstance(error, aiomqtt.MqttError):
                     log.exception("The connection to the MQTT broker failed")
@@ -134,7 +143,7 @@ class BrokerLine:
         client = self._client
         if client is not None:
             with suppress(aiomqtt.MqttError):  # the line's own task learns of it too
-                await client.publish(topic, payload, qos=qos, retain=retain, timeout=timeout)
+                await uncut(client.publish(topic, payload, qos=qos, retain=retain, timeout=timeout))
 
     async def _connect(self) -> None:
         """One connection from its beginning to its end; returns when what waits is too old to be heard."""
@@ -146,7 +155,7 @@ class BrokerLine:
                     retainAsPublished=True,
                     retainHandling=SubscribeOptions.RETAIN_DO_NOT_SEND,
                 )
-                await client.subscribe(each, options=options)
+                await uncut(client.subscribe(each, options=options))
             self._client = client
             self._beat = asyncio.get_running_loop().time()
             if self._on_up is not None:
@@ -175,7 +184,7 @@ class BrokerLine:
             url.port,
             username=url.user or None,
             password=url.password or None,
-            identifier=f"pilothouse-{secrets.token_hex(6)}",
+            identifier=self._id,
             protocol=aiomqtt.ProtocolVersion.V5,
             will=will,
             clean_start=True,
@@ -208,7 +217,7 @@ class BrokerLine:
                 if reply.correlation is not None:
                     properties.CorrelationData = reply.correlation
                 with suppress(aiomqtt.MqttError):
-                    await client.publish(reply.topic, reply.payload, qos=0, properties=properties)
+                    await uncut(client.publish(reply.topic, reply.payload, qos=0, properties=properties))
 
     def _handle(self, message: aiomqtt.Message) -> None:
         try:
@@ -217,12 +226,27 @@ class BrokerLine:
             log.exception("A message on %s failed", message.topic)
 
 
+async def uncut(work: Awaitable[T]) -> T:
+    """What `work` gives, unless the task was cancelled meanwhile.
+
+    `asyncio.wait_for` of Python 3.11, which the library uses, loses a cancellation that comes together with the result.
+    """
+    try:
+        return await work
+    finally:
+        if is_cancelled_from_outside():
+            raise asyncio.CancelledError
+
+
 @asynccontextmanager
 async def _opened(client: aiomqtt.Client) -> AsyncIterator[aiomqtt.Client]:
     """The client, connected for as long as this is open. A thread connects: given up meanwhile, it is waited for and closed."""
     opening = asyncio.ensure_future(client.__aenter__())
     try:
         await asyncio.shield(opening)
+    except aiomqtt.MqttError:
+        client._client.disconnect()  # noqa: SLF001 - the library leaves the socket open, and a late answer would make it a client
+        raise
     except asyncio.CancelledError:
         with suppress(aiomqtt.MqttError):
             await opening
@@ -251,8 +275,8 @@ def _heard(message: aiomqtt.Message) -> Heard:
 
 def _reason(error: Exception) -> str:
     """Why there is no connection, as part of a sentence."""
-    text = str(error.__cause__ or error).strip() or "it does not answer"
-    return text.removeprefix("[code:").rstrip(".")[:200]
+    text = re.sub(r"^\[code:\d+\] ", "", str(error.__cause__ or error).strip()) or "it does not answer"
+    return text.rstrip(".")[:200]
 
 
 def _quiet_log() -> logging.Logger:

@@ -281,6 +281,23 @@ async def test_a_broker_that_is_absent_is_an_event_and_is_reached_when_it_comes(
     assert codes(scene).count(Code.GATEWAY_LOST) == 1
 
 
+async def test_a_broker_that_answers_too_late_has_no_second_robot_whose_will_says_lost(
+    scene: Scene, broker: Broker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(broker_line, "CONNECT_TIMEOUT", 0.3)
+    before = asyncio.all_tasks()
+    broker.freeze()
+    async with serving(scene, broker.url):
+        await until(lambda: Code.GATEWAY_LOST in codes(scene))
+        monkeypatch.setattr(broker_line, "CONNECT_TIMEOUT", 60.0)
+        broker.thaw()
+        async with client(broker) as me:
+            await online(me)
+            await me.ask("call/rosapi/get_time")
+            assert me.heard[f"{ROOT}/state"][-1]["state"] == "online"
+    assert asyncio.all_tasks() == before
+
+
 async def test_a_broker_that_falls_silent_leaves_the_robot_at_rest(
     scene: Scene, broker: Broker, monkeypatch: pytest.MonkeyPatch
 ) -> None:
