@@ -90,15 +90,18 @@ class MqttGateway:
     async def stop(self) -> None:
         """Say goodbye to the broker and end everything; nothing is left running."""
         self._end_topics()
-        farewell = self._state("offline")
-        await self._commands.publish(
-            self._names.state, farewell, retain=True, qos=1, timeout=FAREWELL_TIMEOUT
-        )
         self._visitors.leave_all()
-        await cancel_all(self._tasks | self._calls)
-        self._tasks.clear()
-        if self._broker is not None:
-            await self._broker.stop()
+        farewell = self._state("offline")
+        try:
+            await self._commands.publish(
+                self._names.state, farewell, retain=True, qos=1, timeout=FAREWELL_TIMEOUT
+            )
+        finally:
+            await cancel_all(self._tasks | self._calls)
+            self._tasks.clear()
+            self._visitors.leave_all()
+            if self._broker is not None:
+                await self._broker.stop()
 
     def endpoints(self) -> Mapping[str, str]:
         """The broker's URL, with the topic that all of the robot's begin with."""

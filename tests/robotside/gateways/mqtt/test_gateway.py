@@ -202,15 +202,16 @@ async def test_stop_comes_through_while_others_flood_the_robot(scene: Scene, bro
     async with serving(scene, broker.url), client(broker) as me, client(broker, "noise") as noise:
         await online(me)
 
+        stopped = asyncio.Event()
+
         async def flood() -> None:
-            while True:
+            while not stopped.is_set():
                 await noise.send("publish/cmd_vel", AHEAD)
 
         flooding = [asyncio.create_task(flood()) for _ in range(4)]
         assert (await me.ask("call/stop"))["success"]
-        for task in flooding:
-            task.cancel()
-        await asyncio.gather(*flooding, return_exceptions=True)
+        stopped.set()
+        await asyncio.gather(*flooding)
     assert scene.station.controls.stopped
 
 
