@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import signal
 import socket
 import subprocess
@@ -86,9 +87,13 @@ async def test_it_speaks_mqtt_5_comes_back_when_it_dies_and_leaves_nothing(progr
     await broker.stop()
 
 
-def test_it_ends_with_a_robot_that_was_killed(program: str) -> None:
+def test_it_ends_with_a_robot_that_was_killed(program: str, tmp_path: Path) -> None:
     robot = subprocess.run(
-        [sys.executable, "-c", ORPHANED, program], capture_output=True, text=True, check=False, cwd=Path.cwd()
+        [sys.executable, "-c", ORPHANED, program],
+        capture_output=True,
+        text=True,
+        check=False,
+        env=os.environ | {"TMPDIR": str(tmp_path)},
     )
     assert robot.returncode == -signal.SIGKILL, robot.stderr
     asyncio.run(until_it_is(int(robot.stdout), there=False))
