@@ -1,9 +1,8 @@
-"""Cost of the simulated vehicles: a step of each, of several in one world, and a laser beam.
+"""Cost of the simulated vehicles: a step of each, of several in one world, and a sweep of the truck's laser.
 
-CPU time of the whole process, without sockets and, but for the cameras' own figure, without cameras: each vehicle drives by itself with all its sensors, then one of
-each together over the lake's model of water, then one to twenty patrol robots in one car park. A beam's cost is the
-difference of two sweeps of the truck's laser. The shares of a core are at 240 steps a second, in real time. Memory is the
-resident set as the system counts it, shared pages of libraries included in each, of both processes of a robot side that serves one
+CPU time of the whole process, without sockets and, but for the cameras' own figure, without cameras: each vehicle drives
+by itself with all its sensors, then one of each together over the lake's model of water, then one to twenty patrol robots
+in one car park. The shares of a core are at 240 steps a second, in real time. Memory is the resident set as the system counts it, shared pages of libraries included in each, of both processes of a robot side that serves one
 patrol robot without a client and was started before, so that its database has its tables (the very first start has what makes
 them, 13 MB, in memory as well), and while a client watches its camera, which takes the software GL with its
 compiler. Runs are compared by the hash of all that the robots of every kind measured in two
@@ -21,7 +20,6 @@ from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from dataclasses import replace
 
-import msgspec
 import psutil
 
 from bench.support.figures import Figure
@@ -75,8 +73,7 @@ FIGURES = (
         "robots of six that went another way in a second process with the same seed",
         target=0,
     ),
-    Figure("beam", "µs", "each more of a laser's beams"),
-    Figure("half beams", "µs", "the same in the upper half of the beams: equal where the cost is linear"),
+    Figure("sweep", "ms", "a sweep of the truck's laser in the car park, 271 beams"),
 )
 REPEATS = 3
 SWEEPS = 60
@@ -145,9 +142,7 @@ def ours() -> dict[str, float]:
     values["cameras"] = picture() * CAMERAS * CAMERA_RATE * 100
     values["memory"], values["watched"] = memory()
     values["differing"] = float(sum(a != b for a, b in zip(*(hashes() for _ in range(2)), strict=True)))
-    few, half, all_ = (sweep(beams) for beams in (90, 540, 1080))
-    values["beam"] = (half - few) / 450 * 1e6
-    values["half beams"] = (all_ - half) / 540 * 1e6
+    values["sweep"] = sweep() * 1e3
     return values
 
 
@@ -253,15 +248,10 @@ def hashes() -> list[str]:
     return done.stdout.split()
 
 
-def sweep(beams: int) -> float:
-    """CPU time of one sweep of so many beams in the car park [s]."""
+def sweep() -> float:
+    """CPU time of one sweep of the truck's laser in the car park, while it drives [s]."""
     simulation = Simulation(load("parking_lot"), ROBOTS["commander"])
-    laser = Laser(
-        msgspec.structs.replace(PARAMETERS.laser, beams=beams),
-        simulation.backend,
-        simulation.vehicle.body,
-        Noise(0, "bench"),
-    )
+    laser = Laser(PARAMETERS.laser, simulation.backend, simulation.vehicle.body, Noise(0, "bench"))
     laser.measure(0.0)
     simulation.vehicle.drive(GOING)
     spent = 0.0
