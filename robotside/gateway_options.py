@@ -29,7 +29,7 @@ def add_options(serve: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="NAME[=URL]",
-        help="bring up a gateway: mqtt, which brings a broker, or mqtt=mqtt://HOST:1883?role=drive&payloads=arm,wheels&rate=5; may be given "
+        help="bring up a gateway: mqtt, which brings a broker, or 'mqtt=mqtt://HOST:1883?role=drive&payloads=arm,wheels&rate=5'; may be given "
         f"several times, and in {VARIABLE} with spaces between. docs/gateways.md lists them",
     )
     serve.add_argument(

@@ -36,11 +36,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--package", metavar="NAME", help="the ROS package, where the folders do not name it")
     options = parser.parse_args(arguments)
     try:
-        from bridge.generate import TextError, generate
+        from bridge.generate.model import TextError
+        from bridge.generate.writing import generate
     except ImportError as error:
-        print(
-            f"{error.name} is not installed; it comes with the dev extra: make setup-test.", file=sys.stderr
-        )
+        package = (error.name or "a package").partition(".")[0]
+        print(f"{package} is not installed; it comes with the dev extra: make setup-test.", file=sys.stderr)
         return 2
     try:
         for path in generate(options.files, options.out, options.package):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -28,6 +30,27 @@ def test_a_package_is_told_by_the_folders_or_by_name(boat, tmp_path, capsys):
     assert (
         capsys.readouterr().err == f"{boat} lies in no PACKAGE/msg folder; say its package with --package.\n"
     )
+
+
+def test_without_the_parser_it_says_what_brings_it(boat, tmp_path):
+    """As after `make setup`, which does not install it."""
+    run = (
+        "import runpy, sys; sys.modules['rosbags'] = None;"
+        "runpy.run_module('bridge.generate', run_name='__main__')"
+    )
+    command = [
+        sys.executable,
+        "-c",
+        run,
+        str(boat),
+        "--package",
+        "boat_msgs",
+        "--out",
+        str(tmp_path / "made"),
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "rosbags is not installed; it comes with the dev extra: make setup-test.\n"
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,8 @@ from hypothesis import strategies as st
 
 from bridge.codec import from_builtins, from_cbor, from_json, to_cbor, to_json
 from bridge.core.errors import ProtocolError
-from bridge.generate import TextError, generate
+from bridge.generate.model import TextError
+from bridge.generate.writing import generate
 from bridge.msgs.arrays import Float32Array, UInt16Array
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.geometry_msgs import Point
