@@ -180,7 +180,7 @@ class MqttGateway:
     def _on_stop(self, heard: Heard) -> None:
         """STOP, on a line that nothing else can fill."""
         asked = self._names.read(heard.topic)
-        if asked is not None and not heard.retained:
+        if asked is not None:
             self._press_stop(self._stop, asked, heard)
 
     def _on_command(self, heard: Heard) -> None:
@@ -188,8 +188,9 @@ class MqttGateway:
         if asked is None:
             return
         if asked.name == STOP and asked.verb == CALL:
-            if not self._stop.is_up and not heard.retained:
-                self._press_stop(self._commands, asked, heard)
+            # by both lines, since nobody sees which of them is deaf; one that is retained was sent now too: what a broker
+            # kept from before is not asked for
+            self._press_stop(self._commands, asked, heard)
             return
         try:
             self._obey(asked, heard)

@@ -198,6 +198,35 @@ async def _stops(raw: bytes, folder: Path) -> None:
         broker.kill()
 
 
+@pytest.mark.parametrize("retain", [False, True])
+@pytest.mark.parametrize("deaf", ["_stop", "_commands"])
+async def test_stop_comes_by_either_connection_while_the_other_is_deaf(
+    deaf: str, retain: bool, scene: Scene, broker: Broker
+) -> None:
+    async with serving(scene, broker.url) as gateway, client(broker) as me:
+        await online(me)
+        await until(lambda: gateway._stop.is_up)
+        line = getattr(gateway, deaf)
+        asyncio.get_running_loop().remove_reader(
+            line._client._client.socket()
+        )  # half open: it seems to be up
+        scene.drive(Twist.planar(0.3, 0.0))
+        assert (await me.ask("call/stop", retain=retain))["success"]
+        assert line.is_up
+        assert scene.station.controls.stopped
+        assert scene.robot.at_rest
+
+
+async def test_a_retained_stop_from_before_is_not_heard(scene: Scene, broker: Broker) -> None:
+    async with client(broker) as me:
+        await me.send("call/stop", retain=True)
+        async with serving(scene, broker.url) as gateway:
+            await online(me)
+            await until(lambda: gateway._stop.is_up)
+            await me.ask("call/rosapi/get_time")
+            assert not scene.station.controls.stopped
+
+
 async def test_stop_comes_through_while_others_flood_the_robot(scene: Scene, broker: Broker) -> None:
     async with serving(scene, broker.url), client(broker) as me, client(broker, "noise") as noise:
         await online(me)
