@@ -139,7 +139,8 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         not check the age of a command: for them a twist with a stamp is also dropped while they have left earlier
         data unread for 0.25 s.
 
-        A server of another maker gets zero speed when no drive command follows a twist with a stamp for 0.25 s, and at `close`.
+        A server of another maker gets zero speed when no drive command follows a twist with a stamp for 0.25 s, and at `close`;
+        while zero cannot be sent, it is tried every 0.05 s.
 
         `even_late` is for commands to rest, which are right at any age: they are sent unless the socket is full.
         ProtocolError for values that JSON cannot represent.
@@ -151,10 +152,11 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
             return False
         if stamp is not None and not even_late and self._too_late(msg, stamp, connection, heartbeat):
             return False
+        written = Raw(to_server_json(msg, self._session.ros2))
         if stamp is not None and not connection.ours:
             self._rest.note(topic, msg)
         stamp = None if stamp is not None and not math.isfinite(stamp) else stamp
-        return self._send(Publish(topic=topic, msg=Raw(to_server_json(msg, self._session.ros2)), stamp=stamp))
+        return self._send(Publish(topic=topic, msg=written, stamp=stamp))
 
     def _too_late(self, msg: Msg, stamp: float, connection: Connection, heartbeat: Heartbeat) -> bool:
         """Whether a drive command would wait on its way. A foreign server where it would not is asked for a sign of
@@ -169,16 +171,20 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         connection.probe(now)
         return False
 
-    def _send_rest(self, topic: str, msg: Msg) -> None:
-        self.publish(topic, msg, even_late=True)
+    def _send_rest(self, topic: str, msg: Msg) -> bool:
+        return self.publish(topic, msg, even_late=True)
 
     async def close(self) -> None:
         """End the link for good; `run` returns. Takes 0.5 s at most.
 
-        A robot behind a server of another maker that this client drives gets zero speed before.
+        A robot behind a server of another maker that this client drives gets zero speed before; for that a full socket is
+        waited for, 0.2 s at most.
         """
-        self._rest.rest_all()
-        await super().close()
+        try:
+            if not await self._rest.end():
+                log.warning("%s could not be told to rest: nothing more could be sent to it", self.place)
+        finally:
+            await super().close()
         if self.state.phase is not Phase.CLOSED:
             self._set_state(Phase.CLOSED, "Not connected.")
 

@@ -11,19 +11,21 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.msgs.std_msgs import Time
 
-__all__ = ["CHECK_PERIOD", "SILENCE_TIMEOUT", "DriveRest"]
+__all__ = ["CHECK_PERIOD", "MAX_LAST_TRIES", "SILENCE_TIMEOUT", "DriveRest"]
 
 SILENCE_TIMEOUT = 0.25
 """A drive command counts for so long [s], as on a robot side of ours; then zero is sent."""
 CHECK_PERIOD = 0.05
-"""Time between two checks while a robot is driven [s]."""
+"""Time between two checks while a robot is driven, and between two tries of what could not be sent [s]."""
+MAX_LAST_TRIES = 5
+"""At the end zero is tried so often: for 0.2 s."""
 
 
 class DriveRest:
     """Remembers what drives a robot, and brings that to rest when nothing follows."""
 
-    def __init__(self, publish: Callable[[str, Msg], object], now: Callable[[], float]) -> None:
-        """`publish(topic, msg)` sends zero at once; `now` is a clock [s] that only goes forward."""
+    def __init__(self, publish: Callable[[str, Msg], bool], now: Callable[[], float]) -> None:
+        """`publish(topic, msg)` sends zero at once and returns whether it did; `now` is a clock [s] that only goes forward."""
         self._publish = publish
         self._now = now
         self._last: dict[str, tuple[Twist | TwistStamped, float]] = {}
@@ -39,13 +41,18 @@ class DriveRest:
             self._last[topic] = msg, self._now()
             self._driven.set()
 
-    def rest_all(self) -> None:
-        """Send zero on each topic that was driven last with another speed."""
-        for topic in list(self._last):
-            self._rest(topic)
+    async def end(self) -> bool:
+        """Send zero on each topic that was driven last with another speed; False when one could not be sent for 0.2 s."""
+        for tries_left in reversed(range(MAX_LAST_TRIES)):
+            for topic in list(self._last):
+                self._rest(topic)
+            if not self._last or not tries_left:
+                break
+            await asyncio.sleep(CHECK_PERIOD)
+        return not self._last
 
     def check(self) -> None:
-        """Send zero where nothing was sent for `SILENCE_TIMEOUT`."""
+        """Send zero where nothing was sent for `SILENCE_TIMEOUT`; what could not be sent is tried again at the next check."""
         for topic, (_, sent) in list(self._last.items()):
             if self._now() - sent >= SILENCE_TIMEOUT:
                 self._rest(topic)
@@ -64,8 +71,9 @@ class DriveRest:
             self._driven.clear()
 
     def _rest(self, topic: str) -> None:
-        msg, sent = self._last.pop(topic)
-        self._publish(topic, _zero(msg, self._now() - sent))
+        msg, sent = self._last[topic]
+        if self._publish(topic, _zero(msg, self._now() - sent)):
+            del self._last[topic]
 
 
 def _zero(msg: Twist | TwistStamped, passed: float) -> Twist | TwistStamped:

@@ -13,6 +13,7 @@ import pytest
 from websockets.asyncio.client import connect
 
 from bridge.client.client import Phase
+from bridge.client.connection import Connection
 from bridge.client.remote_robot import RemoteRobot
 from bridge.core.errors import NoReply, ProtocolError, Refused
 from bridge.core.network_thread import NetworkThread
@@ -352,6 +353,17 @@ def test_the_ten_lines_work_on_it(ros):
         assert remote.call("/beep").message == "beep"
         assert "topics" in remote.call("/rosapi/topics"), "no success that the answer does not say"
         assert robot.robot.heard == 1
+
+
+def test_zero_that_a_full_socket_does_not_take_is_tried_until_it_does(monkeypatch):
+    commands, tries = queue.Queue(), iter([False, True, True, True])
+    with apart(1) as robot, RemoteRobot(f"ws://127.0.0.1:{robot.port}") as remote:
+        robot.robot.command = commands.put
+        remote.wait()
+        monkeypatch.setattr(Connection, "full", property(lambda _: next(tries, False)))
+        remote.publish("/cmd_vel", Twist.planar(0.4, 0.0))
+        assert [commands.get(timeout=TIMEOUT)["linear"]["x"] for _ in range(2)] == [0.4, 0.0]
+        assert list(tries) == []
 
 
 @BOTH
