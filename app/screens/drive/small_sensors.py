@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 from collections.abc import Callable
 from typing import Any
@@ -17,6 +18,8 @@ from widgets.parts.kit import Card, Icon
 from widgets.parts.sensor_card import Gauge
 
 __all__ = ["SmallSensors"]
+
+log = logging.getLogger(__name__)
 
 LARGEST = 0.47
 """Share of the open card's width that the first sensor has."""
@@ -43,6 +46,8 @@ class SmallSensors(Card):
         """Of every sensor that the robot may have, with its topics; in the layout's order."""
         self._made: dict[int, Gauge] = {}
         """Those that it has told something of, by their places in `_makers`."""
+        self._broken: set[int] = set()
+        """Those that could not be made."""
         self.shown: tuple[Gauge, ...] = ()
         """What the robot has told something of, in the layout's order."""
         self._newest: dict[str, Msg] = {}
@@ -77,10 +82,9 @@ class SmallSensors(Card):
 
     def tick(self) -> None:
         """Bring up to date which sensors there are and how old each is."""
-        for place, (make, topics) in enumerate(self._makers):
-            if place not in self._made and any(map(self._heard, topics)):
-                self._made[place] = gauge = make()
-                gauge.card, gauge.size_hint = False, (None, None)
+        for place, (_, topics) in enumerate(self._makers):
+            if place not in self._made and place not in self._broken and any(map(self._heard, topics)):
+                self._make(place)
         if len(self.shown) != len(self._made):
             self.shown = tuple(self._made[place] for place in sorted(self._made))
             self._arrange()
@@ -90,6 +94,18 @@ class SmallSensors(Card):
                 self._show(gauge, topic)
             self._refresh(gauge, [topic for topic in topics if self._heard(topic)])
         self._say_once()
+
+    def _make(self, place: int) -> None:
+        """Make the sensor of this `place`; where that fails, the robot is driven without it."""
+        make, topics = self._makers[place]
+        try:
+            gauge = make()
+        except Exception:
+            log.exception("The sensor of %s cannot be shown", topics[0])
+            self._broken.add(place)
+            return
+        gauge.card, gauge.size_hint = False, (None, None)
+        self._made[place] = gauge
 
     def _show(self, gauge: Gauge, topic: str) -> None:
         """Show what came since the last look: ten times a second are enough for figures."""

@@ -18,7 +18,7 @@ from app.session.dashboard import Dashboard
 from bridge.msgs import Msg
 from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
-from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray, LineSensor, RobotInfo
+from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray, LineSensor, RobotInfo, SonarRing
 from bridge.msgs.sensor_msgs import JointState, Range
 from bridge.msgs.std_msgs import Header, Time
 from tests.app.fakes import FakeRobot
@@ -93,6 +93,27 @@ def test_a_sensor_is_made_once_and_not_before_the_robot_tells_something_of_it(he
     assert held.made == [held.line, held.ultrasound]
     assert held.card.shown == (held.ultrasound, held.line)
     assert [gauge.card for gauge in held.card.shown] == [False, False]
+
+
+def test_a_sensor_that_cannot_be_made_is_left_out_and_the_others_are_shown(
+    held: Held, caplog: pytest.LogCaptureFixture
+) -> None:
+    tries: list[str] = []
+
+    def broken() -> Any:
+        tries.append("made")
+        raise ImportError("no module of that name")
+
+    held.card.add(broken, ("/sonar",))
+    held.card.add(partial(held.make, late := UltrasoundView()), ("/range/rear",))
+    held.hear("/sonar", SonarRing())
+    held.hear("/range/rear", Range(range=1.0))
+    held.hear_all()
+    assert tries == ["made"], "it is not tried in every tick"
+    assert held.card.shown == (held.ultrasound, held.line, held.encoders, late)
+    assert [
+        record.getMessage() for record in caplog.records if record.name == "app.screens.drive.small_sensors"
+    ] == ["The sensor of /sonar cannot be shown"]
 
 
 def test_a_tap_unfolds_the_strip_and_another_folds_it(held: Held) -> None:
