@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, TypeVar
 
@@ -14,7 +15,7 @@ from bridge.codec.text import from_json
 from bridge.msgs import Msg
 from bridge.msgs.std_msgs import Header, Time
 
-__all__ = ["from_json_now"]
+__all__ = ["from_json_now", "stamp_of"]
 
 M = TypeVar("M", bound=Msg)
 _NOW = "now"
@@ -28,10 +29,15 @@ class _Headed(msgspec.Struct):
     header: _Header = msgspec.field(default_factory=_Header)
 
 
+def stamp_of(seconds: float) -> Time:
+    """The instant `seconds` [s] after the epoch; zero, ROS's word for no time, of NaN, where a robot has no clock."""
+    return Time.at(seconds) if math.isfinite(seconds) else Time()
+
+
 def from_json_now(raw: bytes | Raw, type: type[M], now: Callable[[], float]) -> M:
     """As `from_json`, with the time `now()` [s] for each time that is the text `now`, and for the stamp of the message's
     own header where that is missing."""
-    text, stamp = bytes(raw), Time.at(now())
+    text, stamp = bytes(raw), stamp_of(now())
     if b'"now"' in text and isinstance(obj := _loads(text), dict):
         msg = from_builtins(_timed(obj, type, stamp), type)
     else:

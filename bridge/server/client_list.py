@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 
+from bridge.codec.now import stamp_of
 from bridge.core.robot_catalogue import Operator
 from bridge.core.topics import Topic
 from bridge.msgs import Msg
 from bridge.msgs.rosbridge_msgs import ConnectedClient, ConnectedClients
-from bridge.msgs.std_msgs import Int32, Time
+from bridge.msgs.std_msgs import Int32
 
 __all__ = ["CLIENT_TOPICS", "publish_clients"]
 
@@ -22,7 +23,7 @@ def publish_clients(operators: Collection[Operator], publish: Callable[[str, Msg
     """Publish who is connected now; to be called when that has changed."""
     publish(COUNT.name, Int32(len(operators)))
     clients = [
-        ConnectedClient(each.address.rpartition(":")[0].strip("[]"), Time.at(each.opened))
+        ConnectedClient(each.address.rpartition(":")[0].strip("[]"), stamp_of(each.opened))
         for each in operators
     ]
     publish(CLIENTS.name, ConnectedClients(clients))

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
-from bridge.codec import from_json_now
+from bridge.codec import from_json, from_json_now
 from bridge.core.errors import ProtocolError
 from bridge.msgs import TYPES
 from bridge.msgs.geometry_msgs import PointStamped, PoseStamped
@@ -50,3 +52,10 @@ def test_what_is_wrong_beside_it_is_named():
         read(b'{"header":{"stamp":"now"}', PointStamped)
     with pytest.raises(ProtocolError, match="must be an object"):
         read(b'["now"]', PointStamped)
+
+
+def test_a_robot_without_a_clock_stamps_nothing():
+    text = b'{"header":{"frame_id":"map"},"point":{"x":1.0}}'
+    assert from_json_now(text, PointStamped, lambda: math.nan) == from_json(text, PointStamped)
+    asked = from_json_now(b'{"data":"now"}', TYPES["std_msgs/Time"], lambda: math.nan)
+    assert asked.data == Time()

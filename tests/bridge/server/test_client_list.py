@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from tests.bridge.peers import peer
 from tests.bridge.wires import server
 
@@ -31,3 +33,10 @@ async def test_they_are_listed_and_reserved():
         assert (await foreign.hear())["msg"] == "advertise: /client_count is this robot's own topic."
         await foreign.say(op="call_service", service="/rosapi/topics")
         assert {"/client_count", "/connected_clients"} <= set((await foreign.hear())["values"]["topics"])
+
+
+async def test_who_came_while_the_robot_had_no_clock_is_listed_without_a_time():
+    async with server(now=lambda: math.nan) as robot, peer(robot) as foreign:
+        await foreign.say(op="subscribe", topic="/connected_clients", type="rosbridge_msgs/ConnectedClients")
+        (client,) = (await foreign.hear())["msg"]["clients"]
+        assert client["connection_time"] == {"secs": 0, "nsecs": 0}
