@@ -17,6 +17,7 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
 from pathlib import Path
 from typing import Any
+from weakref import WeakSet
 
 import pytest
 
@@ -41,6 +42,21 @@ def command(library: str, transport: str) -> list[str]:
     return [sys.executable, str(HERE / "peer.py"), transport]
 
 
+STARTED: WeakSet[subprocess.Popen[bytes]] = WeakSet()
+"""All that this process started and that may run still."""
+
+
+def forsake() -> None:
+    """Close this process' ends of their pipes: a program ends with its input, and that ends when nobody holds it open any more."""
+    for process in STARTED:
+        process.stdin.close()
+        process.stdout.close()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=forsake)
+
+
 class Programs:
     """Those that wait for a test, by what they are."""
 
@@ -52,7 +68,9 @@ class Programs:
         started = tuple(command(library, transport))
         if self._idle[started]:
             return self._idle[started].pop()
-        return subprocess.Popen(started, stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0)
+        process = subprocess.Popen(started, stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0)
+        STARTED.add(process)
+        return process
 
     def give_back(self, process: subprocess.Popen[bytes]) -> None:
         """It has no connection any more and nothing more to tell."""
