@@ -17,6 +17,7 @@ from typing import NamedTuple, TypeVar
 import aiomqtt
 from paho.mqtt.packettypes import PacketTypes
 from paho.mqtt.properties import Properties
+from paho.mqtt.reasoncodes import ReasonCode
 from paho.mqtt.subscribeoptions import SubscribeOptions
 
 from bridge.core.async_tasks import cancel_all, is_cancelled_from_outside
@@ -34,12 +35,17 @@ CONNECT_TIMEOUT = 5.0
 """For one answer of the broker [s]."""
 MIN_BACKOFF, MAX_BACKOFF = 0.25, 5.0
 """Between two tries to connect [s]; it doubles from one to the next."""
+STANDING_TIME = 10.0
+"""A connection that was up for so long [s] is tried again soon when it is lost, and counts as reached again."""
 STALL_PERIOD, STALL_TIMEOUT = 0.25, 1.0
 """The loop is looked at so often [s]; when it stood still for longer than that [s], what waited meanwhile is too old."""
 MAX_IN = 1024
 """Messages that wait to be handled; more are dropped."""
 MAX_REPLIES = 256
 """Answers that wait to be sent; beyond them the oldest are dropped."""
+
+_MIN_FAILURE = 0x80
+"""Reason codes from this one on say that something is refused."""
 
 
 class Heard(NamedTuple):
@@ -65,6 +71,10 @@ class Reply(NamedTuple):
     topic: str
     payload: bytes
     correlation: bytes | None
+
+
+class SubscriptionRefused(aiomqtt.MqttError):
+    """The broker does not pass on what was asked for."""
 
 
 class BrokerLine:
@@ -95,11 +105,23 @@ class BrokerLine:
         self._replies: deque[Reply] = deque(maxlen=MAX_REPLIES)
         self._wake = asyncio.Event()
         self._beat = math.inf
+        self._up_since = math.inf
+        self._fault = ""
 
     @property
     def is_up(self) -> bool:
         """It is connected and subscribed."""
         return self._client is not None
+
+    @property
+    def is_standing(self) -> bool:
+        """It has been up for `STANDING_TIME`, so that it counts as steady."""
+        return self.is_up and asyncio.get_running_loop().time() - self._up_since >= STANDING_TIME
+
+    @property
+    def fault(self) -> str:
+        """Why it is not up, as part of a sentence; empty while it is, or before the first try has failed."""
+        return self._fault
 
     async def run(self) -> None:
         """Keep the line up until cancelled."""
@@ -107,7 +129,7 @@ class BrokerLine:
         while True:
             try:
                 await self._connect()
-                reason, backoff = "its program stood still", MIN_BACKOFF
+                reason = "the robot's own program stood still for a while"
             except asyncio.CancelledError:
                 if is_cancelled_from_outside():
                     raise
@@ -115,11 +137,13 @@ class BrokerLine:
             except Exception as error:  # whatever it is, the robot goes on and the broker is tried again
                 if not isinstance(error, aiomqtt.MqttError):
                     log.exception("The connection to the MQTT broker failed")
-                backoff = MIN_BACKOFF if self.is_up else min(2 * backoff, MAX_BACKOFF)
                 reason = _reason(error)
             finally:
+                # one that is lost soon after it was made each time is tried as seldom as one that is not to be had
+                backoff = MIN_BACKOFF if self.is_standing else min(2 * backoff, MAX_BACKOFF)
                 self._client = None
                 self._replies.clear()
+            self._fault = reason
             if self._on_down is not None:
                 self._on_down(reason)
             await asyncio.sleep(backoff)
@@ -155,17 +179,22 @@ class BrokerLine:
                     retainAsPublished=True,
                     retainHandling=SubscribeOptions.RETAIN_DO_NOT_SEND,
                 )
-                await uncut(client.subscribe(each, options=options))
-            self._client = client
+                granted = await uncut(client.subscribe(each, options=options))
+                if any(_is_failure(code) for code in granted):
+                    raise SubscriptionRefused(
+                        f"it does not let the robot read {each}; allow that in its access list"
+                    )
+            self._client, self._fault = client, ""
+            self._up_since = asyncio.get_running_loop().time()
             self._beat = asyncio.get_running_loop().time()
             if self._on_up is not None:
                 await self._on_up()
-            ends = [asyncio.create_task(self._listen(client)), asyncio.create_task(self._watch_loop())]
-            helpers = [*ends, asyncio.create_task(self._send_replies(client))]
+            works = (self._listen(client), self._watch_loop(), self._send_replies(client))
+            ends = [asyncio.create_task(work) for work in works]
             try:
                 done, _ = await asyncio.wait(ends, return_when=asyncio.FIRST_COMPLETED)
             finally:
-                await cancel_all(helpers)
+                await cancel_all(ends)
             for ended in done:
                 ended.result()
 
@@ -212,12 +241,7 @@ class BrokerLine:
             await self._wake.wait()
             self._wake.clear()
             while self._replies:
-                reply = self._replies.popleft()
-                properties = Properties(PacketTypes.PUBLISH)  # type: ignore[no-untyped-call]
-                if reply.correlation is not None:
-                    properties.CorrelationData = reply.correlation
-                with suppress(aiomqtt.MqttError):
-                    await uncut(client.publish(reply.topic, reply.payload, qos=0, properties=properties))
+                await _send_reply(client, self._replies.popleft())
 
     def _handle(self, message: aiomqtt.Message) -> None:
         try:
@@ -259,6 +283,19 @@ async def _opened(client: aiomqtt.Client) -> AsyncIterator[aiomqtt.Client]:
             await client.__aexit__(None, None, None)
 
 
+async def _send_reply(client: aiomqtt.Client, reply: Reply) -> None:
+    """Send one answer; one that cannot be sent is logged, and the others go on."""
+    properties = Properties(PacketTypes.PUBLISH)  # type: ignore[no-untyped-call]
+    try:
+        if reply.correlation is not None:
+            properties.CorrelationData = reply.correlation
+        await uncut(client.publish(reply.topic, reply.payload, qos=0, properties=properties))
+    except aiomqtt.MqttError:  # the line's own task learns of it too
+        pass
+    except Exception:
+        log.exception("An answer on %.100s cannot be sent", reply.topic)
+
+
 def _heard(message: aiomqtt.Message) -> Heard:
     said = message.properties
     payload = message.payload
@@ -271,6 +308,10 @@ def _heard(message: aiomqtt.Message) -> Heard:
         getattr(said, "CorrelationData", None),
         dict(getattr(said, "UserProperty", ())),
     )
+
+
+def _is_failure(code: int | ReasonCode) -> bool:
+    return (code if isinstance(code, int) else code.value) >= _MIN_FAILURE
 
 
 def _reason(error: Exception) -> str:

@@ -65,7 +65,7 @@ class MqttGateway:
         self._wake = asyncio.Event()
         self._tasks: set[asyncio.Task[None]] = set()
         self._calls: set[asyncio.Task[None]] = set()
-        self._fault = ""
+        self._lost: set[BrokerLine] = set()  # connections of whose loss was told
         self._commands = BrokerLine(
             url,
             self._names.commands,
@@ -120,10 +120,6 @@ class MqttGateway:
 
     async def _begin(self) -> None:
         """The broker is reached: say who is here, and publish."""
-        if self._fault:
-            said = "The MQTT broker is reached again."
-            self._say("control", Notice(Code.GATEWAY_UP, said, gateway="mqtt"))
-        self._fault = ""
         await self._commands.publish(self._names.guide, self.guide().encode(), retain=True, qos=1)
         await self._commands.publish(self._names.state, self._state("online"), retain=True, qos=1)
         self._begin_topics()
@@ -132,10 +128,15 @@ class MqttGateway:
         """The broker is gone, and with it everybody behind it."""
         self._end_topics()
         self._visitors.leave_all()
-        if not self._fault:
-            said = f"The MQTT broker at {self._address} is not reached: {reason}. It is tried again."
-            self._say("control", Notice(Code.GATEWAY_LOST, said, gateway="mqtt", reason=reason), "warn")
-        self._fault = reason
+        if self._commands not in self._lost:
+            self._say_lost(self._commands, f"The MQTT broker at {self._address} is not reached", reason)
+
+    def _say_lost(self, line: BrokerLine, what: str, reason: str) -> None:
+        self._lost.add(line)
+        notice = Notice(
+            Code.GATEWAY_LOST, f"{what}: {reason}. It is tried again.", gateway="mqtt", reason=reason
+        )
+        self._say("control", notice, "warn")
 
     def _begin_topics(self) -> None:
         audience = self._door.join(self._address, way="mqtt", role=self._role)
@@ -176,6 +177,17 @@ class MqttGateway:
         while True:
             await asyncio.sleep(_CHECK_PERIOD)
             self._visitors.leave_silent()
+            self._check_lines()
+
+    def _check_lines(self) -> None:
+        """Tell of STOP's connection when it alone is lost, and of the broker once it is there to stay."""
+        if self._commands.is_up and self._stop.fault and not self._lost:
+            what = f"STOP has no connection of its own to the MQTT broker at {self._address}"
+            self._say_lost(self._stop, what, self._stop.fault)
+        elif self._lost and self._commands.is_standing and self._stop.is_standing:
+            self._lost.clear()
+            said = "The MQTT broker is reached again."
+            self._say("control", Notice(Code.GATEWAY_UP, said, gateway="mqtt"))
 
     def _on_stop(self, heard: Heard) -> None:
         """STOP, on a line that nothing else can fill."""

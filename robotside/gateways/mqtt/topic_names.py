@@ -23,6 +23,8 @@ PREFIX = "pilothouse"
 PUBLISH, CALL, BYE = "publish", "call", "bye"
 MAX_CLIENT_NAME = 64
 """Characters of a client's name."""
+MAX_NAME = 256
+"""Characters of the name of a topic or service: the topic of its answer is a little longer, and MQTT bounds that."""
 
 
 class Asked(NamedTuple):
@@ -73,12 +75,12 @@ class TopicNames:
         return (f"{self._clients}+/{CALL}/stop",)
 
     def read(self, topic: str) -> Asked | None:
-        """What a topic asks for; None when it is no command, or its client's name is too long or cannot be shown."""
+        """What a topic asks for; None when it is no command, or a name in it is too long or cannot be shown."""
         if not topic.startswith(self._clients):
             return None
         client, _, rest = topic[len(self._clients) :].partition("/")
         verb, _, name = rest.partition("/")
-        if not client or len(client) > MAX_CLIENT_NAME or not client.isprintable():
+        if not client or len(client) > MAX_CLIENT_NAME or not client.isprintable() or len(name) > MAX_NAME:
             return None
         if (verb, name) == (BYE, ""):
             return Asked(client, BYE, "")

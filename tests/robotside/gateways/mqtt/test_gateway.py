@@ -7,7 +7,7 @@ import json
 import socket
 import time
 from collections.abc import AsyncIterator, Callable, Iterator
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +25,7 @@ from robotside.door.station_door import StationDoor
 from robotside.gateways.adapter import Surroundings
 from robotside.gateways.gateway_url import read_url
 from robotside.gateways.mqtt import broker_line
+from robotside.gateways.mqtt import gateway as mqtt_gateway
 from robotside.gateways.mqtt.gateway import MqttGateway
 from robotside.trust.people import TOKEN
 from robotside.trust.people_file import PeopleFile
@@ -61,6 +62,8 @@ def patient(monkeypatch: pytest.MonkeyPatch) -> None:
     """A busy computer on which these tests are slow is no robot that stood still, and no client that is lost."""
     monkeypatch.setattr(broker_line, "STALL_TIMEOUT", 60.0)
     monkeypatch.setattr(broker_line, "KEEPALIVE", 60)
+    monkeypatch.setattr(broker_line, "STANDING_TIME", 0.0)
+    monkeypatch.setattr(mqtt_gateway, "_CHECK_PERIOD", 0.02)
 
 
 @pytest.fixture
@@ -293,7 +296,7 @@ async def test_the_robot_rests_when_its_broker_dies_and_obeys_nothing_old_when_i
         async with client(broker) as me:
             await me.send("call/task/start", {"order": {"task": "hold"}}, expiry=FRESH)
             await online(me)
-            assert Code.GATEWAY_UP in codes(scene)
+            await until(lambda: Code.GATEWAY_UP in codes(scene))
             await me.ask("call/rosapi/get_time")
             assert scene.robot.at_rest
 
@@ -529,3 +532,65 @@ async def test_a_gateway_is_stopped_without_having_been_started(scene: Scene) ->
     )
     await gateway.stop()
     assert gateway.endpoints() == {"mqtt": f"mqtt://127.0.0.1:1/{ROOT}"}
+
+
+@asynccontextmanager
+async def refusing_broker(refused: str) -> AsyncIterator[str]:
+    """The URL of a broker that refuses subscriptions whose topic has the word, as one with an access list does."""
+
+    async def answer(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        with suppress(asyncio.IncompleteReadError, ConnectionError):
+            while True:
+                kind, body = await packet(reader)
+                if kind == 1:  # CONNECT
+                    writer.write(bytes((0x20, 3, 0, 0, 0)))
+                elif kind == 3:  # PUBLISH with QoS 1; the others need no answer
+                    start = 2 + int.from_bytes(body[:2])
+                    writer.write(bytes((0x40, 2)) + body[start : start + 2])
+                elif kind == 8:  # SUBSCRIBE
+                    code = 0x87 if refused.encode() in body else 1
+                    writer.write(bytes((0x90, 4)) + body[:2] + bytes((0, code)))
+                elif kind == 12:  # PINGREQ
+                    writer.write(bytes((0xD0, 0)))
+        writer.close()
+
+    async def packet(reader: asyncio.StreamReader) -> tuple[int, bytes]:
+        kind, size, shift = (await reader.readexactly(1))[0] >> 4, 0, 0
+        while True:
+            part = (await reader.readexactly(1))[0]
+            size, shift = size | (part & 127) << shift, shift + 7
+            if part < 128:
+                return kind, await reader.readexactly(size)
+
+    async with await asyncio.start_server(answer, "127.0.0.1", 0) as server:
+        yield f"mqtt://127.0.0.1:{server.sockets[0].getsockname()[1]}"
+
+
+@pytest.mark.parametrize(
+    ("refused", "line"), [("/clients/+/call/#", "The MQTT broker"), ("/call/stop", "STOP has no connection")]
+)
+async def test_a_broker_that_refuses_a_subscription_is_an_event_that_says_what_to_allow(
+    refused: str, line: str, scene: Scene
+) -> None:
+    async with refusing_broker(refused) as url, serving(scene, url):
+        await until(lambda: Code.GATEWAY_LOST in codes(scene))
+    said = next(msg.text for _, msg in scene.said if isinstance(msg, Event) and msg.code == Code.GATEWAY_LOST)
+    assert said.startswith(line)
+    assert "does not let the robot read pilothouse/Fake-1/clients/" in said
+    assert refused in said
+    assert Code.GATEWAY_UP not in codes(scene)
+
+
+async def test_a_broker_that_comes_and_goes_is_told_of_once(
+    scene: Scene, broker: Broker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(broker_line, "STANDING_TIME", 3600.0)
+    async with serving(scene, broker.url) as gateway:
+        for _ in range(2):
+            await until(lambda: gateway._commands.is_up)
+            broker.kill()
+            await until(lambda: not gateway._commands.is_up)
+            broker.start()
+        await until(lambda: gateway._commands.is_up and gateway._stop.is_up)
+        assert codes(scene).count(Code.GATEWAY_LOST) == 1
+        assert Code.GATEWAY_UP not in codes(scene)

@@ -34,6 +34,7 @@ def test_commands_are_read_as_they_are_written() -> None:
         "me/bye/x",
         "m\ne/call/stop",
         "m" * 65 + "/bye",
+        "me/call/" + "x" * 257,
     ],
 )
 def test_what_is_no_command_is_none(topic: str) -> None:
