@@ -209,8 +209,14 @@ class Bullet:
     def sweep(self, body: int, fan: Fan) -> NDArray[np.float64]:
         """Reach of each beam of a `fan`, as a part of its length: 1 when it meets nothing; the body itself is not met.
 
-        As `rays` would give it, to a millimetre. While nothing moves, the very same fan gives the very same array, which is not to
-        be changed.
+        As `rays` would give it, to a millimetre, but that:
+
+        - `rays` has tapered solids a millimetre too large, which is centimetres along a beam that grazes one;
+        - of a beam on the very edge of any solid, one of both may say that it meets the solid and the other that it passes;
+        - from below the ground a beam does not meet it here;
+        - from within a fixed sphere a beam looks through it here, and `rays` gives 0 for one towards its middle.
+
+        While nothing moves, the very same fan gives the very same array, which is not to be changed.
         """
         return self._measures.sweep(body, fan)
 

@@ -124,7 +124,7 @@ class FixedSolids:
     def sweep(self, fan: Fan, position: Vec3, rotation: Quat) -> Floats:
         """Reach of each beam of a `fan` on a body with its centre of mass at `position`, as a part of its length; 1 where it meets nothing.
 
-        A beam that starts within a solid looks through it.
+        A beam that starts within a solid looks through it, and one that starts below the ground through that.
         """
         placed = _Placed.at(fan, position, rotation)
         reach = np.ones(fan.count)

@@ -122,6 +122,35 @@ def test_beams_that_sink_meet_the_ground(backend):
     assert reach[0] == REACH
 
 
+def test_from_below_the_ground_a_sweep_does_not_meet_it_and_the_engine_does(backend):
+    backend.add_ground(1.0)
+    eye = eye_at(backend, rotation=leaning(0.0, math.pi / 6, 0.7))
+    fan = all_round(backend, eye)
+    assert (backend.sweep(eye, fan) == 1.0).all()
+    assert by_the_engine(backend, eye, fan)[0] * REACH == pytest.approx(2.0, abs=1e-6)
+
+
+def test_from_within_a_fixed_ball_a_sweep_looks_out_and_the_engine_is_blind_towards_its_middle(backend):
+    backend.add_static((Shape("sphere", (1.0, 1.0, 1.0), (0.2, 0.0, 0.0)),))
+    eye = eye_at(backend)
+    fan = all_round(backend, eye)
+    assert (backend.sweep(eye, fan) == 1.0).all()
+    engine = by_the_engine(backend, eye, fan)
+    assert (engine[fan.cosines > 0.01] == 0.0).all()
+    assert (engine[fan.cosines < -0.01] == 1.0).all()
+
+
+def test_the_engine_has_a_tapered_solid_a_millimetre_nearer_which_is_more_along_a_beam_that_grazes_it(
+    backend,
+):
+    backend.add_static((Shape("box", (4.0, 1.0, 1.0), (3.0, 0.6, 0.0), taper=(1.0, 0.9)),))
+    eye = eye_at(backend)
+    fan = backend.fan(eye, (0.0, 0.0, 0.0), first=0.026, step=0.004, count=20, reach=REACH)
+    farther = (backend.sweep(eye, fan) - by_the_engine(backend, eye, fan)) * REACH
+    assert farther * fan.sines == pytest.approx(1e-3, abs=5e-5)
+    assert farther[0] > 0.03
+
+
 def test_another_vehicle_is_met_and_the_own_one_is_not(backend):
     own = backend.add_floating(BUOY, (0.0, 0.0, 0.0), UPRIGHT)
     backend.add_floating(BUOY, (0.0, 3.0, 0.0), UPRIGHT)
