@@ -35,3 +35,17 @@ def test_no_edge_of_what_scrolls_is_drawn_beyond_the_list(stage, kind, at):
     seen = stage.pixels(whole)[..., :3].max(-1) > 8
     assert seen[105:195].any()
     assert not np.concatenate([seen[:99], seen[201:]]).any()
+
+
+def test_the_bar_of_a_chosen_row_has_the_rows_own_corners(stage):
+    row, whole = ListRow(title="Patrol", chosen=True, size_hint_x=None, width=200), FloatLayout()
+    whole.add_widget(row)
+    stage.show(whole, size=(300, 300))
+    row.height = 60
+    row.pos = 50, 120
+    stage.frames(3)
+    seen = stage.pixels(whole)[120:180, 50:250, :3].max(-1) > 8
+    corner = round(row.corner)
+    assert (seen[:corner, :corner] == seen[:corner, -corner:][:, ::-1]).all()
+    assert not seen[0, :3].any()
+    assert seen[corner:-corner, :9].all()

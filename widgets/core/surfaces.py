@@ -26,9 +26,9 @@ Builder.load_string("""
             radius: [self.corner]
         Rounded:
             rgba: theme.roles[self.ground] if self.ground else (0, 0, 0, 0)
-            pos: self.x + self.rim_width, self.y + self.rim_width
-            size: self.width - 2 * self.rim_width, self.height - 2 * self.rim_width
-            radius: [self.corner - self.rim_width]
+            pos: self.x + max(self.rim_width, self.bar_width), self.y + self.rim_width
+            size: self.width - max(self.rim_width, self.bar_width) - self.rim_width, self.height - 2 * self.rim_width
+            radius: [0 if self.bar_width else self.corner - self.rim_width, *[self.corner - self.rim_width] * 2, 0 if self.bar_width else self.corner - self.rim_width]
 
 <Pressable>:
     canvas.before:
@@ -76,6 +76,8 @@ class Outlined:
     """Radius of its corners [px]."""
     rim_width = NumericProperty(theme.outline)
     """Width of its border [px]."""
+    bar_width = NumericProperty(0)
+    """Width of its border at the left where that is a bar, which marks what is chosen; 0 where it is none [px]."""
 
 
 class Pressable(Outlined, ButtonBehavior):

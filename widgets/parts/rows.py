@@ -28,17 +28,13 @@ Builder.load_string("""
     spacing: dp(10)
     rim: 'accent' if root.chosen else 'line'
     rim_width: dp(3) if root.chosen else 1.5
+    bar_width: dp(9) if root.chosen else 0
     canvas.before:
         Rounded:
             rgba: theme.accent[:3] + [.16 if root.chosen else 0]
-            pos: self.pos
-            size: self.size
-            radius: [self.corner]
-        Rounded:
-            rgba: theme.accent[:3] + [1 if root.chosen else 0]
-            pos: self.pos
-            size: dp(9), self.height
-            radius: [self.corner, 0, 0, self.corner]
+            pos: self.x + self.bar_width, self.y
+            size: self.width - self.bar_width, self.height
+            radius: [0, self.corner, self.corner, 0]
     Icon:
         id: sign
         name: root.icon

@@ -143,7 +143,7 @@ class Video(Drawing):
             self._ink, self._words.canvas, self._chip, self._chip_words.canvas,
         ):  # fmt: skip
             self.canvas.add(part)
-        self.bind(corner=self.setter("veil_radius"))
+        self.bind(corner=self.setter("veil_radius"), opacity=lambda *_: self._place_picture())
         self.veil_radius = self.corner
 
     def show_frame(
@@ -207,7 +207,7 @@ class Video(Drawing):
         place = self.center_x - seen[0] / 2, self.center_y - seen[1] / 2
         self._picture.pos = self._plain.pos = place
         self._picture.size, self._plain.size = ((0, 0), seen) if self._fills() else (seen, (0, 0))
-        self._unblended.on = self._fills()
+        self._unblended.on = self._fills() and self.opacity == 1
         x, y = seen[0] / wide / 2, seen[1] / high / 2
         self._plain.tex_coords = (0.5 - x, 0.5 + y, 0.5 + x, 0.5 + y, 0.5 + x, 0.5 - y, 0.5 - x, 0.5 - y)
         whole = seen == (self.width, self.height)

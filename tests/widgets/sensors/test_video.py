@@ -240,6 +240,10 @@ def test_a_picture_is_mixed_with_the_ground_only_where_it_does_not_fill_its_fram
     video.show_frame(64, 48, FRAME)
     stage.frames(2)
     assert video._unblended.on
+    video.opacity = 0.5
+    assert not video._unblended.on, "it lets through what is below"
+    video.opacity = 1
+    assert video._unblended.on
     video.state = "stale"
     stage.frames(2)
     assert not video._unblended.on
