@@ -74,6 +74,12 @@ class DriveSlot:
         self._zeros = 0
         self._latched = False
         self._voided = 0
+        self._held = False
+        """A push was dropped, and the hand that pushed has not come to rest since."""
+        self._drove = False
+        """Something else than rest was sent, over this link or one before."""
+        self._unheard = False
+        """The robot may not have heard that the last push was let go."""
 
     @property
     def voided(self) -> int:
@@ -82,7 +88,7 @@ class DriveSlot:
 
     def _void(self) -> None:
         if self._wanted != _ZERO:
-            self._wanted, self._voided = _ZERO, self._voided + 1
+            self._wanted, self._voided, self._held = _ZERO, self._voided + 1, True
 
     @property
     def latched(self) -> bool:
@@ -108,6 +114,8 @@ class DriveSlot:
         self._check(order)
         with self._lock:
             self._wanted = order if _is_finite(order) else _ZERO
+            if order == _ZERO:
+                self._held = False
 
     def amend(self, order: Drive) -> None:
         """Drive so instead of what is wanted, from any thread; rest stays rest until the stick is pushed anew.
@@ -130,10 +138,14 @@ class DriveSlot:
             self._beat = self._now()
 
     def drop(self) -> None:
-        """Forget everything unsent, as when the link is lost: nothing old may leave later."""
+        """Forget everything unsent, as when the link is lost: nothing old may leave later.
+
+        A push over the next link says rest first, if the hand has let go meanwhile: the robot may have heard of none.
+        """
         with self._lock:
             self._void()
             self._last_sent, self._zeros = _ZERO, 0
+            self._unheard = self._unheard or self._drove
 
     def rest(self) -> None:
         """Say rest a few times, whatever was said before; the stick must be pushed anew."""
@@ -157,13 +169,16 @@ class DriveSlot:
     def due(self, *, allowed: bool = True) -> Drive | None:
         """What has to be sent now, at once on a change and each `SEND_PERIOD` while held; None when nothing.
 
-        Not `allowed` means rest, and that the stick must be pushed anew.
+        Not `allowed` means rest, and that the stick must be pushed anew; the robot may not hear that rest, and the new push
+        says it again before anything else.
         """
         with self._lock:
             if not allowed or self._latched:
                 self._void()
+            if not allowed:
+                self._unheard = self._unheard or self._drove
             now = self._now()
-            order = self._effective(now)
+            order = self._led(self._effective(now))
             changed = not _alike(order, self._last_sent)
             if changed and order == _ZERO:
                 self._zeros = REST_REPEATS
@@ -173,7 +188,16 @@ class DriveSlot:
                 return None
             self._zeros = max(0, self._zeros - 1) if order == _ZERO else 0
             self._last_sent, self._sent_at = order, now
+            self._drove = self._drove or order != _ZERO
             return order
+
+    def _led(self, order: Drive) -> Drive:
+        """What of `order` goes out: rest before a push of a hand that let go unheard. A hand that never let go says none."""
+        if order == _ZERO or not self._unheard or self._held:
+            return order
+        self._unheard = False
+        self._last_sent, self._zeros = order, 0  # the rest is a change, and leaves at once
+        return _ZERO
 
     def _effective(self, now: float) -> Drive:
         silence = now - self._beat

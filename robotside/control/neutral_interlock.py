@@ -20,7 +20,7 @@ __all__ = ["LET_GO_SENTENCE", "MAX_REMEMBERED", "MEMORY_TIME", "NeutralInterlock
 
 LET_GO_SENTENCE = Notice(
     Code.DRIVE_NOT_RELEASED,
-    "Stopped while the stick was held. Release it (send zero), then push it again.",
+    "Stopped while the stick was held. Release it, then push it again.",
 )
 
 

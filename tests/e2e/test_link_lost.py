@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from bridge.client.client import Phase
+from examples.demo.fingers import Finger
 from examples.demo.witness import Witness
 from tests.e2e.handheld import Cable, Handheld, handheld
 
@@ -20,12 +21,12 @@ SAMPLING = 0.15
 """What the truth lags behind, at 20 Hz and over three of its poses [s]."""
 
 
-def drive_off(glass: Handheld, witness: Witness) -> None:
+def drive_off(glass: Handheld, witness: Witness) -> Finger:
     """Push the stick and leave the finger there until the robot is at the speed that it asks for."""
     stick = glass.one("Joystick")
     glass.control()
     glass.until(lambda: stick.state == "live", "a live stick")
-    glass.drive(stick, lambda: stick.finger is not None and witness.fast(STEADY) > FAST)
+    return glass.drive(stick, lambda: stick.finger is not None and witness.fast(STEADY) > FAST)
 
 
 def seconds_until_rest(glass: Handheld, witness: Witness) -> float:
@@ -42,7 +43,7 @@ def test_a_pushed_stick_and_a_lost_link_bring_the_robot_to_rest_and_nothing_old_
     how: str, cable: Cable, witness: Witness, tmp_path: Path
 ) -> None:
     with handheld(tmp_path, url=cable.url, screen="drive", discover=False) as glass:
-        drive_off(glass, witness)
+        finger = drive_off(glass, witness)
         getattr(cable, how)()
         assert seconds_until_rest(glass, witness) < SOON + SAMPLING
         rested_at = witness.truth
@@ -51,6 +52,8 @@ def test_a_pushed_stick_and_a_lost_link_bring_the_robot_to_rest_and_nothing_old_
         glass.until(lambda: glass.app.session.link_state.phase is Phase.CONNECTED, "the link to heal")
         glass.run(1.5)
         assert witness.distance(*rested_at[1:3]) < 0.05, "a finger that never left the glass must push anew"
+        glass.hand.up(finger)
+        drive_off(glass, witness)
 
 
 def test_a_link_that_dies_in_silence_is_said_on_the_glass_and_heals_by_itself(

@@ -10,6 +10,7 @@ from app.link.feeds import Post
 from app.screens.shell.notices import BRIEF_DURATION, LONG_DURATION
 from app.screens.shell.reset_card import ResetPrompt
 from app.session.session import Session
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Event
 
 __all__ = ["Announcements"]
@@ -72,6 +73,9 @@ class Announcements:
         news = self._session.logbook.is_news(event, self._session.link.robot_time())
         if event.level == "alarm" and news and not self._reset.on_alarm(event):
             self._speaker.say(event.text, "danger", about=event.kind)
+        elif event.code == Code.DRIVE_NOT_RELEASED and news and self._session.link.driving:
+            # whoever only watches pushes nothing
+            self._speaker.say(event.text, "warn", about="stick")
 
     def _show_tag(self, tag: str) -> None:
         """The tag before the robot's reader, said once; empty when that is gone."""

@@ -9,6 +9,7 @@ import pytest
 from app.link.drive_slot import Drive, DriveSlot, stamped_at
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
+from robotside.control.neutral_interlock import NeutralInterlock, Origin
 
 AHEAD, TURN, ZERO = Twist.planar(0.4, 0.0), Twist.planar(0.0, 1.0), Twist()
 STEER = Manoeuvre(kind="steer", throttle=0.5, steering=0.2)
@@ -115,6 +116,93 @@ def test_a_twist_that_waited_for_a_lost_link_is_never_sent(hand: Hand) -> None:
     hand.slot.want(AHEAD)
     hand.slot.drop()
     assert hand.pass_time(1.0) == []
+
+
+def lose_the_link(hand: Hand, how: str) -> None:
+    """While somebody drives."""
+    hand.slot.want(AHEAD)
+    hand.pass_time(0.2)
+    if how == "cut":
+        hand.slot.drop()
+    else:
+        hand.slot.due(allowed=False)
+        hand.clock.now += 1.0
+        hand.slot.beat()
+
+
+@pytest.mark.parametrize("how", ["cut", "silence"])
+def test_the_first_push_after_a_lost_link_says_rest_before_it_drives(hand: Hand, how: str) -> None:
+    lose_the_link(hand, how)
+    hand.slot.want(ZERO)
+    hand.pass_time(1.0)
+    hand.slot.want(TURN)
+    assert hand.slot.due() == ZERO, "the robot may have heard of no rest"
+    assert hand.slot.due() == TURN, "at once"
+    hand.slot.want(ZERO)
+    hand.pass_time(0.5)
+    hand.slot.want(AHEAD)
+    assert hand.slot.due() == AHEAD, "once it was heard it is not said again"
+
+
+def counted(hand: Hand, sticks: NeutralInterlock, connection: str, seconds: float) -> set[bool]:
+    """Whether the robot takes what is sent to it over a connection while so much time passes."""
+    hand.sent.clear()
+    hand.pass_time(seconds)
+    anna = Origin("192.0.2.1", "anna")
+    return {
+        sticks.on_command(connection, twist != ZERO, at, at, lambda: anna) for at, twist in hand.sent
+    } or {False}
+
+
+@pytest.mark.parametrize("lifted", [True, False])
+def test_the_robot_takes_the_first_push_over_the_next_link_and_no_finger_that_was_held_all_along(
+    hand: Hand, lifted: bool
+) -> None:
+    sticks = NeutralInterlock()
+    hand.slot.want(AHEAD)
+    assert counted(hand, sticks, "first", 0.5) == {True}
+    hand.slot.drop()
+    sticks.forget("first", Origin("192.0.2.1", "anna"))
+    hand.pass_time(3.0)
+    if lifted:
+        hand.slot.want(ZERO)
+    hand.slot.want(AHEAD)
+    assert counted(hand, sticks, "second", 0.5) == {lifted}
+    assert hand.slot.driving
+
+
+def test_a_push_that_was_let_go_just_before_the_link_was_lost_is_one_more_that_says_rest_first(
+    hand: Hand,
+) -> None:
+    hand.slot.want(AHEAD)
+    hand.pass_time(0.2)
+    hand.slot.want(ZERO)
+    hand.pass_time(0.5)
+    hand.slot.drop()
+    hand.slot.want(TURN)
+    assert [hand.slot.due(), hand.slot.due()] == [ZERO, TURN]
+    hand.slot.drop()
+    hand.slot.want(ZERO)
+    hand.slot.want(TURN)
+    assert [hand.slot.due(), hand.slot.due()] == [ZERO, TURN], "and again, over the link after that"
+
+
+@pytest.mark.parametrize("how", ["cut", "silence"])
+def test_a_hand_that_never_let_go_says_no_rest_over_the_next_link(hand: Hand, how: str) -> None:
+    lose_the_link(hand, how)
+    hand.pass_time(0.5)
+    hand.sent.clear()
+    hand.slot.want(TURN)  # a finger that is moved, before it was told that its push is over
+    assert ZERO not in hand.pass_time(0.3), "the robot has to refuse it"
+    hand.slot.want(ZERO)
+    assert ZERO in hand.pass_time(0.3)
+
+
+def test_who_never_drove_says_no_rest_before_the_first_push(hand: Hand) -> None:
+    hand.slot.drop()
+    hand.slot.due(allowed=False)
+    hand.slot.want(AHEAD)
+    assert hand.slot.due() == AHEAD
 
 
 def test_a_twist_that_is_not_allowed_is_forgotten(hand: Hand) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -11,9 +12,11 @@ import pytest
 from app.link.channels import OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
+from bridge.core.codes import Code
 from bridge.msgs.geometry_msgs import Twist, TwistWithCovariance
 from bridge.msgs.nav_msgs import Odometry
-from bridge.msgs.pilothouse_msgs import FlightState, Limits, RobotInfo, TaskOrder, TaskStatus
+from bridge.msgs.pilothouse_msgs import Event, FlightState, Limits, RobotInfo, TaskOrder, TaskStatus
+from bridge.msgs.std_msgs import Time
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 from tests.app.screens.drive.test_dive import AQUA as SWIMMER
@@ -178,3 +181,18 @@ def test_the_tilt_of_a_tablet_says_what_the_stick_would_and_is_chosen_beside_it(
     screen.meet()
     assert screen.hands.choices == {}, "it has a circle"
     assert screen.hands.circle is not None
+
+
+@pytest.mark.parametrize("pushed", [True, False])
+def test_a_push_that_the_robot_refuses_until_it_is_let_go_is_said_to_who_pushes(
+    driving: Glass, robot: FakeRobot, pushed: bool
+) -> None:
+    stick, link = driving.app.screens["drive"].stick, driving.app.session.link
+    if pushed:
+        driving.hold(stick).touch_move(stick.center_x, stick.top)
+        driving.until(lambda: link.driving, "nobody drives")
+    code, said = Code.DRIVE_NOT_RELEASED, "Release it, then push it again."
+    robot.happen(Event(id=1, stamp=Time.at(time.time()), kind="command", level="warn", code=code, text=said))
+    driving.until(lambda: driving.app.session.logbook.events, "nothing came")
+    driving.stage.frames(2)
+    assert (said in driving.banners()) == pushed
