@@ -10,6 +10,7 @@ import random
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import msgspec
 from msgspec import Raw
@@ -84,7 +85,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         self._connection: Connection | None = None
         self._address: tuple[str, int] | None = None
         self._heartbeat: Heartbeat | None = None
-        self._rest = DriveRest(self._send_rest, now)
+        self._rest = DriveRest(partial(self.publish, even_late=True), now)
 
     @property
     def rtt(self) -> float:
@@ -139,8 +140,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         not check the age of a command: for them a twist with a stamp is also dropped while they have left earlier
         data unread for 0.25 s.
 
-        A server of another maker gets zero speed when no drive command follows a twist with a stamp for 0.25 s, and at `close`;
-        while zero cannot be sent, it is tried every 0.05 s.
+        A server of another maker gets zero speed when no drive command follows a twist with a stamp for 0.25 s, and at `close`; it is tried until sent.
 
         `even_late` is for commands to rest, which are right at any age: they are sent unless the socket is full.
         ProtocolError for values that JSON cannot represent.
@@ -170,9 +170,6 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
             return True
         connection.probe(now)
         return False
-
-    def _send_rest(self, topic: str, msg: Msg) -> bool:
-        return self.publish(topic, msg, even_late=True)
 
     async def close(self) -> None:
         """End the link for good; `run` returns. Takes 0.5 s at most.
