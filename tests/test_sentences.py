@@ -188,7 +188,9 @@ def test_each_notice_names_what_its_code_says() -> None:
 
 def test_each_code_is_told_somewhere() -> None:
     told = {code for _, tree in trees(*TELLERS) for code in codes_in(tree)}
-    assert set(Code) - told == set()
+    logged = codes_in(ast.parse((ROOT / "app" / "frame_pacing.py").read_text()))
+    """By the app, which elsewhere only reads codes."""
+    assert set(Code) - told - logged == set()
 
 
 @looped("code", Code)

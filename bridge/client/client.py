@@ -140,7 +140,8 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         not check the age of a command: for them a twist with a stamp is also dropped while they have left earlier
         data unread for 0.25 s.
 
-        A server of another maker gets zero speed when no drive command follows a twist with a stamp for 0.25 s, and at `close`; it is tried until sent.
+        A server of another maker gets zero speed when no drive command follows a twist with a stamp for 0.25 s, and at `close`.
+        It is tried until sent.
 
         `even_late` is for commands to rest, which are right at any age: they are sent unless the socket is full.
         ProtocolError for values that JSON cannot represent.
