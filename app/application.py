@@ -183,8 +183,8 @@ class PilothouseApp(App):
         self.methods.close()
         self.inputs.close()
         self.timers.close()
-        self.fleet.close()
         self.leave()
+        self.fleet.close()
         self.records.stop()
         self._network.close()
         self.simulating.close()
@@ -195,7 +195,7 @@ class PilothouseApp(App):
         """The glass is taken away: rest, and let go of the robot; the patrol goes on without us."""
         self.inputs.rest()
         self.methods.pause()
-        self.fleet.update(None)
+        self.corner.leave(self.session)
         self.visit.suspend()
         self.records.stop()
         self.collector.pause()
@@ -269,10 +269,10 @@ class PilothouseApp(App):
         self.inputs.rest()
 
     def _cut(self, shell: Shell | None) -> None:
-        """The link is about to be closed: STOP ALL goes on over links of its own."""
+        """The link is about to be closed: STOP and STOP ALL go on over links of their own."""
         if shell is not None:
             self.collector.expect(shell)
-        self.fleet.update(None)
+        self.corner.leave(self.session)
 
     def _left(self) -> None:
         self.corner.tick()

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from app.discovery.known_robots import Entry
 from app.stop.same_robot import Row, SameRobots, Seen
-from app.stop.stop_state import ANSWER_TIMEOUT, silence
+from app.stop.stop_state import ANSWER_TIMEOUT, UNCONFIRMED, silence
 from bridge.client.credentials import Credentials
 from bridge.core.network_thread import NetworkThread
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
@@ -72,9 +72,21 @@ class StopReport(Protocol):
     def sentence(self) -> str:
         """The same for the operator; empty where the phase says it all."""
 
+    @property
+    def owed(self) -> bool:
+        """It was pressed here, and has to be sent on by whoever leaves the robot now."""
+
 
 class Connected(Protocol):
     """The session with the connected robot, as far as STOP ALL needs it."""
+
+    @property
+    def link(self) -> object:
+        """What carries it to the robot; another one after the app was put away."""
+
+    @property
+    def connected(self) -> bool:
+        """The link stands."""
 
     @property
     def robot(self) -> Identity:
@@ -139,6 +151,8 @@ class _Robot:
     """Its own link has begun to stop it."""
     over: bool = False
     """Its lane is not wanted any more."""
+    left: object | None = None
+    """The link over which it was left before it confirmed a STOP of its own; None where STOP ALL was meant for it."""
 
 
 def _stop_lane(*args: Any, **kwargs: Any) -> Lane:
@@ -187,8 +201,13 @@ class Fleet:
 
     @property
     def active(self) -> bool:
-        """STOP ALL was pressed and not let go."""
+        """STOP ALL was pressed, or a robot was left before it confirmed its STOP, and that was not let go."""
         return bool(self._robots)
+
+    @property
+    def meant_all(self) -> bool:
+        """STOP ALL was pressed, and not the STOP of single robots alone that were left then."""
+        return any(robot.left is None for robot in self._robots.values())
 
     @property
     def stopped(self) -> int:
@@ -217,22 +236,41 @@ class Fleet:
             self._robot(connected.robot.url, "", connected.robot.name).begun = False
         for entry in self._chosen(list(entries)):
             self._add(entry)
+        for robot in self._robots.values():
+            robot.left = None
         others = [robot for robot in self._robots.values() if robot.url != self._linked]
         self._press(others, 0.0 if connected is None else HEAD_START)
         self.update(connected)
+
+    def leave(self, connected: Connected) -> bool:
+        """The robot is about to be left, or the app to be put away: a STOP that it has not confirmed is sent on over a lane.
+
+        Returns whether it is. Who opens the robot again stops it over the new link as soon as that stands, which alone can release it.
+        """
+        self.update(connected)
+        url, owed = connected.robot.url, connected.robot_stop.owed
+        if owed and url != self._linked:
+            alone = url not in self._robots or self._robots[url].left is not None
+            robot = self._robot(url, "", connected.robot.name)
+            robot.left = connected.link if alone else None
+            self._press([robot])
+        self.update(None)
+        return owed
 
     def update(self, connected: Connected | None) -> None:
         """Bring `rows` up to date. A robot that is connected no longer is stopped by a lane of its own from now on.
 
         One that has no STOP and was connected meanwhile is held by its link instead, which alone can let it go.
         """
+        if connected is not None:
+            self._give_back(connected)
         if not self.active:
             self.rows = []
             return
         url = "" if connected is None else connected.robot.url
         if self._linked and self._linked != url:
             self._take_over(self._robots[self._linked])
-        if connected is not None and url in self._robots and self._linked != url and connected.robot.foreign:
+        if connected is not None and self._linked != url and _is_for_link(self._robots.get(url), connected):
             connected.stop()
             self._close_lane(self._robots[url])
             self._linked = url
@@ -242,7 +280,7 @@ class Fleet:
         """How many of `entries` STOP ALL was not meant for: they came after it was pressed."""
         boots = {robot.boot_by_link for robot in self._robots.values() if robot.boot_by_link}
         fresh = [one for one in entries if one.url not in self._robots and one.boot not in boots]
-        return known(fresh, None) - self.untried if len(fresh) > self.untried else 0
+        return known(fresh, None) - self.untried if self.meant_all and len(fresh) > self.untried else 0
 
     def let_go(self) -> None:
         """Send nothing any more. Robots with a STOP of their own stay stopped; the others may be driven again."""
@@ -332,6 +370,18 @@ class Fleet:
         if robot.last is None or robot.last.phase != "released":
             self._press([robot])
 
+    def _give_back(self, connected: Connected) -> None:
+        """A robot that was left is there again: its new link stops it from now on, for two would not agree on its release."""
+        robot = self._robots.get(connected.robot.url)
+        if robot is None or robot.left in (None, connected.link) or not connected.connected:
+            return
+        row = self._seen(robot, None).row
+        if row.foreign and not connected.robot.foreign:
+            return  # its link does not know yet that it has to hold it
+        if row.foreign or row.phase in UNCONFIRMED:
+            connected.stop()
+        self._close_lane(self._robots.pop(robot.url))
+
     # what is known
 
     def _seen(self, robot: _Robot, connected: Connected | None) -> Seen:
@@ -372,6 +422,11 @@ def known(entries: Iterable[Entry], connected: Connected | None) -> int:
     if connected is not None:
         found[connected.robot.url] = connected.boot or connected.robot.url
     return len(set(found.values()))
+
+
+def _is_for_link(robot: _Robot | None, connected: Connected) -> bool:
+    """STOP ALL was meant for it, and it has no STOP: only its link can hold it and let it go."""
+    return robot is not None and robot.left is None and connected.robot.foreign
 
 
 def _not_heard(silent: float) -> str:

@@ -62,6 +62,14 @@ class RobotStop:
         return self._state.unanswered
 
     @property
+    def owed(self) -> bool:
+        """STOP was pressed here and not released, and whoever leaves the robot now has to go on sending it.
+
+        A robot without a STOP is owed zero speed after it came to rest as well.
+        """
+        return self.local.latched if self._robot.foreign else self._state.owed
+
+    @property
     def sentence(self) -> str:
         """The same for the operator; empty where the phase says it all."""
         if self._robot.foreign:

@@ -12,12 +12,24 @@ from dataclasses import dataclass
 from app.link.commands import STOP_DOUBT, Outcome
 from bridge.msgs.pilothouse_msgs import ControlStatus
 
-__all__ = ["REST_TIMEOUT", "ANSWER_TIMEOUT", "StopFacts", "StopState", "Verdict", "judge", "silence"]
+__all__ = [
+    "REST_TIMEOUT",
+    "ANSWER_TIMEOUT",
+    "UNCONFIRMED",
+    "StopFacts",
+    "StopState",
+    "Verdict",
+    "judge",
+    "silence",
+]
 
 ANSWER_TIMEOUT = STOP_DOUBT
 """A STOP that the robot did not take after this is unanswered; it goes on being sent [s]."""
 REST_TIMEOUT = 2.0
 """A robot whose STOP is latched rests within this, or it is not obeyed [s]."""
+
+UNCONFIRMED = ("sent", "no_answer", "moves")
+"""Phases of a STOP that was pressed and is not confirmed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,6 +166,11 @@ class StopState:
     def unanswered(self) -> bool:
         """It was pressed here and not let go, and the robot has not answered that it took it."""
         return not math.isnan(self._asked_at) and not self.taken
+
+    @property
+    def owed(self) -> bool:
+        """It was pressed here and not let go, and the robot has not confirmed that it rests."""
+        return not math.isnan(self._asked_at) and self.verdict.phase in UNCONFIRMED
 
     @property
     def lost_for(self) -> float:

@@ -12,7 +12,7 @@ from bridge.client.remote_robot import RemoteRobot
 from bridge.msgs.geometry_msgs import Twist
 from examples.demo.robot import RobotProcess
 from examples.demo.witness import Witness
-from tests.e2e.handheld import handheld
+from tests.e2e.handheld import Cable, handheld
 
 PERIOD = 0.05
 """Between two drive commands of the other client [s]."""
@@ -64,6 +64,29 @@ def test_a_watcher_stops_a_robot_that_somebody_else_drives(
         glass.until(lambda: stop.phase == "ready", "the release after a hold")
         glass.hand.up(finger)
         glass.run(0.1)
+
+
+def test_a_stop_that_nobody_heard_goes_on_being_sent_after_the_operator_went_back(
+    robot: RobotProcess, cable: Cable, witness: Witness, tmp_path: Path
+) -> None:
+    with handheld(tmp_path, url=cable.url, discover=False) as glass:
+        glass.control()
+        glass.app.session.authority.release()
+        glass.until(lambda: glass.app.session.control == "free", "free control")
+        with somebody_drives(robot.url):
+            glass.until(lambda: witness.speed() > 0.2, "the other client to drive")
+            cable.freeze()
+            stop = glass.one("StopButton")
+            glass.play(glass.hand.tap(stop.to_window(*stop.center)))
+            glass.until(lambda: stop.phase == "no_answer", "nobody to have heard it")
+            glass.app.back()
+            assert glass.app.session is None
+            glass.until(lambda: "NO ANSWER" in glass.words(), "the STOP that is owed")
+            cable.cut()
+            cable.thaw()
+            glass.until(lambda: glass.one("StopList").title == "STOPPED 1 of 1", "the robot to confirm")
+            glass.run(1.0)
+            assert witness.speed() < 0.01, "a latched STOP holds against the stick of anybody"
 
 
 def test_stop_all_from_the_connect_screen_stops_what_somebody_else_drives_and_counts_it_once(

@@ -92,6 +92,13 @@ class StopCorner:
         self._show(self.list, shown=True)
         self.tick()
 
+    def leave(self, session: Session | None) -> None:
+        """The link of `session` is about to be closed: what it has to stop goes on being stopped, and that is seen."""
+        if session is None:
+            self._fleet.update(None)
+        elif self._fleet.leave(session):
+            self._show(self.list, shown=True)
+
     def _entries(self) -> Iterator[Entry]:
         yield from self._app.robots.entries()
 
@@ -101,7 +108,8 @@ class StopCorner:
         fleet.update(self._app.session)
         entries, session = self._app.robots.entries(), self._app.session
         button.robots = known(entries, session)
-        button.active = fleet.active
+        folded = self._list is None or self._list.parent is None
+        button.active = fleet.active and (fleet.meant_all or folded)  # else the list says it all
         button.stopped, button.total = fleet.stopped, fleet.total
         least = 2 if self._app.shell is not None else 1
         # by address: that two of them are one robot is what somebody says, and takes STOP ALL away from nobody
@@ -120,7 +128,8 @@ class StopCorner:
     def _finish(self) -> None:
         """The list was folded away before all was done: it ends by itself, and is said."""
         stopped, total = self._fleet.stopped, self._fleet.total
-        self._say(f"STOP ALL is done: {stopped} of {total} stopped.", "ok" if stopped == total else "warn")
+        what = "STOP ALL" if self._fleet.meant_all else "STOP"
+        self._say(f"{what} is done: {stopped} of {total} stopped.", "ok" if stopped == total else "warn")
         self._fleet.let_go()
 
     def _let_go(self) -> None:

@@ -69,6 +69,17 @@ class Lane:
             del self._lanes.open[self._url]
 
 
+class LinkStop:
+    """STOP of the robot that is connected."""
+
+    def __init__(self) -> None:
+        self.phase, self.sentence = "ready", ""
+
+    @property
+    def owed(self) -> bool:
+        return self.phase in ("sent", "no_answer", "moves")
+
+
 class Link:
     """The session with the robot that is connected."""
 
@@ -76,7 +87,8 @@ class Link:
         info = RobotInfo(name="Linked", model="patrol")
         self.robot = SimpleNamespace(url=url, name="Linked", foreign=foreign, info=info)
         self.boot, self.fingerprint, self.control_status = "", "", ControlStatus()
-        self.robot_stop = SimpleNamespace(phase="ready", sentence="")
+        self.link, self.connected = object(), True
+        self.robot_stop = LinkStop()
         self.stops = 0
 
     def stop(self) -> None:

@@ -243,3 +243,122 @@ def test_a_robot_without_a_stop_goes_over_to_its_link_where_it_can_be_released(
     assert link.stops == 1
     link.robot_stop.phase = "ready"
     assert phases(fleet, link)["Linked"] == "released"
+
+
+# a robot that was left before it confirmed its STOP
+
+
+def left(fleet: Fleet, lanes: Lanes, phase: str = "no_answer", *, foreign: bool = False) -> Link:
+    """STOP was pressed at one robot alone, and it was left; its lane says `phase`."""
+    link = Link(A, foreign=foreign)
+    link.stop()
+    assert fleet.leave(link), "forgotten"
+    until(lambda: A in lanes.open, "nobody stops it any more")
+    lanes.reports[A] = Report(phase, foreign=foreign)
+    return link
+
+
+@pytest.mark.parametrize("phase", ["sent", "no_answer", "moves"])
+def test_one_that_is_left_before_it_confirmed_its_own_stop_goes_on_being_stopped(
+    fleet: Fleet, lanes: Lanes, phase: str
+) -> None:
+    link = Link(A)
+    link.robot_stop.phase = phase
+    assert fleet.leave(link)
+    until(lambda: A in lanes.open, "nobody stops it any more")
+    lanes.reports[A] = Report("no_answer", "No robot answers.")
+    assert phases(fleet) == {"Linked": "no_answer"}
+    assert (fleet.sending, fleet.stopped, fleet.total) == (True, 0, 1)
+    assert (fleet.meant_all, fleet.since([heard(A), heard(B)])) == (False, 0), "STOP ALL was not pressed"
+    lanes.reports[A] = Report("stopped")
+    assert phases(fleet) == {"Linked": "stopped"}
+    assert not fleet.sending
+
+
+@pytest.mark.parametrize("phase", ["ready", "stopped", "lost"])
+def test_one_that_was_released_or_has_confirmed_is_left_to_itself(
+    fleet: Fleet, lanes: Lanes, phase: str
+) -> None:
+    link = Link(A)
+    link.robot_stop.phase = phase
+    assert not fleet.leave(link)
+    assert (fleet.active, lanes.pressed) == (False, {})
+
+
+def test_the_same_robot_opened_again_has_one_who_stops_it_and_may_release_it(
+    fleet: Fleet, lanes: Lanes
+) -> None:
+    left(fleet, lanes)
+    again = Link(A)
+    again.connected = False
+    assert phases(fleet, again) == {"Linked": "no_answer"}, "nobody says so while it is not there"
+    assert (again.stops, set(lanes.open)) == (0, {A})
+    again.connected = True
+    assert phases(fleet, again) == {}
+    until(lambda: not lanes.open, "two stop it, and one of them knows of no release")
+    assert again.stops == 1
+    again.robot_stop.phase = "ready"
+    assert not fleet.leave(again)
+    assert (fleet.active, lanes.pressed) == (False, {A: 1})
+
+
+@pytest.mark.parametrize("phase", ["stopped", "released", "lost"])
+def test_what_it_confirmed_meanwhile_is_not_sent_again_when_it_is_opened(
+    fleet: Fleet, lanes: Lanes, phase: str
+) -> None:
+    left(fleet, lanes, phase)
+    again = Link(A)
+    assert phases(fleet, again) == {}
+    assert again.stops == 0
+
+
+def test_the_link_that_was_left_takes_nothing_back(fleet: Fleet, lanes: Lanes) -> None:
+    """The app was put away: its session still says that it is connected, and its link is closed."""
+    link = left(fleet, lanes)
+    assert phases(fleet, link) == {"Linked": "no_answer"}
+    link.link = object()
+    assert phases(fleet, link) == {}
+    assert link.stops == 2
+
+
+def test_a_robot_without_a_stop_is_held_until_its_link_holds_it(fleet: Fleet, lanes: Lanes) -> None:
+    left(fleet, lanes, "stopped", foreign=True)
+    again = Link(A)
+    assert phases(fleet, again) == {"Linked": "stopped"}, "it is not known yet that its link has to hold it"
+    again.robot.foreign = True
+    assert phases(fleet, again) == {}
+    assert again.stops == 1
+    until(lambda: not lanes.open, "its lane still says zero")
+
+
+def test_stop_all_means_who_was_left_too_and_keeps_it(fleet: Fleet, lanes: Lanes) -> None:
+    left(fleet, lanes)
+    fleet.press([heard(A), heard(B)])
+    until(lambda: lanes.pressed == {A: 2, B: 1}, "not pressed")
+    assert (fleet.meant_all, fleet.total) == (True, 2)
+    fleet.update(Link(A))
+    assert fleet.total == 2
+
+
+def test_a_stop_of_its_own_after_stop_all_is_sent_anew_over_its_lane(fleet: Fleet, lanes: Lanes) -> None:
+    fleet.press([heard(A)])
+    until(lambda: A in lanes.open, "no lane")
+    lanes.reports[A] = Report("released")
+    link = Link(A)
+    fleet.update(link)
+    link.stop()
+    assert fleet.leave(link)
+    until(lambda: lanes.pressed == {A: 2}, "not pressed")
+    assert fleet.meant_all
+
+
+def test_a_stop_pressed_after_a_release_and_left_at_once_is_not_taken_for_released(
+    fleet: Fleet, lanes: Lanes
+) -> None:
+    link = Link(A)
+    fleet.press([], link)
+    link.robot_stop.phase = "ready"
+    assert phases(fleet, link) == {"Linked": "released"}
+    link.stop()
+    assert fleet.leave(link)
+    until(lambda: A in lanes.open, "nobody stops it any more")

@@ -74,3 +74,37 @@ def test_it_is_known_for_how_long_a_stopped_robot_is_out_of_reach(ours: Watch) -
     ours.stop.set_reachable(False, "The connection was cut.")
     ours.clock.time += 4.0
     assert (ours.stop.phase, ours.stop.lost_for) == ("lost", 4.0)
+
+
+def test_a_stop_is_owed_from_its_press_until_the_robot_rests(ours: Watch) -> None:
+    assert not ours.stop.owed
+    ours.stop.press()
+    assert (ours.stop.phase, ours.stop.owed) == ("sent", True)
+    ours.clock.time += 3.0
+    assert (ours.stop.phase, ours.stop.owed) == ("no_answer", True)
+    ours.says(stopped=True, at_rest=False)
+    ours.clock.time += 3.0
+    assert (ours.stop.phase, ours.stop.owed) == ("moves", True)
+    ours.says(stopped=True, at_rest=True)
+    assert (ours.stop.phase, ours.stop.owed) == ("stopped", False)
+    ours.stop.set_reachable(False, "The connection was cut.")
+    assert (ours.stop.phase, ours.stop.owed) == ("lost", False)
+
+
+def test_nothing_is_owed_that_was_released_here_or_is_another_s(ours: Watch) -> None:
+    ours.says(stopped=True, at_rest=False)
+    assert (ours.stop.phase, ours.stop.owed) == ("sent", False), "somebody else pressed it"
+    ours.stop.press()
+    assert ours.stop.owed
+    ours.stop.release()
+    assert (ours.stop.phase, ours.stop.owed) == ("sent", False), "its release is on its way"
+
+
+def test_a_robot_without_a_stop_is_owed_zero_speed_until_the_release(bare: Watch) -> None:
+    bare.stop.local.press()
+    for _ in range(6):
+        bare.clock.time += 0.1
+        bare.stop.on_odometry(Odometry(), bare.clock.time)
+    assert (bare.stop.phase, bare.stop.owed) == ("stopped", True)
+    bare.stop.release()
+    assert not bare.stop.owed

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -13,7 +15,8 @@ from app.layout.arrange import Rect
 from bridge.discovery.beacon import Hello
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from tests.app.fakes import FakeRobot
-from tests.app.glass import Glass
+from tests.app.glass import Glass, running
+from tests.headless import Stage
 from widgets import StopAll
 from widgets.core.theme import theme
 from widgets.parts.buttons import NavButton, PushButton
@@ -146,6 +149,74 @@ def test_a_glass_that_is_taken_away_goes_on_stopping(
     assert robot.until(lambda: robot.control.stopped), "nobody stops it while the app is away"
     driving.app.on_resume()
     driving.until(lambda: driving.app.fleet.stopped == 2, "not stopped")
+
+
+def test_who_leaves_a_robot_whose_own_stop_is_not_confirmed_sees_that_it_is_sent_until_it_is(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    app, corner = driving.app, driving.app.corner
+    hear(driving, robot)
+    robot.refusals["/stop"] = "The robot cannot be reached."
+    driving.tap(app.shell.stop)
+    driving.until(lambda: app.shell.stop.phase == "no_answer", "it claims more than is known")
+    app.back()
+    assert (app.session, corner.list.parent) == (None, corner.layer), "forgotten in silence"
+    assert list(words(driving).values()) != ["STOPPED"]
+    driving.until(lambda: words(driving) == {"Fake-1": "NO ANSWER"}, "it claims more than is known")
+    assert corner.button.word == "STOP ALL", "that was not pressed"
+    driving.tap(corner.list.ids.close)
+    driving.until(lambda: corner.list.parent is None, "it is not folded away")
+    driving.until(lambda: corner.button.word == "0 of 1", "folded away nothing says that it is sent")
+    robot.refusals.clear()
+    driving.until(lambda: not app.fleet.active, "it never ends")
+    assert robot.control.stopped
+    assert [child.text for child in app.connect.ids.notices.children] == ["STOP is done: 1 of 1 stopped."]
+
+
+def test_the_robot_that_was_left_is_stopped_and_released_over_its_link_when_it_is_opened_again(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    app, corner = driving.app, driving.app.corner
+    robot.refusals["/stop"] = "The robot cannot be reached."
+    driving.tap(app.shell.stop)
+    assert robot.until(lambda: "/stop" in robot.services())
+    app.open(robot.url)
+    driving.until(lambda: app.shell is not None and corner.list.parent is None, "two of them stop it")
+    assert not app.fleet.active
+    robot.refusals.clear()
+    driving.until(lambda: app.shell.stop.phase == "stopped", "forgotten on the way")
+    app.session.release_stop()
+    driving.until(lambda: app.shell.stop.phase == "ready", "not released")
+    asked = robot.services().count("/stop")
+    app.leave()
+    assert not app.fleet.active
+    driving.stage.run_for(1.5, 0.1)
+    assert (robot.services().count("/stop"), robot.control.stopped) == (asked, False)
+
+
+def test_a_glass_that_is_taken_away_goes_on_with_the_stop_of_one_robot(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    robot.stop()
+    driving.tap(driving.app.shell.stop)
+    driving.app.on_pause()
+    robot.start()
+    assert robot.until(lambda: robot.control.stopped), "nobody stops it while the app is away"
+    driving.app.on_resume()
+    driving.until(lambda: driving.app.shell.stop.phase == "stopped", "not stopped")
+    driving.until(lambda: not driving.app.fleet.active, "two of them stop it")
+
+
+def test_whoever_ends_the_app_ends_what_stops_a_robot_that_has_not_confirmed(
+    fresh: None, stage: Stage, tmp_path: Path, robot: FakeRobot
+) -> None:
+    with running(stage, tmp_path) as glass:
+        glass.app.open(robot.url)
+        glass.drives()
+        robot.hold_answers()
+        glass.tap(glass.app.shell.stop)
+        assert robot.until(lambda: "/stop" in robot.services())
+    assert "STOP ALL" not in {thread.name for thread in threading.enumerate()}
 
 
 def test_the_list_folds_while_it_is_sent_and_a_hold_lets_go(glass: Glass, robot: FakeRobot) -> None:
