@@ -15,6 +15,7 @@ from websockets.utils import accept_key
 from bridge.client import client as module
 from bridge.client import connection, heartbeat
 from bridge.client.client import BridgeClient, Phase
+from bridge.driving import drive_rest
 from bridge.msgs.geometry_msgs import Twist
 from tests.bridge.client.foreign_server import foreign
 from tests.bridge.wires import Clock, FakeNetwork, Record, arrived, link, server, until, url, wire
@@ -45,11 +46,15 @@ def test_many_clients_do_not_come_at_once():
     assert len({attempts(seed, 2.0)[1] for seed in range(50)}) == 50
 
 
+FOR_GOOD = (600.0, 600.0)
+"""Waits between attempts [s], far longer than a test waits."""
+
+
 async def test_a_new_way_to_the_robot_ends_the_wait():
     network = FakeNetwork()
     async with server() as robot:
         port = robot.port
-    async with link(f"ws://127.0.0.1:{port}", backoff=(60.0, 60.0), network=network) as made:
+    async with link(f"ws://127.0.0.1:{port}", backoff=FOR_GOOD, network=network) as made:
         await made.sentence(Phase.WAITING)
         async with server(port=port):
             network.address, looked = None, len(network.asked)
@@ -63,11 +68,11 @@ async def test_waking_up_ends_the_wait():
     network = FakeNetwork()
     async with server() as robot:
         port = robot.port
-    async with link(f"ws://127.0.0.1:{port}", backoff=(60.0, 60.0), network=network) as made:
+    async with link(f"ws://127.0.0.1:{port}", backoff=FOR_GOOD, network=network) as made:
         await made.sentence(Phase.WAITING)
         async with server(port=port):
             network.sleep = 600.0
-            assert await made.connected(), "and does not wait for a minute"
+            assert await made.connected(), "and does not wait for ten minutes"
 
 
 async def test_a_connection_from_an_address_that_is_gone_is_given_up_at_once():
@@ -103,11 +108,13 @@ async def test_a_link_that_lives_on_survives_a_change_of_the_network():
     network, clock = FakeNetwork(), Clock()
     async with server() as robot, link(url(robot), now=clock, network=network) as made:
         await made.connected()
-        network.address = "10.0.0.5"
+        network.address, looked = "10.0.0.5", len(network.asked)
+        await until(lambda: len(network.asked) > looked + 1)
         for _ in range(8):
             clock.time += 0.5
             await made.heard_at(clock.time)
         assert made.client.state.phase is Phase.CONNECTED
+        assert made.states == [], "nor was it lost in between"
 
 
 async def test_what_the_system_could_not_deliver_of_a_lost_connection_is_thrown_away():
@@ -204,6 +211,40 @@ async def test_a_foreign_server_that_leaves_commands_unread_gets_no_more_of_them
         await until(lambda: robot.robot.heard == 7)
         assert robot.robot.speed == 0.0
         await until(lambda: client.publish("/cmd_vel", Twist.planar(0.3, 0.0), stamp=math.nan))
+
+
+async def test_a_robot_of_another_maker_gets_zero_when_its_driver_falls_silent_on_a_living_link():
+    clock = Clock()
+    async with foreign() as robot, link(f"ws://127.0.0.1:{robot.port}", now=clock) as made:
+        robot.robot.command = heard = Record()
+        client = await made.connected()
+        client.advertise("/cmd_vel", Twist)
+        assert client.publish("/cmd_vel", Twist.planar(0.3, 0.0), stamp=math.nan)
+        await heard.reach(1)
+        clock.time += drive_rest.SILENCE_TIMEOUT
+        assert [twist["linear"]["x"] for twist in await heard.reach(2)] == [0.3, 0.0]
+
+
+async def test_after_a_cut_no_old_zero_follows_to_a_robot_that_somebody_else_may_drive_by_then(monkeypatch):
+    monkeypatch.setattr(drive_rest, "CHECK_PERIOD", 0.0)
+    clock = Clock()
+    async with (
+        foreign() as robot,
+        wire(robot.port) as cable,
+        link(f"ws://127.0.0.1:{cable.port}", now=clock) as made,
+    ):
+        robot.robot.command = heard = Record()
+        client = await made.connected()
+        client.advertise("/cmd_vel", Twist)
+        assert client.publish("/cmd_vel", Twist.planar(0.3, 0.0), stamp=math.nan)
+        await heard.reach(1)
+        cable.cut()
+        await made.sentence(Phase.WAITING)
+        clock.time += drive_rest.SILENCE_TIMEOUT
+        await made.connected()
+        await arrived()
+        assert client.publish("/cmd_vel", Twist.planar(0.2, 0.0), stamp=math.nan)
+        assert [twist["linear"]["x"] for twist in (await heard.reach(2))[:2]] == [0.3, 0.2]
 
 
 async def test_rest_is_sent_into_a_socket_that_is_stuck_but_not_into_one_that_is_full():
