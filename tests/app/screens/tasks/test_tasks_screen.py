@@ -23,7 +23,6 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.std_msgs import Time
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
-from widgets.parts.option_list import OPTIONS
 from widgets.parts.rows import ListRow
 from widgets.tasks.place_list import SOME
 
@@ -53,27 +52,6 @@ def press(glass: Glass, screen: Any, name: str) -> None:
 
 def row(screen: Any, title: str) -> Any:
     return next(one for one in screen.walk(restrict=True) if isinstance(one, ListRow) and one.title == title)
-
-
-# panes
-
-
-def test_a_pane_that_nobody_looks_at_is_not_made_and_one_that_is_made_late_knows_what_came_before(
-    driving: Glass, robot: FakeRobot, tasks: Any
-) -> None:
-    panes = tasks.panes
-    assert driving.app.session.feeds.latest("/control/status") is not None
-    assert (panes.made_place, panes.made_settings) == (None, None)
-    tasks.tab = "places"
-    driving.stage.frames(2)
-    assert panes.made_settings is None
-    assert panes.made_place is tasks.place_pane
-    assert panes.made_place.form.taken == [place.name for place in SOME]
-    tasks.tabs.dispatch("on_settings")
-    driving.stage.frames(2)
-    assert panes.made_settings is tasks.settings_pane
-    assert panes.made_settings.parent is tasks.ids.detail
-    assert set(panes.made_settings.options.values) == set(OPTIONS)
 
 
 # orders
