@@ -73,6 +73,13 @@ def test_a_box_is_one_picture_in_one_colour() -> None:
     assert list(colour.rgba) == [0, 1, 0, 1]
 
 
+def test_a_box_that_only_moves_takes_its_picture_along() -> None:
+    box = Rounded(RED, (10, 20), (100, 50), [8])
+    box.pos = (1, 2)
+    assert tuple(image(box).pos) == (1 - RIM, 2 - RIM)
+    assert tuple(image(box).size) == (100 + 2 * RIM, 50 + 2 * RIM)
+
+
 @pytest.mark.parametrize(
     ("size", "radius", "drawn"),
     [
