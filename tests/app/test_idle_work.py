@@ -112,6 +112,15 @@ def test_once_closed_it_does_nothing_more(desk: Desk) -> None:
     assert desk.done == ["a"]
 
 
+def test_once_closed_it_asks_no_more_frames_of_the_window(desk: Desk) -> None:
+    asked = desk.stage.window.get_property_observers
+    before = len(asked("on_flip"))
+    work = desk.make(desk.step("a", BUDGET))
+    assert len(asked("on_flip")) == before + 1
+    work.close()
+    assert len(asked("on_flip")) == before
+
+
 def test_a_step_that_fails_is_logged_and_the_next_is_taken(desk: Desk, caplog: Any) -> None:
     desk.begin(lambda: 1 / 0, desk.step("next", 0.001))
     desk.frame()

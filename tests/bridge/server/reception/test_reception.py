@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import ssl
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from pathlib import Path
 
@@ -14,7 +14,7 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import InvalidStatus
 
 from bridge.server.reception import reception as module
-from bridge.server.reception.places import Limits
+from bridge.server.reception.places import Limits, Place
 from bridge.server.reception.reception import neighbourhood, plain_host
 from bridge.server.server import BridgeServer
 from tests.bridge.peers import Peer, bare, peer
@@ -158,13 +158,22 @@ async def test_one_on_the_reserve_is_cut_when_its_time_is_over(monkeypatch: pyte
     await made.close()
 
 
-async def test_one_that_hangs_up_at_once_leaves_nothing(context: ssl.SSLContext) -> None:
+async def test_one_that_hangs_up_at_once_leaves_nothing(
+    context: ssl.SSLContext, monkeypatch: pytest.MonkeyPatch
+) -> None:
     async with secured(context) as robot:
+        came, arrive = Record(), robot._reception.places.arrive
+
+        def arrived(host: str, give_up: Callable[[], None]) -> Place:
+            came(host)
+            return arrive(host, give_up)
+
+        monkeypatch.setattr(robot._reception.places, "arrive", arrived)
         for said in (b"", b"\x16", b"G"):
             async with bare(robot) as (_, writer):
                 writer.write(said)
+        await came.reach(3)
         await nobody_left(robot)
-        assert not robot._reception.places
 
 
 async def test_the_server_ends_with_connections_in_every_state(context: ssl.SSLContext) -> None:
