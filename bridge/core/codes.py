@@ -81,6 +81,12 @@ class Code(StrEnum):
         "gateway",
         "role",
     )
+    GATEWAY_NAMESAKE = (
+        "gateway_namesake",
+        "Another robot at the broker has the same name; both take STOP only.",
+        "gateway",
+        "name",
+    )
     GATEWAY_UNDATED = "gateway_undated", "Nothing says how old the command is.", "operation"
     GATEWAY_RETAINED = "gateway_retained", "A command is not kept by a broker for later.", "operation"
     GATEWAY_FULL = "gateway_full", "Too many clients use the gateway.", "max"

@@ -86,6 +86,7 @@ class BrokerLine:
         subscriptions: Iterable[str],
         on_message: Callable[[Heard], None],
         *,
+        kept: str = "",
         will: tuple[str, bytes] | None = None,
         on_up: Callable[[], Awaitable[None]] | None = None,
         on_down: Callable[[str], None] | None = None,
@@ -93,10 +94,11 @@ class BrokerLine:
     ) -> None:
         """`on_up()` is awaited after each connection, `on_down(reason)` called whenever it is lost, or not to be had.
 
-        `will` is the topic and retained message that the broker publishes when this end is gone without a word. With
+        `kept` is a topic of which what the broker has kept is heard too, before all else. `will` is the topic and retained message that the broker publishes when this end is gone without a word. With
         `drops_stale` a line whose program stood still connects anew instead of hearing what waited.
         """
         self._url, self._subscriptions, self._on_message = url, tuple(subscriptions), on_message
+        self._kept = kept
         self._will, self._on_up, self._on_down = will, on_up, on_down
         self._drops_stale = drops_stale
         # the same each time, so that a broker ends what it still has of a line before, its last will included, first
@@ -172,18 +174,10 @@ class BrokerLine:
     async def _connect(self) -> None:
         """One connection from its beginning to its end; returns when what waits is too old to be heard."""
         async with _opened(self._new_client()) as client:
+            if self._kept:
+                await _subscribe(client, self._kept, SubscribeOptions.RETAIN_SEND_ON_SUBSCRIBE)
             for each in self._subscriptions:
-                options = SubscribeOptions(
-                    qos=1,
-                    noLocal=True,
-                    retainAsPublished=True,
-                    retainHandling=SubscribeOptions.RETAIN_DO_NOT_SEND,
-                )
-                granted = await uncut(client.subscribe(each, options=options))
-                if any(_is_failure(code) for code in granted):
-                    raise SubscriptionRefused(
-                        f"it does not let the robot read {each}; allow that in its access list"
-                    )
+                await _subscribe(client, each, SubscribeOptions.RETAIN_DO_NOT_SEND)
             self._client, self._fault = client, ""
             self._up_since = asyncio.get_running_loop().time()
             self._beat = asyncio.get_running_loop().time()
@@ -281,6 +275,14 @@ async def _opened(client: aiomqtt.Client) -> AsyncIterator[aiomqtt.Client]:
     finally:
         with suppress(aiomqtt.MqttError):  # it is gone already
             await client.__aexit__(None, None, None)
+
+
+async def _subscribe(client: aiomqtt.Client, topic: str, handling: int) -> None:
+    """Ask for a topic; raises SubscriptionRefused when the broker does not pass it on."""
+    options = SubscribeOptions(qos=1, noLocal=True, retainAsPublished=True, retainHandling=handling)
+    granted = await uncut(client.subscribe(topic, options=options))
+    if any(_is_failure(code) for code in granted):
+        raise SubscriptionRefused(f"it does not let the robot read {topic}; allow that in its access list")
 
 
 async def _send_reply(client: aiomqtt.Client, reply: Reply) -> None:

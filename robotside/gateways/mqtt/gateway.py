@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 import math
 from collections.abc import Awaitable, Coroutine, Mapping
 from dataclasses import replace
@@ -23,6 +24,7 @@ from robotside.gateways.adapter import Surroundings
 from robotside.gateways.gateway_url import OWN, GatewayUrl
 from robotside.gateways.mqtt.broker_line import BrokerLine, Heard, Reply
 from robotside.gateways.mqtt.guide import guide
+from robotside.gateways.mqtt.namesakes import LOST, OFFLINE, ONLINE, Namesakes
 from robotside.gateways.mqtt.own_broker import OwnBroker
 from robotside.gateways.mqtt.topic_names import BYE, CALL, PUBLISH, Asked, TopicNames
 from robotside.gateways.payloads.offered import offered
@@ -32,6 +34,8 @@ from robotside.gateways.plain.visitor import STOP, Visitor, refusal
 from robotside.gateways.plain.visitors import Visitors
 
 __all__ = ["MAX_EXPIRY", "MqttGateway"]
+
+log = logging.getLogger(__name__)
 
 MAX_EXPIRY = 10.0
 """A call whose message is good for longer needs a stamp [s]."""
@@ -66,11 +70,15 @@ class MqttGateway:
         self._tasks: set[asyncio.Task[None]] = set()
         self._calls: set[asyncio.Task[None]] = set()
         self._lost: set[BrokerLine] = set()  # connections of whose loss was told
+        boot, name = robot.door.health.boot, robot.door.info.name
+        self._namesakes = Namesakes(boot, name, robot.say)
+        self._is_ending = False
         self._commands = BrokerLine(
             url,
             self._names.commands,
             self._on_command,
-            will=(self._names.state, self._state("lost")),
+            kept=self._names.state,
+            will=(self._names.state, self._state(LOST)),
             on_up=self._begin,
             on_down=self._on_lost,
         )
@@ -89,9 +97,10 @@ class MqttGateway:
 
     async def stop(self) -> None:
         """Say goodbye to the broker and end everything; nothing is left running."""
+        self._is_ending = True
         self._end_topics()
         self._visitors.leave_all()
-        farewell = self._state("offline")
+        farewell = self._state(OFFLINE)
         try:
             await self._commands.publish(
                 self._names.state, farewell, retain=True, qos=1, timeout=FAREWELL_TIMEOUT
@@ -121,8 +130,11 @@ class MqttGateway:
     async def _begin(self) -> None:
         """The broker is reached: say who is here, and publish."""
         await self._commands.publish(self._names.guide, self.guide().encode(), retain=True, qos=1)
-        await self._commands.publish(self._names.state, self._state("online"), retain=True, qos=1)
+        await self._say_online()
         self._begin_topics()
+
+    async def _say_online(self) -> None:
+        await self._commands.publish(self._names.state, self._state(ONLINE), retain=True, qos=1)
 
     def _on_lost(self, reason: str) -> None:
         """The broker is gone, and with it everybody behind it."""
@@ -170,14 +182,17 @@ class MqttGateway:
                 await wait(self._wake, None if math.isinf(left) else left)
                 continue
             name, msg = sent
-            latched = self._door.topics[name].latched
-            await self._commands.publish(self._names.topic(name), to_json(msg), retain=latched, qos=0)
+            payload, latched = _written(name, msg), self._door.topics[name].latched
+            if payload:
+                await self._commands.publish(self._names.topic(name), payload, retain=latched, qos=0)
 
     async def _check(self) -> None:
         while True:
             await asyncio.sleep(_CHECK_PERIOD)
             self._visitors.leave_silent()
             self._check_lines()
+            if self._namesakes.update(asyncio.get_running_loop().time()):
+                await self._say_online()
 
     def _check_lines(self) -> None:
         """Tell of STOP's connection when it alone is lost, and of the broker once it is there to stay."""
@@ -195,7 +210,16 @@ class MqttGateway:
         if asked is not None:
             self._press_stop(self._stop, asked, heard)
 
+    def _on_state(self, heard: Heard) -> None:
+        """A robot of this name is at the broker, or gone from there: what it is told this one must not do."""
+        now = asyncio.get_running_loop().time()
+        if self._namesakes.hear(heard.payload, now, self._visitors.leave_all) and not self._is_ending:
+            self._run(self._say_online())
+
     def _on_command(self, heard: Heard) -> None:
+        if heard.topic == self._names.state:
+            self._on_state(heard)
+            return
         asked = self._names.read(heard.topic)
         if asked is None:
             return
@@ -211,6 +235,7 @@ class MqttGateway:
 
     def _obey(self, asked: Asked, heard: Heard) -> None:
         """Carry out what was asked; raises BridgeError when it is not."""
+        self._namesakes.check()
         if heard.retained:
             said = f"{asked.name or asked.verb} is not done: a command must not be retained by the broker."
             raise Refused(Notice(Code.GATEWAY_RETAINED, said, operation=asked.name or asked.verb))
@@ -254,12 +279,7 @@ class MqttGateway:
             self._visitors.leave(visitor)
 
     async def _later(
-        self,
-        line: BrokerLine,
-        asked: Asked,
-        heard: Heard,
-        answer: Awaitable[bytes],
-        visitor: Visitor | None,
+        self, line: BrokerLine, asked: Asked, heard: Heard, answer: Awaitable[bytes], visitor: Visitor | None
     ) -> None:
         try:
             self._answer(line, asked, heard, await answer)
@@ -275,6 +295,15 @@ class MqttGateway:
         task = asyncio.create_task(work)
         self._calls.add(task)
         task.add_done_callback(self._calls.discard)
+
+
+def _written(name: str, msg: Msg) -> bytes:
+    """The message as JSON; empty for one that cannot be written, which is logged and ends no other."""
+    try:
+        return to_json(msg)
+    except Exception:
+        log.exception("A message on %s cannot be written as JSON", name)
+        return b""
 
 
 def _stamp(heard: Heard) -> float:
