@@ -77,7 +77,7 @@ class Authority:
         self._away = False
         """The link was gone since control was last known to be ours."""
         self._lapsed = ""
-        """Why control that was ours lapsed, until it is had again or somebody else's."""
+        """When control that was ours lapsed, in words, until it is had again or somebody else's."""
         self._released = self._withdrawn = False
         """We gave control back, or took back that we ask for it."""
 
@@ -198,8 +198,8 @@ class Authority:
 
     def _regained(self) -> tuple[str, str] | None:
         """Control lapsed and is ours again: that it did must not go by unseen."""
-        why, self._lapsed = self._lapsed, ""
-        return (f"You have control again; it lapsed: {why}.", "info") if why else None
+        when, self._lapsed = self._lapsed, ""
+        return (f"You have control again; it lapsed {when}.", "info") if when else None
 
     def _beginning(self, before: ControlStatus, status: ControlStatus) -> tuple[str, str] | None:
         """Who watches is told that somebody asks; who asks or is asked has a card for it."""
@@ -230,11 +230,12 @@ class Authority:
         if before.requested_by_id and status.driver_id == before.requested_by_id:
             self.wanted = False
             return f"{status.driver} has control now.", "info"
-        why = "while the link was away" if self._away else f"no contact for {CONTROL_TIMEOUT:.0f}\u00a0s"
+        silence = f"after {CONTROL_TIMEOUT:.0f}\u00a0s without contact"
+        when = "while the link was away" if self._away else silence
         free = "Requesting it again…" if self.wanted else "It is free."
         now = f"{status.driver} has it now." if status.driver else free
-        self._lapsed = why if self.wanted else ""
-        return f"Control lost: {why}. {now}", "warn"
+        self._lapsed = when if self.wanted else ""
+        return f"Control lost {when}. {now}", "warn"
 
 
 def _parties(status: ControlStatus) -> tuple[str, str]:

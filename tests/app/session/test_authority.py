@@ -170,7 +170,7 @@ def test_control_that_lapsed_while_the_link_was_away_is_said(watch: Watch) -> No
     watch.link_becomes(DROPPED)
     watch.link_becomes(BACK)
     watch.told(BOBS)
-    assert watch.news == [("Control lost: while the link was away. Bob has it now.", "warn")]
+    assert watch.news == [("Control lost while the link was away. Bob has it now.", "warn")]
 
 
 def test_control_that_lapsed_is_said_and_asked_for_again(watch: Watch) -> None:
@@ -178,7 +178,7 @@ def test_control_that_lapsed_is_said_and_asked_for_again(watch: Watch) -> None:
     watch.told(MINE)
     watch.told(FREE)
     assert watch.asked == ["acquire"]
-    assert watch.news == [("Control lost: no contact for 2\u00a0s. Requesting it again…", "warn")]
+    assert watch.news == [("Control lost after 2\u00a0s without contact. Requesting it again…", "warn")]
 
 
 def test_control_that_lapsed_and_came_back_is_said_in_its_place(watch: Watch) -> None:
@@ -189,7 +189,7 @@ def test_control_that_lapsed_and_came_back_is_said_in_its_place(watch: Watch) ->
     watch.told(FREE)
     watch.told(MINE)
     assert watch.news[1:] == [
-        ("You have control again; it lapsed: while the link was away.", "info"),
+        ("You have control again; it lapsed while the link was away.", "info"),
     ]
     watch.told(BOBS)
     watch.told(MINE)
