@@ -46,6 +46,8 @@ MAX_REPLIES = 256
 
 _MIN_FAILURE = 0x80
 """Reason codes from this one on say that something is refused."""
+_LOGIN_REFUSED = (0x86, 0x87)
+"""A wrong user name or password; not authorized."""
 
 
 class Heard(NamedTuple):
@@ -319,7 +321,15 @@ def _is_failure(code: int | ReasonCode) -> bool:
 def _reason(error: Exception) -> str:
     """Why there is no connection, as part of a sentence."""
     text = re.sub(r"^\[code:\d+\] ", "", str(error.__cause__ or error).strip()) or "it does not answer"
-    return text.rstrip(".")[:200]
+    remedy = (
+        "; check the user and password in the gateway's URL" if _is_login(error.__cause__ or error) else ""
+    )
+    return text.rstrip(".")[:200] + remedy
+
+
+def _is_login(error: BaseException) -> bool:
+    """The broker refuses who the robot says it is."""
+    return isinstance(error, aiomqtt.MqttCodeError) and getattr(error.rc, "value", None) in _LOGIN_REFUSED
 
 
 def _quiet_log() -> logging.Logger:

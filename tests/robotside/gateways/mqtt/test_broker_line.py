@@ -6,9 +6,11 @@ import asyncio
 
 import aiomqtt
 import pytest
+from paho.mqtt.packettypes import PacketTypes
+from paho.mqtt.reasoncodes import ReasonCode
 
 from robotside.gateways.gateway_url import read_url
-from robotside.gateways.mqtt.broker_line import BrokerLine, Reply, uncut
+from robotside.gateways.mqtt.broker_line import BrokerLine, Reply, _reason, uncut
 
 URL = read_url("mqtt://127.0.0.1", {"mqtt": 1883})
 MAX_TOPIC = 65535
@@ -85,3 +87,10 @@ async def test_a_line_that_is_lost_at_once_each_time_is_tried_ever_less_often(
         running.cancel()
         await asyncio.gather(running, return_exceptions=True)
     assert waits[:6] == [0.5, 1.0, 2.0, 4.0, 5.0, 0.25]
+
+
+def test_a_refused_login_says_what_to_check_and_another_fault_says_what_it_is() -> None:
+    refused = aiomqtt.MqttCodeError(ReasonCode(PacketTypes.CONNACK, identifier=0x87))
+    assert _reason(refused) == "Not authorized; check the user and password in the gateway's URL"
+    assert _reason(aiomqtt.MqttError("Operation timed out.")) == "Operation timed out"
+    assert _reason(aiomqtt.MqttError("")) == "it does not answer"
