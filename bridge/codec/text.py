@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 import msgspec
 
+from bridge.codec.decoders import decoder_of
 from bridge.codec.headers import without_count
 from bridge.codec.reader import from_builtins
 from bridge.codec.stamps import named_for_ros2
@@ -70,7 +71,7 @@ _ENCODER = msgspec.json.Encoder(enc_hook=_enc_hook)
 
 @functools.lru_cache(maxsize=1024)
 def _decoder(type: type[Msg]) -> msgspec.json.Decoder[Any]:
-    return msgspec.json.Decoder(type, dec_hook=_dec_hook)
+    return decoder_of(type, _dec_hook)
 
 
 def _loads(raw: bytes | str | msgspec.Raw, type: type[Msg]) -> Any:

@@ -9,6 +9,7 @@ from typing import Any
 
 import msgspec
 
+from bridge.codec.decoders import decoder_of
 from bridge.codec.fields import HEADER, fields_of
 from bridge.codec.headers import has_header, with_count
 from bridge.codec.reader import WIDTHS, least_and_most
@@ -61,7 +62,7 @@ def unread(raw: msgspec.Raw, type: type[Msg]) -> Unread | None:
 def _decoder(type: type[Msg], counted: bool) -> msgspec.json.Decoder[Any] | None:
     """The checking decoder; None for a type that cannot be checked this way."""
     try:
-        return msgspec.json.Decoder(_strict(type, counted))
+        return decoder_of(_strict(type, counted))
     except (TypeError, ValueError):
         return None
 

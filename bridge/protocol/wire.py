@@ -10,6 +10,7 @@ import msgspec
 from msgspec import UNSET, Raw, UnsetType
 
 from bridge.codec import check_cbor, from_cbor, from_json, shown
+from bridge.codec.decoders import decoder_of
 from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.protocol.names import MAX_ID_LENGTH
@@ -48,7 +49,7 @@ _FAULTS = (msgspec.MsgspecError, UnicodeError, RecursionError, OverflowError, Va
 @functools.cache
 def _decoder() -> msgspec.json.Decoder[Op]:
     union = functools.reduce(lambda left, right: left | right, OPS)  # type: ignore[arg-type,return-value]
-    return msgspec.json.Decoder(union)
+    return decoder_of(union)
 
 
 _ENCODER = msgspec.json.Encoder()
