@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from app.core.command_origin import NOBODY, Origin
+from bridge.core.codes import Code
 from bridge.core.errors import BridgeError, NoReply, NotConnected, Refused
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (
@@ -66,6 +67,11 @@ RELEASE = ("stop_release", None)
 """What a release of STOP is under way as."""
 TAKEN_BACK = "STOP was pressed after it."
 """Stands for the reason of a release that is asked for no longer."""
+OWN_WORDS: Mapping[str, str] = {
+    Code.STOP_NOT_HELD: "STOP stays: hold STOPPED again.",
+    Code.STOP_HELD_SHORT: "STOP stays: hold STOPPED again, for longer.",
+}
+"""Codes of reasons that a robot gives to programs, to what stands on this glass."""
 STILL_SENDING = "Still sending it."
 """Stands for the reason of a STOP that has no answer at all."""
 
@@ -305,7 +311,8 @@ class Commands:
             else:
                 phase = "accepted" if answer.success else "refused"
                 took = self._now() - started
-                return replace(outcome, phase=phase, reason=answer.message, latency=took, answer=answer)
+                reason = OWN_WORDS.get(getattr(answer, "code", ""), answer.message)
+                return replace(outcome, phase=phase, reason=reason, latency=took, answer=answer)
 
     async def stop(self, origin: Origin = NOBODY) -> None:
         """Send STOP from `origin` until the robot confirms it, however long that takes and over reconnects.

@@ -45,9 +45,13 @@ class Hold(EventDispatcher):
 
     def _count(self, elapsed: float) -> None:
         self.held = min(1.0, self.held + min(elapsed, MAX_FRAME) / self._takes)
-        if self.held >= 1.0 - 1e-9:
+        if self.held >= 1.0 - 1e-9 and self.is_over():
             self.rest()
             self.dispatch("on_held_long")
+
+    def is_over(self) -> bool:
+        """A hold that has lasted as long as it takes ends with this frame; else it is asked again with the next."""
+        return True
 
     def on_held_long(self) -> None:
         """It was held long enough."""

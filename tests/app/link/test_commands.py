@@ -10,6 +10,7 @@ import pytest
 
 from app.core.command_origin import Origin
 from app.link.commands import COMMANDS, Commands, Outcome
+from bridge.core.codes import Code
 from bridge.core.errors import NoReply, NotConnected, Refused
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
@@ -79,6 +80,20 @@ def test_a_refused_command_tells_the_robots_reason() -> None:
     outcome = run(robot, lambda commands: commands.send("start"))
     assert outcome.sentence == "Refused: start patrol. The mission has no points."
     assert robot.phases == ["sent", "refused"]
+
+
+@pytest.mark.parametrize(
+    ("code", "said"),
+    [
+        (Code.STOP_NOT_HELD, "STOP stays: hold STOPPED again."),
+        (Code.STOP_HELD_SHORT, "STOP stays: hold STOPPED again, for longer."),
+        (Code.STOP_PRESSED_SINCE, "Its own words."),
+        ("", "Its own words."),
+    ],
+)
+def test_a_release_that_is_refused_names_what_stands_on_the_glass(code: str, said: str) -> None:
+    robot = Robot(CommandResponse(success=False, message="Its own words.", code=code))
+    assert virtual.run(robot.commands().send("stop_release")).sentence == f"Refused: release STOP. {said}"
 
 
 def test_a_robot_without_the_service_refuses_in_its_own_words() -> None:

@@ -30,6 +30,9 @@ LONG_HOLD_DURATION = 3.0
 """How long the finger must stay to release a STOP held here alone that is not confirmed [s]: who presses it again and
 stays on it wants it to stop."""
 
+HOLD_MEMORY = 4.5
+"""A hold that was told longer ago [s] is told anew before it releases: a robot forgets one after five."""
+
 MIN_STACKED_HEIGHT = 130
 """Lower than this it has the icon beside the word while it says a sentence [dp]."""
 NO_BREAK = "\u00a0"
@@ -120,7 +123,11 @@ Builder.load_string("""
 
 
 class StopButton(Outlined, Hold, Control, AnchorLayout):
-    """Dispatches `on_command` the moment a finger comes down, once stopped `on_hold_stop` as a hold begins, and `on_release_stop` after it."""
+    """Dispatches `on_command` the moment a finger comes down, once stopped `on_hold_stop` as a hold begins, and `on_release_stop` after it.
+
+    Where few frames are drawn the hold outlasts what a robot remembers: then `on_hold_stop` comes once more, and the finger stays
+    for as long as the robot asks for from there.
+    """
 
     veiled = False
     __events__ = ("on_hold_stop", "on_release_stop")
@@ -189,6 +196,10 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
     def __init__(self, **kwargs: Any) -> None:
         self._holding: set[int] = set()
         """Touches that came down to hold; one that stopped the robot and rests there is not among them."""
+        self._told = 0.0
+        """Since the robot was told of the hold [s]."""
+        self._stayed = 0.0
+        """What of that a finger was seen to stay [s]; no frame is more than half of what it takes."""
         super().__init__(**kwargs)
 
     def rest(self) -> None:
@@ -200,12 +211,27 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
         """A hold belongs to the phase that it began in."""
         self.rest()
 
+    def _count(self, elapsed: float) -> None:
+        self._told += elapsed
+        self._stayed += min(elapsed, RELEASE_DURATION / 2)
+        super()._count(elapsed)
+
+    def is_over(self) -> bool:
+        """The robot knows of the hold, and has seen it last; one that it has forgotten is told anew."""
+        if self._told > HOLD_MEMORY:
+            self._tell()
+        return self._stayed >= RELEASE_DURATION - 1e-6
+
+    def _tell(self) -> None:
+        self._told = self._stayed = 0.0
+        self.dispatch("on_hold_stop")
+
     def on_held_long(self) -> None:
         """It was held long enough."""
         self.dispatch("on_release_stop")
 
     def on_hold_stop(self) -> None:
-        """A finger came down to release STOP, and has to stay."""
+        """A finger came down to release STOP, or is there still after the robot has forgotten that; it has to stay."""
 
     def on_release_stop(self) -> None:
         """It was held long enough: the operator wants to drive again."""
@@ -225,7 +251,7 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
         if self.phase != "stopped":
             self.dispatch("on_command")
         if begins:  # after a STOP that is given once more, and not by a second finger
-            self.dispatch("on_hold_stop")
+            self._tell()
         return True
 
     def on_touch_up(self, touch: Any) -> bool:

@@ -2,8 +2,14 @@ from __future__ import annotations
 
 import pytest
 
-from robotside.control.stop_release import MAX_HOLD_TIME, MIN_HOLD_TIME
-from widgets.controls.stop.stop_button import LONG_HOLD_DURATION, PHASES, RELEASE_DURATION, StopButton
+from robotside.control.stop_release import MAX_HOLD_TIME, MIN_HOLD_TIME, StopRelease
+from widgets.controls.stop.stop_button import (
+    HOLD_MEMORY,
+    LONG_HOLD_DURATION,
+    PHASES,
+    RELEASE_DURATION,
+    StopButton,
+)
 
 
 @pytest.fixture
@@ -74,7 +80,50 @@ def test_a_hold_is_told_when_its_first_finger_comes_down_and_only_where_it_relea
 
 
 def test_it_takes_longer_on_the_glass_than_by_the_robots_clock():
-    assert MIN_HOLD_TIME < RELEASE_DURATION < LONG_HOLD_DURATION < MAX_HOLD_TIME
+    assert MIN_HOLD_TIME < RELEASE_DURATION < LONG_HOLD_DURATION < HOLD_MEMORY < MAX_HOLD_TIME
+
+
+@pytest.mark.parametrize(("local", "phase"), [(False, "stopped"), (True, "no_answer")])
+@pytest.mark.parametrize("frame", [1 / 64, 0.1, 0.2, 0.35, 0.39, 0.45, 1.0, 2.0])
+def test_however_seldom_the_glass_is_drawn_a_hold_releases_when_the_robot_takes_it(
+    stage, stop, local, phase, frame
+):
+    holds, refused = StopRelease(), []
+    stop.bind(
+        on_hold_stop=lambda _: holds.hold("me", stage.time.now, stage.time.now),
+        on_release_stop=lambda _: refused.append(holds.objection("me", 0.0, stage.time.now)),
+    )
+    stop.local, stop.phase = local, phase
+    stage.frames(1)
+    finger = stage.touch(150, 40)
+    finger.touch_down()
+    stage.run_for(100.0, frame)
+    finger.touch_up()
+    assert refused == [""]
+
+
+@pytest.mark.parametrize("frames", range(1, 15))
+def test_on_a_glass_drawn_seldom_a_finger_that_leaves_before_the_end_releases_nothing(stage, stop, frames):
+    stop.phase = "stopped"
+    finger = stage.touch(150, 40)
+    finger.touch_down()
+    stage.frames(frames, 0.45)  # the fifteenth is the one that releases
+    finger.touch_up()
+    stage.run_for(20.0, 0.45)
+    assert "release" not in stop.heard
+
+
+def test_after_the_robot_was_told_anew_one_frame_that_takes_long_releases_nothing(stage, stop):
+    stop.phase = "stopped"
+    finger = stage.touch(150, 40)
+    finger.touch_down()
+    stage.frames(12, 0.45)
+    assert stop.holds == ["hold"] * 2, "the robot has forgotten the first"
+    stage.frames(1, 3.3)  # the finger left meanwhile, which is heard of after it
+    assert "release" not in stop.heard
+    finger.touch_up()
+    stage.run_for(20.0, 0.45)
+    assert (stop.heard, stop.held) == ([], 0)
 
 
 def test_a_hold_releases_once(stage, stop):
