@@ -311,7 +311,7 @@ class Commands:
             else:
                 phase = "accepted" if answer.success else "refused"
                 took = self._now() - started
-                reason = OWN_WORDS.get(getattr(answer, "code", ""), answer.message)
+                reason = OWN_WORDS.get(getattr(answer, "code", "")) or answer.message
                 return replace(outcome, phase=phase, reason=reason, latency=took, answer=answer)
 
     async def stop(self, origin: Origin = NOBODY) -> None:
