@@ -285,7 +285,7 @@ def test_a_mistake_in_the_settings_file_is_one_sentence_and_no_robot_is_made(
             "serve --robot ros:ws://192.0.2.1:9090 --payloads arm",
             "--payloads is for simulated robots only.",
         ),
-        ("serve --protocols mqtt", "There is no protocol mqtt; there are rosbridge and http."),
+        ("serve --protocols pigeon", "There is no protocol pigeon; there are rosbridge, http, mqtt."),
         (
             "serve --config /nowhere/robot.toml",
             "The settings cannot be read from '/nowhere/robot.toml': no such file or directory.",
