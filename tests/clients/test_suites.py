@@ -11,8 +11,10 @@ from pathlib import Path
 
 import pytest
 
+from examples.demo.robot import RobotProcess
 from tests.clients.peers import HERE, START, command
-from tests.clients.test_real_robot import patrol_robot
+
+pytestmark = pytest.mark.slow
 
 ROOT = HERE.parents[1]
 SUITE_TIMEOUT = 240.0
@@ -22,7 +24,9 @@ SUITE_TIMEOUT = 240.0
 @asynccontextmanager
 async def ros_system(state: Path) -> AsyncIterator[int]:
     """A robot and the nodes, each in a process of its own; gives the port of the robot's bridge."""
-    async with patrol_robot(state) as port:
+    options = ("--robot", "sim:patrol", "--state", str(state / "robot"))
+    with RobotProcess(*options, log=state / "robot.log") as robot:
+        port = int(robot.url.rsplit(":", 1)[1])
         nodes = await asyncio.create_subprocess_exec(
             sys.executable,
             *("-m", "examples.ros_nodes", "--connect", f"ws://127.0.0.1:{port}"),
