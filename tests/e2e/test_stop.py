@@ -12,7 +12,7 @@ from bridge.client.remote_robot import RemoteRobot
 from bridge.msgs.geometry_msgs import Twist
 from examples.demo.robot import RobotProcess
 from examples.demo.witness import Witness
-from tests.e2e.handheld import Cable, handheld
+from tests.e2e.handheld import Cable, Handheld, handheld
 
 PERIOD = 0.05
 """Between two drive commands of the other client [s]."""
@@ -41,6 +41,19 @@ def somebody_drives(url: str) -> Iterator[None]:
             hand.join()
 
 
+def release(glass: Handheld) -> None:
+    """Take control and hold STOPPED until the robot may move again."""
+    glass.until(lambda: glass.app.session.control in ("free", "mine"), "nobody else's control")
+    glass.app.session.take_control()
+    glass.control()
+    stop = glass.one("StopButton")
+    glass.until(lambda: stop.phase == "stopped", "STOPPED on the button")
+    finger = glass.hand.down(stop.to_window(*stop.center))
+    glass.until(lambda: stop.phase == "ready", "the release after a hold")
+    glass.hand.up(finger)
+    glass.run(0.1)
+
+
 def test_a_watcher_stops_a_robot_that_somebody_else_drives(
     robot: RobotProcess, witness: Witness, tmp_path: Path
 ) -> None:
@@ -55,15 +68,7 @@ def test_a_watcher_stops_a_robot_that_somebody_else_drives(
             glass.until(lambda: stop.phase == "stopped", "STOPPED on the button", 2.0)
             glass.run(1.0)
             assert witness.speed() < 0.01, "a latched STOP holds against the stick of anybody"
-        glass.until(
-            lambda: glass.app.session.control == "free", "the driver's control to end with its socket"
-        )
-        glass.app.session.take_control()
-        glass.control()
-        finger = glass.hand.down(stop.to_window(*stop.center))
-        glass.until(lambda: stop.phase == "ready", "the release after a hold")
-        glass.hand.up(finger)
-        glass.run(0.1)
+        release(glass)
 
 
 def test_a_stop_that_nobody_heard_goes_on_being_sent_after_the_operator_went_back(
@@ -87,6 +92,8 @@ def test_a_stop_that_nobody_heard_goes_on_being_sent_after_the_operator_went_bac
             glass.until(lambda: glass.one("StopList").title == "STOPPED 1 of 1", "the robot to confirm")
             glass.run(1.0)
             assert witness.speed() < 0.01, "a latched STOP holds against the stick of anybody"
+        glass.app.open(cable.url)
+        release(glass)
 
 
 def test_stop_all_from_the_connect_screen_stops_what_somebody_else_drives_and_counts_it_once(
