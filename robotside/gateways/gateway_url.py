@@ -40,10 +40,15 @@ class GatewayUrl:
     """Most messages a second of each topic [Hz]."""
 
     @property
+    def address(self) -> str:
+        """Host and port."""
+        host = f"[{self.host}]" if ":" in self.host else self.host
+        return f"{host}:{self.port}"
+
+    @property
     def shown(self) -> str:
         """The URL without credentials and options."""
-        host = f"[{self.host}]" if ":" in self.host else self.host
-        return f"{self.scheme}://{host}:{self.port}" + (f"/{self.path}" if self.path else "")
+        return f"{self.scheme}://{self.address}" + (f"/{self.path}" if self.path else "")
 
 
 def read_url(text: str, schemes: Mapping[str, int]) -> GatewayUrl:

@@ -60,8 +60,7 @@ class MqttGateway:
         self._door, self._say, self._url = robot.door, robot.say, url
         self._names = TopicNames(url.path, robot.door.info.name)
         self._role = Role.WATCH if url.role is None and self._broker is None else url.role
-        host = f"[{url.host}]" if ":" in url.host else url.host
-        self._address = f"{host}:{url.port}"
+        self._address = url.address
         self._visitors = Visitors(
             robot.door, "mqtt", self._address, url.keys, role=self._role, secure=url.scheme == "mqtts"
         )
