@@ -20,7 +20,7 @@ from spake2.ed25519_basic import NotOnCurve
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.client.connection import open_connection
 from bridge.client.credentials import Credentials
-from bridge.core.address import LinkLost
+from bridge.core.address import LinkLost, at_port
 from bridge.core.errors import BridgeError, NoReply, NotConnected, ProtocolError, Refused
 from bridge.core.identity import Role
 from bridge.msgs.pilothouse_msgs import (
@@ -74,8 +74,7 @@ class Paired:
 
 async def pair_by_link(link: PairLink, name: str) -> Paired:
     """Pair as `name` with the robot of a link; PairingFailed when that fails."""
-    host = f"[{link.host}]" if ":" in link.host else link.host
-    url = f"wss://{host}:{link.port}"
+    url = f"wss://{at_port(link.host, link.port)}"
     async with _connected(url, Credentials(link.fingerprint, name=link.name)) as client:
         request = PairScanRequest(secret=link.secret, name=name)
         with _failing():

@@ -20,6 +20,7 @@ __all__ = [
     "NotProtected",
     "WrongKey",
     "cause",
+    "at_port",
     "host_and_port",
     "look_up",
 ]
@@ -52,6 +53,11 @@ class NotProtected(LinkLost):
     """The robot is reached by TLS only; another attempt without it makes no sense."""
 
     fault = LinkFault.NOT_PROTECTED
+
+
+def at_port(host: str, port: int) -> str:
+    """Both as a URL has them: an IPv6 address stands in brackets."""
+    return f"[{host}]:{port}" if ":" in host else f"{host}:{port}"
 
 
 def host_and_port(url: str) -> tuple[str, int]:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from urllib.parse import parse_qsl, unquote, urlsplit
 
+from bridge.core.address import at_port
 from bridge.core.identity import Role
 from robotside.gateways.payloads.offered import chosen_keys
 from robotside.gateways.payloads.table import KEYS
@@ -42,8 +43,7 @@ class GatewayUrl:
     @property
     def address(self) -> str:
         """Host and port."""
-        host = f"[{self.host}]" if ":" in self.host else self.host
-        return f"{host}:{self.port}"
+        return at_port(self.host, self.port)
 
     @property
     def shown(self) -> str:

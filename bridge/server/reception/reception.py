@@ -10,6 +10,7 @@ import ssl
 from collections.abc import Callable
 from typing import Protocol, cast
 
+from bridge.core.address import at_port
 from bridge.core.async_tasks import cancel_all
 from bridge.server.reception.places import Limits, Place, Places
 from bridge.server.reception.tls import harden, upgrade
@@ -187,8 +188,7 @@ class _Arrival(asyncio.Protocol):
     def _turn_away(self) -> None:
         """Say in one answer of HTTP that it has to come by TLS; what it sends is read, or it would not read the answer."""
         own = self._transport.get_extra_info("sockname")
-        host = f"[{own[0]}]" if ":" in str(own[0]) else str(own[0])
-        said = f"This robot speaks without TLS to its own machine only; use wss://{host}:{own[1]}.\n"
+        said = f"This robot speaks without TLS to its own machine only; use wss://{at_port(str(own[0]), own[1])}.\n"
         head = (
             "HTTP/1.1 426 Upgrade Required\r\nUpgrade: TLS/1.2, HTTP/1.1\r\nConnection: Upgrade, close\r\n"
             f"Content-Type: text/plain; charset=utf-8\r\nContent-Length: {len(said)}\r\n\r\n"

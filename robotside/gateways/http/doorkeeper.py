@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp
 
+from bridge.core.address import at_port
 from bridge.core.errors import Refused
 from bridge.core.identity import Role
 from bridge.core.robot_catalogue import Operator
@@ -133,7 +134,7 @@ def _read(scope: Scope) -> _Asked:
     path = scope["path"]
     stops = path == STOP and scope["method"] == "POST"
     host, port = scope.get("server") or ("", 0)
-    own = f"[{host}]:{port}" if ":" in host else f"{host}:{port}"
+    own = at_port(host, port)
     return _Asked(path, stops, f"{client[0]}:{client[1]}", scope.get("scheme") == "https", own, values)
 
 

@@ -8,7 +8,7 @@ import socket
 import pytest
 
 from bridge.core import address
-from bridge.core.address import BadAddress, cause, host_and_port, look_up
+from bridge.core.address import BadAddress, at_port, cause, host_and_port, look_up
 
 
 @pytest.mark.parametrize(
@@ -76,3 +76,9 @@ def test_reasons_are_plain_words():
     assert cause(ConnectionRefusedError(errno.ECONNREFUSED, "x")) == "connection refused"
     assert cause(OSError(errno.EHOSTUNREACH, "x")) == "no route to host"
     assert cause(OSError("strange")) == "strange"
+
+
+@pytest.mark.parametrize(("host", "said"), [("10.0.0.7", "10.0.0.7:9090"), ("fe80::1", "[fe80::1]:9090")])
+def test_a_host_and_its_port_are_written_as_they_are_read(host, said):
+    assert at_port(host, 9090) == said
+    assert host_and_port(f"ws://{said}") == (host, 9090)
