@@ -11,6 +11,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, suppress
 from functools import partial
 from pathlib import Path
@@ -28,7 +29,7 @@ from robotside.core.worker_thread import WorkerThread
 from robotside.foreign.foreign_robot import ForeignRobot
 from robotside.gateway_options import for_robot
 from robotside.kinds.registry import kind_of
-from robotside.options import One, UserMistake
+from robotside.options import OTHER, One, UserMistake
 from robotside.records.landmarks import take_over
 from robotside.records.opening import open_records
 from robotside.serving.fleet_server import FleetServer
@@ -101,6 +102,8 @@ class _Fleet:
         """Serve all of them until told to end, or no longer `wanted`."""
         with ExitStack() as kept:
             servings = [self._serving(number, *each, kept) for number, each in enumerate(robots)]
+            for serving in servings:
+                serving.belong(servings)
             together = FleetServer(servings, self._clock, self._wall, wanted=wanted)
             loop = asyncio.get_running_loop()
             for signal_number in (signal.SIGTERM, signal.SIGINT):
@@ -197,9 +200,8 @@ def _say_ready(serving: StationServer) -> None:
 
 def _robots(options: argparse.Namespace, ones: Sequence[One]) -> tuple[Sequence[Robot], str]:
     """The robots to serve, and the world of simulated ones."""
-    foreign = ones[0].name.partition("ros:")[2]
-    if foreign:
-        return [_foreign(foreign, options)], ""
+    if ones[0].name.startswith(OTHER):
+        return _foreign([one.name.removeprefix(OTHER) for one in ones], options), ""
     try:
         from sim.robot import home_of, make_several
     except ImportError as missing:
@@ -222,18 +224,27 @@ def _no_simulation(missing: ImportError) -> UserMistake:
     return UserMistake(f"The simulation is not installed ({missing.name} is missing).")
 
 
-def _foreign(url: str, options: argparse.Namespace) -> Robot:
+def _foreign(urls: Sequence[str], options: argparse.Namespace) -> Sequence[Robot]:
+    """The robots behind rosbridge servers at these URLs; they are waited for together."""
     if options.speed != 1.0:
         raise UserMistake(f"A real robot moves in real time: --speed must be 1, not {options.speed:g}.")
+    for url in urls:
+        _check_other(url, range(options.port, options.port + len(urls)), (*_HERE, options.host))
+    with ThreadPoolExecutor(len(urls)) as together:
+        robots = list(together.map(ForeignRobot, urls))
+    for robot in robots:
+        if robot.trouble:
+            print(f"robotside: {robot.trouble} It is served all the same.", file=sys.stderr, flush=True)
+    return robots
+
+
+def _check_other(url: str, own_ports: range, own_hosts: Sequence[str]) -> None:
     try:
-        if host_and_port(url) in {(host, options.port) for host in (*_HERE, options.host)}:
-            raise UserMistake(f"The robot at {url} would be this program itself; --port names another port.")
-        robot = ForeignRobot(url)
+        host, port = host_and_port(url)
     except BadAddress as problem:
         raise UserMistake(str(problem)) from problem
-    if robot.trouble:
-        print(f"robotside: {robot.trouble} It is served all the same.", file=sys.stderr, flush=True)
-    return robot
+    if host in own_hosts and port in own_ports:
+        raise UserMistake(f"The robot at {url} would be this program itself; --port names another port.")
 
 
 def _catalogue() -> dict[str, Any]:

@@ -26,7 +26,7 @@ from robotside.trust.people_file import PeopleFile, Unkept
 __all__ = [
     "COMMANDS",
     "MAX_ROBOTS",
-    "SIMULATED",
+    "OTHER",
     "Command",
     "One",
     "UserMistake",
@@ -40,7 +40,8 @@ __all__ = [
 
 MAX_ROBOTS = 32
 """Robots of one robot side."""
-SIMULATED = "sim:"
+OTHER = "ros:"
+"""Begins the name of a robot behind a rosbridge server, with its URL."""
 
 
 class Command(Protocol):
@@ -98,7 +99,7 @@ def _add_serve(serve: argparse.ArgumentParser) -> None:
         "--robot",
         default="sim:patrol",
         help="robots to serve: sim:patrol; several in one world with their payloads, as sim:patrol,scout+arm; "
-        "or ros:ws://HOST:9090 for a robot behind a rosbridge server",
+        "or ros:ws://HOST:9090 for a robot behind a rosbridge server, several with commas between",
     )
     add(
         "--world",
@@ -183,7 +184,7 @@ def _check(options: argparse.Namespace) -> None:
             raise UserMistake(f"A port is 0 to 65535, not {number}.")
     if not (math.isfinite(options.speed) and 0 < options.speed <= 100):
         raise UserMistake(f"The speed must be above 0 and at most 100, not {options.speed}.")
-    if options.robot.startswith("ros:"):
+    if options.robot.startswith(OTHER):
         for given, option in ((options.payloads, "payloads"), (options.world, "world"), (options.gui, "gui")):
             if given:
                 raise UserMistake(f"--{option} is for simulated robots only.")
@@ -206,15 +207,15 @@ def robots(options: argparse.Namespace) -> list[One]:
     """The robots to serve, in their order; UserMistake when it is not clear which."""
     text = options.robot
     kind, _, rest = text.partition(":")
-    if kind == "ros" and rest:
-        return [One(text, (), options.name)]
-    words = [word.strip().removeprefix(SIMULATED) for word in rest.split(",")]
-    if kind != "sim" or not all(words):
+    words = [word.strip().removeprefix(f"{kind}:") for word in rest.split(",")]
+    if kind not in ("sim", "ros") or not all(words):
         said = "write simulated ones as sim:patrol or sim:patrol,scout, others as ros:ws://192.168.1.7:9090"
         raise UserMistake(f"There is no robot {text!r}; {said}.")
     if len(words) > MAX_ROBOTS:
         raise UserMistake(f"One robot side serves at most {MAX_ROBOTS} robots, not {len(words)}.")
     called = _names(options.name, len(words))
+    if kind == "ros":
+        return [_other(word, name, words) for word, name in zip(words, called, strict=True)]
     return [_one(word, name, options, len(words)) for word, name in zip(words, called, strict=True)]
 
 
@@ -225,6 +226,12 @@ def _one(word: str, called: str, options: argparse.Namespace, count: int) -> One
             f"--payloads is for one robot. For {count} robots give each its payloads, as in sim:patrol+arm+lights,scout."
         )
     return One(name, (*carried, *filter(None, options.payloads.split(","))), called)
+
+
+def _other(url: str, called: str, all_urls: Sequence[str]) -> One:
+    if all_urls.count(url) > 1:
+        raise UserMistake(f"--robot names {url} twice; a robot is served once.")
+    return One(f"{OTHER}{url}", (), called)
 
 
 def _names(text: str, count: int) -> list[str]:
@@ -271,7 +278,7 @@ def state(options: argparse.Namespace, names: Sequence[str], number: int, world:
     name = f"{names[number]}-{before + 1}" if before else names[number]
     if options.state is not None:
         return Path(options.state) / name if len(names) > 1 else Path(options.state)
-    if name.startswith("ros:"):
+    if name.startswith(OTHER):
         return base() / _plain(name)
     where = str(Path(world).resolve()) if world.endswith(".toml") else world
     return base() / f"sim-{_plain(name)}-{_plain(where)}"

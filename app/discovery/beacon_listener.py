@@ -1,4 +1,4 @@
-"""Listens for robots that say HELLO and measures how far they are, in the network thread."""
+"""Listens for robots that say HELLO, asks at saved addresses, and measures how far they are, in the network thread."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from app.device import sees_broadcasts
 from app.discovery.hello_inbox import HeardHello, HelloInbox
 from app.discovery.known_robots import Entry
 from app.discovery.probes import ADDRESS_PERIOD, ProbeSchedule
+from app.discovery.roll_calls import RollCalls
 from app.link.feeds import Mailbox
+from bridge.core.errors import BridgeError
 from bridge.core.network_thread import NetworkThread
 from bridge.discovery.beacon import Listener
 from bridge.discovery.hello import Hello
@@ -35,6 +37,7 @@ class BeaconListener:
         """`now` is our clock [s]."""
         self._mailbox, self._network, self._now = mailbox, network, now
         self._inbox, self._probes = HelloInbox(), ProbeSchedule()
+        self._calls = RollCalls(self._take, now)
         self._running: concurrent.futures.Future[None] | None = None
 
     def start(self) -> None:
@@ -53,21 +56,33 @@ class BeaconListener:
         listed = list(entries)
         self._inbox.expect(entry.url for entry in listed)
         self._probes.wants(listed)
+        self._calls.wants(listed)
 
     async def _run(self) -> None:
         listener = Listener(self._hear)
         try:
             with sees_broadcasts():
-                await listener.start()
-                while True:
-                    await asyncio.gather(*(self._measure(*one) for one in self._probes.due(self._now())))
-                    await asyncio.sleep(ADDRESS_PERIOD)
-        except OSError as error:
-            log.warning("cannot listen for robots: %s", error)
+                await self._listen(listener)
+                await asyncio.gather(self._calls.run(), self._measure_all())
         finally:
             await listener.close()
 
+    async def _listen(self, listener: Listener) -> None:
+        try:
+            await listener.start()
+        except (OSError, BridgeError) as error:
+            log.warning("cannot listen for robots: %s", error)
+
+    async def _measure_all(self) -> None:
+        while True:
+            await asyncio.gather(*(self._measure(*one) for one in self._probes.due(self._now())))
+            await asyncio.sleep(ADDRESS_PERIOD)
+
     def _hear(self, hello: Hello, address: tuple[str, int]) -> None:
+        self._calls.note(hello.url)
+        self._take(hello, address)
+
+    def _take(self, hello: Hello, address: tuple[str, int]) -> None:
         now = self._now()
         self._inbox.put(HeardHello(hello, address[0], now))
         self._mailbox.post(HELLO, self._inbox, now)

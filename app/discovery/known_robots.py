@@ -25,8 +25,8 @@ __all__ = [
     "plain_name",
 ]
 
-SILENCE_LIMIT = 3.0
-"""A robot silent for longer is lost [s]; it says HELLO twice a second."""
+SILENCE_LIMIT = 2.5
+"""A robot silent for longer is lost [s]; it says HELLO twice a second, and a saved one is asked once a second."""
 FORGET_DELAY = 60.0
 """A robot silent for longer, and not saved, is listed no more [s]."""
 MAX_HEARD = 100

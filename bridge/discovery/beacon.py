@@ -19,12 +19,13 @@ from urllib.parse import urlsplit, urlunsplit
 
 import msgspec
 
+from bridge.core.address import at_port
 from bridge.core.async_tasks import is_cancelled_from_outside
 from bridge.core.errors import BridgeError, ProtocolError
 from bridge.discovery.hello import Hello, is_loopback, read_hello, write_hello
 from bridge.discovery.interfaces import LOOPBACK, Interface, interfaces
 
-__all__ = ["PORT", "Beacon", "Hello", "Listener"]
+__all__ = ["PORT", "Beacon", "Hello", "Listener", "named"]
 
 log = logging.getLogger(__name__)
 
@@ -137,7 +138,7 @@ def named(hello: Hello, address: str) -> Hello:
 def _at(url: str, address: str) -> str:
     parts = urlsplit(url)
     scheme = _PLAIN.get(parts.scheme, parts.scheme) if is_loopback(address) else parts.scheme
-    place = address if parts.port is None else f"{address}:{parts.port}"
+    place = address if parts.port is None else at_port(address, parts.port)
     return urlunsplit(parts._replace(scheme=scheme, netloc=place))
 
 

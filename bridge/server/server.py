@@ -18,6 +18,7 @@ import ssl
 import time
 from collections.abc import Callable, Iterable, Mapping
 from http import HTTPStatus
+from types import MappingProxyType
 from typing import Any
 
 from websockets.asyncio.server import Server, ServerConnection, serve
@@ -98,6 +99,7 @@ class BridgeServer:
         params: Mapping[str, Any] | None = None,
         compat: Compat | None = None,
         limits: Limits = LIMITS,
+        documents: Mapping[str, Callable[[], bytes]] = MappingProxyType({}),
     ) -> None:
         """`now` is the operators' clock [s], the answer of `/rosapi/get_time`.
 
@@ -106,6 +108,7 @@ class BridgeServer:
         come less often. `reduce` makes less of a message for subscribers that ask for fewer beams, smaller pictures or
         coarser maps; pictures and maps are reduced in a worker thread. `params` are the initial parameters of
         `/rosapi/get_param`. `limits` says how many connections there may be.
+        `documents` are JSON that anybody may have by a GET of their path, without a session.
         """
         self.port = 0
         """Port that it listens on; 0 until started."""
@@ -139,7 +142,7 @@ class BridgeServer:
         self._cameras = None if cameras is None else frozenset(cameras)
         self._levels = QualityLevels(shrink)
         self._open: set[ServerConnection] = set()
-        self._limits = limits
+        self._limits, self._documents = limits, documents
         self._reception = Reception(limits)
         self._handshakes = Handshakes(door, PagePolicy(), now)
         self._server: Server | None = None
@@ -238,6 +241,8 @@ class BridgeServer:
 
     def _admit(self, ws: ServerConnection, request: Request) -> Response | None:
         refusal = self._handshakes.refusal(ws, request)
+        if refusal is None and request.path in self._documents:
+            return _document(ws, self._documents[request.path]())
         camera = _camera(request)
         if camera is None:
             ws.ping_interval = None  # a client's queue asks for signs of life itself
@@ -317,6 +322,14 @@ def _camera(request: Request | None) -> str | None:
     """The camera whose frames a request asks for."""
     found = _CAMERA_PATH.match(request.path) if request else None
     return found[1] if found else None
+
+
+def _document(ws: ServerConnection, text: bytes) -> Response:
+    answer = ws.respond(HTTPStatus.OK, text.decode())
+    del answer.headers["Content-Type"]
+    answer.headers["Content-Type"] = "application/json"
+    answer.headers["Cache-Control"] = "no-store"
+    return answer
 
 
 def _tune(ws: ServerConnection) -> None:

@@ -72,6 +72,7 @@ class StationServer:
         """Its certificate, its people and pairing."""
         self.door = self._door()
         """The door that all its gateways stand behind."""
+        self._together: tuple[StationServer, ...] = (self,)
         self._alone = FleetServer([self], clock, wall, wanted=wanted)
         self._pictures = PictureScaler()
         tls, plain_from = (keys.context, keys.plain_from) if keys else (None, anyone)
@@ -85,6 +86,7 @@ class StationServer:
             tls=tls,
             plain_from=plain_from,
             pages=pages,
+            roll=lambda: [each.hello() for each in self._together],
         )
         self.server = self._rosbridge.server
         """The rosbridge server."""
@@ -127,6 +129,10 @@ class StationServer:
         """Have `run` come to its end."""
         self._alone.end()
 
+    def belong(self, together: Iterable[StationServer]) -> None:
+        """Name all of these, itself among them, to who asks which robots are here."""
+        self._together = tuple(together)
+
     @asynccontextmanager
     async def listening(self) -> AsyncIterator[RunningServer]:
         """Hold its ports for as long as this is open. BridgeError when one is taken."""
@@ -146,7 +152,7 @@ class StationServer:
             self.addresses.note(endpoints)
             for adapter, url in self._wished:
                 await self.gateways.bring_up(adapter, url)
-            beacon = Beacon(self._hello, host=self.addresses.host)
+            beacon = Beacon(self.hello, host=self.addresses.host)
             if self.keys is None:
                 yield RunningServer((beacon.run,), beacon.close)
                 return
@@ -159,7 +165,8 @@ class StationServer:
 
             yield RunningServer((beacon.run, keys.run), leave)
 
-    def _hello(self) -> Hello:
+    def hello(self) -> Hello:
+        """What it announces of itself."""
         info, driver = self.station.info, self.station.controls.driver
         return Hello(
             name=info.name,

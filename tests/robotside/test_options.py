@@ -56,6 +56,22 @@ def test_another_robot_is_served_alone_and_its_name_may_have_a_comma() -> None:
     assert robots(options) == [One("ros:ws://192.0.2.7:9090", (), "Rex, the first")]
 
 
+def test_several_robots_of_others_are_served_side_by_side():
+    options = read(["--robot", "ros:ws://192.0.2.7:9090, ros:ws://192.0.2.8:9090", "--name", "North, South"])
+    assert robots(options) == [
+        One("ros:ws://192.0.2.7:9090", (), "North"),
+        One("ros:ws://192.0.2.8:9090", (), "South"),
+    ]
+
+
+def test_a_robot_of_others_is_served_once():
+    options = read(["--robot", "ros:ws://192.0.2.7:9090,ws://192.0.2.7:9090"])
+    with pytest.raises(
+        UserMistake, match=r"^--robot names ws://192\.0\.2\.7:9090 twice; a robot is served once\.$"
+    ):
+        robots(options)
+
+
 def test_each_robot_has_the_next_ports_and_free_ones_stay_free() -> None:
     options = read(["--port", "9090", "--http-port", "0"])
     assert [ports(options, number) for number in (0, 1, 2)] == [(9090, 0), (9091, 0), (9092, 0)]

@@ -204,7 +204,9 @@ def test_without_the_registry_of_npm_the_rest_stays_ready(place):
     npm.chmod(0o755)
     done = place.set_up("clients", PATH=f"{npm.parent}:{os.environ['PATH']}")
     assert (done.returncode, place.stamps()) == (1, ["run"])
-    assert done.stderr.startswith("setup: roslib or soap, which only tests/clients need, cannot be had: the server")
+    assert done.stderr.startswith(
+        "setup: roslib or soap, which only tests/clients need, cannot be had: the server"
+    )
     assert done.stderr.count("\n") == 1
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import ssl
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from bridge.core import camera_frames
 from bridge.core.topics import camera_topics
+from bridge.discovery.hello import Hello
+from bridge.discovery.roll import PATH, write_roll
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.server.reception.pages import PagePolicy
@@ -35,12 +37,13 @@ class RosbridgeGateway:
         tls: ssl.SSLContext | None = None,
         plain_from: Callable[[str], bool] = anyone,
         pages: PagePolicy | None = None,
+        roll: Callable[[], Iterable[Hello]] = tuple,
     ) -> None:
         """Port 0 takes a free one. `real_time` makes of the robot's time real time [s], by which frames are stamped.
 
         Handhelds tell a picture's age by that, at any speed of the robot's clock. With `tls` clients may come encrypted, on
         the same port; `plain_from(host)` says who may come without. `pages` are the web pages that may
-        connect, by default none.
+        connect, by default none. `roll` are the robots of this robot side, for who asks at `/robots`.
         """
         self._tls, self._plain_from, self._pages = tls, plain_from, pages
         self._door, self._host, self._real_time = door, host, real_time
@@ -53,6 +56,7 @@ class RosbridgeGateway:
             cameras=door.info.cameras,
             shrink=pictures.shrink,
             reduce=reduce,
+            documents={PATH: lambda: write_roll(roll())},
         )
         self._cameras = {topic: name for name, topic in camera_topics(door.info.cameras).items()}
         """Name of each camera by the topic of its pictures."""

@@ -311,6 +311,10 @@ def test_a_mistake_in_the_settings_file_is_one_sentence_and_no_robot_is_made(
             "The robot at ws://localhost:9090 would be this program itself; --port names another port.",
         ),
         (
+            "serve --robot ros:ws://192.0.2.1:9090,ws://localhost:9091",
+            "The robot at ws://localhost:9091 would be this program itself; --port names another port.",
+        ),
+        (
             "serve --robot ros:ws://[::1:9",
             "The address must be like ws://192.168.1.7:9090, not 'ws://[::1:9' (Invalid IPv6 URL).",
         ),
