@@ -324,6 +324,8 @@ class Code(StrEnum):
     CAMERA_UNREADABLE = "camera_unreadable", "The camera's pictures cannot be shown.", "format"
     EQUIPMENT_REFUSED = "equipment_refused", "The robot's own part refuses it."
     ARM_GOAL_MISSING = "arm_goal_missing", "Nothing says where the arm shall go."
+    ARM_REPLACED = "arm_replaced", "The actor gave the arm another order before it was there.", "name"
+    ARM_LATE = "arm_late", "The arm was not there in time.", "allowed"
 
     # the handheld
 

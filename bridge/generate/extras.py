@@ -102,6 +102,7 @@ DEFAULTS = {
         "pitch": "math.nan",
         "gripper": "math.nan",
     },
+    "pilothouse_msgs/ArmState": {"gripper_wanted": "math.nan"},
     "pilothouse_msgs/Compass": {"heading": "math.nan"},
     "pilothouse_msgs/FlightState": {"height": "math.nan"},
     "pilothouse_msgs/AckermannState": {"turning_radius": "math.inf"},

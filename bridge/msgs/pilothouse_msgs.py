@@ -209,11 +209,24 @@ class AcknowledgeEventsResponse(CommandResponse, frozen=True, gc=False):
 
 
 class ArmOrder(Msg, frozen=True, gc=False):
-    """Goal of an arm; the first field that is set counts."""
+    """Goal of an arm: a pose, a point, angles or increments, one of them, and the gripper's opening."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/ArmOrder"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "geometry_msgs/Point", "float64", "float64[]", "float64")
-    UNITS: ClassVar[dict[str, str]] = {"point": "m", "pitch": "rad", "angles": "rad", "gripper": "m"}
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "geometry_msgs/Point",
+        "float64",
+        "float64[]",
+        "float64[]",
+        "float64",
+    )
+    UNITS: ClassVar[dict[str, str]] = {
+        "point": "m",
+        "pitch": "rad",
+        "angles": "rad",
+        "increments": "rad",
+        "gripper": "m",
+    }
     pose: str = ""
     """Name of a pose; empty for none."""
     point: Point = Point(math.nan, math.nan, math.nan)
@@ -222,12 +235,14 @@ class ArmOrder(Msg, frozen=True, gc=False):
     """Pitch of the hand at that point [rad], positive pointing down; NaN for any."""
     angles: Float64Array = field(default_factory=Float64Array)
     """Angles of the joints, from the foot on [rad]; empty for none."""
+    increments: Float64Array = field(default_factory=Float64Array)
+    """Added to where each joint is going, from the foot on [rad]; empty for none."""
     gripper: float = math.nan
     """Opening between the fingers [m]; NaN leaves it unchanged."""
 
 
 class ArmState(Msg, frozen=True, gc=False):
-    """An arm with four joints and a gripper."""
+    """An arm and its gripper."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/ArmState"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
@@ -235,6 +250,7 @@ class ArmState(Msg, frozen=True, gc=False):
         "string[]",
         "float64[]",
         "float64[]",
+        "float64",
         "float64",
         "string",
         "string[]",
@@ -246,6 +262,7 @@ class ArmState(Msg, frozen=True, gc=False):
         "angles": "rad",
         "wanted": "rad",
         "gripper": "m",
+        "gripper_wanted": "m",
         "tip": "m",
         "pitch": "rad",
     }
@@ -259,6 +276,8 @@ class ArmState(Msg, frozen=True, gc=False):
     """Commanded angle of each [rad]."""
     gripper: float = 0.0
     """Opening between the fingers [m]."""
+    gripper_wanted: float = math.nan
+    """Commanded opening [m]; NaN when it is not known."""
     pose: str = ""
     """Name of the present pose; empty for any other."""
     poses: list[str] = []
@@ -1099,10 +1118,13 @@ class MoveArmRequest(CommandRequest, frozen=True, gc=False):
         "string",
         "string",
         "pilothouse_msgs/ArmOrder",
+        "bool",
     )
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     order: ArmOrder = field(default_factory=ArmOrder)
-    """Goal as a pose's name, a point for the tip, or angles."""
+    """Goal as a pose's name, a point for the tip, angles, or increments."""
+    wait: bool = False
+    """Answer when the arm is there, or when it will not come there; else at once."""
 
 
 class MoveArmResponse(CommandResponse, frozen=True, gc=False):

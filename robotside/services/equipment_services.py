@@ -1,27 +1,21 @@
-"""The services of what a robot carries, lights and an arm, and the one that puts a simulated robot back to its start."""
+"""The services of what a robot carries, and the one that puts a simulated robot back to its start."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 
 from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Operator, Service
-from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (
-    ArmOrder,
     CommandRequest,
     LightState,
-    MoveArmRequest,
-    MoveArmResponse,
     SetLightsRequest,
     SetLightsResponse,
 )
-from robotside.control.command_gate import STOP_SENTENCE
 from robotside.core.notice import Notice
 from robotside.core.pose2 import Pose2
 from robotside.core.refusal import Refusal
-from robotside.core.text import plain
+from robotside.services.arm_service import arm_service
 from robotside.services.command_service import CommandService
 from robotside.services.preconditions import Preconditions
 from robotside.station.station import Station
@@ -36,7 +30,7 @@ def equipment_services(station: Station, answering: CommandService) -> Iterable[
     if "lights" in mounted:
         yield service("/lights/set", equipment.set_lights, "SetLights", SetLightsRequest, SetLightsResponse)
     if "arm" in mounted:
-        yield service("/arm/move", equipment.move_arm, "MoveArm", MoveArmRequest, MoveArmResponse)
+        yield arm_service(station, answering)
     if station.robot.resettable:
         yield service("/robot/reset", equipment.reset)
 
@@ -50,16 +44,8 @@ class _EquipmentOrders:
     def set_lights(self, client: Operator, asked: SetLightsRequest) -> str:
         """Shine as bright as that."""
         self._permits.need_control(client)
-        self._tell("lights", LightState(brightness=asked.brightness))
+        self._permits.tell("lights", LightState(brightness=asked.brightness))
         return f"The lights are at {asked.brightness:.0%}." if asked.brightness else "The lights are off."
-
-    def move_arm(self, client: Operator, asked: MoveArmRequest) -> str:
-        """Move the arm; not while STOP is pressed."""
-        if self._station.controls.stopped:
-            raise Refusal(STOP_SENTENCE)
-        self._permits.need_control(client)
-        self._tell("arm", asked.order)
-        return _goal(asked.order)
 
     def reset(self, client: Operator, _: CommandRequest) -> str:
         """End the task and put the robot back to its start, where it stands still and knows where it is."""
@@ -81,26 +67,3 @@ class _EquipmentOrders:
         reset = Notice(Code.ROBOT_RESET, said, actor_id=who, name=name, robot=robot, x=x, y=y)
         station.events.say("robot", reset, "warn", at=(x, y))
         return f"{station.info.name} is put back: it stands at ({pose.x:.1f}, {pose.y:.1f})."
-
-    def _tell(self, payload: str, order: Msg) -> None:
-        trouble = self._station.robot.trouble
-        if trouble:
-            raise Refusal(trouble)
-        try:
-            self._station.robot.command(payload, order)
-        except ValueError as problem:
-            raise Refusal(Notice(Code.EQUIPMENT_REFUSED, str(problem))) from problem
-
-
-def _goal(order: ArmOrder) -> str:
-    """What was accepted, as one sentence."""
-    if order.pose:
-        return f"The arm goes to {plain(order.pose, 40)}."
-    if not math.isnan(order.point.x):
-        return f"The arm goes to ({order.point.x:.2f}, {order.point.y:.2f}, {order.point.z:.2f})."
-    if len(order.angles):
-        return "The arm goes to these angles."
-    if not math.isnan(order.gripper):
-        return f"The gripper goes to {1000 * order.gripper:.0f} mm."
-    said = "Give the arm a goal: a pose, a point, angles, or a gripper opening."
-    raise Refusal(Notice(Code.ARM_GOAL_MISSING, said))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Operator
+from bridge.msgs import Msg
 from robotside.autonomy.battery_watch import LOW_CHARGE
 from robotside.control.command_gate import STOP_SENTENCE
 from robotside.core.notice import Notice
@@ -49,6 +50,16 @@ class Preconditions:
         problem = self._station.fitness.unfit or self._station.fitness.lost
         if problem:
             raise Refusal(problem)
+
+    def tell(self, payload: str, order: Msg) -> None:
+        """Give `order` to a `payload` of the robot, which takes it."""
+        trouble = self._station.robot.trouble
+        if trouble:
+            raise Refusal(trouble)
+        try:
+            self._station.robot.command(payload, order)
+        except ValueError as problem:
+            raise Refusal(Notice(Code.EQUIPMENT_REFUSED, str(problem))) from problem
 
     def has_map(self) -> None:
         """Places can be judged."""

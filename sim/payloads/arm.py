@@ -1,4 +1,4 @@
-"""An arm with four joints and a gripper that goes to named poses, to angles, or with its tip to a point."""
+"""An arm with four or five joints and a gripper that goes to named poses, to angles, by increments, or with its tip to a point."""
 
 from __future__ import annotations
 
@@ -12,24 +12,27 @@ from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import ArmOrder, ArmState
 from bridge.msgs.std_msgs import Header, Time
 from sim.core.parameters import Positive
-from sim.core.shapes import Shape, Vec3, compose, from_yaw
+from sim.core.shapes import Shape, Vec3, compose, from_yaw, rotate
 from sim.dynamics.control import given, towards
-from sim.payloads.kinematics import Angles, Arm
+from sim.payloads.kinematics import BENDING, Angles, Arm
 from sim.payloads.mounted import Mount
 from sim.payloads.simple import on_deck
 from sim.physics.backend_bullet import State
 from sim.sensors.suite import Measurement
 from sim.vehicles.model import Vehicle
 
-__all__ = ["JOINTS", "ArmParameters", "MountedArm"]
+__all__ = ["ArmParameters", "MountedArm"]
 
-JOINTS = ["joint1", "joint2", "joint3", "joint4"]
 ARM_RATE = 20.0
 """Of its motion and of its messages [Hz]."""
 HAND_RADIUS = 0.03
 """Radius round its tip within which the hand touches things [m]."""
 ANGLE_TOLERANCE = 1e-3
 """Angles nearer than this are the same [rad]."""
+FINGER = 0.055
+"""Length of a finger [m]."""
+THICKNESS = 0.012
+"""Of a finger [m]."""
 _STEEL, _BLACK = (0.30, 0.32, 0.35), (0.09, 0.09, 0.10)
 
 Pair = tuple[float, float]
@@ -42,7 +45,10 @@ class ArmParameters(Mount, frozen=True, kw_only=True):
     upper: Pair
     fore: Positive
     hand: Positive
-    limits: tuple[Pair, Pair, Pair, Pair]
+    joints: tuple[str, ...]
+    """Names, from the foot on: four, or five with one that turns the hand about its own length."""
+    limits: tuple[Pair, ...]
+    """Least and greatest angle of each joint."""
     speed: Positive
     """Of a joint [rad/s]."""
     gripper: Pair
@@ -59,8 +65,11 @@ class MountedArm:
     accepts: type[Msg] | None = ArmOrder
 
     def __init__(self, vehicle: Vehicle, figures: ArmParameters) -> None:
-        """On the deck of `vehicle`, in its first pose, gripper wide open; ValueError for a pose beyond its limits."""
+        """On the deck of `vehicle`, in its first pose, gripper wide open; ValueError for figures that contradict each other."""
         self._figures = figures
+        if not BENDING <= len(figures.joints) == len(figures.limits) <= BENDING + 1:
+            count = f"{len(figures.joints)} joints and the limits of {len(figures.limits)}"
+            raise ValueError(f"An arm has four or five joints, and limits for each, not {count}.")
         self.arm = Arm(figures.foot, figures.upper, figures.fore, figures.hand, figures.limits)
         for name, angles in figures.poses.items():
             if not self.arm.allowed(angles):
@@ -108,9 +117,25 @@ class MountedArm:
             (x, y, z + self._figures.foot[1] / 2),
             colour=_BLACK,
         )
-        links = [_link(one, other) for one, other in itertools.pairwise(joints)]
         knobs = [Shape("sphere", (0.045,) * 3, joint, colour=_BLACK) for joint in joints[:3]]
-        return (foot, *links, *knobs)
+        palm, *fingers = self._gripping(joints[3])
+        links = [_link(one, other) for one, other in itertools.pairwise((*joints[:3], palm.position))]
+        return (foot, *links, *knobs, palm, *fingers)
+
+    def _gripping(self, tip: Vec3) -> tuple[Shape, Shape, Shape]:
+        """The palm and two fingers as far apart as they are open, turned as the hand is."""
+        turn, *bends = self.angles[:BENDING]
+        pitch, roll = sum(bends), sum(self.angles[BENDING:])
+        hand = compose(from_yaw(turn), (0.0, math.sin(pitch / 2), 0.0, math.cos(pitch / 2)))
+        hand = compose(hand, (math.sin(roll / 2), 0.0, 0.0, math.cos(roll / 2)))
+
+        def box(size: Vec3, back: float, side: float = 0.0) -> Shape:
+            x, y, z = rotate(hand, (-back, side, 0.0))
+            return Shape("box", size, (tip[0] + x, tip[1] + y, tip[2] + z), hand, _BLACK)
+
+        apart, finger = (self._gripper + THICKNESS) / 2, (FINGER, THICKNESS, 0.02)
+        palm = box((0.02, self._figures.gripper[1] + 2 * THICKNESS, 0.025), FINGER)
+        return palm, box(finger, FINGER / 2, -apart), box(finger, FINGER / 2, apart)
 
     @property
     def _moves(self) -> bool:
@@ -118,6 +143,9 @@ class MountedArm:
 
     def _goal(self, order: ArmOrder) -> Angles:
         """The angles that an order means."""
+        told = (order.pose, not math.isnan(order.point.x), len(order.angles), len(order.increments))
+        if sum(map(bool, told)) > 1:
+            raise ValueError("Give the arm one goal: a pose, a point, angles, or increments.")
         if order.pose:
             if order.pose not in self._figures.poses:
                 known = ", ".join(self._figures.poses)
@@ -126,17 +154,30 @@ class MountedArm:
         if not math.isnan(order.point.x):
             x, y, z = order.point.x, order.point.y, order.point.z
             own = (x - self._at[0], y - self._at[1], z - self._at[2])
-            found = self.arm.inverse(own, order.pitch) if all(map(math.isfinite, own)) else None
+            known = all(map(math.isfinite, own)) and not math.isinf(order.pitch)
+            found = self.arm.inverse(own, order.pitch) if known else None
             if found is None:
                 raise ValueError(f"The arm does not reach ({x:.2f}, {y:.2f}, {z:.2f}).")
-            return found
-        if len(order.angles) == 0:
-            return self._wanted
-        angles = tuple(order.angles)
-        if len(angles) != len(JOINTS) or not self.arm.allowed((angles[0], *angles[1:4])):
-            said = ", ".join(f"{low:g} to {high:g}" for low, high in self._figures.limits)
-            raise ValueError(f"The arm's four joints go from {said} rad.")
-        return (angles[0], angles[1], angles[2], angles[3])
+            return found + self._wanted[BENDING:]
+        if len(order.angles):
+            return self._within(tuple(order.angles))
+        if len(order.increments):
+            return self._within(self._wanted, tuple(order.increments))
+        return self._wanted
+
+    def _within(self, angles: Angles, increments: Angles = ()) -> Angles:
+        """`angles` with what is added to each; ValueError when that is too few, too many, or beyond a joint's limits."""
+        joints, count = self._figures.joints, len(increments or angles)
+        if count != len(joints):
+            raise ValueError(f"The arm has {len(joints)} joints, {', '.join(joints)}; {count} are given.")
+        goal = tuple(map(sum, zip(angles, increments, strict=True))) if increments else angles
+        number = self.arm.beyond(goal)
+        if number is None:
+            return goal
+        (low, high), said = self._figures.limits[number], f"not to {goal[number]:g} rad"
+        if increments:
+            said += f", which is {angles[number]:g} and {increments[number]:g}"
+        raise ValueError(f"The joint {joints[number]} goes from {low:g} to {high:g} rad, {said}.")
 
     def _placed(self, point: Vec3) -> Vec3:
         return (self._at[0] + point[0], self._at[1] + point[1], self._at[2] + point[2])
@@ -145,8 +186,8 @@ class MountedArm:
         """One period later; all joints arrive together."""
         most = max(abs(goal - now) for goal, now in zip(self._wanted, self.angles, strict=True))
         share = min(1.0, self._figures.speed / ARM_RATE / most) if most else 1.0
-        a, b, c, d = (now + share * (goal - now) for goal, now in zip(self._wanted, self.angles, strict=True))
-        self.angles = self._wanted if share == 1.0 else (a, b, c, d)
+        way = tuple(now + share * (goal - now) for goal, now in zip(self._wanted, self.angles, strict=True))
+        self.angles = self._wanted if share == 1.0 else way
         self._gripper = towards(self._gripper, self._opening, self._figures.gripper_speed / ARM_RATE)
         yield "/arm", self._state(stamp)
 
@@ -160,10 +201,11 @@ class MountedArm:
         )
         return ArmState(
             Header(Time.at(stamp), "base_link"),
-            JOINTS,
+            [*self._figures.joints],
             Float64Array(self.angles),
             Float64Array(self._wanted),
             self._gripper,
+            self._opening,
             next(here, ""),
             list(poses),
             Point(*tip),

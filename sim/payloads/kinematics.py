@@ -1,6 +1,7 @@
-"""Forward and inverse kinematics of an arm with four joints, both in closed form.
+"""Forward and inverse kinematics of an arm with four or five joints, both in closed form.
 
-The first joint turns about z, the other three about y, positive downward. Lengths in [m], angles in [rad].
+The first joint turns about z, the next three about y, positive downward. The fifth, where there is one, turns the hand about
+its own length, which moves the tip nowhere. Lengths in [m], angles in [rad].
 """
 
 from __future__ import annotations
@@ -10,9 +11,13 @@ from typing import NamedTuple
 
 from sim.core.shapes import Vec3
 
-__all__ = ["Angles", "Arm", "Reach"]
+__all__ = ["BENDING", "Angles", "Arm", "Reach"]
 
-Angles = tuple[float, float, float, float]
+BENDING = 4
+"""Joints that move the tip."""
+
+Angles = tuple[float, ...]
+"""Of the joints from the foot on."""
 
 
 class Reach(NamedTuple):
@@ -45,7 +50,7 @@ class Arm(NamedTuple):
 
     def points(self, angles: Angles) -> tuple[Vec3, Vec3, Vec3, Vec3]:
         """Second, third and fourth joint, and the tip, in the frame of the foot."""
-        turn, *bends = angles
+        turn, *bends = angles[:BENDING]
         length, rise = self.elbows
         out, up = self.foot[0], self.foot[1]
         places = [(out, up)]
@@ -66,18 +71,23 @@ class Arm(NamedTuple):
 
     def forward(self, angles: Angles) -> Reach:
         """Pose of the hand at these angles."""
-        return Reach(self.points(angles)[3], sum(angles[1:]))
+        return Reach(self.points(angles)[3], sum(angles[1:BENDING]))
 
     def allowed(self, angles: Angles) -> bool:
-        """Within the limits of every joint."""
-        return all(
-            low - 1e-9 <= angle <= high + 1e-9 for angle, (low, high) in zip(angles, self.limits, strict=True)
-        )
+        """All joints are there, and each is within its limits."""
+        return len(angles) == len(self.limits) and self.beyond(angles) is None
+
+    def beyond(self, angles: Angles) -> int | None:
+        """Number of the first joint whose angle is beyond its limits or no number; None when there is none."""
+        for number, (angle, (low, high)) in enumerate(zip(angles, self.limits, strict=False)):
+            if not low - 1e-9 <= angle <= high + 1e-9:
+                return number
+        return None
 
     def inverse(self, tip: Vec3, pitch: float = math.nan) -> Angles | None:
-        """The angles that put the tip there with the hand at `pitch`, elbow up before elbow down; None when none do.
+        """Angles of the first four joints that put the tip there with the hand at `pitch`; None when none do.
 
-        With `pitch` NaN it takes the hand nearest to the level that gets there.
+        Elbow up goes before elbow down. With `pitch` NaN it takes the hand nearest to the level that gets there.
         """
         if not math.isnan(pitch):
             return self._with_pitch(tip, pitch)
@@ -106,7 +116,7 @@ class Arm(NamedTuple):
                 third = math.remainder(-fore - second, math.tau)
                 fourth = math.remainder(pitch - second - third, math.tau)
                 angles = (towards, second, third, fourth)
-                if self.allowed(angles):
+                if self.beyond(angles) is None:
                     return angles
         return None
 

@@ -137,12 +137,12 @@ PAYLOADS: tuple[Payload, ...] = (
         "arm",
         "an arm with a gripper",
         (
-            Exchange("/arm", "angles [rad], gripper [m], tip [m]"),
+            Exchange("/arm", "angles [rad], wanted [rad], gripper [m], tip [m]"),
             _call(
                 "/arm/move",
-                "moves the arm to a named pose, a point, angles, or opens and closes its gripper",
+                "moves the arm to a named pose, a point, angles, by increments, or opens and closes its gripper",
                 '{"order": {"pose": "home"}}',
-                "order.point [m], order.pitch [rad], order.angles [rad], order.gripper [m]",
+                "order.point [m], order.pitch [rad], order.angles [rad], order.increments [rad], order.gripper [m]",
             ),
         ),
         sign="/arm",

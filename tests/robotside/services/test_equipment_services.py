@@ -1,4 +1,4 @@
-"""Lights, arm and putting back: offered where the robot has them, and done by whoever has control."""
+"""Lights and putting back: offered where the robot has them, and done by whoever has control."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ from pathlib import Path
 import pytest
 
 from bridge.msgs import Msg
-from bridge.msgs.geometry_msgs import Point, Twist
+from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
     ArmOrder,
-    ArmState,
     CommandRequest,
     LightState,
     MoveArmRequest,
@@ -21,7 +20,6 @@ from bridge.msgs.pilothouse_msgs import (
     TaskOrder,
     Waypoint,
 )
-from robotside.control.command_gate import STOP_SENTENCE
 from tests.fakes import FakeClient, FakeRobot
 from tests.robotside.hand import UPSIDE_DOWN, Hand, tilt
 from tests.robotside.scene import Scene
@@ -52,16 +50,6 @@ def last(run: Hand, topic: str, seconds: float = 1.1) -> Msg:
     return told[-1]
 
 
-def arm(run: Hand, seconds: float = 0.2) -> ArmState:
-    state = last(run, "/arm", seconds)
-    assert isinstance(state, ArmState)
-    return state
-
-
-def move(run: Hand, order: ArmOrder) -> str:
-    return run.ask("/arm/move", MoveArmRequest(order=order)).message
-
-
 def test_only_what_the_robot_has_is_offered(hand: Make, tmp_path: Path) -> None:
     assert OURS & set(hand("patrol", "arm", "lights").door.services) == OURS
     assert OURS & set(hand("scout", "lights").door.services) == {"/lights/set", "/robot/reset"}
@@ -80,31 +68,6 @@ def test_lights_are_set_and_their_brightness_is_judged(hand: Make) -> None:
         "The brightness of the lights must be a number from 0 to 1.",
     )
     assert run.ask("/lights/set", SetLightsRequest()).message == "The lights are off."
-
-
-def test_the_arm_goes_where_it_is_told_and_says_why_it_does_not(hand: Make) -> None:
-    run = hand("patrol", "arm")
-    assert move(run, ArmOrder(pose="home")) == "The arm goes to home."
-    assert arm(run, 2.0).pose == "home"
-    assert move(run, ArmOrder(point=Point(2.0, 0.0, 0.4))) == "The arm does not reach (2.00, 0.00, 0.40)."
-    assert "knows no pose 'dance'" in move(run, ArmOrder(pose="dance"))
-    assert move(run, ArmOrder()).startswith("Give the arm a goal")
-    assert move(run, ArmOrder(gripper=0.02)) == "The gripper goes to 20 mm."
-
-
-def test_stop_holds_the_arm_where_it_is_until_it_is_told_anew(hand: Make) -> None:
-    run = hand("patrol", "arm")
-    move(run, ArmOrder(pose="stretch", gripper=0.0))
-    run.wait(0.4)
-    assert run.ask("/stop").success
-    held, later = arm(run), arm(run, 1.0)
-    assert list(later.angles) == list(held.angles)
-    assert later.gripper == held.gripper > 0.0
-    assert move(run, ArmOrder(pose="home")) == STOP_SENTENCE
-    assert run.release_stop().success
-    assert list(arm(run, 0.5).angles) == list(held.angles)
-    move(run, ArmOrder(pose="home"))
-    assert arm(run, 2.0).pose == "home"
 
 
 @pytest.mark.parametrize(

@@ -120,7 +120,7 @@ def test_a_drone_hovers_on_the_speed_that_carries_its_lights_and_takes_more_for_
 
 
 def test_what_a_drone_cannot_lift_is_refused_in_one_sentence():
-    said = r"Ardrone-1 carries 0\.23 kg at most; the payload weighs 0\.90 kg\."
+    said = r"Ardrone-1 carries 0\.23 kg at most; the payload weighs 0\.98 kg\."
     with pytest.raises(ValueError, match=said):
         make("ardrone", "parking_lot", camera=False, payloads=["arm", "lights"])
 

@@ -26,6 +26,14 @@ FIGURES = load()
 ARM = Arm(FIGURES.arm.foot, FIGURES.arm.upper, FIGURES.arm.fore, FIGURES.arm.hand, FIGURES.arm.limits)
 
 
+JOINTS = ["base_yaw", "shoulder", "elbow", "wrist_pitch", "wrist_roll"]
+
+
+def moved(**joints):
+    """A value for each joint, 0 for those that are not named."""
+    return Float64Array([joints.get(name, 0.0) for name in JOINTS])
+
+
 def carrying(*payloads, model=SCOUT, world=None):
     robot = SimRobot(Simulation(world or room(8.0, 6.0), model, noise=False), camera=False, payloads=payloads)
     robot.read(0.0)
@@ -185,7 +193,7 @@ def test_of_random_angles_nearly_all_hands_are_found_again():
         again = ARM.inverse(reach.tip, reach.pitch)
         if again is not None:
             found += 1
-            assert ARM.allowed(again)
+            assert ARM.allowed((*again, 0.0))
             assert ARM.forward(again).tip == pytest.approx(reach.tip, abs=1e-9)
     assert found >= 390
 
@@ -249,9 +257,33 @@ def test_the_arm_takes_its_tip_to_a_point_of_the_robots_frame():
     [
         (ArmOrder(pose="dance"), "knows no pose 'dance'; it knows rest, home, stretch, look_down"),
         (ArmOrder(point=Point(2.0, 0.0, 0.4)), r"does not reach \(2.00, 0.00, 0.40\)"),
-        (ArmOrder(angles=Float64Array((0.0, 0.0, 9.0, 0.0))), "four joints go from -2.83 to 2.83"),
-        (ArmOrder(angles=Float64Array((0.0, 0.0))), "four joints go from -2.83 to 2.83"),
+        (ArmOrder(point=Point(0.2, 0.0, 0.2), pitch=math.inf), r"does not reach \(0.20, 0.00, 0.20\)"),
+        (ArmOrder(angles=moved(elbow=9.0)), "joint elbow goes from -0.94 to 1.38 rad, not to 9 rad"),
+        (
+            ArmOrder(angles=moved(wrist_roll=math.nan)),
+            "wrist_roll goes from -2.83 to 2.83 rad, not to nan rad",
+        ),
+        (ArmOrder(angles=Float64Array((0.0, 0.0))), f"has 5 joints, {', '.join(JOINTS)}; 2 are given"),
+        (ArmOrder(increments=moved(elbow=0.2)), "-0.94 to 1.38 rad, not to 1.45 rad, which is 1.25 and 0.2"),
+        (ArmOrder(increments=moved(base_yaw=-3.0)), "base_yaw goes from -2.83 to 2.83 rad, not to -3 rad"),
+        (
+            ArmOrder(increments=moved(shoulder=math.nan)),
+            "joint shoulder goes from -1.79 to 1.57 rad, not to nan",
+        ),
+        (
+            ArmOrder(increments=moved(shoulder=math.inf)),
+            "joint shoulder goes from -1.79 to 1.57 rad, not to inf",
+        ),
+        (ArmOrder(increments=Float64Array((0.1,) * 6)), "has 5 joints, .*; 6 are given"),
         (ArmOrder(pose="home", gripper=0.5), "gripper opens from 0 to 0.075 m, not 0.5 m"),
+        (
+            ArmOrder(pose="home", increments=moved(elbow=0.1)),
+            "one goal: a pose, a point, angles, or increments",
+        ),
+        (
+            ArmOrder(point=Point(0.2, 0.0, 0.2), angles=moved()),
+            "one goal: a pose, a point, angles, or increments",
+        ),
     ],
 )
 def test_what_the_arm_cannot_do_is_refused_in_one_sentence_and_changes_nothing(order, why):
@@ -261,6 +293,86 @@ def test_what_the_arm_cannot_do_is_refused_in_one_sentence_and_changes_nothing(o
         robot.command("arm", order)
     assert list(said(until(robot, 0.1), "/arm")[-1].wanted) == wanted
     robot.close()
+
+
+def test_increments_are_added_to_where_each_joint_goes_so_that_two_presses_are_twice_as_far():
+    robot = carrying("arm")
+    start = said(until(robot, 0.1), "/arm")[-1]
+    assert start.joints == JOINTS
+    for _ in range(2):  # the second while the first is under way
+        robot.command("arm", ArmOrder(increments=moved(base_yaw=0.4, shoulder=0.1, wrist_roll=-0.2)))
+        until(robot, 0.1)
+    there = said(until(robot, 1.0), "/arm")[-1]
+    assert list(there.angles) == pytest.approx([0.8, -1.4, 1.25, 0.35, -0.4])
+    robot.close()
+
+
+def test_held_on_its_way_the_arm_counts_increments_from_where_it_stays():
+    robot = carrying("arm")
+    robot.command("arm", ArmOrder(angles=Float64Array((2.0, *FIGURES.arm.poses["rest"][1:]))))
+    until(robot, 0.3)
+    robot.hold_payloads()
+    held = said(until(robot, 0.1), "/arm")[-1].angles[0]
+    robot.command("arm", ArmOrder(increments=moved(base_yaw=0.1)))
+    assert said(until(robot, 0.5), "/arm")[-1].angles[0] == pytest.approx(held + 0.1)
+    robot.close()
+
+
+def test_the_hand_turns_about_its_own_length_and_stays_turned_when_the_tip_goes_elsewhere():
+    robot = carrying("arm")
+    robot.command("arm", ArmOrder(pose="home"))
+    before = said(until(robot, 2.0), "/arm")[-1]
+    fingers = [shape.position for shape in robot.payloads["arm"].shapes()[-2:]]
+    robot.command("arm", ArmOrder(increments=moved(wrist_roll=math.pi / 2)))
+    after = said(until(robot, 2.0), "/arm")[-1]
+    assert (after.tip, after.pitch) == (before.tip, before.pitch)
+    assert after.pose == ""
+    apart = [abs(a - b) for a, b in zip(*fingers, strict=True)]
+    turned = [
+        abs(a - b) for a, b in zip(*(s.position for s in robot.payloads["arm"].shapes()[-2:]), strict=True)
+    ]
+    assert apart == pytest.approx([0.0, FIGURES.arm.gripper[1] + 0.012, 0.0], abs=1e-9)
+    assert turned[1] == pytest.approx(0.0, abs=1e-9)
+    assert math.hypot(*turned) == pytest.approx(apart[1])
+    robot.command("arm", ArmOrder(point=Point(0.28, 0.10, 0.45)))
+    there = said(until(robot, 2.5), "/arm")[-1]
+    assert (there.tip.x, there.tip.y, there.tip.z) == pytest.approx((0.28, 0.10, 0.45), abs=1e-9)
+    assert there.angles[4] == pytest.approx(math.pi / 2)
+    robot.close()
+
+
+def with_joints(count):
+    """Figures of an arm that has the first `count` joints."""
+    arm = FIGURES.arm
+    return msgspec.structs.replace(
+        FIGURES,
+        arm=msgspec.structs.replace(
+            arm,
+            joints=arm.joints[:count],
+            limits=arm.limits[:count],
+            poses={name: angles[:count] for name, angles in arm.poses.items()},
+        ),
+    )
+
+
+def test_an_arm_with_four_joints_moves_as_well():
+    simulation = Simulation(plain(), SCOUT, noise=False)
+    arm = mount(simulation.vehicle, ["arm"], with_joints(4))["arm"]
+    arm.command(ArmOrder(point=Point(0.28, 0.10, 0.45), pitch=0.2))
+    state = next(iter(arm._move(None, 0.0)))[1]
+    assert (state.joints, len(state.angles), len(arm.shapes())) == (JOINTS[:4], 4, 10)
+    arm.command(ArmOrder(increments=Float64Array((0.1, 0.0, 0.0, 0.0))))
+    with pytest.raises(ValueError, match="has 4 joints, base_yaw, .*; 5 are given"):
+        arm.command(ArmOrder(increments=moved(base_yaw=0.1)))
+    simulation.close()
+
+
+@pytest.mark.parametrize("count", [3, 0])
+def test_an_arm_with_too_few_joints_is_refused(count):
+    simulation = Simulation(plain(), SCOUT)
+    with pytest.raises(ValueError, match="four or five joints, and limits for each"):
+        mount(simulation.vehicle, ["arm"], with_joints(count))
+    simulation.close()
 
 
 def test_a_robot_with_an_arm_touches_an_orange_of_the_tree():

@@ -16,7 +16,6 @@ from kivy.metrics import dp, sp
 from kivy.properties import (
     BooleanProperty,
     ListProperty,
-    NumericProperty,
     ObjectProperty,
     OptionProperty,
 )
@@ -25,14 +24,13 @@ from kivy.uix.widget import Widget
 from bridge.msgs.arrays import Float64Array
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import ArmOrder, ArmState
-from widgets.controls.goals.arm_keys import ArmKeys, pose_words
+from widgets.controls.goals.arm_dials import ROOMY, ArmDials
+from widgets.controls.goals.arm_keys import pose_words
 from widgets.controls.goals.arm_picture import (
     Links,
-    Side,
     draw_aim,
     draw_arm,
     draw_deck,
-    draw_turn,
     moved_tip,
     side_points,
 )
@@ -48,8 +46,6 @@ __all__ = ["ArmPanel", "samples"]
 
 OUTCOME_TIMEOUT = 3.0
 """How long an outcome is shown [s]."""
-EXTENT = (-0.20, 0.42, -0.12, 0.44)
-"""What the picture shows: behind and ahead of, below and above the foot [m]."""
 MOVING_THRESHOLD = 0.02
 """Joints nearer than this to where they go are there [rad]."""
 MAX_POSES = 32
@@ -60,10 +56,10 @@ ARRIVAL_TOLERANCE = 0.015
 """A tip nearer than this to where it was sent is there [m]."""
 
 
-class ArmPanel(ArmKeys):
-    """Dispatches `on_command(order)` for a pose, the gripper, a point for the tip, or a turn of the foot.
+class ArmPanel(ArmDials):
+    """Dispatches `on_command(order)` for a pose, the gripper, a point for the tip, or a turn of the foot or the hand.
 
-    A finger drags the tip, or the hand of the dial; what it means is asked for when it is lifted. Where the panel is small
+    A finger drags the tip, or the hand of a dial; what it means is asked for when it is lifted. Where the panel is small
     one button opens the poses.
     """
 
@@ -73,8 +69,6 @@ class ArmPanel(ArmKeys):
         "angles", "wanted", "gripper", "pose", "tip", "touching", "choosing", "outcome", "links", "held", "aim", "bearing",
     )  # fmt: skip
 
-    angles: ListProperty[float] = ListProperty()
-    """Of the joints from the foot on [rad]; empty before the first, or while one is not known."""
     wanted: ListProperty[float] = ListProperty()
     """Where each is going [rad]; empty when that is not known."""
     tip: ListProperty[float] = ListProperty()
@@ -85,17 +79,10 @@ class ArmPanel(ArmKeys):
     """Lengths for the picture."""
     outcome = OptionProperty("ready", options=list(OUTCOMES))
     """What became of the last order."""
-    held = OptionProperty("", options=["", "tip", "turn"])
-    """What a finger drags; empty without one."""
-    aim: ListProperty[float] = ListProperty()
-    """Where the tip is wanted, ahead of and above the foot in the plane of the arm [m]; empty while no place is chosen."""
-    bearing = NumericProperty(math.nan)
-    """Where its foot is being turned to [rad]; NaN while no finger turns it."""
 
     def __init__(self, **kwargs: Any) -> None:
         self._start = (0.0, 0.0)
-        self._joints: list[float] = []
-        """Where they go, or are while that is not known, unrounded [rad]."""
+        self._joints = []
         self._forget = Clock.create_trigger(lambda _: self.answer("ready"), OUTCOME_TIMEOUT)
         super().__init__(**{"title": "Arm", **kwargs})
 
@@ -112,7 +99,7 @@ class ArmPanel(ArmKeys):
 
     def _arrived(self) -> bool:
         """It is where it was sent, or rests and nothing is heard any more of the order."""
-        if len(self.angles) != 4:
+        if not self.known:
             return False
         tip = side_points(tuple(self.angles), self.links)[-1]
         near = math.hypot(tip[0] - self.aim[0], tip[1] - self.aim[1]) < ARRIVAL_TOLERANCE
@@ -135,11 +122,6 @@ class ArmPanel(ArmKeys):
         x, y, z = moved_tip(tuple(self.tip), tuple(self.angles), (out, up), self.links)
         self.dispatch("on_command", ArmOrder(point=Point(x, y, z)))
 
-    def turn(self, bearing: float) -> None:
-        """Turn the foot to `bearing` [rad], to the left positive, as a finger would; the other joints stay as they are."""
-        self.aim = []
-        self.dispatch("on_command", ArmOrder(angles=Float64Array([bearing, *self._joints[1:]])))
-
     def spring(self) -> None:
         """What was being dragged is forgotten; where the arm was sent before stays."""
         if self.held == "tip":
@@ -158,10 +140,10 @@ class ArmPanel(ArmKeys):
         return self.side.at(side_points(tuple(self.angles), self.links)[-1])
 
     def _handle(self, x: float, y: float) -> str:
-        if len(self.angles) != 4 or not self.tip or (self.choosing and not self.beside):
+        if not self.known or not self.tip or (self.choosing and not self.beside):
             return ""
-        tip, dial = self.tip_on_glass, self._dial()
-        far = {"tip": math.dist((x, y), tip), "turn": math.dist((x, y), dial[:2]) if dial[2] else math.inf}
+        far = {name: math.dist((x, y), dial[:2]) for name, dial in self.dials.items()}
+        far["tip"] = math.dist((x, y), self.tip_on_glass)
         nearest = min(far, key=lambda name: far[name])
         return nearest if far[nearest] <= theme.target * (0.75 if nearest == "tip" else 0.5) else ""
 
@@ -175,9 +157,8 @@ class ArmPanel(ArmKeys):
             tip = self.tip_on_glass
             place = tip[0] + touch.x - self._start[0], tip[1] + touch.y - self._start[1]
             self.aim = [round(value, 3) for value in self.side.point(place)]
-        elif self.held == "turn":
-            x, y, _ = self._dial()
-            self.bearing = math.atan2(x - touch.x, touch.y - y)
+        elif self.held in self.dials:
+            self.follow_dial(*touch.pos)
 
     def on_touch_up(self, touch: Any) -> bool:
         """Ask for what was dragged, where it was."""
@@ -187,8 +168,8 @@ class ArmPanel(ArmKeys):
         done = bool(super().on_touch_up(touch))
         if held == "tip" and aim:
             self.reach(*aim)
-        elif held == "turn" and not math.isnan(bearing):
-            self.turn(bearing)
+        elif held and not math.isnan(bearing):
+            self._send(held, bearing)
         return done
 
     def answer(self, outcome: str) -> None:
@@ -199,39 +180,6 @@ class ArmPanel(ArmKeys):
         self.outcome = outcome
         if outcome not in ("ready", "sent"):
             self._forget()
-
-    # where things are
-
-    @property
-    def view(self) -> tuple[float, float, float, float]:
-        """Left, low, width and height of the picture [px]."""
-        left, low, width, height = self.inside
-        if self.beside or self.stacked:
-            return left, low, width - self._keys_wide(width) - dp(10), height
-        foot = theme.target + dp(8)
-        return left, low + foot, width, max(height - foot, 1.0)
-
-    @property
-    def side(self) -> Side:
-        """How metres in the plane of the arm lie in the picture."""
-        left, low, width, height = self.view
-        roomy = height >= dp(118)
-        foot = sp(18) if roomy else 0.0
-        scale = min(
-            width / (EXTENT[1] - EXTENT[0]),
-            (height - foot) / (EXTENT[3] - EXTENT[2]),
-        )
-        x = left + (width - (EXTENT[1] - EXTENT[0]) * scale) / 2 - EXTENT[0] * scale
-        if not roomy:
-            x = left + width - dp(6) - EXTENT[1] * scale
-        y = low + foot - EXTENT[2] * scale + max(0.0, height - foot - (EXTENT[3] - EXTENT[2]) * scale) / 2
-        return Side(x, y, scale, (left, low + foot, left + width, low + height))
-
-    def _dial(self) -> tuple[float, float, float]:
-        """Centre and radius of what shows how its foot is turned [px]; radius 0 where it has no room."""
-        left, low, _, height = self.view
-        radius = dp(15 if height >= dp(118) else 12) if height >= dp(62) else 0.0
-        return left + radius, low + height - radius - dp(1), radius
 
     # the picture
 
@@ -244,12 +192,12 @@ class ArmPanel(ArmKeys):
         left, low, width, height = self.view
         if height < dp(36):
             return
-        if len(self.angles) != 4:
+        if not self.known:
             yield Word(DASH, left + width / 2, low + height / 2, sp(20), theme.muted)
             return
-        roomy, side = height >= dp(118), self.side
+        roomy, side = height >= dp(ROOMY), self.side
         draw_deck(shapes, (side.x, side.y), (left, left + width), side.scale, self.links)
-        if self.moving and len(self.wanted) == 4:
+        if self.moving and len(self.wanted) == len(self.angles):
             goal = side_points(tuple(self.wanted), self.links) * side.scale + (side.x, side.y)
             shapes.dashes(goal, dp(3), theme.plan, period=dp(10), dash=dp(4))
         points = side_points(tuple(self.angles), self.links) * side.scale + (side.x, side.y)
@@ -266,8 +214,7 @@ class ArmPanel(ArmKeys):
             failed = self.outcome in ("refused", "no_reply") and not self.held
             draw_aim(shapes, points[-1], side.at(self.aim), theme.danger if failed else theme.plan)
         yield from self._figures((left, low, width, height), roomy)
-        if height >= dp(62):
-            yield draw_turn(shapes, self._dial(), self.angles[0], self.bearing, roomy=roomy)
+        yield from self.dial_marks(shapes, roomy=roomy)
 
     def _figures(self, box: tuple[float, float, float, float], roomy: bool) -> Iterator[Word]:
         """Where the tip is and how wide the gripper is open."""
@@ -312,10 +259,10 @@ def _whole(values: Float64Array) -> list[float]:
 
 
 POSES = {
-    "rest": (0.0, -1.6, 1.25, 0.35),
-    "home": (0.0, -1.05, 0.35, 0.70),
-    "stretch": (0.0, 0.9, -0.55, -0.35),
-    "look_down": (0.0, -0.6, 0.2, 1.6),
+    "rest": (0.0, -1.6, 1.25, 0.35, 0.0),
+    "home": (0.0, -1.05, 0.35, 0.70, 0.0),
+    "stretch": (0.0, 0.9, -0.55, -0.35, 0.0),
+    "look_down": (0.0, -0.6, 0.2, 1.6, 0.0),
 }
 """Of the samples."""
 SMALL = (176.0, 176.0)
@@ -350,7 +297,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         return build
 
     home, stretch = _state("home"), _state("stretch")
-    moving = _state("home", angles=(0.4, -0.5, 0.1, 0.3), wanted=POSES["stretch"])
+    moving = _state("home", angles=(0.4, -0.5, 0.1, 0.3, 0.5), wanted=POSES["stretch"])
     many = _state("home", poses=[*POSES, "pick", "place", "wave"])
     return {
         "never": made(None, state="never"),
@@ -361,6 +308,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "refused": made(home, outcome="refused", aim=[0.38, 0.36]),
         "dragged": made(home, held="tip", aim=[0.33, 0.04]),
         "turned": made(home, held="turn", bearing=0.9),
+        "rolled": made(home, held="roll", bearing=-0.6),
+        "four joints": made(_state("home", angles=POSES["home"][:4])),
         "many poses": made(many),
         "small": made(home, SMALL),
         "small moving": made(moving, SMALL),

@@ -77,13 +77,13 @@ def moved_tip(
 
 
 def side_points(angles: tuple[float, ...], links: Links) -> Points:
-    """Foot, joints and tip in the plane in which the arm bends, ahead and up [m]; `angles` of its four joints [rad]."""
+    """Foot, joints and tip in the plane in which the arm bends, ahead and up [m]; `angles` of its joints [rad], four at least."""
     out, up = links.foot
     places = [(links.foot[0], 0.0), (out, up)]
     bent = 0.0
     rise = math.atan2(links.upper[1], links.upper[0])
     parts = ((math.hypot(*links.upper), rise), (links.fore, 0.0), (links.hand, 0.0))
-    for (length, lean), angle in zip(parts, angles[1:], strict=True):
+    for (length, lean), angle in zip(parts, angles[1:4], strict=True):
         bent += angle
         out, up = out + length * math.cos(lean - bent), up + length * math.sin(lean - bent)
         places.append((out, up))
@@ -138,22 +138,34 @@ def draw_aim(shapes: Shapes, tip: Sequence[float], aim: tuple[float, float], col
 
 
 def draw_turn(
-    shapes: Shapes, dial: tuple[float, float, float], angle: float, bearing: float, *, roomy: bool
+    shapes: Shapes,
+    dial: tuple[float, float, float],
+    angle: float,
+    bearing: float,
+    *,
+    roomy: bool,
+    rolls: bool,
 ) -> Word:
-    """How far the foot is turned, seen from above, on a `dial` of middle and radius [px], or is to be: NaN where it stays [rad]."""
+    """How far the foot is turned, seen from above, on a `dial` of middle and radius [px], or is to be: NaN where it stays [rad].
+
+    With `rolls` the same of the hand, seen from behind.
+    """
     x, y, radius = dial
     turning = not math.isnan(bearing)
     shapes.disc(x, y, radius, theme.raised)
     shapes.ring(x, y, radius - dp(0.75), dp(1.5), theme.plan if turning else theme.line)
+    clockwise = 1 if rolls else -1
     degrees = math.degrees(angle)
-    end = dial_point(-degrees, radius * 0.8)
+    end = dial_point(clockwise * degrees, radius * 0.8)
     shapes.line(np.array([[x, y], [x + end[0], y + end[1]]]), dp(3), theme.accent)
     if turning:
         degrees = math.degrees(bearing)
-        end = dial_point(-degrees, radius * 0.8)
+        end = dial_point(clockwise * degrees, radius * 0.8)
         shapes.line(np.array([[x, y], [x + end[0], y + end[1]]]), dp(3), theme.plan)
     shapes.disc(x, y, dp(2.5), theme.text)
-    side = "" if abs(degrees) < 0.5 else " left" if degrees > 0 else " right"
-    text = f"{abs(degrees):.0f}°{side}" if roomy else f"{abs(degrees):.0f}°{side[:2].upper()}"
+    side = "" if abs(degrees) < 0.5 else " right" if clockwise * degrees > 0 else " left"
+    text = (
+        f"{'hand ' * rolls}{abs(degrees):.0f}°{side}" if roomy else f"{abs(degrees):.0f}°{side[:2].upper()}"
+    )
     role = theme.plan if turning else theme.muted
     return Word(text, x + radius + dp(6), y, sp(12.5 if roomy else 12), role, anchor=(0, 0.5))

@@ -13,7 +13,7 @@ from widgets.controls.goals.arm_picture import side_points
 from widgets.core.theme import theme
 
 POSES = ["rest", "home", "stretch", "look_down"]
-HOME = (0.0, -1.05, 0.35, 0.70)
+HOME = (0.0, -1.05, 0.35, 0.70, 0.0)
 
 
 @pytest.fixture
@@ -151,7 +151,7 @@ def test_before_the_first_message_there_is_a_dash_and_nothing_to_press(stage):
 
 
 def test_a_joint_that_is_not_known_is_a_dash(stage, panel):
-    tell(panel, stage, angles=(0.0, math.nan, 0.0, 0.0))
+    tell(panel, stage, angles=(0.0, math.nan, 0.0, 0.0, 0.0))
     assert "–" in panel.texts
 
 
@@ -213,9 +213,9 @@ def test_where_it_was_sent_is_shown_until_it_is_there(stage, panel):
     drag(stage, panel, tip_of(panel), (-20, 10))
     assert panel.aim
     panel.answer("accepted")
-    tell(panel, stage, wanted=(0.0, -1.2, 0.5, 0.6))
+    tell(panel, stage, wanted=(0.0, -1.2, 0.5, 0.6, 0.0))
     assert panel.aim
-    there = (0.0, -1.0, 0.2, 0.7)
+    there = (0.0, -1.0, 0.2, 0.7, 0.0)
     panel.aim = [float(value) for value in side_points(there, panel.links)[-1]]
     tell(panel, stage, angles=there, wanted=there)
     assert panel.aim == []
@@ -231,10 +231,39 @@ def test_where_it_does_not_reach_is_shown_as_long_as_the_refusal(stage, panel):
 
 
 def test_the_hand_of_the_dial_turns_the_foot_and_leaves_the_other_joints(stage, panel):
-    x, y, radius = panel._dial()
+    x, y, radius = panel.dials["turn"]
     drag(stage, panel, (x, y + radius / 2), (-60, -radius / 2))
     (order,) = panel.orders
     assert list(order.angles) == pytest.approx([math.pi / 2, *HOME[1:]], abs=0.02)
+
+
+def test_the_hand_of_the_lower_dial_rolls_the_hand_and_leaves_the_other_joints(stage, panel):
+    x, y, radius = panel.dials["roll"]
+    drag(stage, panel, (x, y - radius / 2), (60, radius / 2))
+    (order,) = panel.orders
+    assert list(order.angles) == pytest.approx([*HOME[:4], math.pi / 2], abs=0.02)
+    assert "hand 0°" in panel.texts
+    tell(panel, stage, angles=(*HOME[:4], -0.5), wanted=(*HOME[:4], -0.5))
+    assert "hand 29° left" in panel.texts
+
+
+def test_an_arm_with_four_joints_is_drawn_and_led_without_a_dial_for_its_hand(stage, panel):
+    tell(panel, stage, angles=HOME[:4], wanted=HOME[:4])
+    assert [*panel.dials] == ["turn"]
+    panel.turn(0.5)
+    drag(stage, panel, tip_of(panel), (-20, 10))
+    turned, led = panel.orders
+    assert list(turned.angles) == [0.5, *HOME[1:4]]
+    assert math.isfinite(led.point.x)
+
+
+@pytest.mark.parametrize("count", [0, 3, 6])
+def test_of_an_arm_with_other_joints_the_poses_and_the_gripper_are_left(stage, panel, count):
+    tell(panel, stage, angles=(0.1,) * count, wanted=(0.1,) * count)
+    assert "–" in panel.texts
+    tap(stage, panel, "Look down")
+    tap(stage, panel, "Close gripper")
+    assert [order.pose for order in panel.orders] == ["look_down", ""]
 
 
 def test_disabled_its_tip_is_not_dragged(stage, panel):
