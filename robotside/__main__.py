@@ -150,6 +150,7 @@ class _Fleet:
             keys=self._keys(state, station, config),
             origins=self._options.allow_origin,
             gateways=for_robot(self._options.gateways, number),
+            mdns=self._options.mdns,
         )
 
     def _keys(self, state: Path, station: Station, config: Config) -> StationKeys:

@@ -10,6 +10,7 @@ import sys
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -143,6 +144,7 @@ def _add_more(serve: argparse.ArgumentParser) -> None:
         help="directory of the database; each of several robots has its own in it",
     )
     add("--name", default="", help="name of the robot; names of several robots, separated by commas")
+    add("--mdns", action="store_true", help="announce the robot by mDNS too, for networks without broadcast")
     add("--gui", action="store_true", help="show simulated robots in the physics engine's window")
     add("--with-parent", action="store_true", help="exit when the program that started it exits")
 
@@ -178,6 +180,7 @@ def _add_trust(serve: argparse.ArgumentParser) -> None:
 
 def _check(options: argparse.Namespace) -> None:
     _check_trust(options)
+    _check_mdns(options)
     for name in ("port", "http_port"):
         number = getattr(options, name)
         if not 0 <= number <= 65535:
@@ -191,6 +194,13 @@ def _check(options: argparse.Namespace) -> None:
     if options.gui and not os.environ.get("DISPLAY"):
         raise UserMistake("--gui needs a display, and DISPLAY is not set.")
     options.gateways = wishes(options)
+
+
+def _check_mdns(options: argparse.Namespace) -> None:
+    if options.mdns and find_spec("zeroconf") is None:
+        raise UserMistake(
+            "--mdns needs zeroconf, which is not installed: pip install 'pilothouse[mdns]' brings it."
+        )
 
 
 def _check_trust(options: argparse.Namespace) -> None:

@@ -235,7 +235,7 @@ set_up_run() {
         install_packages $missing
     fi
     make_venv "$python"
-    install_extras "app, robot side and simulator" handheld robot sim gateways
+    install_extras "app, robot side and simulator" handheld robot sim gateways mdns
 }
 
 set_up_voice() { install_extras "voice" voice vosk espeak; }

@@ -231,7 +231,7 @@ WHO_INSTALLS = {
 }
 
 
-ALSO = {"app": ("voice", "vosk", "espeak"), "robotside": ("gateways",)}
+ALSO = {"app": ("voice", "vosk", "espeak", "mdns"), "robotside": ("gateways", "mdns")}
 """Extras that a folder makes use of where they are installed."""
 
 

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable
 from app.device import sees_broadcasts
 from app.discovery.hello_inbox import HeardHello, HelloInbox
 from app.discovery.known_robots import Entry
+from app.discovery.mdns_browser import MdnsBrowser
 from app.discovery.probes import ADDRESS_PERIOD, ProbeSchedule
 from app.discovery.roll_calls import RollCalls
 from app.link.feeds import Mailbox
@@ -26,6 +27,8 @@ log = logging.getLogger(__name__)
 
 HELLO, LATENCY = "hello", "latency "
 """Channels of the mailbox: the `HelloInbox` in which some wait; followed by the robot's url, `(url, seconds)`."""
+BROWSE_DELAY = 4.0
+"""Without any robot for so long, mDNS is tried [s]."""
 MEASURE_TIMEOUT = 1.0
 """How long one measurement may take [s]."""
 
@@ -38,6 +41,8 @@ class BeaconListener:
         self._mailbox, self._network, self._now = mailbox, network, now
         self._inbox, self._probes = HelloInbox(), ProbeSchedule()
         self._calls = RollCalls(self._take, now)
+        self._last = now()
+        """When the last robot was heard [s]."""
         self._running: concurrent.futures.Future[None] | None = None
 
     def start(self) -> None:
@@ -63,7 +68,7 @@ class BeaconListener:
         try:
             with sees_broadcasts():
                 await self._listen(listener)
-                await asyncio.gather(self._calls.run(), self._measure_all())
+                await asyncio.gather(self._calls.run(), self._measure_all(), self._browse())
         finally:
             await listener.close()
 
@@ -72,6 +77,14 @@ class BeaconListener:
             await listener.start()
         except (OSError, BridgeError) as error:
             log.warning("cannot listen for robots: %s", error)
+
+    async def _browse(self) -> None:
+        """Look by mDNS too, once no robot was heard for so long that broadcasts may not come through; it costs memory."""
+        left = BROWSE_DELAY
+        while left > 0:
+            await asyncio.sleep(left)
+            left = BROWSE_DELAY - (self._now() - self._last)
+        await MdnsBrowser(self._calls.add).run()
 
     async def _measure_all(self) -> None:
         while True:
@@ -83,7 +96,7 @@ class BeaconListener:
         self._take(hello, address)
 
     def _take(self, hello: Hello, address: tuple[str, int]) -> None:
-        now = self._now()
+        now = self._last = self._now()
         self._inbox.put(HeardHello(hello, address[0], now))
         self._mailbox.post(HELLO, self._inbox, now)
 

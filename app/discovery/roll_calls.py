@@ -1,4 +1,4 @@
-"""Asks at saved addresses who is there: across subnets, and past switches that pass on no broadcast, no HELLO comes."""
+"""Asks who is there at saved addresses, and at those found by mDNS: across subnets and past some switches no HELLO comes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from bridge.core.errors import ProtocolError
 from bridge.discovery.hello import Hello
 from bridge.discovery.roll import MAX_ROLL, PATH, read_roll
 
-__all__ = ["ASK_PERIOD", "MAX_AT_ONCE", "RollCalls"]
+__all__ = ["ASK_PERIOD", "FOUND_TIME", "HEARD_TIME", "MAX_AT_ONCE", "MAX_FOUND", "RollCalls"]
 
 ASK_PERIOD = 1.0
 """Between two questions at one address [s]."""
@@ -27,6 +27,10 @@ UNKNOWN_PERIOD = 10.0
 """Between two questions for the address of a host that is unknown [s]."""
 HEARD_TIME = 2.0
 """A robot of which a HELLO came by itself is not asked for so long [s]."""
+FOUND_TIME = 60.0
+"""An address that somebody announced is asked for so long without an answer [s]."""
+MAX_FOUND = 32
+"""So many of them are asked."""
 MAX_AT_ONCE = 8
 """So many addresses are asked at the same time."""
 _STEP = 0.25
@@ -45,6 +49,8 @@ class RollCalls:
         """`hear(hello, (host, port))` is called for each robot that is there; `now` is our clock [s]."""
         self._hear, self._now = hear, now
         self._saved: tuple[str, ...] = ()
+        self._found: dict[str, float] = {}
+        """Addresses that were found, with when each answered last, or was found [s]."""
         self._asked: dict[str, float] = {}
         """When each address was asked last [s]."""
         self._heard: dict[str, float] = {}
@@ -59,9 +65,14 @@ class RollCalls:
         """Ask at the addresses of `entries` that are saved, and no others. Any thread may call it."""
         self._saved = tuple(one.url for one in entries if one.saved)
 
+    def add(self, url: str) -> None:
+        """Somebody announced this address: ask there too, until nobody has answered for `FOUND_TIME`. No room, no asking."""
+        if url not in self._found and len(self._found) < MAX_FOUND:
+            self._found[url] = self._now()
+
     def note(self, url: str) -> None:
         """The robot at `url` has said HELLO by itself."""
-        if url in self._saved:
+        if url in self._saved or url in self._found:
             self._heard[url] = self._now()
 
     async def run(self) -> None:
@@ -77,7 +88,9 @@ class RollCalls:
 
     def due(self) -> list[str]:
         """The addresses to be asked now; they count as asked from then on."""
-        saved, now = self._saved, self._now()
+        now = self._now()
+        self._found = {url: at for url, at in self._found.items() if now - at < FOUND_TIME}
+        saved = dict.fromkeys((*self._saved, *self._found))
         for kept in (self._asked, self._heard, self._numeric):
             for url in set(kept) - set(saved):
                 del kept[url]
@@ -107,6 +120,8 @@ class RollCalls:
             self._by_tls.discard(url)  # another robot may be there by now
             self._numeric.pop(url, None)
             return
+        if url in self._found:
+            self._found[url] = self._now()
         for hello in hellos:
             is_asked = urlsplit(hello.url).port == port
             # as it is saved

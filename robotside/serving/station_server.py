@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import AsyncIterator, Callable, Iterable, Mapping
 from contextlib import AsyncExitStack, asynccontextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 from urllib.parse import urlsplit
 
 from bridge.discovery.beacon import Beacon, Hello
@@ -26,6 +26,16 @@ if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load it
     from robotside.gateways.gateway_url import GatewayUrl
 
 __all__ = ["Addresses", "StationServer"]
+
+
+class Announcer(Protocol):
+    """What tells others of a robot until it is closed."""
+
+    async def run(self) -> None:
+        """Tell of it."""
+
+    async def close(self) -> None:
+        """Have `run` return."""
 
 
 class Addresses:
@@ -59,11 +69,12 @@ class StationServer:
         origins: Iterable[str] = (),
         wanted: Callable[[], bool] = lambda: True,
         gateways: Iterable[tuple[Adapter, GatewayUrl]] = (),
+        mdns: bool = False,
     ) -> None:
         """`keys` know who may do what; without them everybody may do everything, and nothing is encrypted.
 
         Web pages of `origins`, beside its own, may speak to it. `wanted` is asked once a second and ends the serving when it says no.
-        `gateways` are brought up beside rosbridge and HTTP.
+        `gateways` are brought up beside rosbridge and HTTP. With `mdns` it is announced by mDNS as well as by HELLO.
         """
         self.addresses = addresses
         self.station = station
@@ -94,7 +105,7 @@ class StationServer:
         self._http = self._web_site(around)
         self._gateways: tuple[Gateway, ...] = (self._http, self._rosbridge)
         """In the order in which they start."""
-        self._wished = tuple(gateways)
+        self._wished, self._mdns = tuple(gateways), mdns
         self.gateways = GatewayOwner(around)
         """The gateways beside those two, which come and go while it runs."""
 
@@ -152,18 +163,27 @@ class StationServer:
             self.addresses.note(endpoints)
             for adapter, url in self._wished:
                 await self.gateways.bring_up(adapter, url)
-            beacon = Beacon(self.hello, host=self.addresses.host)
-            if self.keys is None:
-                yield RunningServer((beacon.run,), beacon.close)
-                return
+            announcers: list[Announcer] = [Beacon(self.hello, host=self.addresses.host)]
+            if self._mdns:
+                announcers.append(self._advert())
+            work = tuple(each.run for each in announcers)
             keys = self.keys
-            keys.reached_at(self.addresses.bridge)
+            if keys is not None:
+                keys.reached_at(self.addresses.bridge)
+                work += (keys.run,)
 
             async def leave() -> None:
-                keys.end()
-                await beacon.close()
+                if keys is not None:
+                    keys.end()
+                for each in announcers:
+                    await each.close()
 
-            yield RunningServer((beacon.run, keys.run), leave)
+            yield RunningServer(work, leave)
+
+    def _advert(self) -> Announcer:
+        from robotside.serving.mdns_advert import MdnsAdvert
+
+        return MdnsAdvert(self.station.info.name, self.addresses.host, lambda: self.addresses.port)
 
     def hello(self) -> Hello:
         """What it announces of itself."""

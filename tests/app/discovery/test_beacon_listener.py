@@ -5,15 +5,18 @@ from __future__ import annotations
 import json
 from typing import Any
 
+import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from app.discovery import beacon_listener
 from app.discovery.beacon_listener import HELLO, BeaconListener
 from app.discovery.known_robots import MAX_HEARD, KnownRobots
 from app.discovery.probes import MAX_AT_ONCE
 from app.link.feeds import Mailbox
 from app.screens.connect.connect import ConnectScreen
 from bridge.discovery.beacon import Listener
+from bridge.discovery.hello import Hello
 
 
 class Chain:
@@ -103,3 +106,29 @@ def test_a_flood_stays_bounded_at_each_station_of_its_way_and_the_saved_robot_is
         chain.now += 0.5
     assert len(chain.screen.cards) <= MAX_HEARD + 1
     assert 0 < probed <= MAX_AT_ONCE
+
+
+async def test_mdns_is_tried_only_once_no_robot_was_heard_for_a_while(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    now, started = [100.0], []
+
+    class Browser:
+        def __init__(self, found: Any) -> None:
+            started.append(now[0])
+
+        async def run(self) -> None:
+            pass
+
+    async def sleep(seconds: float) -> None:
+        now[0] += seconds
+        if now[0] < 105.0:
+            nearby._hear(
+                Hello(name="x", url="ws://10.0.0.3:9090"), ("10.0.0.3", 9090)
+            )  # the last one at 104 s
+
+    monkeypatch.setattr(beacon_listener, "MdnsBrowser", Browser)
+    monkeypatch.setattr(beacon_listener.asyncio, "sleep", sleep)
+    nearby = BeaconListener(Mailbox(lambda: None), None, now=lambda: now[0])  # type: ignore[arg-type]
+    await nearby._browse()
+    assert started == [108.0]

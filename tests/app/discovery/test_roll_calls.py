@@ -11,7 +11,7 @@ import pytest
 
 from app.discovery import roll_calls
 from app.discovery.known_robots import SILENCE_LIMIT, Entry, KnownRobots
-from app.discovery.roll_calls import ASK_PERIOD, HEARD_TIME, MAX_AT_ONCE, RollCalls
+from app.discovery.roll_calls import ASK_PERIOD, FOUND_TIME, HEARD_TIME, MAX_AT_ONCE, MAX_FOUND, RollCalls
 from bridge.discovery.hello import Hello
 from bridge.discovery.roll import PATH, write_roll
 from bridge.server.server import BridgeServer
@@ -47,6 +47,25 @@ def test_a_robot_that_says_hello_by_itself_is_not_asked():
     assert asked.calls.due() == []
     asked.now += HEARD_TIME
     assert asked.calls.due() == ["ws://10.0.0.3:9090"]
+
+
+def test_an_address_that_was_announced_is_asked_until_it_has_not_answered_for_a_minute():
+    asked = Asked()
+    asked.calls.add("ws://10.0.0.5:9090")
+    assert asked.calls.due() == ["ws://10.0.0.5:9090"]
+    asked.now += FOUND_TIME
+    assert asked.calls.due() == []
+
+
+def test_of_announced_addresses_no_more_are_asked_than_there_is_room_for():
+    asked = Asked()
+    for number in range(2 * MAX_FOUND):
+        asked.calls.add(f"ws://10.0.0.{number}:9090")
+    seen: set[str] = set()
+    for _ in range(20):
+        seen.update(asked.calls.due())
+        asked.now += ASK_PERIOD
+    assert len(seen) == MAX_FOUND
 
 
 def test_of_many_addresses_a_few_are_asked_at_a_time_and_all_have_their_turn():
@@ -160,14 +179,14 @@ async def test_one_who_never_answers_is_given_up_and_delays_no_other(monkeypatch
 
 async def test_asking_ends_with_its_task():
     async with robot() as port:
-        asked, before = Asked(f"ws://127.0.0.1:{port}"), asyncio.all_tasks()
+        asked = Asked(f"ws://127.0.0.1:{port}")
         running = asyncio.create_task(asked.calls.run())
         async with asyncio.timeout(60):
             while not asked.heard:  # noqa: ASYNC110 - there is no event to wait for
                 await asyncio.sleep(0.005)
         running.cancel()
         await asyncio.wait({running})
-        assert asyncio.all_tasks() <= before
+        assert not asked.calls._asking
 
 
 def test_a_robot_that_was_killed_is_lost_within_three_seconds():
