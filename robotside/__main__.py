@@ -21,6 +21,8 @@ from bridge.core.address import BadAddress, host_and_port
 from bridge.core.errors import BridgeError
 from bridge.core.identity import Role
 from robotside import options as said
+from robotside.bringing_up.dialogue import NotAnswered, Simulated, ask
+from robotside.bringing_up.settling import blamed
 from robotside.commands.pairing_display import shown
 from robotside.core.clock import RobotClock
 from robotside.core.config import BadConfig, Config
@@ -47,6 +49,9 @@ __all__ = ["main"]
 SETTLED = 2.0
 """A start has freed all that it frees after this [s]."""
 
+NOT_ANSWERED = 130
+"""Exit status of who ends the dialogue, as of Ctrl-C in a shell."""
+
 _HERE = ("127.0.0.1", "localhost", "::1")
 
 
@@ -54,7 +59,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line; returns 0 when done, 2 for the user's mistake, 1 for a fault."""
     parent = os.getppid()
     try:
-        options = said.read(argv)
+        options = said.read(argv, _ask)
         if options.command == "offer":
             print(_offer(_catalogue(), as_json=options.json))
             return 0
@@ -64,6 +69,19 @@ def main(argv: Sequence[str] | None = None) -> int:
     except (UserMistake, BadConfig, BadCertificate, BridgeError) as problem:
         print(f"robotside: {problem}", file=sys.stderr)
         return 2
+    except NotAnswered:
+        print("robotside: Nothing is served, and nothing was kept.", file=sys.stderr)
+        return NOT_ANSWERED
+
+
+def _ask(file: Path) -> None:
+    """Ask a user at a terminal what to serve, and keep it in `file`."""
+    try:
+        catalogue = _catalogue()
+    except UserMistake:
+        catalogue = {"robots": (), "worlds": ()}  # others than simulated ones can be served
+    ask(file, Simulated(tuple(catalogue["robots"]), tuple(catalogue["worlds"])))
+    print(f"Kept in {file}; `python -m robotside serve --ask` asks again.", flush=True)
 
 
 def _serve(options: argparse.Namespace, wanted: Callable[[], bool]) -> int:
@@ -217,7 +235,7 @@ def _robots(options: argparse.Namespace, ones: Sequence[One]) -> tuple[Sequence[
             names, world, seed=options.seed, gui=options.gui, payloads=carried, draws_beside=True
         )
     except (ValueError, RuntimeError) as problem:
-        raise UserMistake(str(problem)) from problem
+        raise UserMistake(blamed(options, str(problem))) from problem
     return made, world
 
 

@@ -1,4 +1,4 @@
-"""Gateways as a user asks for them: `--gateway mqtt=mqtt://HOST:1883`, `--protocols`, or the environment."""
+"""Gateways as a user asks for them: `--gateway mqtt=mqtt://HOST:1883`, `--protocols`, the environment, or robot.toml."""
 
 from __future__ import annotations
 
@@ -8,7 +8,10 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from bridge.core.identity import Role
+from robotside.bringing_up.settling import GATEWAYS as VARIABLE
 from robotside.commands.user_mistake import UserMistake
+from robotside.core.config import GatewaySettings
 
 if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load them
     from robotside.gateways.adapter import Adapter
@@ -16,8 +19,6 @@ if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load them
 
 __all__ = ["ALWAYS", "VARIABLE", "add_options", "for_robot", "wishes"]
 
-VARIABLE = "PILOTHOUSE_GATEWAYS"
-"""The environment variable that asks for gateways, with spaces between them; a URL with a password is not seen there by others."""
 ALWAYS = ("rosbridge", "http")
 """The protocols that every robot has."""
 
@@ -30,22 +31,25 @@ def add_options(serve: argparse.ArgumentParser) -> None:
         default=[],
         metavar="NAME[=URL]",
         help="bring up a gateway: mqtt, which brings a broker, or 'mqtt=mqtt://HOST:1883?role=drive&payloads=arm,wheels&rate=5'; may be given "
-        f"several times, and in {VARIABLE} with spaces between. docs/gateways.md lists them",
+        f"several times, in {VARIABLE} with spaces between, and as [gateways.mqtt] of robot.toml. docs/gateways.md lists them",
     )
     serve.add_argument(
         "--protocols",
-        default="",
-        help="protocols by name, with commas between; rosbridge and http always run, others are gateways at their usual URL",
+        help="protocols by name, with commas between, and no gateway beside those and --gateway; rosbridge and http always run, others are "
+        "gateways at the URL that the environment or robot.toml names, else at their usual one",
     )
 
 
 def wishes(
     options: argparse.Namespace, environment: Mapping[str, str] = os.environ
 ) -> list[tuple[Adapter, GatewayUrl]]:
-    """The gateways that were asked for, each once; UserMistake with one sentence for a mistake."""
-    texts = [*options.gateway, *environment.get(VARIABLE, "").split()]
-    named = [word for word in options.protocols.split(",") if word and word not in ALWAYS]
-    if not texts and not named:
+    """The gateways that were asked for, each once; UserMistake with one sentence for a mistake.
+
+    By option, by environment, or by robot.toml, whose settings are `options.settings`: the first of them that names one counts.
+    """
+    named = [word for word in (options.protocols or "").split(",") if word and word not in ALWAYS]
+    in_environment, in_file = environment.get(VARIABLE, "").split(), options.settings.gateways
+    if not (options.gateway or in_environment or named or in_file):
         return []
     from robotside.gateways.discovery import adapters
 
@@ -54,27 +58,65 @@ def wishes(
     if unknown:
         there = ", ".join((*ALWAYS, *known))
         raise UserMistake(f"There is no protocol {', '.join(unknown)}; there are {there}.")
-    asked = {text.partition("=")[0] for text in texts}
-    return _read([*texts, *(word for word in dict.fromkeys(named) if word not in asked)])
+    asked = _read("--gateway", options.gateway)
+    others = _read(VARIABLE, in_environment)
+    for name, settings in in_file.items():
+        if name not in others and (settings.on or name in named):
+            others[name] = _of_file(str(options.config[0]), name, settings)
+    if options.protocols:
+        others = {name: others[name] if name in others else _wish("--protocols", name) for name in named}
+    found = list((others | asked).values())
+    for adapter, _ in found:
+        _check_package(adapter)
+    return found
 
 
-def _read(texts: list[str]) -> list[tuple[Adapter, GatewayUrl]]:
-    from robotside.gateways.discovery import missing_package, read_wish
-
+def _read(where: str, texts: list[str]) -> dict[str, tuple[Adapter, GatewayUrl]]:
     found: dict[str, tuple[Adapter, GatewayUrl]] = {}
     for text in texts:
-        try:
-            adapter, url = read_wish(text)
-        except ValueError as problem:
-            raise UserMistake(f"--gateway: {problem}") from problem
+        adapter, url = _wish(where, text)
         if adapter.name in found:
-            raise UserMistake(f"--gateway asks for {adapter.name} twice; one robot has one of each.")
-        lacking = missing_package(adapter)
-        if lacking:
-            said = f"The gateway {adapter.name} needs {lacking}, which is not installed"
-            raise UserMistake(f"{said}: pip install 'pilothouse[gateways]' brings it.")
+            raise UserMistake(f"{where} asks for {adapter.name} twice; one robot has one of each.")
         found[adapter.name] = adapter, url
-    return list(found.values())
+    return found
+
+
+def _wish(where: str, text: str) -> tuple[Adapter, GatewayUrl]:
+    from robotside.gateways.discovery import read_wish
+
+    try:
+        return read_wish(text)
+    except ValueError as problem:
+        raise UserMistake(f"{where}: {problem}") from problem
+
+
+def _of_file(file: str, name: str, settings: GatewaySettings) -> tuple[Adapter, GatewayUrl]:
+    """The gateway that a file asks for."""
+    where = f"{file}: gateways.{name}"
+    adapter, url = _wish(f"{where}.url" if settings.url else where, f"{name}={settings.url}".rstrip("="))
+    from robotside.gateways.payloads.offered import chosen_keys
+
+    try:
+        keys = chosen_keys(settings.payloads) if settings.payloads else url.keys
+    except ValueError as problem:
+        raise UserMistake(f"{where}.payloads: {problem}") from problem
+    return adapter, replace(
+        url,
+        user=settings.user or url.user,
+        password=settings.password or url.password,
+        role=url.role if settings.role is None else Role.read(settings.role),
+        keys=keys,
+        rate=url.rate if settings.rate is None else settings.rate,
+    )
+
+
+def _check_package(adapter: Adapter) -> None:
+    from robotside.gateways.discovery import missing_package
+
+    lacking = missing_package(adapter)
+    if lacking:
+        said = f"The gateway {adapter.name} needs {lacking}, which is not installed"
+        raise UserMistake(f"{said}: pip install 'pilothouse[gateways]' brings it.")
 
 
 def for_robot(asked: list[tuple[Adapter, GatewayUrl]], number: int) -> list[tuple[Adapter, GatewayUrl]]:

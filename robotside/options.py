@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from bridge.server.reception.pages import read_origin
+from robotside.bringing_up.settling import NO_ASK, VARIABLES, Ask, blamed, settle
 from robotside.commands import audit, erase, pair, people, token
 from robotside.commands.state_directory import base
 from robotside.commands.user_mistake import UserMistake
@@ -68,20 +69,30 @@ class One:
     """Name for people; empty for that of the robot or its settings."""
 
 
+_PRECEDENCE = (
+    "An option counts before the environment, that before robot.toml, that before the default. The environment has "
+    f"{', '.join(VARIABLES.values())}, PILOTHOUSE_GATEWAYS and PILOTHOUSE_CONFIG; {NO_ASK} is --no-ask. robot.toml is the file of "
+    "--config (of several, the first), else the one that serve keeps in the directory of --state or of all robots, unless "
+    "--robot names another robot."
+)
+
+
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> None:  # type: ignore[override]
         raise UserMistake(f"{message[0].upper()}{message[1:]}; see {self.prog} --help.")
 
 
-def read(argv: Sequence[str] | None) -> argparse.Namespace:
-    """The options; UserMistake with one sentence for a mistake."""
+def read(argv: Sequence[str] | None, ask: Ask | None = None) -> argparse.Namespace:
+    """The options; UserMistake with one sentence for a mistake. `ask` asks at a terminal where nothing says what to serve."""
     words = list(sys.argv[1:] if argv is None else argv)
     if words and words[0].startswith("-") and words[0] not in ("-h", "--help"):
         words.insert(0, "serve")
     about = "The robot's computer. `serve` is optional before options; `serve --help` lists them."
     parser = _Parser(prog="python -m robotside", description=about)
     commands: Any = parser.add_subparsers(dest="command", required=True)
-    serve = commands.add_parser("serve", help="serve one robot, or several in one simulated world")
+    serve = commands.add_parser(
+        "serve", help="serve one robot, or several in one simulated world", epilog=_PRECEDENCE
+    )
     _add_serve(serve)
     _add_trust(serve)
     offer = commands.add_parser("offer", help="list the robots and worlds that can be simulated")
@@ -90,6 +101,7 @@ def read(argv: Sequence[str] | None) -> argparse.Namespace:
         command.add(commands)
     options = parser.parse_args(words)
     if options.command == "serve":
+        settle(options, os.environ, ask)
         _check(options)
     return options
 
@@ -98,28 +110,24 @@ def _add_serve(serve: argparse.ArgumentParser) -> None:
     add = serve.add_argument
     add(
         "--robot",
-        default="sim:patrol",
-        help="robots to serve: sim:patrol; several in one world with their payloads, as sim:patrol,scout+arm; "
+        help="robots to serve, by default sim:patrol; several in one world with their payloads, as sim:patrol,scout+arm; "
         "or ros:ws://HOST:9090 for a robot behind a rosbridge server, several with commas between",
     )
     add(
         "--world",
-        default="",
         help="world of the simulated robots: a name or a TOML file; default: the robot's home",
     )
     add(
         "--host",
-        default="127.0.0.1",
         help="address to listen on: by default this machine only; 0.0.0.0 lets a phone in",
     )
     add(
         "--port",
         type=int,
-        default=9090,
-        help="port of the rosbridge socket, one more for each further robot; 0 takes free ports",
+        help="port of the rosbridge socket, by default 9090, one more for each further robot; 0 takes free ports",
     )
-    add("--http-port", type=int, default=8080, help="port of the web site, likewise")
-    add("--payloads", default="", help="extra payloads of a simulated robot: arm,laser,…")
+    add("--http-port", type=int, help="port of the web site, by default 8080, likewise")
+    add("--payloads", help="extra payloads of a simulated robot: arm,laser,…")
     _add_more(serve)
 
 
@@ -134,8 +142,14 @@ def _add_more(serve: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="ROBOT.TOML",
-        help="settings file: limits, fence, safe state, database, name; docs/robot.toml.example has all settings; "
-        "for several robots one for all, or one each in their order",
+        help="settings file: limits, fence, safe state, database, name, what is brought up; docs/robot.toml.example has all "
+        "settings; for several robots one for all, or one each in their order",
+    )
+    add(
+        "--ask",
+        action=argparse.BooleanOptionalAction,
+        help="ask what to bring up, with what robot.toml says as answers, and keep it there; without the option that is asked at a "
+        "terminal only, when neither options, environment nor robot.toml say it; --no-ask never asks",
     )
     add(
         "--state",
@@ -190,7 +204,7 @@ def _check(options: argparse.Namespace) -> None:
     if options.robot.startswith(OTHER):
         for given, option in ((options.payloads, "payloads"), (options.world, "world"), (options.gui, "gui")):
             if given:
-                raise UserMistake(f"--{option} is for simulated robots only.")
+                raise UserMistake(blamed(options, f"--{option} is for simulated robots only."))
     if options.gui and not os.environ.get("DISPLAY"):
         raise UserMistake("--gui needs a display, and DISPLAY is not set.")
     options.gateways = wishes(options)
@@ -220,7 +234,7 @@ def robots(options: argparse.Namespace) -> list[One]:
     words = [word.strip().removeprefix(f"{kind}:") for word in rest.split(",")]
     if kind not in ("sim", "ros") or not all(words):
         said = "write simulated ones as sim:patrol or sim:patrol,scout, others as ros:ws://192.168.1.7:9090"
-        raise UserMistake(f"There is no robot {text!r}; {said}.")
+        raise UserMistake(blamed(options, f"There is no robot {text!r}; {said}."))
     if len(words) > MAX_ROBOTS:
         raise UserMistake(f"One robot side serves at most {MAX_ROBOTS} robots, not {len(words)}.")
     called = _names(options.name, len(words))
@@ -299,7 +313,10 @@ def _plain(name: str) -> str:
 
 
 def check_reach(options: argparse.Namespace, states: Sequence[Path]) -> None:
-    """UserMistake when other computers could reach a robot of one of these state directories that nobody is paired with."""
+    """UserMistake when other computers could reach a robot of one of these state directories that nobody is paired with.
+
+    Where robot.toml wants it, pairing is opened instead.
+    """
     if options.pair or options.plain or is_here(options.host):
         return
     for state in states:
@@ -308,6 +325,9 @@ def check_reach(options: argparse.Namespace, states: Sequence[Path]) -> None:
             known = file.read()
         except Unkept as problem:
             raise UserMistake(str(problem)) from problem
+        if not known and not file.problem and options.settings.serve.pair:
+            options.pair = "drive"
+            return
         if not known:
             damaged = f"{file.problem} " if file.problem else ""
             raise UserMistake(

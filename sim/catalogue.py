@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
+from sim.payloads import PAYLOADS, laden
 from sim.robot import ROBOTS
-from sim.vehicles.model import suits
+from sim.vehicles.model import Model, suits
 from sim.world.world_files import WORLDS, load
 
 __all__ = ["catalogue"]
+
+_SAME_AS = {"line": "line_sensor", "rear": "camera"}
+"""What some vehicles have of their own, by the payload that is the same; a camera ahead is no payload."""
 
 
 def catalogue() -> dict[str, list[dict[str, Any]]]:
@@ -22,6 +26,7 @@ def catalogue() -> dict[str, list[dict[str, Any]]]:
                 "kind": model.parameters.info.kind,
                 "description": model.parameters.info.description,
                 "home": model.home,
+                "payloads": _payloads(model),
             }
             for name, model in ROBOTS.items()
         ],
@@ -34,3 +39,19 @@ def catalogue() -> dict[str, list[dict[str, Any]]]:
             for name, world in worlds.items()
         ],
     }
+
+
+def _payloads(model: Model) -> list[str]:
+    """Names of the payloads that such a robot can carry, each by itself, and has not got already."""
+    own = {_SAME_AS.get(name, name) for name in model.parameters.__struct_fields__ if name != "camera"}
+    return [name for name in PAYLOADS if name not in own and _carries(model, name)]
+
+
+def _carries(model: Model, name: str) -> bool:
+    if name == "line_sensor" and model.element != "land":
+        return False
+    try:
+        laden(model, [name])
+    except ValueError:
+        return False
+    return True

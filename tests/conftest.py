@@ -10,6 +10,7 @@ from __future__ import annotations
 import asyncio
 import gc
 import inspect
+import os
 import threading
 import time
 from collections.abc import AsyncIterator, Generator, Iterator
@@ -118,6 +119,13 @@ def stage() -> Iterator[headless.Stage]:
     stage = headless.Stage()
     yield stage
     stage.close()
+
+
+@pytest.fixture(autouse=True, scope="session")
+def nothing_of_the_user(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Neither the robots nor the robot.toml of who runs the tests count in them, and nobody is asked."""
+    os.environ["XDG_STATE_HOME"] = str(tmp_path_factory.mktemp("state"))
+    os.environ["PILOTHOUSE_NO_ASK"] = "1"
 
 
 @pytest.fixture(autouse=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterator
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
-__all__ = ["Keys", "line_of", "path_of"]
+__all__ = ["Keys", "Statement", "line_of", "path_of", "statements"]
 
 Keys: TypeAlias = tuple[str | int, ...]
 """The way to a value: names of tables and keys, numbers within lists."""
@@ -24,22 +24,47 @@ def line_of(text: str, where: str) -> int:
     return lines.get(keys, 0)
 
 
-def _keys(lines: list[str]) -> Iterator[tuple[Keys, int]]:
-    """Every key of a TOML text with its line."""
+class Statement(NamedTuple):
+    """The header of a table, or a key with its value."""
+
+    table: Keys
+    """The table that it opens or stands in."""
+    line: int
+    """Its first line, from 1 on."""
+    length: int
+    """How many lines it has."""
+    told: dict[str, Any] | None
+    """What it says; None for a header, nothing for a line without a key."""
+
+
+def statements(text: str) -> Iterator[Statement]:
+    """Every statement of a TOML `text`, which is right, in its order."""
+    return _statements(text.splitlines())
+
+
+def _statements(lines: list[str]) -> Iterator[Statement]:
     counts: dict[Keys, int] = {}
     table: Keys = ()
     number = 0
     while number < len(lines):
         line = lines[number].strip()
+        length, told = 1, None
         if line.startswith("["):
             table = _table(line, counts)
-            yield table, number + 1
-            length = 1
         else:
             length, told = _statement(lines, number)
-            for keys, after in _within(told, lines[number : number + length]):
-                yield (*table, *keys), number + 1 + after
+        yield Statement(table, number + 1, length, told)
         number += length
+
+
+def _keys(lines: list[str]) -> Iterator[tuple[Keys, int]]:
+    """Every key of a TOML text with its line."""
+    for table, line, length, told in _statements(lines):
+        if told is None:
+            yield table, line
+            continue
+        for keys, after in _within(told, lines[line - 1 : line - 1 + length]):
+            yield (*table, *keys), line + after
 
 
 def _table(line: str, counts: dict[Keys, int]) -> Keys:

@@ -1,4 +1,4 @@
-"""The robot's own configuration, `--config robot.toml`: limits, fence, safe state, database, names.
+"""The robot's own configuration, `robot.toml`: limits, fence, safe state, database, names, and what is brought up.
 
 Any mistake in it is one sentence that names the file, the setting, its value and what is allowed; a robot whose
 limits cannot be read does not start. docs/robot.toml.example has every setting.
@@ -7,12 +7,13 @@ limits cannot be read does not start. docs/robot.toml.example has every setting.
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
 
 import msgspec
 
-from bridge.core.toml_files import MAX_BYTES, FileFault, read
+from bridge.core.toml_files import MAX_BYTES, FileFault, fault, read
 
 __all__ = [
     "BadConfig",
@@ -20,10 +21,12 @@ __all__ = [
     "DEFAULT_CONFIG",
     "ControlSettings",
     "DatabaseSettings",
+    "GatewaySettings",
     "LimitSettings",
     "RobotSettings",
     "Ring",
     "SafeStateSettings",
+    "ServeSettings",
     "TrustSettings",
     "load",
     "parse",
@@ -43,7 +46,12 @@ _Above = Annotated[float, msgspec.Meta(gt=0.0)]
 _NotBelow = Annotated[float, msgspec.Meta(ge=0.0)]
 _Share = Annotated[float, msgspec.Meta(gt=0.0, le=1.0)]
 _Degrees = Annotated[float, msgspec.Meta(gt=0.0, le=90.0)]
+_Port = Annotated[int, msgspec.Meta(ge=0, le=65535)]
+_Rate = Annotated[float, msgspec.Meta(gt=0.0, le=50.0)]
 _Name = Annotated[str, msgspec.Meta(min_length=1, max_length=40)]
+
+
+_GATEWAY = re.compile("[a-z][a-z0-9_]{0,39}")
 
 
 class BadConfig(Exception):
@@ -126,6 +134,43 @@ class TrustSettings(_Section, frozen=True):
     """Every web page that a browser in the network shows may press STOP."""
 
 
+class ServeSettings(_Section, frozen=True):
+    """`[serve]`: which robot is brought up, and where. None is what `serve` does by itself."""
+
+    robot: str | None = None
+    """As `--robot` has it, as in `sim:patrol` or `ros:ws://192.168.1.7:9090`."""
+    world: str | None = None
+    """Of simulated robots; a name or a file."""
+    payloads: tuple[str, ...] = ()
+    """Extra payloads of the only simulated robot."""
+    host: str | None = None
+    """Address to listen on."""
+    port: _Port | None = None
+    """Of the rosbridge socket."""
+    http_port: _Port | None = None
+    """Of the web site."""
+    pair: bool = False
+    """A start with nobody paired opens pairing."""
+
+
+class GatewaySettings(_Section, frozen=True):
+    """`[gateways.NAME]`: one gateway and how it is reached."""
+
+    on: bool = True
+    """It is brought up; one that is not keeps what is said about it."""
+    url: str = ""
+    """As `--gateway` has it; empty for its usual one."""
+    user: str = ""
+    """At a broker; in place of one in the URL."""
+    password: str = ""
+    role: Literal["none", "watch", "drive"] | None = None
+    """Of who shows no token; in place of one in the URL."""
+    payloads: tuple[str, ...] = ()
+    """What is carried; empty for what the URL says."""
+    rate: _Rate | None = None
+    """Most messages a second of each topic [Hz]; in place of one in the URL."""
+
+
 class Config(_Section, frozen=True):
     """All that the file says; without a file, all that it leaves out."""
 
@@ -135,6 +180,14 @@ class Config(_Section, frozen=True):
     control: ControlSettings = ControlSettings()
     database: DatabaseSettings = DatabaseSettings()
     trust: TrustSettings = TrustSettings()
+    serve: ServeSettings = ServeSettings()
+    gateways: dict[str, GatewaySettings] = {}
+
+
+class _Named(msgspec.Struct, frozen=True):
+    """The gateways of a file, whatever is said of them."""
+
+    gateways: dict[str, Any] = {}
 
 
 DEFAULT_CONFIG = Config()
@@ -157,21 +210,31 @@ def load(path: Path) -> Config:
 def parse(text: str, name: str = "robot.toml") -> Config:
     """The configuration of a `text`; BadConfig, whose sentence begins with `name`, when it cannot be used."""
     try:
+        _check_gateways(text, name)
         config = read(text, Config, name, largest=math.inf)
-    except FileFault as fault:
-        raise BadConfig(_sentence(fault, name)) from fault
+    except FileFault as found:
+        raise BadConfig(_sentence(found, name)) from found
     problem = _limits_problem(config.limits)
     if problem:
         raise BadConfig(f"{name}: {problem}")
     return config
 
 
-def _sentence(fault: FileFault, name: str) -> str:
+def _check_gateways(text: str, name: str) -> None:
+    """FileFault for a mistake in the table of a gateway; the words of its name are lost to who reads the file as a whole."""
+    for key in read(text, _Named, name, largest=math.inf).gateways:
+        if not _GATEWAY.fullmatch(key):
+            raise fault(text, name, f"gateways.{key}", "is no name of a gateway")
+        one = msgspec.defstruct("One", [("table", GatewaySettings)], rename={"table": key})
+        read(text, msgspec.defstruct("All", [("gateways", one)]), name, largest=math.inf)
+
+
+def _sentence(found: FileFault, name: str) -> str:
     """The mistake in the file of that `name`, in the words of its sections."""
-    section, _, key = fault.where.rpartition(".")
-    if fault.known:
-        return f"{name}: {section or 'the file'} has no {key!r}; there are {', '.join(fault.known)}."
-    return f"{name}: {fault.where} {fault.reason}." if fault.where else str(fault)
+    section, _, key = found.where.rpartition(".")
+    if found.known:
+        return f"{name}: {section or 'the file'} has no {key!r}; there are {', '.join(found.known)}."
+    return f"{name}: {found.where} {found.reason}." if found.where else str(found)
 
 
 def _limits_problem(limits: LimitSettings) -> str:

@@ -10,9 +10,18 @@ from hypothesis import strategies as st
 
 from bridge.core.toml_files import MAX_BYTES
 from robotside.control.latency_speed_cap import UNMEASURED_SHARE
-from robotside.core.config import MAX_AREAS, MAX_CORNERS, BadConfig, Config, load, parse
+from robotside.core.config import (
+    MAX_AREAS,
+    MAX_CORNERS,
+    BadConfig,
+    Config,
+    GatewaySettings,
+    load,
+    parse,
+)
 
 EXAMPLE = Path(__file__).parents[3] / "docs" / "robot.toml.example"
+SECTIONS = {name: type(getattr(Config(), name)) for name in Config.__struct_fields__ if name != "gateways"}
 SQUARE = "[[0, 0], [2, 0], [2, 2], [0, 2]]"
 
 
@@ -29,9 +38,10 @@ def test_the_example_in_the_docs_can_be_used_as_it_is_and_shows_every_setting() 
     assert (config.limits.max_speed, config.limits.max_slope_degrees) == (0.5, 12.0)
     assert config.limits.keep_out == (((5.0, 1.0), (7.0, 1.0), (7.0, 3.0), (5.0, 3.0)),)
     text = EXAMPLE.read_text()
-    for section in Config.__struct_fields__:
+    assert set(SECTIONS) | {"gateways"} == set(Config.__struct_fields__)
+    for section, kind in (*SECTIONS.items(), ("gateways.mqtt", GatewaySettings)):
         assert f"\n[{section}]" in f"\n{text}"
-        for setting in getattr(config, section).__struct_fields__:
+        for setting in kind.__struct_fields__:
             assert f"\n{setting} = " in text.replace("\n# ", "\n"), setting
 
 
@@ -45,7 +55,7 @@ def test_whole_numbers_do_for_numbers() -> None:
     [
         (
             "[limit]",
-            "the file has no 'limit'; there are robot, limits, safe_state, control, database, trust.",
+            "the file has no 'limit'; there are robot, limits, safe_state, control, database, trust, serve, gateways.",
         ),
         ("[robot]\nnme = 'x'", "robot has no 'nme'; there are name."),
         ("limits = 3", "limits must be a table, not 3."),
@@ -144,8 +154,8 @@ VALUES = st.recursive(
 )
 SETTINGS = [
     f"{section}.{name}"
-    for section in Config.__struct_fields__
-    for name in getattr(Config(), section).__struct_fields__
+    for section, kind in (*SECTIONS.items(), ("gateways.mqtt", GatewaySettings))
+    for name in kind.__struct_fields__
 ]
 
 
