@@ -17,9 +17,11 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from bridge.client.credentials import Credentials
 from bridge.core.address import BadAddress, host_and_port
 from bridge.core.errors import BridgeError
 from bridge.core.identity import Role
+from bridge.core.toml_files import FileFault
 from robotside import options as said
 from robotside.bringing_up.dialogue import NotAnswered, Simulated, ask
 from robotside.bringing_up.settling import blamed
@@ -28,7 +30,9 @@ from robotside.core.clock import RobotClock
 from robotside.core.config import BadConfig, Config
 from robotside.core.robot import Robot
 from robotside.core.worker_thread import WorkerThread
+from robotside.foreign.foreign_link import ForeignLink
 from robotside.foreign.foreign_robot import ForeignRobot
+from robotside.foreign.robot_keys import key_for, read_keys
 from robotside.gateway_options import for_robot
 from robotside.kinds.registry import kind_of
 from robotside.options import OTHER, One, UserMistake
@@ -66,7 +70,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         if "run" in options:
             return int(options.run(options))
         return _serve(options, lambda: not options.with_parent or os.getppid() == parent)
-    except (UserMistake, BadConfig, BadCertificate, BridgeError) as problem:
+    except (UserMistake, BadConfig, BadCertificate, BridgeError, FileFault) as problem:
         print(f"robotside: {problem}", file=sys.stderr)
         return 2
     except NotAnswered:
@@ -249,12 +253,17 @@ def _foreign(urls: Sequence[str], options: argparse.Namespace) -> Sequence[Robot
         raise UserMistake(f"A real robot moves in real time: --speed must be 1, not {options.speed:g}.")
     for url in urls:
         _check_other(url, range(options.port, options.port + len(urls)), (*_HERE, options.host))
+    keys = read_keys(options.robot_keys) if options.robot_keys else {}
     with ThreadPoolExecutor(len(urls)) as together:
-        robots = list(together.map(ForeignRobot, urls))
+        robots = list(together.map(partial(_other, keys), urls))
     for robot in robots:
         if robot.trouble:
             print(f"robotside: {robot.trouble} It is served all the same.", file=sys.stderr, flush=True)
     return robots
+
+
+def _other(keys: dict[str, Credentials], url: str) -> ForeignRobot:
+    return ForeignRobot(url, connect=partial(ForeignLink, credentials=key_for(url, keys)))
 
 
 def _check_other(url: str, own_ports: range, own_hosts: Sequence[str]) -> None:

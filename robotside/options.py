@@ -188,6 +188,12 @@ def _add_trust(serve: argparse.ArgumentParser) -> None:
         metavar="URL",
         help="let web pages of this origin speak to the robot, as http://localhost:8000; may be given several times",
     )
+    add(
+        "--robot-keys",
+        type=Path,
+        metavar="FILE",
+        help='keys for the robots of --robot ros:… that want one: a TOML file with fingerprint and token under each ["HOST:PORT"]',
+    )
     add("--certificate", type=Path, metavar="FILE", help="a certificate of your own, in PEM, with --key")
     add("--key", type=Path, metavar="FILE", help="its private key, in PEM, without a password")
 

@@ -14,6 +14,7 @@ from typing import Any, Protocol
 from msgspec import structs
 
 from bridge.client.client import BridgeClient, LinkState, Phase
+from bridge.client.credentials import Credentials
 from bridge.core.address import host_and_port
 from bridge.core.errors import BridgeError, NotConnected
 from bridge.core.identity import public_id
@@ -66,11 +67,11 @@ class Listener(Protocol):
 class ForeignLink:
     """Connects, and again whenever the connection is lost; what it is told while there is none is dropped."""
 
-    def __init__(self, url: str, listener: Listener) -> None:
-        """`url` is `ws://HOST:PORT`; BadAddress when that is none."""
+    def __init__(self, url: str, listener: Listener, credentials: Credentials | None = None) -> None:
+        """`url` is `ws://HOST:PORT`; BadAddress when that is none. `credentials` are for a robot side of ours."""
         host_and_port(url)
         self._listener = listener
-        self._client = BridgeClient(url, on_state=self._become)
+        self._client = BridgeClient(url, on_state=self._become, credentials=credentials)
         self._found: Found | None = None
         self._leave: dict[str, Callable[[], None]] = {}
         self._wanted: set[str] = set()
@@ -83,7 +84,8 @@ class ForeignLink:
         """The last command did not leave this machine: there is no connection, or too much waits in it."""
         self._sent_at = -math.inf
         self._id = f"robotside-{secrets.token_hex(4)}"
-        self._public_id = public_id(self._id)
+        # who shows a key is known by it, whatever it calls itself
+        self._public_id = (credentials and credentials.id) or public_id(self._id)
         self._name = f"the robot side on {plain(platform.node(), 20) or 'a computer'}"
         self._network = NetworkThread(f"link to {url}")
         self._network.start(self._client.run())
