@@ -1,91 +1,44 @@
-"""A camera for browsers: one picture, or one after the other in a response that does not end (MJPEG).
+"""A camera for browsers: one picture, or one after the other in a response that does not end.
 
-Every viewer gets the newest picture when it is ready for one, at its own width, quality and rate; what came
-meanwhile is left out. The camera works only while somebody looks.
+MJPEG shows every viewer the newest picture when it is ready for one, at its own width, quality and rate; what came meanwhile
+is left out. MP4 and WebM are film, encoded once for all who want the same. The camera works only while somebody looks.
 """
 
 from __future__ import annotations
 
 import asyncio
-import math
-from collections.abc import Awaitable, Callable, Iterator, Mapping, MutableMapping
+from collections.abc import Awaitable, Callable, Iterator, MutableMapping
 from contextlib import contextmanager
-from typing import Any, NamedTuple
+from typing import Any
 
 from bridge.core.async_tasks import cancel_all
 from bridge.core.errors import BridgeError
 from bridge.core.robot_door import RobotDoor
 from bridge.core.topics import CAMERA
-from bridge.msgs import Msg
-from bridge.msgs.sensor_msgs import CompressedImage
 from robotside.gateways.scaling.picture_scaling import PictureScaler, Superseded
+from robotside.gateways.video.delays import Delays
+from robotside.gateways.video.film_file import FilmFile, Mp4File, WebmFile
+from robotside.gateways.video.newest_picture import NewestPicture, Pace, Picture
+from robotside.gateways.video.shared_encodings import FullError, SharedEncodings
+from robotside.gateways.video.views import View
 
-__all__ = [
-    "MEDIA_TYPE",
-    "MAX_VIEWERS",
-    "PICTURE_TIMEOUT",
-    "BadViewError",
-    "FullError",
-    "CameraStreams",
-    "View",
-    "view_of",
-]
+__all__ = ["MAX_VIEWERS", "MEDIA_TYPES", "CameraStreams", "StreamViewer"]
 
-MAX_VIEWERS = 8
+MAX_VIEWERS = 16
 """Who may look at streams at a time."""
 
-PICTURE_TIMEOUT = 10.0
-"""A stream ends when no picture comes for this long [s]."""
-
 BOUNDARY = "picture"
-MEDIA_TYPE = f"multipart/x-mixed-replace; boundary={BOUNDARY}"
-"""Of a stream."""
+MEDIA_TYPES = {
+    "mjpeg": f"multipart/x-mixed-replace; boundary={BOUNDARY}",
+    "mp4": "video/mp4",
+    "webm": "video/webm",
+}
+"""Of each kind of stream."""
+
+_FILES: dict[str, Callable[[], FilmFile]] = {"mp4": Mp4File, "webm": WebmFile}
 
 Send = Callable[[MutableMapping[str, Any]], Awaitable[None]]
 Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
-
-
-class BadViewError(ValueError):
-    """What was asked for does not exist; the text is one sentence."""
-
-
-class FullError(Exception):
-    """There are as many viewers as there may be; the text is one sentence."""
-
-
-class View(NamedTuple):
-    """How somebody wants to see a camera."""
-
-    width: int | None = None
-    """At most so many columns [px]; None as many as there are."""
-    quality: int | None = None
-    """Of the JPEG, 1 to 95; None as it comes from the camera."""
-    rate: float = math.inf
-    """At most so many pictures a second [Hz]."""
-    topic: str = CAMERA
-    """Of the camera's pictures."""
-
-
-_LIMITS = {"width": (16, 4096), "quality": (1, 95), "rate": (0.1, 60)}
-
-
-def view_of(query: Mapping[str, str]) -> View:
-    """The view that a URL's `width`, `quality` and `rate` ask for; other words are left alone. Raises BadViewError."""
-    asked = {name: _number(name, query[name]) for name in _LIMITS if name in query}
-    width, quality, rate = asked.get("width"), asked.get("quality"), asked.get("rate", math.inf)
-    return View(None if width is None else int(width), None if quality is None else int(quality), rate)
-
-
-def _number(name: str, text: str) -> float:
-    least, most = _LIMITS[name]
-    try:
-        value = float(text) if name == "rate" else int(text)
-    except ValueError:
-        value = math.nan
-    if not least <= value <= most:
-        kind = "a number" if name == "rate" else "a whole number"
-        raise BadViewError(f"The {name} must be {kind} from {least} to {most}, not {text[:20]!r}.")
-    return value
 
 
 def _always() -> bool:
@@ -93,32 +46,45 @@ def _always() -> bool:
 
 
 class CameraStreams:
-    """The pictures of one robot's camera for all who look by HTTP."""
+    """The pictures of one robot's cameras for all who look by HTTP; belongs to who closes it."""
 
-    def __init__(self, door: RobotDoor, pictures: PictureScaler) -> None:
-        self._door, self._pictures = door, pictures
-        self.viewers: set[_Viewer] = set()
+    def __init__(self, door: RobotDoor, pictures: PictureScaler, now: Callable[[], float]) -> None:
+        """`now` is the clock of the pictures' stamps [s]."""
+        self._door, self._pictures, self._now = door, pictures, now
+        self.viewers: set[StreamViewer] = set()
         """Who looks at a stream now."""
+        self.films = SharedEncodings(self.looking)
+        """What MP4 and WebM show."""
+        self.delays = Delays()
+        """How old pictures are when they are written, by camera and kind of stream."""
+
+    async def close(self) -> None:
+        """End the films."""
+        await self.films.close()
 
     async def picture(self, view: View, patience: float) -> bytes | None:
         """The next picture that is taken; None when none comes within `patience` [s]. BridgeError for a broken one."""
         with self.looking(view.topic) as newest:
             try:
                 async with asyncio.timeout(patience):
-                    return await self.made(await newest.next(), view, patient=True)
+                    return await self.made((await newest.next()).data, view, patient=True)
             except TimeoutError:
                 return None
 
-    def viewer(self, view: View, may_watch: Callable[[], bool] = _always) -> _Viewer:
-        """An ASGI application that sends pictures for as long as they are taken and `may_watch()`. Raises FullError."""
+    async def viewer(self, view: View, kind: str, may_watch: Callable[[], bool] = _always) -> StreamViewer:
+        """An ASGI application that sends a stream of that `kind`, a key of `MEDIA_TYPES`, for as long as pictures are taken
+        and `may_watch()`. Raises FullError, and NoVideo for film that cannot be made."""
+        if kind in _FILES:
+            await self.films.load()
+            self.films.check(view)
         if len(self.viewers) >= MAX_VIEWERS:
             raise FullError(f"{MAX_VIEWERS} look at the camera already; close one of them.")
-        return _Viewer(self, view, may_watch)
+        return StreamViewer(self, view, kind, may_watch)
 
     @contextmanager
-    def looking(self, topic: str = CAMERA) -> Iterator[_Newest]:
+    def looking(self, topic: str = CAMERA) -> Iterator[NewestPicture]:
         """Somebody looks: the camera of that topic works, and its newest picture is at hand."""
-        newest = _Newest()
+        newest = NewestPicture(self._now)
         self._door.subscribe(newest, topic, newest.on_picture)
         try:
             yield newest
@@ -127,38 +93,18 @@ class CameraStreams:
 
     async def made(self, jpeg: bytes, view: View, *, patient: bool = False) -> bytes:
         """`jpeg` as `view` wants it; fails as `PictureScaler.make` does, which `patient` is for."""
+        if view.codec == "png":
+            return await self._pictures.make(jpeg, view.width, form="PNG", patient=patient)
         if view.width is None and view.quality is None:
             return jpeg
         return await self._pictures.make(jpeg, view.width, view.quality, patient=patient)
 
 
-class _Newest:
-    """The newest picture of a camera, for one who looks."""
-
-    def __init__(self) -> None:
-        self._jpeg: bytes | None = None
-        self._came = asyncio.Event()
-
-    def on_picture(self, _: str, msg: Msg) -> None:
-        """A picture was taken."""
-        if isinstance(msg, CompressedImage):
-            self._jpeg = msg.data
-            self._came.set()
-
-    async def next(self) -> bytes:
-        """The newest picture that was not given yet."""
-        while self._jpeg is None:
-            self._came.clear()
-            await self._came.wait()
-        jpeg, self._jpeg = self._jpeg, None
-        return jpeg
-
-
-class _Viewer:
+class StreamViewer:
     """One response that does not end."""
 
-    def __init__(self, streams: CameraStreams, view: View, may_watch: Callable[[], bool]) -> None:
-        self._streams, self._view, self._may_watch = streams, view, may_watch
+    def __init__(self, streams: CameraStreams, view: View, kind: str, may_watch: Callable[[], bool]) -> None:
+        self._streams, self._view, self._kind, self._may_watch = streams, view, kind, may_watch
         self._ended = asyncio.Event()
 
     def end(self) -> None:
@@ -168,49 +114,70 @@ class _Viewer:
     async def __call__(self, _: object, receive: Receive, send: Send) -> None:
         """Send pictures until the viewer is gone or none come any more."""
         self._streams.viewers.add(self)
-        work = (self._show(send), _gone(receive), self._ended.wait())
+        show = self._film if self._kind in _FILES else self._show
+        work = (show(send), _gone(receive), self._ended.wait())
         tasks = [asyncio.create_task(each) for each in work]
         try:
             await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         finally:
             self._streams.viewers.discard(self)
             await cancel_all(tasks)
-        await send({"type": "http.response.body", "body": b"", "more_body": False})
+        await _write(send, b"", last=True)
 
-    async def _show(self, send: Send) -> None:
+    async def _begin(self, send: Send) -> None:
         headers = [
-            (b"content-type", MEDIA_TYPE.encode()),
+            (b"content-type", MEDIA_TYPES[self._kind].encode()),
             (b"cache-control", b"no-store"),
             (b"connection", b"close"),
         ]
         await send({"type": "http.response.start", "status": 200, "headers": headers})
+
+    async def _show(self, send: Send) -> None:
+        await self._begin(send)
         # a browser shows a picture when it sees the boundary behind it
-        await send({"type": "http.response.body", "body": f"--{BOUNDARY}\r\n".encode(), "more_body": True})
-        clock, period = asyncio.get_running_loop().time, 1.0 / self._view.rate
-        due = clock()
+        await _write(send, f"--{BOUNDARY}\r\n".encode())
+        pace = Pace(self._view.rate)
         with self._streams.looking(self._view.topic) as newest:
             while True:
-                await asyncio.sleep(due - clock())
-                due = max(due, clock() - period) + period
+                await pace.wait()
                 try:
-                    async with asyncio.timeout(PICTURE_TIMEOUT):
-                        jpeg = await newest.next()
+                    picture = await newest.soon()
                 except TimeoutError:
                     return
                 if not self._may_watch():
                     return
-                await self._send(jpeg, send)
+                await self._send(picture, send)
 
-    async def _send(self, jpeg: bytes, send: Send) -> None:
+    async def _send(self, picture: Picture, send: Send) -> None:
         try:
-            made = await self._streams.made(jpeg, self._view)
+            made = await self._streams.made(picture.data, self._view)
         except Superseded:
             return
         except BridgeError:
-            made = jpeg
+            made = picture.data
         head = f"Content-Type: image/jpeg\r\nContent-Length: {len(made)}\r\n\r\n".encode()
-        body = b"".join((head, made, f"\r\n--{BOUNDARY}\r\n".encode()))
-        await send({"type": "http.response.body", "body": body, "more_body": True})
+        await _write(send, b"".join((head, made, f"\r\n--{BOUNDARY}\r\n".encode())))
+        self._note(picture.taken)
+
+    async def _film(self, send: Send) -> None:
+        await self._begin(send)
+        with self._streams.films.watching(self._view) as film:
+            file, begun = _FILES[self._kind](), False
+            while (picture := await film.next()) is not None:
+                if not self._may_watch():
+                    return
+                piece = file.add(picture)
+                await _write(send, piece if begun else film.head + piece)
+                begun = True
+                self._note(picture.taken)
+
+    def _note(self, taken: float) -> None:
+        age = asyncio.get_running_loop().time() - taken
+        self._streams.delays.note(self._view.topic, self._kind, age)
+
+
+async def _write(send: Send, body: bytes, *, last: bool = False) -> None:
+    await send({"type": "http.response.body", "body": body, "more_body": not last})
 
 
 async def _gone(receive: Receive) -> None:

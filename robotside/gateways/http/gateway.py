@@ -58,7 +58,9 @@ class HttpGateway:
         self.port = port
         """Where it listens; 0 until one was taken."""
         allowed = pages or PagePolicy(web_port=lambda: self.port)
-        own = site(door, rosbridge_url, CameraStreams(door, pictures), Sessions(door, allowed), pairing)
+        self.cameras = CameraStreams(door, pictures, door.now)
+        """Who looks, and how late the pictures are."""
+        own = site(door, rosbridge_url, self.cameras, Sessions(door, allowed), pairing)
         self.site = Doorkeeper(own, door, allowed, stop_from_pages=stop_from_pages, plain_from=plain_from)
         """The ASGI application."""
         self._reception = Reception(LIMITS, tls=tls)
@@ -96,6 +98,7 @@ class HttpGateway:
             self._server.should_exit = True
             await self._reception.close()
             await asyncio.wait({self._serving})
+        await self.cameras.close()
         if self._socket is not None:
             self._socket.close()
 

@@ -6,7 +6,6 @@ import asyncio
 import html
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
 
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
@@ -16,29 +15,21 @@ from starlette.routing import Route
 
 from bridge.core.errors import BridgeError, Refused
 from bridge.core.identity import Role
-from bridge.core.robot_catalogue import Operator
-from bridge.core.topics import CAMERA, TOPICS, camera_topics
+from bridge.core.topics import TOPICS
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from robotside.control.authority import MAX_NAME_LENGTH
 from robotside.core.text import plain
 from robotside.door.station_door import StationDoor
-from robotside.gateways.http.camera_streams import (
-    MEDIA_TYPE,
-    BadViewError,
-    CameraStreams,
-    FullError,
-    View,
-    view_of,
-)
-from robotside.gateways.http.doorkeeper import OPERATOR
+from robotside.gateways.http.asker import is_known, operator_of
+from robotside.gateways.http.camera_pages import CameraPages, cameras_part
+from robotside.gateways.http.camera_streams import CameraStreams
 from robotside.gateways.http.pairing_part import pairing_part
 from robotside.gateways.http.sessions import Sessions
+from robotside.gateways.video.shared_encodings import FullError
+from robotside.gateways.video.video_encoder import NoVideo
 from robotside.trust.pairing import Pairing
 
 __all__ = ["site"]
-
-SNAPSHOT_TIMEOUT = 2.0
-"""How long to wait for a picture [s]."""
 
 _FRESH = {"Cache-Control": "no-store"}
 _AS_FILE = _FRESH | {"Content-Disposition": 'attachment; filename="audit.csv"'}
@@ -69,12 +60,6 @@ padding:.4em 2em;border:0">STOP</button></form><p>{said}</p>
 <form method="post" action="/login"><label>Token <input name="token" type="password" autocomplete="off" size="50"></label>
 <button>Log in</button></form></html>"""
 
-_CAMERA = """<li>camera {name}: <code>{bridge}/camera/{name}</code>, <a href="/snapshot/{name}.jpg">a picture</a>,
-<a href="/stream/{name}.mjpeg">moving pictures</a>; both take <code>?width=</code> [px] and <code>quality=</code>
-(1 to 95), the moving ones <code>rate=</code> [Hz] as well<br>
-<img src="/stream/{name}.mjpeg?width=480&amp;rate=10" width="480" alt="what the camera sees"></li>
-"""
-
 
 def site(
     door: StationDoor,
@@ -93,10 +78,14 @@ def site(
             Route("/logout", pages.logout, methods=["POST"]),
             Route("/healthz", pages.health),
             Route("/audit.csv", pages.audit),
-            Route("/snapshot/{name}.jpg", pages.snapshot),
-            Route("/stream/{name}.mjpeg", pages.stream),
+            *CameraPages(door, streams).routes(),
         ],
-        exception_handlers={HTTPException: _sentence, FullError: _full, BridgeError: _broken},
+        exception_handlers={
+            HTTPException: _sentence,
+            FullError: _full,
+            NoVideo: _no_video,
+            BridgeError: _broken,
+        },
     )
 
 
@@ -116,18 +105,20 @@ class _Pages:
         self._reading = asyncio.Lock()  # one reader of the whole audit log at a time
 
     async def page(self, request: Request) -> Response:
-        if _is_known(self._door, request):
-            manages = _operator(request).role(self._door.now()) >= Role.MANAGE
+        if is_known(self._door, request):
+            manages = operator_of(request).role(self._door.now()) >= Role.MANAGE
             part = pairing_part(self._pairing) if manages else ""
-            return HTMLResponse(_page(self._door, self._bridge_url(), part), headers=_PRIVATE)
+            bridge = self._bridge_url()
+            cameras = cameras_part(self._door, bridge, self._streams.delays)
+            return HTMLResponse(_page(self._door, bridge, cameras, part), headers=_PRIVATE)
         return _strangers_page(self._door, "Show the token that you were given to see more.")
 
     async def health(self, request: Request) -> Response:
-        known = _is_known(self._door, request)
+        known = is_known(self._door, request)
         return JSONResponse({"ok": True, **(self._door.health._asdict() if known else {})}, headers=_FRESH)
 
     async def audit(self, request: Request) -> Response:
-        self._door.trail.did(_operator(request), "page /audit.csv")
+        self._door.trail.did(operator_of(request), "page /audit.csv")
         async with self._reading:
             reader = ThreadPoolExecutor(1, "audit")
             try:
@@ -138,23 +129,6 @@ class _Pages:
 
     def _audit(self) -> str:
         return "".join(self._door.audit_lines())
-
-    async def snapshot(self, request: Request) -> Response:
-        view = _view(request, self._door)
-        if request.method == "HEAD":
-            return Response(headers=_FRESH, media_type="image/jpeg")
-        jpeg = await self._streams.picture(view, SNAPSHOT_TIMEOUT)
-        if jpeg is None:
-            raise HTTPException(503, f"No picture came within {SNAPSHOT_TIMEOUT:g} s.")
-        return Response(jpeg, media_type="image/jpeg", headers=_FRESH)
-
-    async def stream(self, request: Request) -> Any:
-        view = _view(request, self._door)
-        if request.method == "HEAD":
-            return Response(headers=_FRESH | {"Content-Type": MEDIA_TYPE})
-        viewer = self._streams.viewer(view, lambda: _may_watch(self._door, request))
-        _operator(request).on_expelled = viewer.end
-        return viewer
 
     async def stop(self, request: Request) -> Response:
         if request.method != "POST":
@@ -173,30 +147,10 @@ class _Pages:
         return self._sessions.logout(request)
 
 
-def _operator(request: Request) -> Operator:
-    """Who asks, as the doorkeeper found out."""
-    operator = getattr(request.state, OPERATOR)
-    if not isinstance(operator, Operator):
-        raise TypeError(f"The doorkeeper let {operator!r} in.")
-    return operator
-
-
-def _is_known(door: StationDoor, request: Request) -> bool:
-    return _operator(request).role(door.now()) > Role.NONE
-
-
-def _may_watch(door: StationDoor, request: Request) -> bool:
-    try:
-        door.check(_operator(request), "camera", request.path_params["name"])
-    except Refused:
-        return False
-    return True
-
-
 async def _stop(door: StationDoor, request: Request) -> tuple[str, int]:
     """Press STOP for any client; one sentence and the status."""
     name = plain(request.query_params.get("name", ""), MAX_NAME_LENGTH)
-    answer = await door.stop(_operator(request), name)
+    answer = await door.stop(operator_of(request), name)
     return f"{answer.message}\n", 200 if answer.success else 503
 
 
@@ -204,23 +158,6 @@ def _strangers_page(door: StationDoor, said: str, status: int = 200) -> Response
     """What a stranger sees: the robot's name, STOP, and where to show a token."""
     shown = _STRANGERS_PAGE.format(name=html.escape(door.info.name), said=html.escape(said))
     return HTMLResponse(shown, status, _PRIVATE)
-
-
-def _view(request: Request, door: StationDoor) -> View:
-    """What of which camera is asked for; HTTPException with one sentence for what does not exist or may not be seen."""
-    try:
-        door.check(_operator(request), "camera", request.path_params["name"])
-    except Refused as refusal:
-        raise HTTPException(401 if not _is_known(door, request) else 403, str(refusal)) from refusal
-    cameras = door.info.cameras
-    if request.path_params["name"] not in ({*cameras, "camera"} if cameras else ()):
-        names = ", ".join(cameras) or "none"
-        raise HTTPException(404, f"This robot has no such camera; there is: {names}.")
-    try:
-        topic = camera_topics(cameras).get(request.path_params["name"], CAMERA)
-        return view_of(request.query_params)._replace(topic=topic)
-    except BadViewError as problem:
-        raise HTTPException(422, str(problem)) from problem
 
 
 async def _sentence(_: Request, problem: Exception) -> Response:
@@ -233,15 +170,16 @@ async def _full(_: Request, problem: Exception) -> Response:
     return PlainTextResponse(f"{problem}\n", 503, {"Retry-After": "5"})
 
 
+async def _no_video(_: Request, problem: Exception) -> Response:
+    return PlainTextResponse(f"{problem}\n", 501)
+
+
 async def _broken(_: Request, problem: Exception) -> Response:
     return PlainTextResponse(f"{problem}\n", 502)
 
 
-def _page(door: StationDoor, bridge: str, pairing: str) -> str:
+def _page(door: StationDoor, bridge: str, cameras: str, pairing: str) -> str:
     info, status = door.info, door.last("/task/status")
-    cameras = "".join(
-        _CAMERA.format(name=html.escape(name), bridge=html.escape(bridge)) for name in info.cameras
-    )
     topics = "".join(
         f"<tr><td>{t.name}</td><td>{t.type.MSGTYPE}</td>"
         f"<td>{f'{t.rate:g} Hz' if t.rate else 'on change'}</td><td>{html.escape(t.doc)}</td></tr>"

@@ -39,6 +39,7 @@ class _Wish:
     jpeg: bytes
     width: float | None
     quality: int
+    form: str
     result: asyncio.Future[bytes]
     patient: bool = False
     """The asker asks once and waits."""
@@ -50,7 +51,7 @@ class PictureScaler:
     def __init__(self) -> None:
         self._worker = ThreadPoolExecutor(1, thread_name_prefix="pictures")
         self._waiting: deque[_Wish] = deque()
-        self._kept: OrderedDict[tuple[int, float | None, int], _Wish] = OrderedDict()
+        self._kept: OrderedDict[tuple[int, float | None, int, str], _Wish] = OrderedDict()
         self._busy: asyncio.Task[None] | None = None
 
     def shrink(self, jpeg: bytes, level: int) -> asyncio.Future[bytes]:
@@ -64,18 +65,20 @@ class PictureScaler:
         width: float | None = None,
         quality: int | None = None,
         *,
+        form: str = "JPEG",
         patient: bool = False,
     ) -> asyncio.Future[bytes]:
-        """`jpeg` with at most `width` columns [px], or that part of them when below 1, at `quality`, 1 to 95.
+        """`jpeg` with at most `width` columns [px], or that part of them when below 1, at `quality`, 1 to 95; as a file of
+        `form`, JPEG or PNG.
 
         Askers that want the same of the same object share it. Fails with BridgeError for what is no JPEG file, and with
         Superseded when too much newer work came before it was begun, which a `patient` asker's is never.
         """
-        key = (id(jpeg), width, DEFAULT_QUALITY if quality is None else quality)
+        key = (id(jpeg), width, DEFAULT_QUALITY if quality is None else quality, form)
         wish = self._kept.get(key)
         if wish is None or wish.result.cancelled():
             result = asyncio.get_running_loop().create_future()
-            wish = _Wish(jpeg, width, key[2], result, patient)
+            wish = _Wish(jpeg, width, key[2], form, result, patient)
             wish.result.add_done_callback(_look)
             self._kept[key] = wish
             while len(self._kept) > MAX_CACHED:
@@ -103,14 +106,14 @@ class PictureScaler:
 
     def _pass_over(self, wish: _Wish) -> None:
         self._waiting.remove(wish)
-        self._kept.pop((id(wish.jpeg), wish.width, wish.quality), None)
+        self._kept.pop((id(wish.jpeg), wish.width, wish.quality, wish.form), None)
         wish.result.set_exception(Superseded("Newer pictures came first."))
 
     async def _work(self) -> None:
         loop = asyncio.get_running_loop()
         while self._waiting:
             wish = self._waiting.popleft()
-            work = loop.run_in_executor(self._worker, smaller, wish.jpeg, wish.width, wish.quality)
+            work = loop.run_in_executor(self._worker, smaller, wish.jpeg, wish.width, wish.quality, wish.form)
             try:
                 made = await work
             except Exception as fault:  # noqa: BLE001 - who waits for the picture gets the fault, of any kind
@@ -120,7 +123,7 @@ class PictureScaler:
         self._busy = None
 
 
-def smaller(jpeg: bytes, width: float | None, quality: int) -> bytes:
+def smaller(jpeg: bytes, width: float | None, quality: int, form: str = "JPEG") -> bytes:
     """`jpeg` as `PictureScaler.make` describes, made at once; never wider than it was."""
     if jpeg.startswith(b"\xff\xd8\xff"):  # what is no JPEG file at all is said below
         picture_size(jpeg)
@@ -132,7 +135,8 @@ def smaller(jpeg: bytes, width: float | None, quality: int) -> bytes:
             image.draft(None, size)
             small = image.resize(size, Image.Resampling.BOX) if image.size != size else image
             file = io.BytesIO()
-            small.save(file, "JPEG", quality=quality)
+            options = {"quality": quality} if form == "JPEG" else {"compress_level": 1}  # more costs long
+            small.save(file, form, **options)
             return file.getvalue()
     except (OSError, SyntaxError, ValueError) as fault:
         raise BridgeError(

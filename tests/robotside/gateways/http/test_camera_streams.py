@@ -16,6 +16,7 @@ from bridge.core.topics import CAMERA
 from bridge.msgs.sensor_msgs import CompressedImage
 from robotside.gateways.http import browser_connection as visit
 from robotside.gateways.http import camera_streams as streams
+from robotside.gateways.video import newest_picture
 from robotside.serving.station_server import StationServer
 from tests.fakes import FakeRobot
 from tests.robotside.gateways.scaling.test_picture_scaling import PHOTO, size
@@ -157,7 +158,7 @@ async def test_a_stream_that_is_read_outlasts_what_other_visits_may_take(
 async def test_a_camera_that_gives_nothing_ends_the_stream(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(streams, "PICTURE_TIMEOUT", 0.05)
+    monkeypatch.setattr(newest_picture, "PICTURE_TIMEOUT", 0.05)
     async with filming(tmp_path) as (robot, _, web):
         answer = await web.get(STREAM)
         assert answer.text == "--picture\r\n"
@@ -222,7 +223,7 @@ async def test_a_snapshot_may_be_smaller(tmp_path: Path) -> None:
 async def test_snapshots_of_many_sizes_at_once_are_all_given(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("robotside.gateways.http.web_site.SNAPSHOT_TIMEOUT", 10.0)
+    monkeypatch.setattr("robotside.gateways.http.camera_pages.SNAPSHOT_TIMEOUT", 10.0)
     async with filming(tmp_path) as (robot, serves, web):
         sizes = range(100, 340, 10)
         asked = [asyncio.create_task(web.get(f"/snapshot/front.jpg?width={width}")) for width in sizes]
@@ -249,6 +250,7 @@ async def test_the_page_shows_the_camera(tmp_path: Path) -> None:
         page = (await web.get("/")).text
         assert '<img src="/stream/front.mjpeg' in page
         assert 'href="/snapshot/front.jpg"' in page
+        assert 'href="/stream/front.mp4"' in page
 
 
 @pytest.mark.parametrize("place", [STREAM, "/snapshot/front.jpg"])

@@ -19,6 +19,8 @@ from robotside.gateways.http.gateway import HttpGateway
 from robotside.gateways.scaling.picture_scaling import PictureScaler
 from robotside.trust.permissions import needed_role
 from tests.fakes import FakeRobot
+from tests.lacking import package
+from tests.robotside.gateways.video.scenes import numbered, seen
 from tests.robotside.scene import Scene
 from tests.robotside.visitor import visitor
 
@@ -79,13 +81,23 @@ async def test_a_stranger_sees_a_name_a_stop_button_and_where_to_show_a_token(si
         assert (await web.get("/healthz")).json() == {"ok": True}
 
 
-@pytest.mark.parametrize("path", ["/snapshot/front.jpg", "/stream/front.mjpeg", "/nowhere", "/docs"])
+@pytest.mark.parametrize(
+    "path",
+    [
+        "/snapshot/front.jpg",
+        "/snapshot/front.png",
+        "/stream/front.mjpeg",
+        "/stream/front.mp4",
+        "/nowhere",
+        "/docs",
+    ],
+)
 async def test_a_stranger_sees_nothing_else(site: Site, path: str) -> None:
     for token in ("", "n.key"):
         async with site.visit(token) as web:
             answer = await web.get(path)
             assert answer.status_code == 401
-            assert answer.text.count(".") == 1 or path.endswith((".jpg", ".mjpeg"))
+            assert answer.text.count(".") == 1 or path.endswith((".jpg", ".png", ".mjpeg", ".mp4"))
     assert not site.scene.robot.wanted.get(CAMERA)
 
 
@@ -183,6 +195,21 @@ async def test_a_stream_ends_when_its_viewer_may_nothing_any_more(site: Site) ->
             site.door.expel(["w"])
             site.scene.station.bus.publish(CAMERA, CompressedImage(data=b"a secret"))
             assert b"a secret" not in b"".join([chunk async for chunk in chunks])
+    assert not site.scene.robot.wanted[CAMERA]
+
+
+async def test_a_film_ends_when_its_viewer_may_nothing_any_more_and_the_camera_rests(site: Site) -> None:
+    package("av")
+    async with site.visit("w.key") as web, web.stream("GET", "/stream/front.webm") as stream:
+        chunks, film = stream.aiter_raw(), b""
+        async with asyncio.timeout(60):
+            while not film:
+                site.scene.station.bus.publish(CAMERA, CompressedImage(data=numbered(1)))
+                film += await anext(chunks)
+            site.door.expel(["w"])
+            site.scene.station.bus.publish(CAMERA, CompressedImage(data=numbered(9)))
+            film += b"".join([chunk async for chunk in chunks])
+    assert {each.number for each in seen(film)} == {1}
     assert not site.scene.robot.wanted[CAMERA]
 
 

@@ -85,7 +85,7 @@ async def test_when_more_is_wanted_than_can_be_made_the_newest_are(
     worker: PictureScaler, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     go = threading.Event()
-    monkeypatch.setattr(pictures, "smaller", lambda jpeg, width, quality: go.wait(5) and b"%d" % width)
+    monkeypatch.setattr(pictures, "smaller", lambda jpeg, width, *_: go.wait(5) and b"%d" % width)
     wanted = [worker.make(PHOTO, width) for width in range(10, 18)]
     await asyncio.sleep(0)
     go.set()
@@ -98,7 +98,7 @@ async def test_who_asks_once_waits_however_much_is_wanted(
     worker: PictureScaler, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     go = threading.Event()
-    monkeypatch.setattr(pictures, "smaller", lambda jpeg, width, quality: go.wait(5) and b"%d" % width)
+    monkeypatch.setattr(pictures, "smaller", lambda jpeg, width, *_: go.wait(5) and b"%d" % width)
     watched = [worker.make(PHOTO, 9), worker.make(PHOTO, 9, patient=True)]
     wanted = [worker.make(PHOTO, width, patient=width < 20) for width in range(10, 28)]
     passed_over = worker.make(PHOTO, 20, patient=True)
@@ -124,3 +124,11 @@ async def test_closing_ends_the_worker_and_what_waits() -> None:
     await worker.close()
     ended = await asyncio.gather(*wanted, return_exceptions=True)
     assert any(isinstance(one, asyncio.CancelledError) for one in ended)
+
+
+async def test_a_picture_as_png_is_every_pixel_as_it_was(worker: PictureScaler) -> None:
+    as_jpeg, made = await asyncio.gather(worker.make(PHOTO, 320), worker.make(PHOTO, 320, form="PNG"))
+    assert [Image.open(io.BytesIO(one)).format for one in (as_jpeg, made)] == ["JPEG", "PNG"]
+    assert size(made) == (320, 240)
+    whole = Image.open(io.BytesIO(await worker.make(PHOTO, form="PNG")))
+    assert np.array_equal(np.asarray(whole), np.asarray(Image.open(io.BytesIO(PHOTO))))

@@ -1,0 +1,122 @@
+"""The web site's pages of the cameras: pictures, streams, and how they are reached."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterable
+from typing import Any
+
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from bridge.core.errors import Refused
+from bridge.core.topics import CAMERA, camera_topics
+from robotside.door.station_door import StationDoor
+from robotside.gateways.http.asker import is_known, operator_of
+from robotside.gateways.http.camera_streams import MEDIA_TYPES, CameraStreams
+from robotside.gateways.video.delays import Delays
+from robotside.gateways.video.views import BadViewError, View, view_of
+
+__all__ = ["SNAPSHOT_TIMEOUT", "CameraPages", "cameras_part", "delay_words"]
+
+SNAPSHOT_TIMEOUT = 2.0
+"""How long to wait for a picture [s]."""
+
+_FRESH = {"Cache-Control": "no-store"}
+_PICTURES = {"jpg": "image/jpeg", "png": "image/png"}
+
+_CAMERA = """<li>camera {name}: <code>{bridge}/camera/{name}</code>, a picture as <a href="/snapshot/{name}.jpg">jpg</a> or
+<a href="/snapshot/{name}.png">png</a>, moving pictures as {streams}. All take <code>?width=</code> [px] and <code>quality=</code>
+(1 to 95; not png), the moving ones <code>rate=</code> [Hz] and <code>codec=</code> (webm: vp8 or vp9). A browser's player
+keeps mp4 and webm back for 2 to 4 s more: drive by mjpeg.<br>
+<img src="/stream/{name}.mjpeg?width=480&amp;rate=10" width="480" alt="what the camera sees"></li>
+"""
+
+
+class CameraPages:
+    """The answers to each path of a camera."""
+
+    def __init__(self, door: StationDoor, streams: CameraStreams) -> None:
+        self._door, self._streams = door, streams
+
+    def routes(self) -> list[Route]:
+        """For the web site."""
+        return [
+            Route("/snapshot/{name}.{kind}", self.snapshot),
+            Route("/stream/{name}.{kind}", self.stream),
+        ]
+
+    async def snapshot(self, request: Request) -> Response:
+        """One picture."""
+        view = self._view(request, _PICTURES)
+        media_type = _PICTURES[request.path_params["kind"]]
+        if request.method == "HEAD":
+            return Response(headers=_FRESH, media_type=media_type)
+        picture = await self._streams.picture(view, SNAPSHOT_TIMEOUT)
+        if picture is None:
+            raise HTTPException(503, f"No picture came within {SNAPSHOT_TIMEOUT:g} s.")
+        return Response(picture, media_type=media_type, headers=_FRESH)
+
+    async def stream(self, request: Request) -> Any:
+        """One after the other."""
+        view, kind = self._view(request, MEDIA_TYPES), request.path_params["kind"]
+        if request.method == "HEAD":
+            return Response(headers=_FRESH | {"Content-Type": MEDIA_TYPES[kind]})
+        viewer = await self._streams.viewer(view, kind, lambda: self._may_watch(request))
+        operator_of(request).on_expelled = viewer.end
+        return viewer
+
+    def _may_watch(self, request: Request) -> bool:
+        try:
+            self._door.check(operator_of(request), "camera", request.path_params["name"])
+        except Refused:
+            return False
+        return True
+
+    def _view(self, request: Request, kinds: Iterable[str]) -> View:
+        """What of which camera is asked for; HTTPException with one sentence for what does not exist or may not be seen."""
+        name, kind = request.path_params["name"], request.path_params["kind"]
+        try:
+            self._door.check(operator_of(request), "camera", name)
+        except Refused as refusal:
+            raise HTTPException(403 if is_known(self._door, request) else 401, str(refusal)) from refusal
+        cameras = self._door.info.cameras
+        if name not in ({*cameras, "camera"} if cameras else ()):
+            raise HTTPException(
+                404, f"This robot has no such camera; there is: {', '.join(cameras) or 'none'}."
+            )
+        if kind not in kinds:
+            raise HTTPException(404, f"A camera has no .{kind[:20]} here; there is: {', '.join(kinds)}.")
+        try:
+            topic = camera_topics(cameras).get(name, CAMERA)
+            return view_of(request.query_params, kind)._replace(topic=topic)
+        except BadViewError as problem:
+            raise HTTPException(422, str(problem)) from problem
+
+
+def cameras_part(door: StationDoor, bridge_url: str, delays: Delays) -> str:
+    """The items of the page's list that say how each camera is reached, each stream with its measured delay."""
+    topics = camera_topics(door.info.cameras)
+    return "".join(
+        _CAMERA.format(
+            name=html.escape(name),
+            bridge=html.escape(bridge_url),
+            streams=", ".join(_stream(name, kind, delay_words(delays, topic, kind)) for kind in MEDIA_TYPES),
+        )
+        for name, topic in topics.items()
+        if name in door.info.cameras
+    )
+
+
+def _stream(name: str, kind: str, delay: str) -> str:
+    return f'<a href="/stream/{html.escape(name)}.{kind}">{kind}</a> ({delay})'
+
+
+def delay_words(delays: Delays, topic: str, kind: str) -> str:
+    """How late such a stream of that camera is, as was measured last, from the moment of the picture to the network."""
+    delay = delays.of(topic, kind)
+    if delay is None:
+        return "delay: measured once somebody looks"
+    return f"delay: half of the pictures up to {delay.median * 1e3:.0f} ms, 99 of 100 up to {delay.most * 1e3:.0f} ms"
