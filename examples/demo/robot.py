@@ -12,7 +12,7 @@ from typing import Self
 
 __all__ = ["Restarting", "RobotProcess"]
 
-READY = re.compile(r"^robotside: ready bridge=(?P<bridge>\S+)")
+READY = re.compile(r"^robotside: ready bridge=(?P<bridge>\S+) http=(?P<http>\S+)")
 
 
 class RobotProcess:
@@ -40,6 +40,8 @@ class RobotProcess:
         self._reader.start()
         self.url = ""
         """Where it serves."""
+        self.web = ""
+        """Its web site."""
         self.pid = self._process.pid
         if not self._ready.wait(patience) or not self.url:
             self.close()
@@ -57,7 +59,7 @@ class RobotProcess:
                 self._log.flush()
                 match = READY.match(line)
                 if match:
-                    self.url = match["bridge"]
+                    self.url, self.web = match["bridge"], match["http"]
                     self._ready.set()
         self._ready.set()
 
