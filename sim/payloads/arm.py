@@ -143,7 +143,12 @@ class MountedArm:
 
     def _goal(self, order: ArmOrder) -> Angles:
         """The angles that an order means."""
-        told = (bool(order.pose), not math.isnan(order.point.x), len(order.angles) > 0, len(order.increments) > 0)
+        told = (
+            bool(order.pose),
+            not math.isnan(order.point.x),
+            len(order.angles) > 0,
+            len(order.increments) > 0,
+        )
         if sum(told) > 1:
             raise ValueError("Give the arm one goal: a pose, a point, angles, or increments.")
         if order.pose:
