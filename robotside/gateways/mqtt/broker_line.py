@@ -10,7 +10,7 @@ import secrets
 import socket
 import ssl
 from collections import deque
-from collections.abc import AsyncIterator, Awaitable, Callable, Iterable
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterable, Mapping, Sequence
 from contextlib import asynccontextmanager, suppress
 from typing import NamedTuple, TypeVar
 
@@ -21,6 +21,7 @@ from paho.mqtt.reasoncodes import ReasonCode
 from paho.mqtt.subscribeoptions import SubscribeOptions
 
 from bridge.core.async_tasks import cancel_all, is_cancelled_from_outside
+from robotside.gateways.broker.line import Line
 from robotside.gateways.gateway_url import GatewayUrl
 
 __all__ = ["BrokerLine", "Heard", "Reply", "uncut"]
@@ -33,12 +34,6 @@ KEEPALIVE = 2
 """Between two signs of life [s]; a broker gives up after one and a half of it, and publishes the last will."""
 CONNECT_TIMEOUT = 5.0
 """For one answer of the broker [s]."""
-MIN_BACKOFF, MAX_BACKOFF = 0.25, 5.0
-"""Between two tries to connect [s]; it doubles from one to the next."""
-STANDING_TIME = 10.0
-"""A connection that was up for so long [s] is tried again soon when it is lost, and counts as reached again."""
-STALL_PERIOD, STALL_TIMEOUT = 0.25, 1.0
-"""The loop is looked at so often [s]; when it stood still for longer than that [s], what waited meanwhile is too old."""
 MAX_IN = 1024
 """Messages that wait to be handled; more are dropped."""
 MAX_REPLIES = 256
@@ -79,8 +74,10 @@ class SubscriptionRefused(aiomqtt.MqttError):
     """The broker does not pass on what was asked for."""
 
 
-class BrokerLine:
+class BrokerLine(Line):
     """Connects, subscribes, and does it again whenever that ends; owns its tasks."""
+
+    faults = (aiomqtt.MqttError,)
 
     def __init__(
         self,
@@ -94,63 +91,20 @@ class BrokerLine:
         on_down: Callable[[str], None] | None = None,
         drops_stale: bool = True,
     ) -> None:
-        """`on_up()` is awaited after each connection, `on_down(reason)` called whenever it is lost, or not to be had.
+        """`on_up()` is awaited after each connection; `on_down` and `drops_stale` are as of every line.
 
-        `kept` is a topic of which what the broker has kept is heard too, before all else. `will` is the topic and retained message that the broker publishes when this end is gone without a word. With
-        `drops_stale` a line whose program stood still connects anew instead of hearing what waited.
+        `kept` is a topic of which what the broker has kept is heard too, before all else. `will` is the topic and retained message
+        that the broker publishes when this end is gone without a word.
         """
+        super().__init__(on_down=on_down, drops_stale=drops_stale)
         self._url, self._subscriptions, self._on_message = url, tuple(subscriptions), on_message
         self._kept = kept
-        self._will, self._on_up, self._on_down = will, on_up, on_down
-        self._drops_stale = drops_stale
+        self._will, self._on_up = will, on_up
         # the same each time, so that a broker ends what it still has of a line before, its last will included, first
         self._id = f"pilothouse-{secrets.token_hex(6)}"
         self._client: aiomqtt.Client | None = None
         self._replies: deque[Reply] = deque(maxlen=MAX_REPLIES)
         self._wake = asyncio.Event()
-        self._beat = math.inf
-        self._up_since = math.inf
-        self._fault = ""
-
-    @property
-    def is_up(self) -> bool:
-        """It is connected and subscribed."""
-        return self._client is not None
-
-    @property
-    def is_standing(self) -> bool:
-        """It has been up for `STANDING_TIME`, so that it counts as steady."""
-        return self.is_up and asyncio.get_running_loop().time() - self._up_since >= STANDING_TIME
-
-    @property
-    def fault(self) -> str:
-        """Why it is not up, as part of a sentence; empty while it is, or before the first try has failed."""
-        return self._fault
-
-    async def run(self) -> None:
-        """Keep the line up until cancelled."""
-        backoff = MIN_BACKOFF
-        while True:
-            try:
-                await self._connect()
-                reason = "the robot's own program stood still for a while"
-            except asyncio.CancelledError:
-                if is_cancelled_from_outside():
-                    raise
-                reason = "its connection was cut"  # the library passes on what was cancelled within it
-            except Exception as error:  # whatever it is, the robot goes on and the broker is tried again
-                if not isinstance(error, aiomqtt.MqttError):
-                    log.exception("The connection to the MQTT broker failed")
-                reason = _reason(error)
-            finally:
-                # one that is lost soon after it was made each time is tried as seldom as one that is not to be had
-                backoff = MIN_BACKOFF if self.is_standing else min(2 * backoff, MAX_BACKOFF)
-                self._client = None
-                self._replies.clear()
-            self._fault = reason
-            if self._on_down is not None:
-                self._on_down(reason)
-            await asyncio.sleep(backoff)
 
     def reply(self, reply: Reply) -> None:
         """Send an answer as soon as that can be; it is dropped when the line is lost before."""
@@ -166,23 +120,27 @@ class BrokerLine:
         retain: bool = False,
         qos: int = 0,
         timeout: float = CONNECT_TIMEOUT,
+        **said: str,
     ) -> None:
-        """Publish a message; with `qos` 1 it waits for the broker, `timeout` [s] at most. Dropped without a connection."""
+        """Publish a message with the user properties `said`; with `qos` 1 it waits for the broker, `timeout` [s] at most. Dropped without a connection."""
         client = self._client
         if client is not None:
             with suppress(aiomqtt.MqttError):  # the line's own task learns of it too
-                await uncut(client.publish(topic, payload, qos=qos, retain=retain, timeout=timeout))
+                properties = _properties(said)
+                await uncut(
+                    client.publish(
+                        topic, payload, qos=qos, retain=retain, timeout=timeout, properties=properties
+                    )
+                )
 
     async def _connect(self) -> None:
         """One connection from its beginning to its end; returns when what waits is too old to be heard."""
         async with _opened(self._new_client()) as client:
             if self._kept:
-                await _subscribe(client, self._kept, SubscribeOptions.RETAIN_SEND_ON_SUBSCRIBE)
-            for each in self._subscriptions:
-                await _subscribe(client, each, SubscribeOptions.RETAIN_DO_NOT_SEND)
-            self._client, self._fault = client, ""
-            self._up_since = asyncio.get_running_loop().time()
-            self._beat = asyncio.get_running_loop().time()
+                await _subscribe(client, [self._kept], SubscribeOptions.RETAIN_SEND_ON_SUBSCRIBE)
+            await _subscribe(client, self._subscriptions, SubscribeOptions.RETAIN_DO_NOT_SEND)
+            self._client = client
+            self._came_up()
             if self._on_up is not None:
                 await self._on_up()
             works = (self._listen(client), self._watch_loop(), self._send_replies(client))
@@ -193,6 +151,13 @@ class BrokerLine:
                 await cancel_all(ends)
             for ended in done:
                 ended.result()
+
+    def _forget(self) -> None:
+        self._client = None
+        self._replies.clear()
+
+    def _reason(self, error: Exception) -> str:
+        return _reason(error)
 
     async def _listen(self, client: aiomqtt.Client) -> None:
         """Hear messages until they are too old."""
@@ -221,16 +186,6 @@ class BrokerLine:
             socket_options=[(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)],
             logger=_quiet_log(),
         )
-
-    async def _watch_loop(self) -> None:
-        """Return when this process stood still, so that what came meanwhile is too old."""
-        while not self._is_stale():
-            self._beat = asyncio.get_running_loop().time()
-            await asyncio.sleep(STALL_PERIOD)
-
-    def _is_stale(self) -> bool:
-        late = asyncio.get_running_loop().time() - self._beat > STALL_PERIOD + STALL_TIMEOUT
-        return late and self._drops_stale
 
     async def _send_replies(self, client: aiomqtt.Client) -> None:
         while True:
@@ -279,12 +234,23 @@ async def _opened(client: aiomqtt.Client) -> AsyncIterator[aiomqtt.Client]:
             await client.__aexit__(None, None, None)
 
 
-async def _subscribe(client: aiomqtt.Client, topic: str, handling: int) -> None:
-    """Ask for a topic; raises SubscriptionRefused when the broker does not pass it on."""
+async def _subscribe(client: aiomqtt.Client, topics: Sequence[str], handling: int) -> None:
+    """Ask for topics; raises SubscriptionRefused when the broker does not pass one of them on."""
     options = SubscribeOptions(qos=1, noLocal=True, retainAsPublished=True, retainHandling=handling)
-    granted = await uncut(client.subscribe(topic, options=options))
-    if any(_is_failure(code) for code in granted):
-        raise SubscriptionRefused(f"it does not let the robot read {topic}; allow that in its access list")
+    granted = await uncut(client.subscribe([(topic, options) for topic in topics]))
+    for topic, code in zip(topics, granted, strict=False):
+        if _is_failure(code):
+            raise SubscriptionRefused(
+                f"it does not let the robot read {topic}; allow that in its access list"
+            )
+
+
+def _properties(said: Mapping[str, str]) -> Properties | None:
+    if not said:
+        return None
+    properties = Properties(PacketTypes.PUBLISH)  # type: ignore[no-untyped-call]
+    properties.UserProperty = list(said.items())
+    return properties
 
 
 async def _send_reply(client: aiomqtt.Client, reply: Reply) -> None:

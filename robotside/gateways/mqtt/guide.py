@@ -6,8 +6,9 @@ import shlex
 from collections.abc import Iterable, Iterator
 
 from bridge.core.identity import Role
+from robotside.gateways.broker.command_desk import CALL, PUBLISH, READ, RUN
 from robotside.gateways.gateway_url import GatewayUrl
-from robotside.gateways.mqtt.topic_names import CALL, PUBLISH, TopicNames
+from robotside.gateways.mqtt.topic_names import TopicNames
 from robotside.gateways.payloads import offered
 from robotside.gateways.payloads.offered import Line, OfferedPayload
 from robotside.gateways.plain.visitor import TIME
@@ -16,6 +17,7 @@ __all__ = ["guide"]
 
 _CLIENT = "me"
 _EXPIRY = "-D publish message-expiry-interval 2"
+_VERBS = {offered.READ: READ, offered.PUBLISH: PUBLISH, offered.CALL: CALL, offered.RUN: RUN}
 _STAMP = '-D publish user-property stamp "$(date +%s.%N)"'
 
 
@@ -29,7 +31,9 @@ def guide(url: GatewayUrl, names: TopicNames, payloads: Iterable[OfferedPayload]
     return "\n".join(
         [
             f"MQTT 5 at {url.shown}; all topics of this robot begin with {names.root}/",
-            "state says online, offline or lost. Replace `me` by a name of your own; answers come to your topics answer/#.",
+            "state says online, offline or lost. Replace `me` by a name of your own; answers come to your topics answer/#,",
+            "of a goal (run) also feedback/#; cancel takes it back. What is read on demand, as pictures are, comes on topics/",
+            "while you are there: say something once a minute.",
             "A command needs an expiry of at most 10 s, or a stamp, the robot's time in seconds as the user property `stamp`;",
             "to drive takes a stamp of less than 0.25 s ago, from a client that has called rosapi/get_time. A token goes into",
             "the user property `token`. The role that everybody has here: " + role.word + ".",
@@ -53,11 +57,9 @@ def _payload(where: str, names: TopicNames, each: OfferedPayload) -> Iterator[st
 
 
 def _command(where: str, names: TopicNames, line: Line) -> str:
-    if line.verb == offered.READ:
-        return "" if line.on_demand else f"mosquitto_sub {where} -t {shlex.quote(names.topic(line.name))}"
-    if line.verb == offered.RUN:
-        return ""
-    verb = CALL if line.verb == offered.CALL else PUBLISH
-    topic = shlex.quote(names.command(_CLIENT, verb, line.name))
+    if line.verb == offered.READ and not line.on_demand:
+        return f"mosquitto_sub {where} -t {shlex.quote(names.topic(line.name))}"
+    # what is made on demand comes on its topic once it is asked for
+    topic = shlex.quote(names.command(_CLIENT, _VERBS[line.verb], line.name))
     fresh = _STAMP if line.verb == offered.PUBLISH and line.rate else _EXPIRY
-    return f"mosquitto_pub {where} -V 5 {fresh} -t {topic} -m {shlex.quote(line.example)}"
+    return f"mosquitto_pub {where} -V 5 {fresh} -t {topic} -m {shlex.quote(line.example or '{}')}"

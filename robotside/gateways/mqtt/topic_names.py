@@ -1,11 +1,17 @@
 """Names of MQTT topics: where a robot publishes, and what a client's topic asks for.
 
     PREFIX/ROBOT/state                          online, offline, or lost by the last will; retained
+    PREFIX/ROBOT/birth                          what is published from now on, each topic with its type; retained
     PREFIX/ROBOT/guide                          how it is used; retained
     PREFIX/ROBOT/topics/NAME                    the robot's topic /NAME
     PREFIX/ROBOT/clients/CLIENT/publish/NAME    CLIENT publishes on the robot's topic /NAME
     PREFIX/ROBOT/clients/CLIENT/call/NAME       CLIENT calls the service /NAME
+    PREFIX/ROBOT/clients/CLIENT/run/NAME        CLIENT begins a goal of the action /NAME
+    PREFIX/ROBOT/clients/CLIENT/cancel/NAME     CLIENT takes it back
+    PREFIX/ROBOT/clients/CLIENT/read/NAME       CLIENT asks for the topic /NAME, which is made on demand
+    PREFIX/ROBOT/clients/CLIENT/leave/NAME      CLIENT asks for it no more
     PREFIX/ROBOT/clients/CLIENT/answer/NAME     the answer
+    PREFIX/ROBOT/clients/CLIENT/feedback/NAME   how far a goal is
     PREFIX/ROBOT/clients/CLIENT/bye             CLIENT is gone; meant as its last will
 
 A broker that lets each user write below `clients/USER` alone proves who is behind each name.
@@ -16,11 +22,12 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-__all__ = ["BYE", "CALL", "PREFIX", "PUBLISH", "Asked", "TopicNames"]
+from robotside.gateways.broker.command_desk import BYE, CALL, VERBS
+
+__all__ = ["PREFIX", "Asked", "TopicNames"]
 
 PREFIX = "pilothouse"
 """Where the URL of the gateway names no other."""
-PUBLISH, CALL, BYE = "publish", "call", "bye"
 MAX_CLIENT_NAME = 64
 """Characters of a client's name."""
 MAX_NAME = 256
@@ -32,9 +39,9 @@ class Asked(NamedTuple):
 
     client: str
     verb: str
-    """`PUBLISH`, `CALL` or `BYE`."""
+    """One of `VERBS`, or `BYE`."""
     name: str
-    """Absolute name of the topic or service; empty for `BYE`."""
+    """Absolute name of the topic, service or action; empty for `BYE`."""
 
 
 class TopicNames:
@@ -45,6 +52,7 @@ class TopicNames:
         name = re.sub(r"[^\w.-]+", "-", robot).strip("-")
         self.root = f"{prefix or PREFIX}/{name or 'robot'}"
         self.state = f"{self.root}/state"
+        self.birth = f"{self.root}/birth"
         self.guide = f"{self.root}/guide"
         self._clients = f"{self.root}/clients/"
 
@@ -64,10 +72,14 @@ class TopicNames:
             return wish
         return own + name
 
+    def feedback(self, client: str, name: str) -> str:
+        """Where `client` is told how far its goal of `name` is."""
+        return f"{self._clients}{client}/feedback{name}"
+
     @property
     def commands(self) -> tuple[str, ...]:
         """What the robot subscribes to for commands."""
-        return tuple(f"{self._clients}+/{verb}" for verb in (f"{PUBLISH}/#", f"{CALL}/#", BYE))
+        return tuple(f"{self._clients}+/{verb}" for verb in (*(f"{verb}/#" for verb in VERBS), BYE))
 
     @property
     def stop(self) -> tuple[str, ...]:
@@ -84,4 +96,4 @@ class TopicNames:
             return None
         if (verb, name) == (BYE, ""):
             return Asked(client, BYE, "")
-        return Asked(client, verb, f"/{name}") if verb in (PUBLISH, CALL) and name else None
+        return Asked(client, verb, f"/{name}") if verb in VERBS and name else None

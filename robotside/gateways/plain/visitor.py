@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 import math
-from collections.abc import Awaitable, Collection
+from collections.abc import Awaitable, Callable, Collection, Coroutine
+from typing import Any
 
 import msgspec
 from msgspec.structs import replace
@@ -50,6 +52,10 @@ class Visitor:
         # so that a command that is sent again after the broker was gone counts as the same one
         self._client_id = f"{operator.way}:{name}" if name else ""
         self._door, self._keys = door, keys
+        self.goals: dict[tuple[str, bytes], asyncio.Task[None]] = {}
+        """What it has running, by action and id; cancelled when it is gone."""
+        self.reads: dict[str, Callable[[], None]] = {}
+        """What ends each topic that is made because it asked for it."""
 
     def heard(self) -> None:
         """A message of it came."""
@@ -70,7 +76,7 @@ class Visitor:
 
     def call(
         self, service: str, raw: bytes, stamp: float = math.nan, *, dated: bool = True
-    ) -> bytes | Awaitable[bytes]:
+    ) -> bytes | Coroutine[Any, Any, bytes]:
         """The answer of a service, at once where it can be had at once; a refusal is an answer too.
 
         A request without a stamp has `stamp` [s, operators' clock]. Where nothing else says that the call is fresh (`dated`
@@ -80,15 +86,51 @@ class Visitor:
             if service == TIME:
                 return self._time()
             self._check_carried(service)
-            request = self._request(service, raw, stamp, dated=dated)
+            request = self._request(service, self._door.service(service).request, raw, stamp, dated=dated)
             answer = self._door.call(self.operator, service, request)
         except BridgeError as error:
             return refusal(error)
         return to_json(answer) if isinstance(answer, Msg) else _later(answer)
 
-    def _request(self, service: str, raw: bytes, stamp: float, *, dated: bool) -> Msg:
-        known = self._door.service(service).request
-        if service == STOP:
+    def run(
+        self,
+        action: str,
+        raw: bytes,
+        stamp: float = math.nan,
+        *,
+        dated: bool = True,
+        on_feedback: Callable[[bytes], None],
+    ) -> Coroutine[Any, Any, bytes]:
+        """Begin a goal of an action, of the same age as a call; its result, or why it is refused. Cancelled, it is taken back.
+
+        `on_feedback` takes how far it is, as JSON. Raises BridgeError for a goal that cannot be read or is too old.
+        """
+        self._check_carried(action)
+        goal = self._request(action, self._door.action(action).goal, raw, stamp, dated=dated)
+        if not isinstance(goal, CommandRequest):  # which is judged by the stamp in itself
+            self._check_fresh(action, stamp, dated=dated)
+        return self._run(action, goal, lambda msg: on_feedback(to_json(msg)))
+
+    async def _run(self, action: str, goal: Msg, on_feedback: Callable[[Msg], None]) -> bytes:
+        return await _later(self._door.run(self.operator, action, goal, on_feedback))
+
+    def leave_topic(self, name: str) -> None:
+        """It wants a topic no more that it asked for."""
+        stop = self.reads.pop(name, None)
+        if stop is not None:
+            stop()
+
+    def leave(self) -> None:
+        """It is gone: what it has running ends, and a robot that it drives stops."""
+        try:
+            self._door.leave(self.operator)
+        finally:
+            self.reads.clear()
+            for task in tuple(self.goals.values()):
+                task.cancel()
+
+    def _request(self, name: str, known: type[Msg], raw: bytes, stamp: float, *, dated: bool) -> Msg:
+        if name == STOP:
             return self._named(_any_request(raw, known))
         request = read_message(decode(raw), known)
         if not isinstance(request, CommandRequest):
@@ -96,7 +138,7 @@ class Visitor:
         if math.isnan(request.stamp):
             request = replace(request, stamp=stamp)
         if math.isnan(request.stamp):  # of one with a stamp the service judges
-            self._check_fresh(service, math.nan, dated=dated)
+            self._check_fresh(name, math.nan, dated=dated)
         return self._named(request)
 
     def _check_fresh(self, name: str, stamp: float, *, dated: bool) -> None:

@@ -68,7 +68,7 @@ class Visitors:
 
     def leave(self, visitor: Visitor) -> None:
         """This client is gone."""
-        self._door.leave(visitor.operator)
+        visitor.leave()
 
     def leave_name(self, name: str, token: str = "") -> None:
         """The client of that name and token is gone, if it was there."""
@@ -89,7 +89,7 @@ class Visitors:
     def _leave(self, key: tuple[str, str]) -> None:
         visitor = self._known.pop(key, None)
         if visitor is not None:
-            self._door.leave(visitor.operator)
+            visitor.leave()
 
     def _make_room(self) -> None:
         if len(self._known) < MAX_VISITORS:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 
 import aiomqtt
-import pytest
 from paho.mqtt.packettypes import PacketTypes
 from paho.mqtt.reasoncodes import ReasonCode
 
@@ -52,6 +51,7 @@ class _Library:
 async def test_an_answer_that_cannot_be_sent_holds_up_no_other() -> None:
     line, library = BrokerLine(URL, (), lambda heard: None), _Library()
     line._client = library  # type: ignore[assignment]
+    line._came_up()
     sending = asyncio.create_task(line._send_replies(library))  # type: ignore[arg-type]
     for topic in ("first", "x" * (MAX_TOPIC + 1), "next"):
         line.reply(Reply(topic, b"{}", None))
@@ -60,33 +60,6 @@ async def test_an_answer_that_cannot_be_sent_holds_up_no_other() -> None:
             await asyncio.sleep(0)
         sending.cancel()
         await asyncio.gather(sending, return_exceptions=True)
-
-
-async def test_a_line_that_is_lost_at_once_each_time_is_tried_ever_less_often(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    waits: list[float] = []
-    sleep = asyncio.sleep
-
-    async def note(seconds: float) -> None:
-        waits.append(seconds)
-        await sleep(0)
-
-    class Flapping(BrokerLine):
-        async def _connect(self) -> None:
-            self._client = _Library()  # type: ignore[assignment]
-            # from the fifth time on it has stood for long
-            self._up_since = asyncio.get_running_loop().time() - (60 if len(waits) > 4 else 0)
-            raise aiomqtt.MqttError("cut")
-
-    with monkeypatch.context() as patch:
-        patch.setattr(asyncio, "sleep", note)
-        running = asyncio.create_task(Flapping(URL, (), lambda heard: None).run())
-        while len(waits) < 6:
-            await sleep(0)
-        running.cancel()
-        await asyncio.gather(running, return_exceptions=True)
-    assert waits[:6] == [0.5, 1.0, 2.0, 4.0, 5.0, 0.25]
 
 
 def test_a_refused_login_says_what_to_check_and_another_fault_says_what_it_is() -> None:

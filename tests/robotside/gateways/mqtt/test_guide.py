@@ -18,11 +18,9 @@ from robotside.gateways.mqtt.topic_names import TopicNames
 from robotside.gateways.payloads.offered import offered
 from tests.lacking import lacking
 from tests.robotside.gateways.mqtt.broker import Broker
-from tests.robotside.gateways.mqtt.test_gateway import client, no_pool_left, online, patient
+from tests.robotside.gateways.mqtt.client import client, online
 from tests.robotside.gateways.payloads.test_table import EquippedRobot
 from tests.robotside.scene import Scene
-
-__all__ = ["no_pool_left", "patient"]
 
 NEEDED = ("mosquitto_pub", "mosquitto_sub")
 

@@ -22,10 +22,8 @@ from robotside.gateways.mqtt.adapter import ADAPTER
 from robotside.gateways.mqtt.gateway import MqttGateway
 from robotside.gateways.mqtt.own_broker import OwnBroker, mosquitto
 from tests.fakes import FakeRobot
-from tests.robotside.gateways.mqtt.test_gateway import FRESH, Client, no_pool_left, patient
+from tests.robotside.gateways.mqtt.client import FRESH, Client
 from tests.robotside.scene import Scene
-
-__all__ = ["no_pool_left", "patient"]
 
 PROGRAMS = sorted({"", mosquitto()})
 """Of Mosquitto where it is installed; empty for iotcore's broker."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from robotside.gateways.mqtt.topic_names import BYE, CALL, PUBLISH, Asked, TopicNames
+from robotside.gateways.broker.command_desk import BYE, CALL, PUBLISH
+from robotside.gateways.mqtt.topic_names import Asked, TopicNames
 
 NAMES = TopicNames("", "Rex the 1st/+#")
 MINE = f"{NAMES.root}/clients/me"

@@ -9,7 +9,7 @@ import pytest
 
 from bridge.core.codes import Code
 from bridge.core.errors import Refused
-from robotside.gateways.mqtt.namesakes import HOLD_TIME, MAX_NAMESAKES, Namesakes
+from robotside.gateways.broker.namesakes import HOLD_TIME, MAX_NAMESAKES, Namesakes
 
 
 class Robot:
@@ -18,7 +18,9 @@ class Robot:
     def __init__(self) -> None:
         self.said: list[tuple[Any, ...]] = []
         self.left = 0
-        self.namesakes = Namesakes("own", "Rex", lambda *said, **_: self.said.append(said))
+        self.namesakes = Namesakes(
+            "mqtt", "MQTT broker", "own", "Rex", lambda *said, **_: self.said.append(said)
+        )
 
     def hear(self, state: str, boot: str, now: float = 0.0) -> bool:
         raw = json.dumps({"state": state, "robot": "Rex", "boot": boot}).encode()

@@ -29,8 +29,9 @@ class _State(msgspec.Struct):
 class Namesakes:
     """Who else says on the state topic that it is this robot. Pure: every call is told the time [s]."""
 
-    def __init__(self, boot: str, name: str, say: Say) -> None:
-        """`boot` is this robot's own identity, `name` its name."""
+    def __init__(self, way: str, broker: str, boot: str, name: str, say: Say) -> None:
+        """`boot` is this robot's own identity, `name` its name; the gateway `way` goes to the `broker`, as in `MQTT broker`."""
+        self._way, self._broker = way, broker
         self._boot, self._name, self._say = boot, name, say
         self._until: dict[str, float] = {}
 
@@ -69,7 +70,7 @@ class Namesakes:
 
     def _notice(self) -> Notice:
         said = (
-            f"Another robot at the MQTT broker is named {self._name} too, so both take STOP only. "
+            f"Another robot at the {self._broker} is named {self._name} too, so both take STOP only. "
             "Give one of them another --name."
         )
-        return Notice(Code.GATEWAY_NAMESAKE, said, gateway="mqtt", name=self._name)
+        return Notice(Code.GATEWAY_NAMESAKE, said, gateway=self._way, name=self._name)
