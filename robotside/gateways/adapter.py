@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import ssl
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, MutableMapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
+from bridge.core.errors import BridgeError
+from bridge.core.identity import Role
 from bridge.server.reception.pages import PagePolicy
 from robotside.door.station_door import StationDoor
 from robotside.gateways.gateway import Gateway
@@ -15,7 +17,7 @@ from robotside.records.events import Say
 if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load it
     from robotside.gateways.gateway_url import GatewayUrl
 
-__all__ = ["Adapter", "AdapterGateway", "Surroundings"]
+__all__ = ["Adapter", "AdapterGateway", "Site", "Surroundings"]
 
 
 class AdapterGateway(Gateway, Protocol):
@@ -23,6 +25,25 @@ class AdapterGateway(Gateway, Protocol):
 
     def guide(self) -> str:
         """How a client uses it now, with examples that can be pasted; known once started."""
+
+
+class Site(Protocol):
+    """As much of the robot's web site, `robotside.gateways.http.mounts.Mounts`, as adapters need."""
+
+    def mount(
+        self,
+        path: str,
+        app: Callable[..., Any],
+        *,
+        way: str,
+        role: Role | None = ...,
+        presses_stop: Callable[[MutableMapping[str, Any]], bool] = ...,
+        written: Callable[[MutableMapping[str, Any], int, BridgeError], Any] = ...,
+    ) -> Callable[[], None]:
+        """Have the ASGI application `app` answer at `path` and below it; the call that ends it. BridgeError when it is taken."""
+
+    def url(self, path: str) -> str:
+        """The URL of a path of the site."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +59,8 @@ class Surroundings:
     """Whether a client from a host may come without TLS."""
     pages: PagePolicy | None = None
     """The web pages that may connect; None for none."""
+    site: Site | None = None
+    """The robot's web site, for what is served there; None where it has none."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,7 +28,7 @@ def adapters() -> dict[str, Adapter]:
 
 
 def read_wish(text: str) -> tuple[Adapter, GatewayUrl]:
-    """The adapter and URL of `NAME` or `NAME=URL`; ValueError with one sentence for a mistake."""
+    """The adapter and URL of `NAME`, `NAME=URL`, or `NAME=?OPTIONS` at its usual URL; ValueError with one sentence for a mistake."""
     name, mark, url = text.partition("=")
     known = adapters()
     if name not in known:
@@ -36,6 +36,8 @@ def read_wish(text: str) -> tuple[Adapter, GatewayUrl]:
     adapter = known[name]
     if mark and not url:
         raise ValueError(f"{name}= needs a URL, as {name}={adapter.default}.")
+    if url.startswith("?"):
+        url = adapter.default + url
     return adapter, read_url(url or adapter.default, adapter.schemes)
 
 

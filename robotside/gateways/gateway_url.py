@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from urllib.parse import parse_qsl, unquote, urlsplit
@@ -12,14 +13,17 @@ from bridge.core.identity import Role
 from robotside.gateways.payloads.offered import chosen_keys
 from robotside.gateways.payloads.table import KEYS
 
-__all__ = ["MAX_RATE", "OWN", "GatewayUrl", "read_url"]
+__all__ = ["MAX_RATE", "OWN", "SITE", "GatewayUrl", "read_url"]
 
 OWN = "own"
 """The scheme of a broker that the robot brings itself."""
+SITE = "site"
+"""The scheme of a path of the robot's own web site, as in `site:/api`; it has no host and no port."""
 
 MAX_RATE = 50.0
 """Most messages a second of one topic that a gateway sends [Hz]."""
 _OPTIONS = ("role", "payloads", "rate")
+_PATH = re.compile(r"(/[\w.~-]+)+", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,29 +46,36 @@ class GatewayUrl:
 
     @property
     def address(self) -> str:
-        """Host and port."""
-        return at_port(self.host, self.port)
+        """Host and port; empty on the robot's own web site."""
+        return "" if self.scheme == SITE else at_port(self.host, self.port)
 
     @property
     def shown(self) -> str:
         """The URL without credentials and options."""
+        if self.scheme == SITE:
+            return f"{SITE}:/{self.path}"
         return f"{self.scheme}://{self.address}" + (f"/{self.path}" if self.path else "")
 
 
 def read_url(text: str, schemes: Mapping[str, int]) -> GatewayUrl:
     """The URL in `text`, of one of the `schemes` with their default ports; ValueError with one sentence for a mistake."""
-    known = " or ".join(f"{scheme}://HOST:{port}" for scheme, port in schemes.items())
+    known = " or ".join(
+        f"{SITE}:/PATH" if scheme == SITE else f"{scheme}://HOST:{port}" for scheme, port in schemes.items()
+    )
     try:
         parts = urlsplit(text)
         port = parts.port
     except ValueError as error:
         raise ValueError(f"A URL is written as {known}, not {_safe(text)} ({error}).") from error
-    if parts.scheme not in schemes or not parts.hostname or parts.fragment:
+    is_whole = (
+        bool(_PATH.fullmatch(parts.path)) and not parts.netloc if parts.scheme == SITE else parts.hostname
+    )
+    if parts.scheme not in schemes or not is_whole or parts.fragment:
         raise ValueError(f"A URL is written as {known}, not {_safe(text)}.")
     options = _options(parts.query)
     return GatewayUrl(
         parts.scheme,
-        parts.hostname,
+        parts.hostname or "",
         schemes[parts.scheme] if port is None else port,
         unquote(parts.path).strip("/"),
         unquote(parts.username or ""),

@@ -15,6 +15,7 @@ from robotside.door.station_door import StationDoor
 from robotside.gateways.adapter import Adapter, Surroundings
 from robotside.gateways.gateway import Gateway
 from robotside.gateways.http.gateway import HttpGateway
+from robotside.gateways.http.mounts import Mounts
 from robotside.gateways.rosbridge.gateway import RosbridgeGateway
 from robotside.gateways.scaling.picture_scaling import PictureScaler
 from robotside.serving.fleet_server import FleetServer, RunningServer
@@ -101,15 +102,18 @@ class StationServer:
         )
         self.server = self._rosbridge.server
         """The rosbridge server."""
-        around = Surroundings(self.door, station.events.say, tls=tls, plain_from=plain_from, pages=pages)
-        self._http = self._web_site(around)
+        mounts = Mounts(lambda: addresses.http)
+        around = Surroundings(
+            self.door, station.events.say, tls=tls, plain_from=plain_from, pages=pages, site=mounts
+        )
+        self._http = self._web_site(around, mounts)
         self._gateways: tuple[Gateway, ...] = (self._http, self._rosbridge)
         """In the order in which they start."""
         self._wished, self._mdns = tuple(gateways), mdns
         self.gateways = GatewayOwner(around)
         """The gateways beside those two, which come and go while it runs."""
 
-    def _web_site(self, around: Surroundings) -> HttpGateway:
+    def _web_site(self, around: Surroundings, mounts: Mounts) -> HttpGateway:
         keys, addresses = self.keys, self.addresses
         return HttpGateway(
             self.door,
@@ -122,6 +126,7 @@ class StationServer:
             pages=around.pages,
             stop_from_pages=keys.stop_from_pages if keys else True,
             pairing=keys.pairing if keys else None,
+            mounts=mounts,
         )
 
     def _door(self) -> StationDoor:

@@ -7,7 +7,7 @@ from starlette.requests import Request
 from bridge.core.identity import Role
 from bridge.core.robot_catalogue import Operator
 from robotside.door.station_door import StationDoor
-from robotside.gateways.http.doorkeeper import OPERATOR
+from robotside.gateways.http.mounts import OPERATOR
 
 __all__ = ["is_known", "operator_of"]
 

@@ -9,8 +9,9 @@ import socket
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from bridge.server.reception.places import Limits, Place
+from bridge.server.reception.places import Limits, Place, Standing
 from bridge.server.reception.tls import unsent
+from robotside.gateways.http.mounts import LONG
 
 __all__ = ["CLOSE_TIMEOUT", "LIMITS", "MAX_CONNECTION_TIME", "PLACE", "STUCK_TIMEOUT", "BrowserConnection"]
 
@@ -18,7 +19,7 @@ LIMITS = Limits(total=64, per_address=48)
 """Connections that the web site has at a time."""
 
 MAX_CONNECTION_TIME = 30.0
-"""How long a connection may stay, for any request [s]; a stream as long as it is read."""
+"""How long a connection may stay, for any request [s]; from its last answer for who has a role, a stream as long as it is read."""
 
 STUCK_TIMEOUT = 10.0
 """A stream of which nothing was read for this long, and at most twice as long, is ended [s]."""
@@ -61,8 +62,10 @@ class BrowserConnection(H11Protocol):
         self._note_asking()
 
     def on_response_complete(self) -> None:
-        """An answer is complete."""
+        """An answer is complete; who has a role may go on asking."""
         super().on_response_complete()
+        if self.place is not None and self.place.standing > Standing.STRANGER:
+            self.until = self.loop.time() + MAX_CONNECTION_TIME
         self._note_asking()
 
     def resume_writing(self) -> None:
@@ -112,7 +115,7 @@ class BrowserConnection(H11Protocol):
 
     @property
     def _streaming(self) -> bool:
-        return self.asking and self.scope["path"].startswith("/stream/")
+        return self.asking and (self.scope["path"].startswith("/stream/") or LONG in self.scope["state"])
 
     def connection_lost(self, exc: Exception | None) -> None:
         """It is gone."""

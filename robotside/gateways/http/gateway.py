@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import uvicorn
+from starlette.routing import Route
 
 from bridge.core.errors import BridgeError
 from bridge.server.reception.log_limit import STRANGERS
@@ -21,6 +22,7 @@ from robotside.gateways.addresses import listening_socket, url
 from robotside.gateways.http.browser_connection import LIMITS, BrowserConnection
 from robotside.gateways.http.camera_streams import CameraStreams
 from robotside.gateways.http.doorkeeper import Doorkeeper
+from robotside.gateways.http.mounts import Mounts
 from robotside.gateways.http.sessions import Sessions
 from robotside.gateways.http.web_site import site
 from robotside.gateways.scaling.picture_scaling import PictureScaler
@@ -47,12 +49,14 @@ class HttpGateway:
         pages: PagePolicy | None = None,
         stop_from_pages: bool = True,
         pairing: Pairing | None = None,
+        mounts: Mounts | None = None,
     ) -> None:
         """Port 0 takes a free one. The page names `rosbridge_url` to programs.
 
         With `tls` browsers may come encrypted, on the same port; `plain_from(host)` says who may come without, for more than
         STOP.
         `pages` may speak to the robot, by default its own; `stop_from_pages` as of `Doorkeeper`, `pairing` as of `site`.
+        `mounts` are the applications of others on the site.
         """
         self._host, self._is_secure = host, tls is not None
         self.port = port
@@ -61,7 +65,12 @@ class HttpGateway:
         self.cameras = CameraStreams(door, pictures, door.now)
         """Who looks, and how late the pictures are."""
         own = site(door, rosbridge_url, self.cameras, Sessions(door, allowed), pairing)
-        self.site = Doorkeeper(own, door, allowed, stop_from_pages=stop_from_pages, plain_from=plain_from)
+        self.mounts = mounts or Mounts(lambda: self.endpoints()["http"])
+        """The applications of others on the site."""
+        self.mounts.reserve(route.path for route in own.routes if isinstance(route, Route))
+        self.site = Doorkeeper(
+            own, door, allowed, self.mounts, stop_from_pages=stop_from_pages, plain_from=plain_from
+        )
         """The ASGI application."""
         self._reception = Reception(LIMITS, tls=tls)
         self._socket: socket.socket | None = None
@@ -94,6 +103,7 @@ class HttpGateway:
 
     async def stop(self) -> None:
         """End all connections and stop listening; nothing is left running."""
+        self.mounts.close()
         if self._server is not None and self._serving is not None:
             self._server.should_exit = True
             await self._reception.close()

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import robotside.gateways
+from bridge.core.identity import Role
 from robotside.gateways.discovery import adapters, missing_package, read_wish
 
 FOLDERS = sorted(path.parent.name for path in Path(robotside.gateways.__path__[0]).glob("*/adapter.py"))
@@ -44,6 +45,12 @@ def test_a_robot_without_gateways_loads_none_and_a_look_at_them_loads_no_library
     }
     assert not bare & (libraries | rooms)
     assert not looked & libraries
+
+
+def test_options_alone_are_those_of_the_usual_url() -> None:
+    adapter, url = read_wish("mqtt=?role=drive&rate=2")
+    assert url == replace(read_wish("mqtt")[1], role=Role.DRIVE, rate=2.0)
+    assert adapter.name == "mqtt"
 
 
 def test_what_is_not_there_is_named_with_what_is() -> None:

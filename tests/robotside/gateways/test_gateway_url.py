@@ -5,10 +5,11 @@ from __future__ import annotations
 import pytest
 
 from bridge.core.identity import Role
-from robotside.gateways.gateway_url import GatewayUrl, read_url
+from robotside.gateways.gateway_url import SITE, GatewayUrl, read_url
 from robotside.gateways.payloads.table import KEYS
 
 SCHEMES = {"mqtt": 1883, "mqtts": 8883}
+ON_SITE = {SITE: 0}
 
 
 def test_all_parts_are_read() -> None:
@@ -47,3 +48,34 @@ def test_a_mistake_is_one_sentence_without_a_password(text: str) -> None:
         read_url(text, SCHEMES)
     assert WRONG[text] in str(error.value)
     assert "secret" not in str(error.value)
+
+
+def test_a_path_of_the_robots_own_web_site_has_options_and_no_address() -> None:
+    read = read_url("site:/api/v2?role=drive&payloads=arm&rate=2", ON_SITE)
+    assert read == GatewayUrl(
+        SITE, "", 0, "api/v2", role=Role.DRIVE, keys=frozenset({"robot", "arm"}), rate=2.0
+    )
+    assert (read.shown, read.address) == ("site:/api/v2", "")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "site:",
+        "site:/",
+        "site:api",
+        "site:/api/",
+        "site:/a b",
+        "site:/%41",
+        "site://host/api",
+        "site:/api#x",
+    ],
+)
+def test_what_is_no_path_of_the_site_is_one_sentence(text: str) -> None:
+    with pytest.raises(ValueError, match=r"written as site:/PATH, not .*\.$"):
+        read_url(text, ON_SITE)
+
+
+def test_a_gateway_that_listens_anywhere_has_no_path_of_the_site() -> None:
+    with pytest.raises(ValueError, match="not 'site:/api'"):
+        read_url("site:/api", SCHEMES)
