@@ -1,0 +1,1 @@
+"""One service call by each protocol that a robot speaks."""

@@ -1,0 +1,76 @@
+"""MQTT 5: a broker that the robot has come to, with the robot's topics as path, `mqtt://HOST:1883/pilothouse/Patrol-1`."""
+
+from __future__ import annotations
+
+import json
+import queue
+import uuid
+from urllib.parse import urlsplit
+
+from paho.mqtt.client import Client, MQTTMessage, MQTTv5
+from paho.mqtt.enums import CallbackAPIVersion
+from paho.mqtt.packettypes import PacketTypes
+from paho.mqtt.properties import Properties
+
+from examples.protocols.ways import ANSWER_TIMEOUT, Answer, Way
+
+__all__ = ["open_way"]
+
+EXPIRY = 5
+"""A command that the broker could not pass on for so long is not carried out [s]."""
+
+
+class _Mqtt:
+    def __init__(self, url: str) -> None:
+        place = urlsplit(url)
+        self._own = f"{place.path.strip('/')}/clients/program-{uuid.uuid4().hex[:12]}"
+        self._heard: queue.Queue[tuple[bytes, Answer]] = queue.Queue()
+        ready: queue.Queue[bool] = queue.Queue()
+        self._client = Client(CallbackAPIVersion.VERSION2, protocol=MQTTv5)
+        if place.username:
+            self._client.username_pw_set(place.username, place.password)
+        self._client.on_message = self._hear
+        self._client.on_subscribe = lambda *_: ready.put(True)
+        self._client.will_set(f"{self._own}/bye", qos=1)
+        self._client.connect(place.hostname or "127.0.0.1", place.port or 1883)
+        self._client.loop_start()
+        self._client.subscribe(f"{self._own}/answer/#", qos=1)
+        ready.get(timeout=ANSWER_TIMEOUT)
+
+    def _hear(self, _: Client, __: object, message: MQTTMessage) -> None:
+        key = getattr(message.properties, "CorrelationData", b"")
+        self._heard.put((key, json.loads(message.payload)))
+
+    def call(self, service: str, request: Answer) -> Answer:
+        """As of `Way`."""
+        key = uuid.uuid4().bytes
+        self._send(f"call{service}", request, key)
+        while True:
+            try:
+                found, answer = self._heard.get(timeout=ANSWER_TIMEOUT)
+            except queue.Empty:
+                raise TimeoutError(f"{service} gave no answer within {ANSWER_TIMEOUT:g} s.") from None
+            if found == key:
+                return answer
+
+    def publish(self, topic: str, message: Answer) -> None:
+        """As of `Way`."""
+        self._send(f"publish{topic}", message)
+
+    def _send(self, what: str, message: Answer, key: bytes = b"") -> None:
+        said = Properties(PacketTypes.PUBLISH)
+        said.MessageExpiryInterval = EXPIRY
+        if key:
+            said.CorrelationData = key
+        self._client.publish(f"{self._own}/{what}", json.dumps(message), qos=1, properties=said)
+
+    def close(self) -> None:
+        """Say goodbye, so that a robot that was driven from here rests, and end the connection."""
+        self._client.publish(f"{self._own}/bye", qos=1).wait_for_publish(ANSWER_TIMEOUT)
+        self._client.disconnect()
+        self._client.loop_stop()
+
+
+def open_way(url: str) -> Way:
+    """A connection to the broker."""
+    return _Mqtt(url)

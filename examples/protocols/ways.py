@@ -1,0 +1,78 @@
+"""A way to call a robot's services, by the protocol that a URL names; each protocol is a module beside this one.
+
+with way_to("mqtt://127.0.0.1:1883/pilothouse/Patrol-1") as way:
+    print(way.call("/arm/move", {"order": {"pose": "home"}}))
+"""
+
+from __future__ import annotations
+
+import importlib
+import itertools
+import uuid
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, Protocol
+
+__all__ = ["ANSWER_TIMEOUT", "SCHEMES", "Answer", "Way", "way_to"]
+
+ANSWER_TIMEOUT = 40.0
+"""An answer that waits for an arm takes so long at most [s]."""
+SCHEMES = {"ws": "rosbridge", "wss": "rosbridge", "mqtt": "mqtt"}
+"""Scheme of a URL to the module of its protocol."""
+
+Answer = dict[str, Any]
+"""As of the service's response: what commands answer has `success`, `message` and `code`."""
+
+
+class Way(Protocol):
+    """Calls one after the other."""
+
+    def call(self, service: str, request: Answer) -> Answer:
+        """Call `service` with the fields of its request in ROS's names; its answer, or the refusal.
+
+        TimeoutError without an answer, OSError without a connection.
+        """
+
+    def publish(self, topic: str, message: Answer) -> None:
+        """Send a message on a topic of the robot; nothing says whether it was taken."""
+
+    def close(self) -> None:
+        """End the connection."""
+
+
+@contextmanager
+def way_to(url: str, name: str = "") -> Iterator[Way]:
+    """The way that `url` names, to the end of the block; ValueError for one that is of no protocol.
+
+    The robot calls this client `name`.
+    """
+    scheme = url.partition(":")[0].lower()
+    if scheme not in SCHEMES:
+        raise ValueError(f"A robot's URL begins with one of {', '.join(SCHEMES)}, not {scheme!r}.")
+    opened: Callable[[str], Way] = importlib.import_module(f"examples.protocols.{SCHEMES[scheme]}").open_way
+    way = opened(url)
+    try:
+        yield _Named(way, name or f"{SCHEMES[scheme]} program")
+    finally:
+        way.close()
+
+
+class _Named:
+    """Adds to each command who gives it and an id, by which the robot carries it out once however often it comes."""
+
+    def __init__(self, way: Way, name: str) -> None:
+        self._way, self._name, self._id = way, name, uuid.uuid4().hex
+        self._numbers = itertools.count(1)
+
+    def call(self, service: str, request: Answer) -> Answer:
+        """As of `Way`."""
+        who = {"client_id": self._id, "client_name": self._name}
+        return self._way.call(service, {"command_id": f"{self._id}-{next(self._numbers)}", **who, **request})
+
+    def publish(self, topic: str, message: Answer) -> None:
+        """As of `Way`."""
+        self._way.publish(topic, message)
+
+    def close(self) -> None:
+        """End the connection."""
+        self._way.close()
