@@ -19,6 +19,8 @@ __all__ = ["NotDelivered", "deliver", "place"]
 
 LOOK_PERIOD = 0.5
 """How often is looked how the delivery goes [s]."""
+DELIVERY_TIMEOUT = 3600.0
+"""Who watches a delivery gives up after this time; the robot goes on [s]."""
 FAILED = ("CANCELED", "FAILED", "INTERRUPTED")
 
 
@@ -44,7 +46,8 @@ def deliver(
         raise NotDelivered(begun["message"])
     say(begun["message"])
     number, visited = _runs(way)[0]["id"], 0
-    while True:
+    end = time.monotonic() + DELIVERY_TIMEOUT
+    while time.monotonic() < end:
         run = next(each for each in _runs(way) if each["id"] == number)
         if run["visited"] > visited:
             visited = run["visited"]
@@ -56,6 +59,7 @@ def deliver(
         if confirm:
             way.call("/task/confirm", {})  # refused while the robot asks nothing
         time.sleep(LOOK_PERIOD)
+    raise NotDelivered(f"The delivery took more than {DELIVERY_TIMEOUT:g} s.")
 
 
 def _runs(way: Way) -> list[Answer]:

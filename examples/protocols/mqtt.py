@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import queue
+import threading
 import uuid
 from urllib.parse import urlsplit
 
@@ -23,23 +24,28 @@ EXPIRY = 5
 class _Mqtt:
     def __init__(self, url: str) -> None:
         place = urlsplit(url)
+        self._state = f"{place.path.strip('/')}/state"
         self._own = f"{place.path.strip('/')}/clients/program-{uuid.uuid4().hex[:12]}"
         self._heard: queue.Queue[tuple[bytes, Answer]] = queue.Queue()
-        ready: queue.Queue[bool] = queue.Queue()
+        self._ready = threading.Event()
         self._client = Client(CallbackAPIVersion.VERSION2, protocol=MQTTv5)
         if place.username:
             self._client.username_pw_set(place.username, place.password)
         self._client.on_message = self._hear
-        self._client.on_subscribe = lambda *_: ready.put(True)
         self._client.will_set(f"{self._own}/bye", qos=1)
         self._client.connect(place.hostname or "127.0.0.1", place.port or 1883)
         self._client.loop_start()
-        self._client.subscribe(f"{self._own}/answer/#", qos=1)
-        ready.get(timeout=ANSWER_TIMEOUT)
+        self._client.subscribe([(f"{self._own}/answer/#", 1), (self._state, 1)])
+        if not self._ready.wait(ANSWER_TIMEOUT):
+            self.close()
+            raise TimeoutError(f"No robot is there at {url}.")
 
     def _hear(self, _: Client, __: object, message: MQTTMessage) -> None:
-        key = getattr(message.properties, "CorrelationData", b"")
-        self._heard.put((key, json.loads(message.payload)))
+        told = json.loads(message.payload)
+        if message.topic != self._state:
+            self._heard.put((getattr(message.properties, "CorrelationData", b""), told))
+        elif told["state"] == "online":  # kept by the broker; before, nobody hears a command
+            self._ready.set()
 
     def call(self, service: str, request: Answer) -> Answer:
         """As of `Way`."""

@@ -43,6 +43,7 @@ def test_coffee_and_a_parcel_ordered_by_one_protocol_each_arrive(
     robot: RobotProcess, broker: Broker, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(courier, "LOOK_PERIOD", 0.05)
+    monkeypatch.setattr(courier, "DELIVERY_TIMEOUT", 300.0)
     witness = Witness(robot.url)
     try:
         for url, what, places, goal in (
