@@ -195,6 +195,10 @@ class SimRobot:
         else:
             self._wanted.discard(topic)
 
+    def switch(self, topic: str, on: bool) -> None:
+        """Measure what comes on `topic`, or no longer; pictures are made for who wants them."""
+        self._vehicle.suite.switch(topic, on)
+
     def read(self, now: float) -> list[tuple[str, Msg]]:
         """Simulate up to `now` [s, robot clock] and give everything measured on the way, oldest first.
 

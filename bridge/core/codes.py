@@ -92,6 +92,42 @@ class Code(StrEnum):
     GATEWAY_CANCELLED = "gateway_cancelled", "The goal was taken back, or its client is gone.", "operation"
     GATEWAY_FULL = "gateway_full", "Too many clients use the gateway.", "max"
     GATEWAY_LEFT_OUT = "gateway_left_out", "The gateway does not carry that.", "operation"
+    GATEWAY_BROUGHT_UP = (
+        "gateway_brought_up",
+        "The actor brought a gateway up.",
+        "name",
+        "gateway",
+        "endpoint",
+    )
+    GATEWAY_BROUGHT_DOWN = "gateway_brought_down", "The actor brought a gateway down.", "name", "gateway"
+    GATEWAY_UNKNOWN = "gateway_unknown", "The robot knows no such protocol.", "gateway"
+    GATEWAY_FIXED = "gateway_fixed", "The protocol always runs.", "gateway"
+    GATEWAY_LACKING = (
+        "gateway_lacking",
+        "A library that the gateway needs is not installed.",
+        "gateway",
+        "package",
+    )
+    GATEWAY_URL_INVALID = "gateway_url_invalid", "The URL of the gateway is none.", "gateway"
+    GATEWAY_PORT_TAKEN = "gateway_port_taken", "The port of the gateway is taken.", "gateway"
+    GATEWAY_UNABLE = "gateway_unable", "The gateway cannot be brought up.", "gateway"
+    GATEWAY_RUNS = "gateway_runs", "The gateway is up already.", "gateway"
+    GATEWAY_DOWN = "gateway_down", "No gateway of that name is up.", "gateway"
+    GATEWAY_OWN = "gateway_own", "The caller itself is connected by the gateway.", "gateway"
+
+    # payloads
+
+    PAYLOAD_SWITCHED = (
+        "payload_switched",
+        "The actor switched a payload on or off.",
+        "name",
+        "payload",
+        "state",
+    )
+    PAYLOAD_OFF = "payload_off", "The payload is switched off.", "payload"
+    PAYLOAD_UNKNOWN = "payload_unknown", "The robot has no such payload.", "payload"
+    PAYLOAD_FIXED = "payload_fixed", "The payload is never switched off.", "payload"
+    PAYLOAD_IN_USE = "payload_in_use", "The payload is in use.", "payload"
 
     # control
 

@@ -158,6 +158,22 @@ TOPICS: tuple[Topic, ...] = (
     Topic("/schedule", pilothouse_msgs.Schedule, 0, "handheld", "scheduled tasks"),
     Topic("/places", pilothouse_msgs.PlaceArray, 0, "handheld", "named places"),
     Topic("/limits", pilothouse_msgs.Limits, 0, "handheld", "limits of speed and area"),
+    Topic(
+        "/gateways",
+        pilothouse_msgs.GatewayArray,
+        0,
+        "handheld",
+        "the protocols that the robot knows: which are up, and how they are used",
+        on_demand=True,
+    ),
+    Topic(
+        "/payloads",
+        pilothouse_msgs.PayloadArray,
+        0,
+        "handheld",
+        "the robot's payloads: which are on",
+        on_demand=True,
+    ),
     Topic("/checklist", pilothouse_msgs.Checklist, 0, "handheld", "checks before the first move"),
     Topic("/tag", pilothouse_msgs.TagRead, 0, "handheld", "the card at the reader"),
     Topic(

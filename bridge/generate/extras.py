@@ -49,6 +49,12 @@ EXTENDS = {
     "pilothouse_msgs/GetMissionsResponse": "pilothouse_msgs/CommandResponse",
     "pilothouse_msgs/RecallMissionRequest": "pilothouse_msgs/CommandRequest",
     "pilothouse_msgs/RecallMissionResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/BringUpGatewayRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/BringUpGatewayResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/BringDownGatewayRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/BringDownGatewayResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/SetPayloadRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/SetPayloadResponse": "pilothouse_msgs/CommandResponse",
 }
 """Classes that begin with all fields of another one, whose subclass they are."""
 

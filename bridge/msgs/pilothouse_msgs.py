@@ -21,6 +21,10 @@ __all__ = [
     "AcknowledgeEventsResponse",
     "ArmOrder",
     "ArmState",
+    "BringDownGatewayRequest",
+    "BringDownGatewayResponse",
+    "BringUpGatewayRequest",
+    "BringUpGatewayResponse",
     "Bumper",
     "Check",
     "Checklist",
@@ -35,6 +39,8 @@ __all__ = [
     "Event",
     "FlightState",
     "Following",
+    "Gateway",
+    "GatewayArray",
     "GetEventsRequest",
     "GetEventsResponse",
     "GetHistoryRequest",
@@ -73,6 +79,8 @@ __all__ = [
     "PairFinishResponse",
     "PairScanRequest",
     "PairScanResponse",
+    "Payload",
+    "PayloadArray",
     "Person",
     "Place",
     "PlaceArray",
@@ -96,6 +104,8 @@ __all__ = [
     "SetModeResponse",
     "SetOptionRequest",
     "SetOptionResponse",
+    "SetPayloadRequest",
+    "SetPayloadResponse",
     "SetPlaceRequest",
     "SetPlaceResponse",
     "SetQueueRequest",
@@ -288,6 +298,60 @@ class ArmState(Msg, frozen=True, gc=False):
     """Pitch of the hand [rad], positive pointing down."""
     touching: bool = False
     """The hand touches something."""
+
+
+class BringDownGatewayRequest(CommandRequest, frozen=True, gc=False):
+    """Brings a protocol down; answered when nothing of it is left."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/BringDownGatewayRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "string",
+        "bool",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    name: str = ""
+    """Of the protocol, as /gateways names it."""
+    own: bool = False
+    """Also when the caller came by it and loses its connection."""
+
+
+class BringDownGatewayResponse(CommandResponse, frozen=True, gc=False):
+    """What `BringDownGateway` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/BringDownGatewayResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
+class BringUpGatewayRequest(CommandRequest, frozen=True, gc=False):
+    """Brings a protocol up while the robot runs; answered when it is up, or why it is not."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/BringUpGatewayRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "string",
+        "string",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    name: str = ""
+    """Of the protocol, as /gateways names it."""
+    url: str = ""
+    """Where, with its options; empty for the usual one."""
+
+
+class BringUpGatewayResponse(CommandResponse, frozen=True, gc=False):
+    """What `BringUpGateway` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/BringUpGatewayResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
 
 
 class Bumper(Msg, frozen=True, gc=False):
@@ -506,6 +570,61 @@ class Following(Msg, frozen=True, gc=False):
     """A person follows."""
     distance: float = math.nan
     """Distance to that person [m]; NaN when not known."""
+
+
+class Gateway(Msg, frozen=True, gc=False):
+    """A protocol by which programs reach the robot."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Gateway"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "string",
+        "string",
+        "bool",
+        "string",
+        "string",
+        "string[]",
+        "string",
+        "string",
+        "string",
+        "string[]",
+        "string[]",
+    )
+    name: str = ""
+    """As it is asked for, such as mqtt."""
+    doc: str = ""
+    """What it is, in a few words."""
+    package: str = ""
+    """The library that it needs and this robot lacks; empty when it is there."""
+    fixed: bool = False
+    """Always up, such as rosbridge: it is neither brought up nor down."""
+    state: str = ""
+    """down, coming_up, up, lost or going_down; lost is up without reaching its broker."""
+    endpoint: str = ""
+    """The URL by which clients reach it; empty while it is down."""
+    options: list[str] = []
+    """Options of its URL as name=value, without user, password and token; empty while it is down."""
+    fault: str = ""
+    """Why it is lost, or did not come up the last time; empty for none."""
+    guide: str = ""
+    """How it is used, with lines that can be pasted; empty while it is down."""
+    usual: str = ""
+    """The URL that counts where none is given; empty for one that is fixed."""
+    schemes: list[str] = []
+    """Schemes of its URLs with their usual ports, as mqtt:1883."""
+    listens: list[str] = []
+    """The schemes by which it listens at its URL; by the others it goes there, to a broker."""
+
+
+class GatewayArray(Msg, frozen=True, gc=False):
+    """All protocols that a robot knows; latched on /gateways, sent once per change while somebody listens."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GatewayArray"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "pilothouse_msgs/Gateway[]")
+    stamp: Time = Time()
+    """When it was so, operators' clock."""
+    gateways: list[Gateway] = []
+    """Those that always run first, the others by name."""
 
 
 class GetEventsRequest(Msg, frozen=True, gc=False):
@@ -1214,6 +1333,46 @@ class PairScanResponse(Msg, frozen=True, gc=False):
     """Name of the robot."""
 
 
+class Payload(Msg, frozen=True, gc=False):
+    """Something that a robot carries or does, and that is offered to clients or not."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Payload"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "string",
+        "bool",
+        "bool",
+        "string",
+        "string[]",
+        "string[]",
+    )
+    key: str = ""
+    """As it is asked for, such as camera."""
+    doc: str = ""
+    """What it is, in a few words."""
+    on: bool = False
+    """It is offered; one that is off is not sent, takes no commands and does not run."""
+    fixed: bool = False
+    """It cannot be switched off, for the reason in why."""
+    why: str = ""
+    """One sentence: why it is fixed, or who switched it off; empty for none."""
+    topics: list[str] = []
+    """Topics that it publishes or listens to."""
+    services: list[str] = []
+    """Its services and actions."""
+
+
+class PayloadArray(Msg, frozen=True, gc=False):
+    """All payloads of a robot; latched on /payloads, sent once per change while somebody listens."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/PayloadArray"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "pilothouse_msgs/Payload[]")
+    stamp: Time = Time()
+    """When it was so, operators' clock."""
+    payloads: list[Payload] = []
+    """In the order of the table of payloads."""
+
+
 class Place(Msg, frozen=True, gc=False):
     """A named pose, so that people can say Office 12 in place of coordinates."""
 
@@ -1621,6 +1780,33 @@ class SetOptionResponse(CommandResponse, frozen=True, gc=False):
     """What `SetOption` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
+class SetPayloadRequest(CommandRequest, frozen=True, gc=False):
+    """Switches a payload on or off for all clients."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetPayloadRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "string",
+        "bool",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    key: str = ""
+    """Of the payload, as /payloads names it."""
+    on: bool = False
+    """It shall be offered."""
+
+
+class SetPayloadResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetPayload` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetPayloadResponse"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
 
 

@@ -83,6 +83,10 @@ class SensorHealth:
                 overturned=msg.phase == "turned_over",
             )
 
+    def forget(self, topic: str) -> None:
+        """The sensor of `topic` is switched off: its silence means nothing until it is heard again."""
+        self._heard.pop(topic, None)
+
     def measured(self, pose: Pose2 | None, *, spread: float = 0.0, sure: bool = True) -> MeasuredState:
         """All of it, with the pose in `map` that was made of it, and how sure that is."""
         return replace(self._measured, pose=pose, spread=spread, sure=sure)

@@ -59,8 +59,7 @@ class GuardedRobot:
     def press_stop(self) -> None:
         """Brake, hold what moves on it, and press the STOP behind, if the robot has one of its own."""
         self.stop()
-        if isinstance(self._robot, Equipped):
-            self._robot.hold_payloads()
+        self.hold_payloads()
         if isinstance(self._robot, Stoppable):
             self._robot.press_stop()
 
@@ -111,6 +110,11 @@ class GuardedRobot:
             self._robot.command(payload, order)
             return
         raise ValueError(f"{self.info.name} has no {payload.replace('_', ' ')} that takes orders.")
+
+    def hold_payloads(self) -> None:
+        """What moves on it stops where it is now."""
+        if isinstance(self._robot, Equipped):
+            self._robot.hold_payloads()
 
     @property
     def heights(self) -> tuple[float, float]:

@@ -9,7 +9,7 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Pose, Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 
-__all__ = ["Equipped", "Levelled", "Manoeuvrable", "Resettable", "Robot", "Stoppable"]
+__all__ = ["Equipped", "Levelled", "Manoeuvrable", "Resettable", "Robot", "Stoppable", "Switchable"]
 
 
 class Robot(Protocol):
@@ -79,6 +79,14 @@ class Equipped(Protocol):
 
     def hold_payloads(self) -> None:
         """Every payload that moves stops where it is now."""
+
+
+@runtime_checkable
+class Switchable(Protocol):
+    """A robot whose sensors can be switched off."""
+
+    def switch(self, topic: str, on: bool) -> None:
+        """Measure what comes on `topic`, or no longer, so that it takes no power; unknown topics are ignored."""
 
 
 @runtime_checkable

@@ -6,11 +6,14 @@ from bridge.core.topics import SONARS, TOPICS, camera_topics
 from bridge.msgs.pilothouse_msgs import RobotInfo, SonarRing
 from robotside.core.bus import Bus
 
-__all__ = ["EQUIPMENT_TOPICS", "OfferedTopics"]
+__all__ = ["EQUIPMENT_TOPICS", "SERVED", "OfferedTopics"]
 
 _RING = {f"/sonar/{number}": number for number in range(SONARS)}
 _PICTURES = {topic.name for topic in TOPICS if topic.name.endswith("/image/compressed")}
 _TRUTH = "/sim/ground_truth"
+
+SERVED = frozenset({"/gateways", "/payloads"})
+"""What is made by who serves the robot."""
 
 EQUIPMENT_TOPICS = frozenset(
     {
@@ -64,4 +67,4 @@ class OfferedTopics:
             return isinstance(ring, SonarRing) and _RING[topic] < len(ring.ranges)
         if topic == "/detections":
             return bool(self._pictures)
-        return topic != _TRUTH or self._simulated
+        return topic not in SERVED and (topic != _TRUTH or self._simulated)

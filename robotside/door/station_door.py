@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator
 from typing import NamedTuple
 
 from bridge.core.errors import Refused
 from bridge.core.robot_catalogue import Operator, Service
+from bridge.core.robot_door import Callback
 from bridge.core.topics import TOPICS, camera_topics
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import CommandResponse, RobotInfo
@@ -16,12 +17,14 @@ from robotside.door.derived_topics import DerivedTopics
 from robotside.door.door import Door
 from robotside.door.gate import OPEN, Gate
 from robotside.door.offered_topics import OfferedTopics
+from robotside.door.switched_off import SwitchedOff
 from robotside.records.audit_export import csv_lines
 from robotside.records.database.audit_rows import UNPROVEN
 from robotside.records.database.storage import NotWritten
 from robotside.services.audit_trail import AuditTrail
 from robotside.services.catalogue import catalogue
 from robotside.services.command_messages import listener
+from robotside.services.command_service import CommandService
 from robotside.services.stop_answer import stop_answer
 from robotside.services.stop_services import press_stop
 from robotside.station.station import Station
@@ -57,12 +60,17 @@ class StationDoor(Door):
         self.trail = AuditTrail(station.records.audit, station.clock)
         """What is done through this door, for the audit log."""
         self._leave = station.bus.subscribe("/control/status", self._on_control)
-        own, actions = catalogue(station, self.trail)
+        self._off = SwitchedOff()
+        self._made: dict[str, Callable[[bool], None]] = {}
+        self.answering = CommandService(station, self.trail)
+        """Runs the station's commands, each once."""
+        own, actions = catalogue(station, self.answering)
+        self._cameras = camera_topics(station.info.cameras)
         super().__init__(
             services=(*own.values(), *map(self.trail.watched, services)),
             actions=actions.values(),
             topics=(*TOPICS, *self._derived.topics),
-            pictures=camera_topics(station.info.cameras).values(),
+            pictures=self._cameras.values(),
             bus=station.bus,
             gate=gate,
             trail=self.trail,
@@ -71,13 +79,66 @@ class StationDoor(Door):
             on_demand=self._want,
             on_gone=station.on_gone,
         )
-        self.offers = OfferedTopics(station.info, station.bus, simulated=station.robot.resettable)
-        """Whether the robot has a topic of the table, by its name."""
+        self._has = OfferedTopics(station.info, station.bus, simulated=station.robot.resettable)
 
     @property
     def info(self) -> RobotInfo:
         """Who the robot is."""
         return self._station.info
+
+    def offers(self, topic: str) -> bool:
+        """Whether the robot has a topic of the table, by its name, and it is switched on."""
+        return topic not in self._off and (topic in self._made or self._has(topic))
+
+    def is_off(self, name: str) -> bool:
+        """Whether a topic, service or action is switched off."""
+        return name in self._off
+
+    def also(self, services: Iterable[Service]) -> None:
+        """Offer `services` too: those of who serves this robot."""
+        self.services.update({service.name: service for service in services})
+
+    def make(self, topic: str, want: Callable[[bool], None]) -> None:
+        """`want` is told when somebody begins to want `topic`, and when nobody does any longer."""
+        self._made[topic] = want
+
+    def switch(self, payload: str, names: Collection[str], *, on: bool, power: bool = True) -> None:
+        """The topics, services and actions of a `payload` are on or off from now on; nothing else of the robot changes.
+
+        Who subscribed to its topics hears nothing while they are off, and is sent them again afterwards. With `power`
+        its sensors are switched too, for everybody.
+        """
+        cameras = [camera for camera, topic in self._cameras.items() if topic in names]
+        self._off.set(payload, (*names, *cameras), on=on)
+        topics = [name for name in names if name not in self.services and name not in self.actions]
+        if power:
+            self._station.sensors.switch(topics, on)
+        for topic in topics if on else ():
+            entry, last = self.topics.get(topic), self.last(topic)
+            if entry is not None and entry.latched and last is not None:
+                self._station.bus.publish(topic, last)
+
+    def permits(self, operator: Operator, verb: str, name: str) -> bool:
+        """Whether the role of `operator` is enough for an operation, be it switched on or off; as `check`."""
+        try:
+            super().check(operator, verb, name)
+        except Refused:
+            return False
+        return True
+
+    def check(self, operator: Operator, verb: str, name: str) -> None:
+        """Raises Refused when the role of `operator` is too small, or when that is switched off."""
+        super().check(operator, verb, name)
+        refusal = self._off.refusal(name)
+        if refusal is not None:
+            self.trail.refused(operator, f"{verb} {name}", refusal)
+            raise refusal
+
+    def subscribe(
+        self, asker: Hashable, topic: str, callback: Callback, *, wanted: bool = True
+    ) -> Callable[[], None]:
+        """As every door's; while the topic is switched off nothing comes."""
+        return super().subscribe(asker, topic, self._off.muted(callback), wanted=wanted)
 
     def audit_lines(self) -> Iterator[str]:
         """The audit log as lines of CSV, which takes up to a second: to be called in a thread of its own. Raises Refused."""
@@ -132,5 +193,7 @@ class StationDoor(Door):
         self.trail.control(self._station.controls.driver)
 
     def _want(self, topic: str, wanted: bool) -> None:
+        if topic in self._made:
+            self._made[topic](wanted)
         self._derived.want(topic, wanted)
         self._station.demand.set(topic, self, wanted)

@@ -36,10 +36,13 @@ READ_ONLY = frozenset(
 
 PARAMETERS = {
     "/arm/move": ("order.action", "order.pose"),
+    "/gateways/bring_down": ("name", "own"),
+    "/gateways/bring_up": ("name",),
     "/lights/set": ("brightness",),
     "/mission/recall": ("name",),
     "/mission/set": ("mission.name",),
     "/mode/set": ("mode",),
+    "/payloads/set": ("key", "on"),
     "/people/guest": ("role",),
     "/people/invite": ("role",),
     "/people/remove": ("id",),

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from bridge.core.robot_catalogue import Action, Service
-from robotside.services.audit_trail import AuditTrail
 from robotside.services.command_service import CommandService
 from robotside.services.control_services import control_services
 from robotside.services.equipment_services import equipment_services
@@ -20,13 +19,10 @@ __all__ = ["catalogue"]
 
 
 def catalogue(
-    station: Station, trail: AuditTrail | None = None
+    station: Station, answering: CommandService | None = None
 ) -> tuple[dict[str, Service], dict[str, Action]]:
-    """The services and the actions of `station` by name; what each has done once is in one ledger for all.
-
-    What is done is recorded in `trail`, by default one of their own.
-    """
-    answering = CommandService(station, trail)
+    """The services and the actions of `station` by name; `answering` runs them, by default one of their own."""
+    answering = answering or CommandService(station)
     services: list[Service] = []
     for family in (
         stop_services,

@@ -21,7 +21,7 @@ from robotside.services.command_log import CommandLog
 from robotside.services.stop_answer import Later, stop_answer
 from robotside.station.station import Station
 
-__all__ = ["Action", "CommandService"]
+__all__ = ["Action", "CommandService", "sender_of"]
 
 DISK_TIMEOUT = 10.0
 """How long an answer waits for the disk [s]."""
@@ -63,7 +63,7 @@ class CommandService:
         def call(client: Operator, asked: CommandRequest) -> CommandResponse | Awaitable[CommandResponse]:
             station = self._station
             station.controls.introduce(client, asked.client_id, asked.client_name)
-            sender = _sender(station, client)
+            sender = sender_of(station, client)
             station.readiness.on_operator_time(asked.stamp)
             done: list[bool] = []
             with station.records.together() as job:
@@ -134,7 +134,7 @@ class CommandService:
         return judged
 
 
-def _sender(station: Station, client: Operator) -> str:
+def sender_of(station: Station, client: Operator) -> str:
     """Whose commands are counted together: those of a proven identity, or of one `client_id` on one machine.
 
     A stranger elsewhere that repeats the ids of a command does not get its answer.

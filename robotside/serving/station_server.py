@@ -19,7 +19,9 @@ from robotside.gateways.http.mounts import Mounts
 from robotside.gateways.rosbridge.gateway import RosbridgeGateway
 from robotside.gateways.scaling.picture_scaling import PictureScaler
 from robotside.serving.fleet_server import FleetServer, RunningServer
+from robotside.serving.gateway_board import GatewayBoard
 from robotside.serving.gateway_owner import GatewayOwner
+from robotside.serving.payload_switches import PayloadSwitches
 from robotside.serving.station_keys import StationKeys
 from robotside.station.station import Station
 
@@ -112,6 +114,9 @@ class StationServer:
         self._wished, self._mdns = tuple(gateways), mdns
         self.gateways = GatewayOwner(around)
         """The gateways beside those two, which come and go while it runs."""
+        self._board = GatewayBoard(self.door, station, self.gateways, self._endpoints)
+        self.payloads = PayloadSwitches(self.door, station, self._board.update)
+        """Which payloads are on."""
 
     def _web_site(self, around: Surroundings, mounts: Mounts) -> HttpGateway:
         keys, addresses = self.keys, self.addresses
@@ -137,6 +142,9 @@ class StationServer:
         self.keys.trust.on_lost = door.expel
         return door
 
+    def _endpoints(self) -> Mapping[str, str]:
+        return {"rosbridge": self.addresses.bridge, "http": self.addresses.http}
+
     async def run(self, ready: Callable[[Addresses], None]) -> None:
         """Serve until `end`; `ready` is called once everything listens. BridgeError when a port is taken."""
         await self._alone.run(lambda _: ready(self.addresses))
@@ -160,6 +168,7 @@ class StationServer:
             for gateway in self._gateways:
                 opened.push_async_callback(gateway.stop)
             opened.push_async_callback(self.gateways.close)
+            opened.push_async_callback(self._board.close)
             opened.callback(self.station.robot.stop)  # before all else
             endpoints: dict[str, str] = {}
             for gateway in self._gateways:

@@ -53,6 +53,7 @@ from robotside.station.port_watch import PortWatch
 from robotside.station.recovery import recover_task
 from robotside.station.remarks import Remarks
 from robotside.station.rest_detector import RestDetector
+from robotside.station.sensor_power import SensorPower
 from robotside.station.stop_control import StopControl
 from robotside.tasks.agenda import Agenda
 from robotside.tasks.task_factory import tasks_of
@@ -92,7 +93,6 @@ class Station:
         self.records = records
         """What is kept over restarts."""
         self.bus = Bus()
-        self.demand = Demand(robot.want)
         self.events = Events(records.events, clock, lambda event: self.bus.publish("/events", event))
         self.keeper = LimitKeeper(config.limits, port_info(robot))
         """The robot's limits."""
@@ -100,6 +100,9 @@ class Station:
         self._remarks = Remarks(self.events.say, clock)
         self._limits = LimitGuard(self.keeper, self._measured, self._remarks, self.events.say)
         self._make_controls(robot, config)
+        self.sensors = SensorPower(robot, self.readiness.sensor_health.forget)
+        """What of the robot is switched on."""
+        self.demand = Demand(self.sensors.want)
         first = list(robot.read(now))
         self.autonomy = self._autonomy(first, rng)
         """What the robot does by itself."""

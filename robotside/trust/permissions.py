@@ -74,6 +74,9 @@ _DRIVE = (
 _MANAGE = (
     "call /settings/set",
     "call /robot/reset",
+    "call /gateways/bring_up",
+    "call /gateways/bring_down",
+    "call /payloads/set",
     "call /people/list",
     "call /people/guest",
     "call /people/invite",

@@ -48,6 +48,10 @@ class SensorSuite:
         self._sensors: dict[str, tuple[float, Measure]] = {}
         self._after: dict[str, int] = {}
         self._schedule: Schedule | None = None
+        self._off: set[str] = set()
+        """Topics that are switched off."""
+        self._dark: set[str] = set()
+        """Sensors that have nothing to tell but these, as far as that is known."""
 
     def __contains__(self, name: str) -> bool:
         return name in self._sensors
@@ -61,6 +65,11 @@ class SensorSuite:
             raise ValueError(f"There is a sensor {name!r} already.")
         self._sensors[name] = (rate, measure)
         self._after[name] = after
+
+    def switch(self, topic: str, on: bool) -> None:
+        """Measure what comes on `topic`, or no longer; a sensor that tells nothing else does not work meanwhile."""
+        (self._off.discard if on else self._off.add)(topic)
+        self._dark.clear()
 
     def anything_due(self, step: int) -> bool:
         """Whether any sensor measures after `step`; a step after which none does need not be measured."""
@@ -77,7 +86,17 @@ class SensorSuite:
             return
         now = state()
         for name in due:
-            yield from self._sensors[name][1](now, stamp)
+            if not self._off:
+                yield from self._sensors[name][1](now, stamp)
+            elif name not in self._dark:
+                yield from self._measure_in_part(name, now, stamp)
+
+    def _measure_in_part(self, name: str, state: State, stamp: float) -> Iterator[Measurement]:
+        """What one sensor tells of what is not switched off."""
+        measured = list(self._sensors[name][1](state, stamp))
+        if measured and all(topic in self._off for topic, _ in measured):
+            self._dark.add(name)
+        yield from (each for each in measured if each[0] not in self._off)
 
     def _planned(self) -> Schedule:
         if self._schedule is None:

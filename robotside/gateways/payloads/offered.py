@@ -73,6 +73,8 @@ def _lines(door: StationDoor, payload: Payload) -> Iterator[Line]:
 
 def _line(door: StationDoor, each: Exchange) -> Line | None:
     """The line of a topic, service or action; None when the robot has none of that name."""
+    if door.is_off(each.name):
+        return None
     if each.name in door.services:
         return Line(CALL, each.name, door.services[each.name].type, 0, each.doc, each.units, each.example)
     if each.name in door.actions:

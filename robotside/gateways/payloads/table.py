@@ -44,6 +44,15 @@ PAYLOADS: tuple[Payload, ...] = (
             _call("/settings/set", "switches a setting", '{"name": "follow_link", "value": "on"}'),
             _call("/events/get", "the events after a number", '{"since": 0, "most": 20}'),
             _call("/events/acknowledge", "acknowledges events", '{"ids": [1]}'),
+            Exchange("/gateways"),
+            Exchange("/payloads"),
+            _call(
+                "/gateways/bring_up", "brings a protocol up; url empty is its usual one", '{"name": "mqtt"}'
+            ),
+            _call("/gateways/bring_down", "brings a protocol down", '{"name": "mqtt"}'),
+            _call(
+                "/payloads/set", "switches a payload on or off for everybody", '{"key": "lights", "on": true}'
+            ),
             _call("/robot/reset", "puts a simulated robot back to its start"),
         ),
     ),

@@ -21,6 +21,8 @@ def test_every_service_and_action_of_a_station_has_its_line(operations: set[str]
 
 EQUIPMENT = {"call /arm/move", "call /lights/set", "call /robot/reset"}
 """Services of robots that carry more than the one of these tests."""
+SERVED = {"call /gateways/bring_up", "call /gateways/bring_down", "call /payloads/set"}
+"""Services of robots that are served; tests/robotside/serving has their tests."""
 PEOPLE = {f"call /pair/{what}" for what in ("scan", "begin", "finish")} | {
     f"call /people/{what}" for what in ("me", "list", "remove", "guest", "invite")
 }
@@ -29,7 +31,7 @@ PEOPLE = {f"call /pair/{what}" for what in ("scan", "begin", "finish")} | {
 
 def test_every_line_of_a_service_or_action_is_one_of_a_station(operations: set[str]) -> None:
     named = {each for each in PERMISSIONS if each.split()[0] in ("call", "run") and not each.endswith(ANY)}
-    assert named - operations == EQUIPMENT | PEOPLE
+    assert named - operations == EQUIPMENT | PEOPLE | SERVED
 
 
 def test_without_a_role_there_is_stop_and_nothing_that_shows_or_moves_the_robot() -> None:

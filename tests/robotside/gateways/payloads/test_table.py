@@ -13,8 +13,12 @@ from bridge.core.topics import TOPICS
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Pose
 from robotside.door.station_door import StationDoor
+from robotside.gateways.adapter import Surroundings
 from robotside.gateways.payloads.table import ALWAYS, KEYS, PAYLOADS, key_of
 from robotside.gateways.plain.strict_json import decode, read_message
+from robotside.serving.gateway_board import GatewayBoard
+from robotside.serving.gateway_owner import GatewayOwner
+from robotside.serving.payload_switches import PayloadSwitches
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
 
@@ -43,7 +47,11 @@ class EquippedRobot(FakeRobot):
 
 @pytest.fixture
 def door(tmp_path: Path) -> StationDoor:
-    return Scene(EquippedRobot(), tmp_path).door
+    scene = Scene(EquippedRobot(), tmp_path)
+    owner = GatewayOwner(Surroundings(scene.door, scene.station.events.say))
+    GatewayBoard(scene.door, scene.station, owner, dict)
+    PayloadSwitches(scene.door, scene.station, owner.on_change)
+    return scene.door
 
 
 def _type(door: StationDoor, name: str) -> type[Msg]:
