@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from http import HTTPStatus
 
 from websockets.asyncio.server import ServerConnection
@@ -23,9 +24,19 @@ __all__ = ["Handshakes", "address_of"]
 class Handshakes:
     """The opening handshakes of one server."""
 
-    def __init__(self, door: RobotDoor, pages: PagePolicy, now: Callable[[], float]) -> None:
-        """`pages` may connect; `now` is the operators' clock [s]."""
+    def __init__(
+        self,
+        door: RobotDoor,
+        pages: PagePolicy,
+        now: Callable[[], float],
+        enter: Callable[..., Operator] | None = None,
+    ) -> None:
+        """`pages` may connect; `now` is the operators' clock [s].
+
+        `enter(address, secure=, token=, trusted=)` joins at the door, as rosbridge where nothing else is given.
+        """
         self._door, self._pages, self._now = door, pages, now
+        self._enter = enter or partial(door.join, way="rosbridge")
         self.joined: dict[CallbackConnection, Operator] = {}
         """Who shook hands and is not served yet."""
 
@@ -82,13 +93,7 @@ class Handshakes:
         token = bearer(headers.get_all("Authorization"))
         if not token and verdict.own and headers.get_all("Origin"):
             token = cookie(headers.get_all("Cookie"), self._pages.cookie_name)
-        return self._door.join(
-            address_of(ws),
-            way="rosbridge",
-            secure=ws.below is not None,
-            token=token,
-            trusted=verdict.trusted,
-        )
+        return self._enter(address_of(ws), secure=ws.below is not None, token=token, trusted=verdict.trusted)
 
 
 def address_of(ws: ServerConnection) -> str:

@@ -9,11 +9,8 @@ Camera frames travel on WebSockets of their own at `/camera/NAME`.
 from __future__ import annotations
 
 import asyncio
-import contextlib
-import errno
 import logging
 import re
-import socket
 import ssl
 import time
 from collections.abc import Callable, Iterable, Mapping
@@ -21,14 +18,13 @@ from http import HTTPStatus
 from types import MappingProxyType
 from typing import Any
 
-from websockets.asyncio.server import Server, ServerConnection, serve
+from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
 from bridge.core.async_tasks import cancel_all
 from bridge.core.camera_frames import ASKS_FOR_SAME
 from bridge.core.compat import Compat
-from bridge.core.errors import BridgeError
 from bridge.core.robot_catalogue import Operator
 from bridge.core.robot_door import RobotDoor
 from bridge.msgs import Msg
@@ -47,12 +43,13 @@ from bridge.server.node_graph import NodeGraph
 from bridge.server.reception.log_limit import STRANGERS
 from bridge.server.reception.pages import PagePolicy
 from bridge.server.reception.places import Limits
-from bridge.server.reception.reception import Reception, anyone
+from bridge.server.reception.reception import anyone
 from bridge.server.rosapi.parameters import Parameters
 from bridge.server.rosapi.services import RosApi
 from bridge.server.rosbridge_session import RosbridgeSession
 from bridge.server.server_context import ServerContext
 from bridge.server.switchboard import Switchboard
+from bridge.server.web_socket_listener import WebSocketListener, tune
 
 __all__ = ["BridgeServer"]
 
@@ -60,17 +57,10 @@ log = logging.getLogger(__name__)
 log.addFilter(STRANGERS)
 
 _CAMERA_PATH = re.compile(r"/camera/([\w-]+)/?(?:\?.*)?$")
-_MAX_UNSENT_BYTES = 65536
-"""Most bytes that wait for one client in this process and again in the kernel; then newer messages replace older ones."""
-
 LIMITS = Limits()
 """Connections that a server has at a time, where nothing else is asked for."""
-_DEAD_TIMEOUT = 15_000
-"""A client that leaves data unacknowledged for this long is disconnected by the kernel [ms]."""
 _CHECK_PERIOD = 1.0
 """Time between two checks of every client [s]."""
-_CLOSE_TIMEOUT = 0.5
-"""Time for clients to close before they are cut off [s]."""
 
 
 _MADE_HERE = frozenset(topic.name for topic in CLIENT_TOPICS)
@@ -143,9 +133,8 @@ class BridgeServer:
         self._levels = QualityLevels(shrink)
         self._open: set[ServerConnection] = set()
         self._limits, self._documents = limits, documents
-        self._reception = Reception(limits)
+        self._listener = WebSocketListener(limits)
         self._handshakes = Handshakes(door, PagePolicy(), now)
-        self._server: Server | None = None
         self._batch: WriteBatch | None = None
         self._tasks: set[asyncio.Task[None]] = set()
 
@@ -169,29 +158,12 @@ class BridgeServer:
         `pages` are the web pages that may connect, by default none.
         """
         self._handshakes = Handshakes(self._door, pages or PagePolicy(), self._context.now)
-        self._reception = Reception(self._limits, tls=tls, plain_from=plain_from)
+        self._listener = WebSocketListener(self._limits, tls=tls, plain_from=plain_from)
         self._batch = WriteBatch(asyncio.get_running_loop().call_soon)
-        try:
-            self._server = await serve(
-                self._serve,
-                host,
-                port,
-                process_request=self._admit,
-                process_response=self._greet,
-                compression=None,
-                create_connection=self._connection,  # type: ignore[arg-type]  # it is only called
-                open_timeout=5,
-                ping_interval=5,
-                ping_timeout=10,
-                close_timeout=_CLOSE_TIMEOUT,
-                max_size=MAX_SERVER_FRAME,
-                write_limit=_MAX_UNSENT_BYTES,
-                server_header="Pilothouse",
-                logger=_quiet_log(),
-            )
-        except OSError as error:
-            raise BridgeError(_cannot_listen(host, port, error)) from error
-        self.port = next(iter(self._server.sockets)).getsockname()[1]
+        await self._listener.start(
+            host, port, self._serve, admit=self._admit, greet=self._greet, max_size=MAX_SERVER_FRAME
+        )
+        self.port = self._listener.port
         self._tasks |= {
             asyncio.create_task(self._check_clients()),
             asyncio.create_task(self._measure_round_trips()),
@@ -202,17 +174,7 @@ class BridgeServer:
         await self._levels.close()
         await self._reducer.close()
         await cancel_all(self._tasks)
-        server, self._server = self._server, None
-        if server is None:
-            return
-        server.close()
-        await self._reception.close()
-        try:
-            async with asyncio.timeout(_CLOSE_TIMEOUT):
-                await server.wait_closed()
-        except TimeoutError:
-            self._reception.places.give_up_all()
-            await server.wait_closed()
+        await self._listener.close()
 
     def publish(self, topic: str, msg: Msg) -> None:
         """Send `msg` to all subscribers; BridgeError for a topic that is not in the table.
@@ -236,9 +198,6 @@ class BridgeServer:
         else:
             self._wanted.pop(topic)()
 
-    def _connection(self, *args: Any, **options: Any) -> asyncio.Protocol:
-        return self._reception.front(CallbackConnection(*args, **options))
-
     def _admit(self, ws: ServerConnection, request: Request) -> Response | None:
         refusal = self._handshakes.refusal(ws, request)
         if refusal is None and request.path in self._documents:
@@ -260,7 +219,7 @@ class BridgeServer:
         operator = self._handshakes.joined.pop(ws, None) if isinstance(ws, CallbackConnection) else None
         if operator is None or not isinstance(ws, CallbackConnection) or self._batch is None:
             return
-        _tune(ws)
+        tune(ws)
         camera = _camera(ws.request)
         self._open.add(ws)
         try:
@@ -330,27 +289,3 @@ def _document(ws: ServerConnection, text: bytes) -> Response:
     answer.headers["Content-Type"] = "application/json"
     answer.headers["Cache-Control"] = "no-store"
     return answer
-
-
-def _tune(ws: ServerConnection) -> None:
-    """Limit the kernel's queue for a slow client, and its patience with a dead one."""
-    sock = ws.transport.get_extra_info("socket")
-    for option, value in (("TCP_NOTSENT_LOWAT", _MAX_UNSENT_BYTES), ("TCP_USER_TIMEOUT", _DEAD_TIMEOUT)):
-        if hasattr(socket, option):
-            with contextlib.suppress(OSError):
-                sock.setsockopt(socket.IPPROTO_TCP, getattr(socket, option), value)
-
-
-def _cannot_listen(host: str, port: int, error: OSError) -> str:
-    if error.errno == errno.EADDRINUSE:
-        return f"Port {port} on {host} is taken by another program; stop that one or choose another port."
-    if error.errno == errno.EACCES:
-        return f"Port {port} may be used by the system only; choose one above 1023."
-    return f"Cannot listen on {host}:{port} ({error.strerror or error})."
-
-
-def _quiet_log() -> logging.Logger:
-    """A log for the WebSocket library, kept quiet: most of its errors are strangers that connect and leave."""
-    quiet = logging.getLogger("bridge.server.server.websockets")
-    quiet.setLevel(logging.CRITICAL)
-    return quiet

@@ -18,7 +18,7 @@ from bridge.msgs.std_msgs import Time
 from bridge.protocol import Op, Reduction, Subscribed, encode, split, to_png
 from bridge.rosbytes import serialize
 
-__all__ = ["Form", "OutgoingMessage", "Reduce", "ping_frame", "op_frames", "text_frame"]
+__all__ = ["Form", "OutgoingMessage", "Reduce", "binary_frame", "op_frames", "ping_frame", "text_frame"]
 
 K = TypeVar("K")
 V = TypeVar("V")
@@ -65,6 +65,11 @@ class Form(NamedTuple):
 def text_frame(text: bytes) -> bytes:
     """`text` as one text frame of a server."""
     return _head(_TEXT, len(text)) + text
+
+
+def binary_frame(data: bytes) -> bytes:
+    """`data` as one binary frame of a server."""
+    return _head(_BINARY, len(data)) + data
 
 
 def ping_frame(content: bytes) -> bytes:

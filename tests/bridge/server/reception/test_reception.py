@@ -66,7 +66,7 @@ async def heard_to_the_end(reader: asyncio.StreamReader) -> bytes:
 
 async def nobody_left(robot: BridgeServer) -> None:
     async with asyncio.timeout(TIMEOUT):
-        while len(robot._reception.places):  # noqa: ASYNC110 - the loop has to go round
+        while len(robot._listener.reception.places):  # noqa: ASYNC110 - the loop has to go round
             await asyncio.sleep(0)
 
 
@@ -98,7 +98,7 @@ async def test_who_is_turned_away_and_sends_on_is_cut(
     async with secured(context, plain_from=nobody) as robot, bare(robot) as (reader, writer):
         writer.write(b"GET / HTTP/1.1\r\n")
         assert b" 426 " in await reader.readline()
-        assert len(robot._reception.places) == 1, "it has time to read why"
+        assert len(robot._listener.reception.places) == 1, "it has time to read why"
         writer.write(b"x" * (module._MAX_IGNORED_BYTES + 1))
         await nobody_left(robot)
 
@@ -143,7 +143,7 @@ async def test_one_that_says_nothing_is_cut(context: ssl.SSLContext, monkeypatch
     monkeypatch.setattr(module, "FIRST_BYTE_TIMEOUT", 0.02)
     async with secured(context) as robot, bare(robot) as (reader, _):
         assert await heard_to_the_end(reader) == b""
-        assert len(robot._reception.places) == 0
+        assert len(robot._listener.reception.places) == 0
 
 
 async def test_one_on_the_reserve_is_cut_when_its_time_is_over(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -162,13 +162,13 @@ async def test_one_that_hangs_up_at_once_leaves_nothing(
     context: ssl.SSLContext, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     async with secured(context) as robot:
-        came, arrive = Record(), robot._reception.places.arrive
+        came, arrive = Record(), robot._listener.reception.places.arrive
 
         def arrived(host: str, give_up: Callable[[], None]) -> Place:
             came(host)
             return arrive(host, give_up)
 
-        monkeypatch.setattr(robot._reception.places, "arrive", arrived)
+        monkeypatch.setattr(robot._listener.reception.places, "arrive", arrived)
         for said in (b"", b"\x16", b"G"):
             async with bare(robot) as (_, writer):
                 writer.write(said)
@@ -185,7 +185,7 @@ async def test_the_server_ends_with_connections_in_every_state(context: ssl.SSLC
         async with secret(robot) as safe:
             await safe.settled()
             await robot.close()
-        assert len(robot._reception.places) == 0
+        assert len(robot._listener.reception.places) == 0
 
 
 def test_an_address_of_ipv6_counts_with_its_network_and_one_of_ipv4_alone() -> None:
