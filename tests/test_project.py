@@ -231,7 +231,7 @@ WHO_INSTALLS = {
 }
 
 
-ALSO = {"app": ("voice", "vosk", "espeak", "mdns"), "robotside": ("gateways", "mdns")}
+ALSO = {"app": ("voice", "vosk", "espeak", "mdns"), "robotside": ("gateways", "mdns", "video")}
 """Extras that a folder makes use of where they are installed."""
 
 

@@ -9,7 +9,6 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from kivy.clock import Clock
 from kivy.input import MotionEvent
 from kivy.metrics import dp
 from kivy.properties import ListProperty, NumericProperty, ObjectProperty, OptionProperty
@@ -17,6 +16,7 @@ from kivy.uix.widget import Widget
 
 from widgets.core.geometry import View, nearest
 from widgets.core.theme import theme
+from widgets.map.finger_stay import FingerStay
 from widgets.map.map_marks import handle_reach
 
 __all__ = ["Grip", "MapGestures"]
@@ -84,7 +84,7 @@ class MapGestures(Widget):
         self._fingers: dict[int, complex] = {}
         self._start = 0j
         self._tapping = False
-        self._held = Clock.create_trigger(lambda _: self._hold(), HOLD_DURATION)
+        self._stay = FingerStay(self._hold, HOLD_DURATION)
         super().__init__(**kwargs)
 
     def on_add(self, x: float, y: float) -> None:
@@ -115,7 +115,7 @@ class MapGestures(Widget):
     def let_go(self) -> None:
         """Forget all fingers; what they held goes back to where it was."""
         self._fingers.clear()
-        self._held.cancel()
+        self._stay.end()
         self._tapping, self.grip = False, None
 
     def on_touch_down(self, touch: MotionEvent) -> bool:
@@ -134,9 +134,9 @@ class MapGestures(Widget):
         if self._tapping:
             self._start = complex(*touch.pos)
             self.grip = self._grip_at(*touch.pos)
-        self._held.cancel()
+        self._stay.end()
         if self._tapping and self.grip is None and self.mode in ("view", "points", "place"):
-            self._held()
+            self._stay.begin()
         return True
 
     def _hold(self) -> None:
@@ -164,7 +164,7 @@ class MapGestures(Widget):
         if touch.grab_current is not self or touch.uid not in self._fingers:
             return bool(super().on_touch_up(touch))
         touch.ungrab(self)
-        self._held.cancel()
+        self._stay.end()
         del self._fingers[touch.uid]
         grip = self.grip
         if grip is not None and not self._fingers:
@@ -185,7 +185,7 @@ class MapGestures(Widget):
 
     def _drag(self, before: complex, after: complex) -> None:
         self._tapping = False
-        self._held.cancel()
+        self._stay.end()
         if self.grip is None:
             self.set_view(self.view.moved(after.real - before.real, after.imag - before.imag))
             return

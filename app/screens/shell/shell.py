@@ -22,6 +22,7 @@ from app.screens.parts.themes import Themes
 from app.screens.shell import status_text as standing
 from app.screens.shell.announcements import Announcements
 from app.screens.shell.control_cards import ControlCards
+from app.screens.shell.control_toggle import ControlToggle
 from app.screens.shell.intent_prompts import IntentPrompts
 from app.screens.shell.notices import BRIEF_DURATION, Notices
 from app.screens.shell.rail import Rail
@@ -41,7 +42,6 @@ __all__ = ["Shell"]
 STANDING = ("/control/status", "/task/status", "/robot/info", LINK, CAPABILITIES)
 """Channels that tell how the robot stands."""
 
-NO_CONTROL = "This robot has no control handling: any pushed stick drives it."
 
 Builder.load_string("""
 <Shell>:
@@ -108,6 +108,7 @@ class Shell(FloatLayout):
         self.screens = screens
         self.stop_place = arrange.StopPlace(0, 0, 1, 1)
         """Where STOP is, alone or together with STOP ALL [px]."""
+        self.control = ControlToggle(self.session, self.say)
         self._build_frame()
         self._question = TaskQuestion(self.session, self.notices)
         self.question = self._question.card
@@ -306,6 +307,7 @@ class Shell(FloatLayout):
         self.reset.tick()
         self._stop.show()
         self._stop.tick()
+        self.control.tick()
         self._show_rail()
         self._announcements.tick()
         if self.screen:
@@ -315,11 +317,8 @@ class Shell(FloatLayout):
     # what is asked
 
     def toggle_control(self) -> None:
-        """Take control or ask for it, give it up, or take back that it is asked for; a robot without any says so."""
-        if self.session.control == "none":
-            self.say(NO_CONTROL, "info", about="control")
-            return
-        self.session.authority.toggle()
+        """A tap on control, as `ControlToggle.toggle` has it."""
+        self.control.toggle(self.parent)
 
     def back(self) -> bool:
         """Back within the screen that is on the glass; False when it has nowhere to go back to."""

@@ -48,6 +48,48 @@ def test_a_drag_on_free_ground_moves_the_map_and_adds_nothing(map_, stage):
     assert not map_.follow
 
 
+def test_a_finger_that_stays_asks_for_a_place_once(map_, stage):
+    map_.mode = "points"
+    touch = stage.touch(250, 130)
+    touch.touch_down()
+    stage.run_for(1.5)
+    assert map_.log == [("on_new_place", pytest.approx(5), pytest.approx(-2))]
+    touch.touch_up()
+    assert len(map_.log) == 1
+
+
+@pytest.mark.parametrize("before", [0, 1], ids=["in the long frame", "in the one after it"])
+def test_a_tap_during_a_frame_that_takes_long_is_a_tap(map_, stage, before):
+    """The finger left while it was drawn, which is only read afterwards."""
+    map_.mode = "points"
+    touch = stage.touch(250, 130)
+    touch.touch_down()
+    stage.frames(1, period=2.0)
+    stage.frames(before)
+    touch.touch_up()
+    stage.run_for(1.0)
+    assert [event[0] for event in map_.log] == ["on_add"]
+
+
+def test_on_a_device_that_draws_two_frames_a_second_a_finger_that_stays_asks_for_a_place(map_, stage):
+    map_.mode = "points"
+    touch = stage.touch(250, 130)
+    touch.touch_down()
+    stage.frames(5, period=0.5)
+    assert [event[0] for event in map_.log] == ["on_new_place"]
+
+
+def test_a_finger_that_leaves_or_drags_in_time_asks_for_none(map_, stage):
+    map_.mode = "points"
+    touch = stage.touch(250, 130)
+    touch.touch_down()
+    stage.run_for(0.5)
+    touch.touch_move(300, 130)
+    stage.run_for(1.0)
+    touch.touch_up()
+    assert map_.log == []
+
+
 def test_dragging_a_waypoint_moves_only_it_and_says_so_once_at_the_end(map_, stage):
     map_.mode = "points"
     map_.waypoints = [(0.0, 0.0), (10.0, 5.0)]

@@ -11,7 +11,7 @@ from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithC
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
 from widgets.map.grid_map import GridMap
 
-EVENTS = ("on_add", "on_move", "on_select", "on_set_home", "on_place_robot")
+EVENTS = ("on_add", "on_move", "on_select", "on_set_home", "on_place_robot", "on_new_place")
 
 
 class Watched(GridMap):

@@ -94,7 +94,7 @@ def test_what_waits_is_cancelled_by_a_finger_and_a_refusal_is_said(glass: Glass,
     glass.until(lambda: app.shell is not None and app.session.control == "mine", "no control")
     app.intents.submit(Heard("start", "shake"))
     glass.until(lambda: any("Shake may not" in text for text in glass.banners()), "it is not said")
-    app.shell.toggle_control()
+    app.session.authority.release()
     glass.until(lambda: app.session.control == "free", "control is not given up")
     app.intents.submit(Heard("take_control", "voice"))
     card = app.shell.wishes.card

@@ -124,6 +124,35 @@ def test_who_somebody_else_drives_is_asked_for_and_that_is_taken_back(
     assert driving.app.session.control == "other"
 
 
+def test_control_is_not_given_back_by_one_tap(driving: Glass, robot: FakeRobot) -> None:
+    driving.tap(driving.app.shell.ids.control)
+    driving.until(lambda: driving.app.shell.control.dialog is not None, "nobody asks")
+    driving.stage.run_for(0.5, COARSE)
+    driving.tap(driving.app.shell.control.dialog.ids.keep)
+    driving.stage.run_for(0.5, COARSE)
+    assert driving.app.session.control == "mine"
+    assert "/control/release" not in robot.services()
+
+
+def test_control_is_given_back_by_the_answer_to_a_question(driving: Glass, robot: FakeRobot) -> None:
+    driving.tap(driving.app.shell.ids.control)
+    driving.until(lambda: driving.app.shell.control.dialog is not None, "nobody asks")
+    driving.stage.run_for(0.5, COARSE)
+    driving.tap(driving.app.shell.control.dialog.ids.give_back)
+    driving.until(lambda: driving.app.session.control == "free", "still ours")
+
+
+def test_the_question_goes_when_control_is_gone_anyway(driving: Glass, robot: FakeRobot) -> None:
+    driving.tap(driving.app.shell.ids.control)
+    driving.until(lambda: driving.app.shell.control.dialog is not None, "nobody asks")
+    dialog = driving.app.shell.control.dialog
+    tell(robot, driver="Bob", driver_id="b")
+    driving.until(lambda: dialog.parent is None, "it still asks")
+    dialog.answer()
+    driving.stage.run_for(0.5, COARSE)
+    assert "/control/release" not in robot.services()
+
+
 def test_the_mode_is_a_command_whose_answer_is_said(driving: Glass, robot: FakeRobot) -> None:
     chip, card = driving.app.shell.ids.mode, driving.app.shell.cards.mode
     driving.until(lambda: chip.pressable, "not offered")
