@@ -31,7 +31,8 @@ TAG_DIGITS = 2
 
 _FINGERPRINT = re.compile("[0-9a-f]{64}")
 _SECRET = re.compile("[A-Za-z0-9_-]{16,64}")
-_HOST = re.compile(r"[A-Za-z0-9._-]{1,253}|[0-9A-Fa-f:.]{2,45}")
+HOST = re.compile(r"[A-Za-z0-9._-]{1,253}|[0-9A-Fa-f:.]{2,45}")
+"""A host in a link."""
 
 
 class BadPairing(ValueError):
@@ -72,7 +73,7 @@ class PairLink:
         fingerprint, secret, name = (said.get(key, "") for key in "csn")
         if parts is None or parts.scheme != SCHEME or len(said) != len(fields):
             raise BadPairing(_NO_LINK)
-        if not (_HOST.fullmatch(host) and port):
+        if not (HOST.fullmatch(host) and port):
             raise BadPairing(_NO_LINK)
         if not (_FINGERPRINT.fullmatch(fingerprint) and _SECRET.fullmatch(secret)):
             raise BadPairing(_NO_LINK)

@@ -95,10 +95,10 @@ def _robot(simulated: Simulated, serve: ServeSettings) -> str:
         for each in simulated.robots
     ]
     values = [str(item.value) for item in items]
-    if old and old not in values and not old.startswith(_ROS):
+    if old and old not in values and ("," in old or not old.startswith(_ROS)):
         items.append(Item(f"{old}, as now", value=old))  # several robots, say
     items.append(Item("another     a robot behind a rosbridge server", value=_OTHER))
-    usual = _OTHER if old.startswith(_ROS) else old or values[0] if values else _OTHER
+    usual = _OTHER if old.startswith(_ROS) and "," not in old else old or [*values, _OTHER][0]
     found = _select("Which robot?", items, usual)
     if found != _OTHER:
         return found

@@ -15,6 +15,7 @@ from bridge.core.errors import BridgeError
 from bridge.core.identity import Role
 from robotside.core.notice import Notice
 from robotside.gateways.adapter import Adapter, AdapterGateway, Surroundings
+from robotside.gateways.usage_sheet.sheet import Running
 
 if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load it
     from robotside.gateways.gateway_url import GatewayUrl
@@ -72,6 +73,22 @@ class GatewayOwner:
     def standing(self, name: str) -> Standing:
         """How the gateway of that name is; down where there never was one."""
         return self._known.get(name, Standing())
+
+    def usage(self) -> list[Running]:
+        """How each that is up is used, for the usage sheet."""
+        from robotside.gateways.discovery import (
+            adapters,
+        )  # somebody looks: a robot of which nobody asks has not loaded it
+
+        known = adapters() if self._running else {}
+        found = []
+        for name in self._running:
+            standing = self._known[name]
+            if standing.gateway is not None:
+                doc = known[name].doc if name in known else ""
+                url = " ".join(standing.gateway.endpoints().values())
+                found.append(Running(name, doc, url, standing.gateway.guide(), standing.fault))
+        return found
 
     async def bring_up(self, adapter: Adapter, url: GatewayUrl) -> None:
         """Start a gateway. BridgeError with one sentence when that cannot be, or one of that name is up; nothing is left then."""

@@ -57,6 +57,8 @@ class StationKeys:
         """By which browsers may call the robot."""
         self.stop_from_pages = settings.stop_from_pages
         """Every web page of the world may press STOP."""
+        self.pin = certificate.pin
+        """Hash of its public key, for curl."""
         self.claim = certificate.fingerprint[:CLAIM_LENGTH]
         """What its HELLO says of its certificate."""
         self.trust = Trust(PeopleFile(state), station.clock, settings, plain=plain)

@@ -16,8 +16,10 @@ from robotside.gateways.adapter import Adapter, Surroundings
 from robotside.gateways.gateway import Gateway
 from robotside.gateways.http.gateway import HttpGateway
 from robotside.gateways.http.mounts import Mounts
+from robotside.gateways.http.usage_pages import Usage
 from robotside.gateways.rosbridge.gateway import RosbridgeGateway
 from robotside.gateways.scaling.picture_scaling import PictureScaler
+from robotside.gateways.usage_sheet.sheet import Running
 from robotside.serving.fleet_server import FleetServer, RunningServer
 from robotside.serving.gateway_board import GatewayBoard
 from robotside.serving.gateway_owner import GatewayOwner
@@ -132,7 +134,11 @@ class StationServer:
             stop_from_pages=keys.stop_from_pages if keys else True,
             pairing=keys.pairing if keys else None,
             mounts=mounts,
+            usage=Usage(self._running, keys.pin if keys else ""),
         )
+
+    def _running(self) -> list[Running]:
+        return self.gateways.usage()
 
     def _door(self) -> StationDoor:
         if self.keys is None:

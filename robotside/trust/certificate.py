@@ -6,6 +6,7 @@ server = await loop.create_server(..., ssl=certificate.context())
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import ipaddress
 import socket
@@ -60,6 +61,14 @@ class Certificate:
         except x509.ExtensionNotFound:
             return ()
         return tuple(found.value.get_values_for_type(x509.DNSName))
+
+    @property
+    def pin(self) -> str:
+        """SHA-256 of its public key in base64, as curl's `--pinnedpubkey` takes it behind `sha256//`."""
+        public = x509.load_pem_x509_certificate(self.pem).public_key()
+        form = serialization.PublicFormat.SubjectPublicKeyInfo
+        der = public.public_bytes(serialization.Encoding.DER, form)
+        return base64.b64encode(hashlib.sha256(der).digest()).decode()
 
     def context(self) -> ssl.SSLContext:
         """For a server's socket; BadCertificate when certificate and key do not belong together."""

@@ -21,8 +21,8 @@ def as_text(link: str) -> str:
 
 
 def as_svg(link: str) -> str:
-    """A QR code as an SVG element, black on white."""
-    shown: str = _code(link).svg_inline(scale=5, light="white")
+    """A QR code as an SVG element, black on white, as large as the page makes it."""
+    shown: str = _code(link).svg_inline(light="white", omitsize=True)
     return shown
 
 

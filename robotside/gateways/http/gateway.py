@@ -24,6 +24,7 @@ from robotside.gateways.http.camera_streams import CameraStreams
 from robotside.gateways.http.doorkeeper import Doorkeeper
 from robotside.gateways.http.mounts import Mounts
 from robotside.gateways.http.sessions import Sessions
+from robotside.gateways.http.usage_pages import NOTHING_BESIDE, Usage
 from robotside.gateways.http.web_site import site
 from robotside.gateways.scaling.picture_scaling import PictureScaler
 from robotside.trust.pairing import Pairing
@@ -50,12 +51,13 @@ class HttpGateway:
         stop_from_pages: bool = True,
         pairing: Pairing | None = None,
         mounts: Mounts | None = None,
+        usage: Usage = NOTHING_BESIDE,
     ) -> None:
         """Port 0 takes a free one. The page names `rosbridge_url` to programs.
 
         With `tls` browsers may come encrypted, on the same port; `plain_from(host)` says who may come without, for more than
         STOP.
-        `pages` may speak to the robot, by default its own; `stop_from_pages` as of `Doorkeeper`, `pairing` as of `site`.
+        `pages` may speak to the robot, by default its own; `stop_from_pages` as of `Doorkeeper`, `pairing` and `usage` as of `site`.
         `mounts` are the applications of others on the site.
         """
         self._host, self._is_secure = host, tls is not None
@@ -64,7 +66,7 @@ class HttpGateway:
         allowed = pages or PagePolicy(web_port=lambda: self.port)
         self.cameras = CameraStreams(door, pictures, door.now)
         """Who looks, and how late the pictures are."""
-        own = site(door, rosbridge_url, self.cameras, Sessions(door, allowed), pairing)
+        own = site(door, rosbridge_url, self.cameras, Sessions(door, allowed), pairing, usage)
         self.mounts = mounts or Mounts(lambda: self.endpoints()["http"])
         """The applications of others on the site."""
         self.mounts.reserve(route.path for route in own.routes if isinstance(route, Route))

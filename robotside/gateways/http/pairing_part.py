@@ -10,20 +10,15 @@ from robotside.trust.qr import as_svg
 
 __all__ = ["pairing_part"]
 
-_OPEN = """<h2>Pair a handheld</h2><p>Scan this with the app, or choose the robot there and type
-<b>{code}</b>. It is for one use, and ends at most ten minutes after it was opened.</p>{picture}
-<p><a href="{link}">Pair this device</a></p>"""
-
-_CLOSED = """<h2>Pair a handheld</h2><p>Pairing is closed. A paired handheld that manages the robot opens it, or
-<code>python -m robotside pair</code> on the robot's computer.</p>"""
+_OPEN = """<div class="qr">{picture}</div><div><p>Pair a handheld: scan this with the phone's camera, or choose the robot in the app
+and type</p><p class="code"><b>{code}</b></p><p class="quiet">It is for one use, and ends at most ten minutes after it was opened.
+<a href="{link}">Pair this device</a></p></div>"""
 
 
 def pairing_part(pairing: Pairing | None) -> str:
-    """The part, in HTML; empty for a robot without keys. It has a secret: only for who manages the robot."""
-    if pairing is None:
+    """The part, in HTML; empty while pairing is closed, and for a robot without keys. It has a secret: only for who manages the robot."""
+    offer = pairing.offer if pairing is not None else None
+    if pairing is None or offer is None:
         return ""
-    offer = pairing.offer
-    if offer is None:
-        return _CLOSED
     link = pairing.link(offer)
     return _OPEN.format(code=code_in_groups(offer.code), picture=as_svg(link), link=html.escape(link))

@@ -3,28 +3,24 @@
 from __future__ import annotations
 
 import asyncio
-import html
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
-from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, Response
+from starlette.responses import JSONResponse, PlainTextResponse, Response
 from starlette.routing import Route
 
 from bridge.core.errors import BridgeError, Refused
-from bridge.core.identity import Role
-from bridge.core.topics import TOPICS
-from bridge.msgs.pilothouse_msgs import TaskStatus
 from robotside.control.authority import MAX_NAME_LENGTH
 from robotside.core.text import plain
 from robotside.door.station_door import StationDoor
 from robotside.gateways.http.asker import is_known, operator_of
-from robotside.gateways.http.camera_pages import CameraPages, cameras_part
+from robotside.gateways.http.camera_pages import CameraPages
 from robotside.gateways.http.camera_streams import CameraStreams
-from robotside.gateways.http.pairing_part import pairing_part
 from robotside.gateways.http.sessions import Sessions
+from robotside.gateways.http.usage_pages import NOTHING_BESIDE, Usage, UsagePages, strangers
 from robotside.gateways.video.shared_encodings import FullError
 from robotside.gateways.video.video_encoder import NoVideo
 from robotside.trust.pairing import Pairing
@@ -33,32 +29,6 @@ __all__ = ["site"]
 
 _FRESH = {"Cache-Control": "no-store"}
 _AS_FILE = _FRESH | {"Content-Disposition": 'attachment; filename="audit.csv"'}
-_PRIVATE = {
-    "Cache-Control": "no-store",
-    "X-Frame-Options": "DENY",
-    "Content-Security-Policy": "frame-ancestors 'none'",
-    "Referrer-Policy": "no-referrer",
-}
-"""Pages are neither kept nor shown inside pages of others."""
-
-_PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{name}</title>
-<style>body{{font-family:sans-serif;max-width:60em;margin:2em auto;padding:0 1em}}
-td,th{{text-align:left;padding:.2em 1em .2em 0}}code{{background:#eee;padding:.1em .3em}}</style>
-<h1>{name}</h1><form method="post" action="/stop"><button style="font-size:1.5em;color:#fff;background:#c00;
-padding:.4em 2em;border:0">STOP</button></form><p>{description}{world}. {state}</p>{pairing}
-<h2>How to reach it</h2><ul>
-<li>rosbridge v2 (roslibjs, roslibpy, Pilothouse): <code>{bridge}</code></li>
-{cameras}<li>STOP, from anywhere and by anyone: <code>curl -X POST</code> to <code>/stop</code></li>
-<li>health: <a href="/healthz">/healthz</a></li></ul>
-<h2>Topics</h2><table><tr><th>topic</th><th>type</th><th>rate</th><th>what</th></tr>{topics}</table>
-<h2>Services</h2><table><tr><th>service</th><th>type</th></tr>{services}</table></html>"""
-
-_STRANGERS_PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{name}</title>
-<style>body{{font-family:sans-serif;max-width:40em;margin:2em auto;padding:0 1em}}</style>
-<h1>{name}</h1><form method="post" action="/stop"><button style="font-size:1.5em;color:#fff;background:#c00;
-padding:.4em 2em;border:0">STOP</button></form><p>{said}</p>
-<form method="post" action="/login"><label>Token <input name="token" type="password" autocomplete="off" size="50"></label>
-<button>Log in</button></form></html>"""
 
 
 def site(
@@ -67,12 +37,17 @@ def site(
     streams: CameraStreams,
     sessions: Sessions,
     pairing: Pairing | None = None,
+    usage: Usage = NOTHING_BESIDE,
 ) -> Starlette:
-    """The web site of one robot, behind its `Doorkeeper`; who manages the robot sees how to pair by `pairing`."""
-    pages = _Pages(door, bridge_url, streams, sessions, pairing)
+    """The web site of one robot, behind its `Doorkeeper`; who manages the robot sees how to pair by `pairing`.
+
+    `usage` is what its usage sheet says beside what the door knows.
+    """
+    pages, sheet = _Pages(door, sessions), UsagePages(door, bridge_url, streams, pairing, usage)
     return Starlette(
         routes=[
-            Route("/", pages.page),
+            Route("/", sheet.page),
+            Route("/usage.txt", sheet.text),
             Route("/stop", pages.stop, methods=["GET", "POST"]),
             Route("/login", pages.login, methods=["POST"]),
             Route("/logout", pages.logout, methods=["POST"]),
@@ -92,26 +67,9 @@ def site(
 class _Pages:
     """The answers to each path."""
 
-    def __init__(
-        self,
-        door: StationDoor,
-        bridge_url: Callable[[], str],
-        streams: CameraStreams,
-        sessions: Sessions,
-        pairing: Pairing | None,
-    ) -> None:
-        self._door, self._bridge_url, self._pairing = door, bridge_url, pairing
-        self._streams, self._sessions = streams, sessions
+    def __init__(self, door: StationDoor, sessions: Sessions) -> None:
+        self._door, self._sessions = door, sessions
         self._reading = asyncio.Lock()  # one reader of the whole audit log at a time
-
-    async def page(self, request: Request) -> Response:
-        if is_known(self._door, request):
-            manages = operator_of(request).role(self._door.now()) >= Role.MANAGE
-            part = pairing_part(self._pairing) if manages else ""
-            bridge = self._bridge_url()
-            cameras = cameras_part(self._door, bridge, self._streams.delays)
-            return HTMLResponse(_page(self._door, bridge, cameras, part), headers=_PRIVATE)
-        return _strangers_page(self._door, "Show the token that you were given to see more.")
 
     async def health(self, request: Request) -> Response:
         known = is_known(self._door, request)
@@ -141,7 +99,7 @@ class _Pages:
         try:
             return await self._sessions.login(request)
         except Refused as refusal:
-            return _strangers_page(self._door, str(refusal), 401)
+            return strangers(self._door, str(refusal), 401)
 
     async def logout(self, request: Request) -> Response:
         return self._sessions.logout(request)
@@ -152,12 +110,6 @@ async def _stop(door: StationDoor, request: Request) -> tuple[str, int]:
     name = plain(request.query_params.get("name", ""), MAX_NAME_LENGTH)
     answer = await door.stop(operator_of(request), name)
     return f"{answer.message}\n", 200 if answer.success else 503
-
-
-def _strangers_page(door: StationDoor, said: str, status: int = 200) -> Response:
-    """What a stranger sees: the robot's name, STOP, and where to show a token."""
-    shown = _STRANGERS_PAGE.format(name=html.escape(door.info.name), said=html.escape(said))
-    return HTMLResponse(shown, status, _PRIVATE)
 
 
 async def _sentence(_: Request, problem: Exception) -> Response:
@@ -176,26 +128,3 @@ async def _no_video(_: Request, problem: Exception) -> Response:
 
 async def _broken(_: Request, problem: Exception) -> Response:
     return PlainTextResponse(f"{problem}\n", 502)
-
-
-def _page(door: StationDoor, bridge: str, cameras: str, pairing: str) -> str:
-    info, status = door.info, door.last("/task/status")
-    topics = "".join(
-        f"<tr><td>{t.name}</td><td>{t.type.MSGTYPE}</td>"
-        f"<td>{f'{t.rate:g} Hz' if t.rate else 'on change'}</td><td>{html.escape(t.doc)}</td></tr>"
-        for t in TOPICS
-    )
-    rows = "".join(
-        f"<tr><td>{name}</td><td>{service.type}</td></tr>" for name, service in sorted(door.services.items())
-    )
-    return _PAGE.format(
-        name=html.escape(info.name),
-        description=html.escape(info.description),
-        world=html.escape(f" in {info.world}" if info.world else ""),
-        state=html.escape((status.reason if isinstance(status, TaskStatus) else "") or "It has no task."),
-        bridge=html.escape(bridge),
-        pairing=pairing,
-        cameras=cameras,
-        topics=topics,
-        services=rows,
-    )

@@ -20,7 +20,10 @@ def test_a_terminal_shows_a_square_of_blocks_that_is_another_for_another_link() 
 
 
 def test_a_page_has_it_as_an_element() -> None:
-    assert as_svg(LINK).startswith("<svg")
+    shown = as_svg(LINK)
+    assert shown.startswith("<svg")
+    assert "viewBox" in shown, "a page that makes it smaller cuts it off"
+    assert "width=" not in shown
 
 
 def test_a_printer_has_it_as_a_picture(tmp_path: Path) -> None:
