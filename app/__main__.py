@@ -16,6 +16,7 @@ from app.garbage_collector import spare_the_start
 from app.layout import layout as layouts
 from app.lean_kivy import be_lean
 from bridge.trust.pairing import SCHEME, PairLink
+from bridge.trust.robot_link import RobotLink, read_link
 
 __all__ = ["main", "prepare", "quieten"]
 
@@ -34,7 +35,7 @@ class _Parser(argparse.ArgumentParser):
 def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser = _Parser(prog="main.py", description="Pilothouse: supervise and drive robots.")
     parser.add_argument(
-        "url", nargs="?", help="address of the robot, as in ws://192.168.1.7:9090, or its pairing link"
+        "url", nargs="?", help="address of the robot, as in ws://192.168.1.7:9090, or its link"
     )
     parser.add_argument(
         "--pair", action="append", default=[], metavar="LINK", help="pair by this link without a question"
@@ -50,7 +51,8 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     for link in arguments.pair:
         PairLink.read(link)
     if arguments.url is not None and arguments.url.startswith(f"{SCHEME}:"):
-        PairLink.read(arguments.url)
+        link = read_link(arguments.url)
+        arguments.url = link.url if isinstance(link, RobotLink) else arguments.url
     elif arguments.url is not None:
         arguments.url = check_address(arguments.url)
     layout = arguments.layout

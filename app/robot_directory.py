@@ -50,6 +50,7 @@ class RobotDirectory:
         self._app, self._settings, self._client_name, self._now = app, settings, client_name, now
         self.trust = RobotTrust(app, settings.path.parent)
         """The robots that this handheld is paired with."""
+        self.trust.on_address = self.ask_address
         self.robots = KnownRobots(
             now,
             settings.get("robots") or (),
@@ -94,13 +95,14 @@ class RobotDirectory:
     def _entries(self) -> list[Entry]:
         return [replace(entry, trust=self.trust.standing(entry.url)) for entry in self.robots.entries()]
 
-    def ask_address(self) -> None:
-        """Ask for an address to connect to."""
+    def ask_address(self, address: str = "") -> None:
+        """Ask for an address to connect to; `address` is one that need only be confirmed."""
         from app.screens.parts.dialogs import AddressDialog
 
         dialog = AddressDialog(self.open_typed)
         self._app.root.add_widget(dialog)
-        dialog.ids.field.focus = True
+        dialog.ids.field.text = address
+        dialog.ids.field.focus = not address
 
     def open_typed(self, text: str) -> None:
         """Connect to an address that was typed, and save it once something answers there. ValueError for no address."""

@@ -17,6 +17,7 @@ from app.trust.pairing_attempts import PAIRING, Attempt, PairingAttempts
 from bridge.client.credentials import Credentials
 from bridge.discovery.hello import is_loopback
 from bridge.trust.pairing import SCHEME, BadPairing, PairLink, split_code
+from bridge.trust.robot_link import RobotLink, read_link
 
 if TYPE_CHECKING:
     from app.screens.trust.pair_dialog import PairDialog  # when somebody pairs, for a quick start
@@ -55,6 +56,8 @@ class RobotTrust:
         """The robots that this handheld is paired with."""
         self.dialog: PairDialog | None = None
         """The question that is on the glass."""
+        self.on_address: Callable[[str], object] = app.open
+        """Takes the address of a link without a secret that was opened; any web page can open one."""
         self.attempts: PairingAttempts
         """What carries attempts out; there while the app runs."""
         self._number = -1
@@ -140,11 +143,16 @@ class RobotTrust:
         return f"This is not the {other.name} that you paired: another robot uses its name." if other else ""
 
     def open_link(self, text: str) -> None:
-        """Somebody opened a robot's link: ask whether to pair."""
+        """Somebody opened a robot's link: ask whether to pair, or to connect by one without a secret."""
         try:
-            self.ask(link=PairLink.read(text))
+            link = read_link(text)
         except BadPairing as mistake:
             self._app.say(str(mistake), "danger")
+            return
+        if isinstance(link, RobotLink):
+            self.on_address(link.url)
+        else:
+            self.ask(link=link)
 
     def begin(self, links: Iterable[str]) -> None:
         """Pair by `links` without a question, and ask about each link that the system opens with this app."""
@@ -176,7 +184,11 @@ class RobotTrust:
     def _answer(self, text: str) -> None:
         """What the dialog was told; BadPairing for what is neither link nor code."""
         if text.strip().startswith(f"{SCHEME}:"):
-            self._number = self.attempts.by_link(PairLink.read(text))
+            link = read_link(text)
+            if isinstance(link, RobotLink):
+                self._connect(link)
+                return
+            self._number = self.attempts.by_link(link)
         else:
             split_code(text)
             if not self._url:
@@ -184,6 +196,12 @@ class RobotTrust:
             self._number = self.attempts.by_code(f"wss://{place_of(self._url)}", text)
         if self.dialog is not None:
             self.dialog.busy = True
+
+    def _connect(self, link: RobotLink) -> None:
+        """A link without a secret was pasted: there is nothing to pair by, and the robot is asked."""
+        if self.dialog is not None:
+            self.dialog.close()
+        self._app.open(link.url)
 
     def _closed(self, dialog: PairDialog) -> None:
         if dialog is self.dialog:

@@ -14,6 +14,8 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from bridge.discovery.hello import Hello, is_loopback, port_of
+from bridge.trust.pairing import SCHEME
+from bridge.trust.robot_link import RobotLink, read_link
 
 __all__ = [
     "MAX_HEARD",
@@ -40,8 +42,10 @@ PORT = 9090
 
 
 def check_address(text: str) -> str:
-    """The `ws://HOST:PORT` of what somebody typed; ValueError with a sentence when it cannot be one."""
+    """The `ws://HOST:PORT` of what somebody typed, or of a robot's link without a secret; ValueError with a sentence for anything else."""
     typed = text.strip()
+    if typed.startswith(f"{SCHEME}:"):
+        return _address_of(typed)
     if not typed:
         raise ValueError("Enter an address such as 192.168.1.7 or ws://192.168.1.7:9090.")
     if ":/" in typed and "://" not in typed:
@@ -60,6 +64,14 @@ def check_address(text: str) -> str:
         raise ValueError(f"{typed} is not an address such as 192.168.1.7 or ws://192.168.1.7:9090.")
     host = f"[{host}]" if ":" in host else host
     return f"{parts.scheme}://{host}:{port or PORT}{parts.path.rstrip('/')}"
+
+
+def _address_of(text: str) -> str:
+    """The address that a robot's QR code says; ValueError with a sentence for one that is to be paired by."""
+    link = read_link(text)
+    if isinstance(link, RobotLink):
+        return link.url
+    raise ValueError("This link is for pairing: open it, or paste it where the robot's code is asked for.")
 
 
 def address(url: str) -> str:

@@ -25,7 +25,7 @@ ROOT = Path(__file__).parents[2]
         ),
         (
             ["pilothouse://10.0.0.3"],
-            "This is no pairing link of a robot; one begins with pilothouse:// and is complete.",
+            "This is no link of a robot; one begins with pilothouse:// and is complete.",
         ),
         (
             ["--pair", "ws://10.0.0.3"],

@@ -11,11 +11,13 @@ import pytest
 
 from app.link.feeds import Post
 from app.robot_trust import NO_ROBOT
+from app.screens.parts.dialogs import AddressDialog
 from app.screens.trust.pair_dialog import PairDialog
 from app.trust.pairing_attempts import PAIRING, Attempt
 from bridge.client.pairing import Paired
 from bridge.core.identity import Role
 from bridge.trust.pairing import PairLink
+from bridge.trust.robot_link import RobotLink
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 from tests.bridge.certificates import served
@@ -152,7 +154,7 @@ def test_a_wrong_code_is_said_and_can_be_typed_again(glass: Glass, attempts: Att
 
 
 @pytest.mark.parametrize(
-    ("text", "said"), [("12345", "6 digits"), ("", "6 digits"), ("pilothouse://x", "no pairing link")]
+    ("text", "said"), [("12345", "6 digits"), ("", "6 digits"), ("pilothouse://x", "no link of a robot")]
 )
 def test_what_is_neither_code_nor_link_reaches_no_robot(
     glass: Glass, attempts: Attempts, text: str, said: str
@@ -203,6 +205,42 @@ def test_an_opened_link_is_not_followed_before_a_person_says_so(glass: Glass, at
     assert not attempts.asked
     glass.tap(dialog(glass).ids.pair)
     assert attempts.asked == [(LINK,)]
+
+
+def test_an_opened_link_to_a_robot_connects_once_a_person_says_so(glass: Glass, robot: FakeRobot) -> None:
+    """Any web page can open one."""
+    link = RobotLink.of(robot.url, "Fake-1")
+    glass.app.open(link.text)
+    asks = next(each for each in glass.app.root.children if isinstance(each, AddressDialog))
+    assert asks.ids.field.text == robot.url
+    glass.stage.frames(6)
+    assert glass.app.session is None
+    asks.answer()
+    glass.until(lambda: glass.app.shell is not None, "no screens")
+    assert glass.app.session.robot.url == robot.url
+    glass.app.leave()
+
+
+@pytest.mark.parametrize("way", ["typed", "pasted"])
+def test_a_robots_link_connects_where_an_address_is_typed_and_where_a_pairing_link_is_pasted(
+    glass: Glass, robot: FakeRobot, way: str
+) -> None:
+    link = RobotLink.of(robot.url, "Fake-1").text
+    if way == "typed":
+        glass.app.robot_list.open_typed(f" {link} ")
+    else:
+        glass.app.robot_list.trust.ask()
+        dialog(glass).ids.field.text = link
+        glass.tap(dialog(glass).ids.pair)
+        assert dialog(glass) is None
+    glass.until(lambda: glass.app.shell is not None, "no screens")
+    glass.app.leave()
+
+
+def test_a_link_to_a_robot_that_is_reached_by_tls_asks_for_its_code(glass: Glass, attempts: Attempts) -> None:
+    glass.app.robot_list.open_typed(RobotLink("127.0.0.1", 9, True, "Fake-1").text)
+    assert dialog(glass).takes_code
+    assert not attempts.asked
 
 
 def test_a_damaged_link_is_one_sentence(glass: Glass) -> None:

@@ -66,6 +66,8 @@ def test_what_is_no_address_is_said(robots: KnownRobots, typed: str, sentence: s
         ("10.0.0.4:9091", B),
         ("wss://robot.example/bridge/", "wss://robot.example:9090/bridge"),
         ("ws://[fe80::1]:9091", "ws://[fe80::1]:9091"),
+        (" pilothouse://10.0.0.4:9091?n=Rex ", B),
+        ("pilothouse://[fe80::1]:9091?t=1&n=Rex", "wss://[fe80::1]:9091"),
     ],
 )
 def test_an_address_is_completed(typed: str, url: str) -> None:

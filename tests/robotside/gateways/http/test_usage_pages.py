@@ -15,13 +15,19 @@ from unittest.mock import AsyncMock
 import pytest
 import websockets
 
+from app.discovery.known_robots import check_address
 from bridge.core.identity import Role
 from robotside.core.config import TrustSettings
 from robotside.gateways.discovery import read_wish
+from robotside.gateways.http.gateway import HttpGateway
 from robotside.gateways.payloads.offered import READ
+from robotside.gateways.scaling.picture_scaling import PictureScaler
 from robotside.serving.gateway_owner import GatewayOwner
+from robotside.trust.qr import as_svg
+from tests.fakes import FakeRobot
 from tests.lacking import lacking
 from tests.robotside.gateways.payloads.test_table import EquippedRobot
+from tests.robotside.scene import Scene
 from tests.robotside.serving.test_station_keys import serving as serving_with_keys
 from tests.robotside.serving.test_station_server import serving
 from tests.robotside.visitor import visitor
@@ -166,6 +172,29 @@ async def test_a_stranger_sees_no_more_than_a_name_stop_and_where_to_log_in(tmp_
         "curl",
     ):
         assert secret not in page.text + text.text, secret
+
+
+@pytest.mark.parametrize("bridge", ["ws://192.0.2.7:9090", "wss://[2001:db8::7]:9091"])
+async def test_the_qr_code_says_where_the_app_connects_to(tmp_path: Path, bridge: str) -> None:
+    scene, pictures = Scene(FakeRobot(), tmp_path), PictureScaler()
+    gateway = HttpGateway(scene.door, "127.0.0.1", 0, pictures, lambda: bridge)
+    await gateway.start()
+    async with visitor(gateway.endpoints()["http"]) as web:
+        page = (await web.get("/")).text
+    await gateway.stop()
+    await pictures.close()
+    (link,) = (html.unescape(text) for text in re.findall(r'href="(pilothouse:[^"]*)"', page))
+    assert check_address(link) == bridge, "as the app reads it"
+    assert as_svg(link) in page
+
+
+async def test_who_manages_sees_how_to_pair_in_place_of_where_to_connect(tmp_path: Path) -> None:
+    async with serving_with_keys(tmp_path) as (serves, keys, _), visitor(serves.addresses.http) as web:
+        assert "Pairing is closed" in (await web.get("/")).text
+        offer = keys.pairing.open(Role.DRIVE)
+        page = (await web.get("/")).text
+    assert as_svg(keys.pairing.link(offer)) in page
+    assert page.count("<svg") == 1, "one code to scan"
 
 
 async def test_the_page_takes_nothing_from_elsewhere_and_runs_no_script(tmp_path: Path) -> None:
