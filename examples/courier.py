@@ -13,6 +13,7 @@ import math
 import time
 from collections.abc import Callable
 
+from examples.poses import pose
 from examples.protocols.ways import SCHEMES, Answer, Way, way_to
 
 __all__ = ["NotDelivered", "deliver", "place"]
@@ -71,13 +72,8 @@ def _runs(way: Way) -> list[Answer]:
 def place(way: Way, x: float, y: float, yaw: float) -> None:
     """Tell the robot where it stands on its map [m, rad], which it does not know after its first start."""
     turned = {"z": math.sin(yaw / 2), "w": math.cos(yaw / 2)}
-    pose = {"position": {"x": x, "y": y}, "orientation": turned}
-    way.publish("/initialpose", {"header": {"frame_id": "map"}, "pose": {"pose": pose}})
-
-
-def _pose(text: str) -> tuple[float, float, float]:
-    x, y, yaw = map(float, text.split(","))
-    return x, y, yaw
+    here = {"position": {"x": x, "y": y}, "orientation": turned}
+    way.publish("/initialpose", {"header": {"frame_id": "map"}, "pose": {"pose": here}})
 
 
 def main() -> int:
@@ -95,7 +91,7 @@ def main() -> int:
     )
     parser.add_argument("--confirm", action="store_true", help="answer what the robot asks")
     parser.add_argument(
-        "--at", type=_pose, metavar="X,Y,YAW", help="where the robot stands, if it does not know"
+        "--at", type=pose, metavar="X,Y,YAW", help="where the robot stands, if it does not know"
     )
     chosen = parser.parse_args()
     try:

@@ -1,0 +1,1 @@
+"""Oranges: an external program finds them in the camera's pictures, and the arm touches each."""
