@@ -6,6 +6,7 @@ import asyncio
 import math
 import ssl
 from collections.abc import Callable, Iterable
+from functools import partial
 from urllib.parse import urlsplit
 
 import msgspec
@@ -81,7 +82,7 @@ class RollCalls:
             while True:
                 for url in self.due():
                     self._asking[url] = task = asyncio.create_task(self._ask(url))
-                    task.add_done_callback(lambda _, url=url: self._asking.pop(url))
+                    task.add_done_callback(partial(self._answered, url))
                 await asyncio.sleep(_STEP)
         finally:
             await cancel_all(list(self._asking.values()))
@@ -105,6 +106,9 @@ class RollCalls:
         chosen = waiting[: MAX_AT_ONCE - len(self._asking)]
         self._asked.update(dict.fromkeys(chosen, now))
         return chosen
+
+    def _answered(self, url: str, _: asyncio.Task[None]) -> None:
+        del self._asking[url]
 
     async def _ask(self, url: str) -> None:
         """Ask at one address; silence, and anything that is no answer, is silence."""

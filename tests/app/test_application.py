@@ -200,7 +200,11 @@ def test_a_robot_comes_onto_the_glass_with_all_that_is_known_of_it(glass: Glass,
     glass.until(lambda: app.session.control == "other" and app.session.robot.info.name, "nothing told")
     enter()
     bar, mission = app.shell.bar, app.screens["mission"]
-    assert (bar.robot_name, bar.mode_text, mission.panel.tasks.state) == ("Rover-1", "MANUAL", "disabled")
+    assert (bar.robot_name, bar.mode_text, mission.panel.tasks.state) == (
+        "Rover-1",
+        "MANUAL · Anna",
+        "disabled",
+    )
 
 
 def test_nothing_can_be_asked_for_before_it_is_known_who_has_control(driving: Glass) -> None:

@@ -26,6 +26,8 @@ class ModeCard(NoticeCard):
 
     mode = StringProperty("MANUAL")
     """As the robot says it: MANUAL, AUTO, PAUSED or STOPPED."""
+    who = StringProperty("you")
+    """Who has control: `you`, a name, or empty for nobody."""
     task = StringProperty("")
     """What it does in AUTO, as in `patrol`; empty while it has no task."""
     why_not = StringProperty("")
@@ -43,7 +45,7 @@ class ModeCard(NoticeCard):
         )
         self.manual.bind(on_release=lambda _: self.choose("MANUAL"))
         self.auto.bind(on_release=lambda _: self.choose("AUTO"))
-        for name in ("mode", "task", "why_not", "sent", "ready", "tiny"):
+        for name in ("mode", "who", "task", "why_not", "sent", "ready", "tiny"):
             self.fbind(name, self._write)
         self._write()
 
@@ -72,10 +74,12 @@ class ModeCard(NoticeCard):
         self.icon = "autorenew" if automatic else "sports_esports"
         sentence = self._sentence()
         self.headline, self.said = (sentence, "") if self.tiny else ("Who steers?", sentence)
-        for button, chosen in ((self.manual, not automatic), (self.auto, automatic)):
+        driven = not automatic and bool(self.who)
+        for button, chosen in ((self.manual, driven), (self.auto, automatic)):
             button.fill, button.border = (self.role, self.role) if chosen else ("raised", "line")
             button.ink = f"ink_{self.role}" if chosen else "text"
             button.disabled = not chosen and bool(self.why_not or self.sent)
+        self.manual.disabled = self.manual.disabled or not (automatic or driven)
         self.auto.disabled = self.auto.disabled or not (automatic or self.ready)
         self.manual.meaning = self.auto.meaning = self.mode
 
@@ -86,17 +90,14 @@ class ModeCard(NoticeCard):
             return self.why_not
         if self.mode == "AUTO":
             return f"MANUAL pauses: {self.task}." if self.task else "MANUAL pauses it."
+        driver = {"you": "You are driving.", "": "Nobody drives."}.get(self.who, f"{self.who} is driving.")
         if self.ready:
-            return (
-                f"You are driving. AUTO continues: {self.task}."
-                if self.task
-                else "You are driving. AUTO continues the task."
-            )
-        return "You are driving. Start a task to switch to AUTO."
+            return f"{driver} AUTO continues{f': {self.task}' if self.task else ' the task'}."
+        return f"{driver} Start a task to switch to AUTO."
 
 
 def samples() -> dict[str, Callable[[], Widget]]:
-    """Driven by hand with and without a task that waits, on a task, asked for, not to be changed."""
+    """Driven by hand with and without a task that waits, by nobody, on a task, asked for, not to be changed."""
 
     def make(mode: str, **kwargs: Any) -> Callable[[], Widget]:
         def build() -> Widget:
@@ -108,6 +109,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
 
     return {
         "manual": make("MANUAL"),
+        "nobody drives": make("MANUAL", who=""),
         "paused": make("PAUSED", task="patrol", ready=True),
         "auto": make("AUTO", task="patrol", ready=True),
         "asked for": make("PAUSED", task="patrol", ready=True, sent="AUTO"),

@@ -10,6 +10,7 @@ from app.link.commands import Outcome
 from app.screens.shell.notices import LONG_DURATION, Notices
 from app.session.dashboard import Dashboard
 from app.session.session import Session
+from app.session.steering import steering
 from bridge.msgs.pilothouse_msgs import TaskQueue, TaskStatus
 from widgets import HandoverCard, ModeCard, PausedCard, SpeedCap
 from widgets.core.task_words import TASKS
@@ -118,6 +119,8 @@ class ControlCards:
         queue: TaskQueue | None = session.feeds.latest("/task/queue")
         card.task = TASKS[task.task].doing if task is not None and task.task in TASKS else ""
         waits = task is not None and task.state in ("PAUSED", "INTERRUPTED")
+        how = steering(session)
+        card.who = how.who if how else ""
         card.ready = waits or bool(queue is not None and queue.orders)
         if session.robot_stop.latched:
             card.why_not = "STOP is pressed; hold it to release."

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from app.session.session import Session
-from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
+from app.session.steering import Steering, steering
+from bridge.msgs.pilothouse_msgs import TaskStatus
 from bridge.msgs.sensor_msgs import NavSatFix
-from widgets.core.task_words import TASKS
 
 __all__ = ["control", "control_nav", "fix", "mode", "standing"]
 
@@ -15,6 +15,7 @@ MAX_NAME_LENGTH, MAX_BRIEF_LENGTH = 14, 8
 """Letters of a driver's name in the bar, and on a button of a phone's navigation."""
 
 MODES = {
+    "READY": ("sports_esports", "muted"),
     "MANUAL": ("sports_esports", "accent"),
     "AUTO": ("autorenew", "plan"),
     "PAUSED": ("pause_fill", "warn"),
@@ -30,18 +31,27 @@ CONTROLS = {
 """Who has control to icon, role, words of the chip, and its words where there is little room."""
 
 
-def mode(session: Session, *, brief: bool) -> tuple[str, str, str]:
-    """Words, icon and role of who steers the robot, and with what task unless `brief`."""
-    status: ControlStatus | None = session.feeds.latest("/control/status")
-    if session.robot.foreign and session.connected:
-        held = session.robot_stop.local.latched
-        return "STOP" if held else "MANUAL", *MODES["STOPPED" if held else "MANUAL"]
-    if status is None or not session.connected:
-        return "no link" if not session.connected else "—", "signal_disconnected", "muted"
-    task: TaskStatus | None = session.feeds.latest("/task/status")
-    words = TASKS[task.task].doing if task is not None and task.task in TASKS else ""
-    busy = status.mode in ("AUTO", "PAUSED") and words and not brief
-    return f"{status.mode} · {words}" if busy else status.mode, *MODES.get(status.mode, ("help", "muted"))
+def mode(session: Session, form: str = "wide") -> tuple[str, str, str]:
+    """Words, icon and role of who steers the robot, and with what task, for a window of this shape."""
+    if not session.connected:
+        return "no link", "signal_disconnected", "muted"
+    if session.robot.foreign and session.robot_stop.local.latched:
+        return "STOP", *MODES["STOPPED"]
+    how = steering(session)
+    if how is None:
+        return "—", "signal_disconnected", "muted"
+    words = how.mode if form == "tall" else _long_mode(how, form)
+    return words, *MODES.get(how.mode, ("help", "muted"))
+
+
+def _long_mode(how: Steering, form: str) -> str:
+    if how.mode in ("AUTO", "PAUSED"):
+        return f"{how.mode} · {how.task}" if how.task else how.mode
+    if how.mode != "MANUAL":
+        return how.mode
+    if how.waits:
+        return f"MANUAL · {how.task} paused" if form == "wide" and how.task else "MANUAL · paused"
+    return f"MANUAL · {_short(how.who)}"
 
 
 def fix(session: Session) -> tuple[str, str]:
@@ -96,6 +106,7 @@ def standing(session: Session) -> tuple[object, ...]:
         session.link_state.phase,
         session.robot.capabilities,
         task and (task.task_id, task.state),
+        session.link.driving,
         status and (status.mode, status.stopped, status.driver_id, status.requested_by_id),
     )
 

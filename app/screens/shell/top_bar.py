@@ -75,7 +75,7 @@ Builder.load_string("""
         icon: root.mode_icon if root.form != 'tall' else ''
         role: root.mode_role
         text: root.mode_text
-        usual: 'STOPPED' if root.form == 'tall' else 'PAUSED · patrol'
+        usual: 'STOPPED' if root.form == 'tall' else 'MANUAL · patrol paused' if root.form == 'wide' else 'PAUSED · patrol'
         spacing: dp(8) if self.icon else 0
         edge: dp(13) if root.form != 'tall' else dp(7)
         outlined: True
@@ -208,7 +208,7 @@ class TopBar(EdgedBox):
     def tick(self, session: Session) -> None:
         """Say how the robot stands now."""
         self.robot_name, self.protected = session.robot.name, session.protected
-        self.mode_text, self.mode_icon, self.mode_role = standing.mode(session, brief=self.form == "tall")
+        self.mode_text, self.mode_icon, self.mode_role = standing.mode(session, self.form)
         self.mode_offered = (
             session.connected and not session.robot.foreign and session.robot.offers("/mode/set")
         )

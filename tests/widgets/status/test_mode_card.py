@@ -27,6 +27,21 @@ def test_without_a_task_there_is_no_auto(stage, card):
     assert (card.asked, card.said) == ([], "You are driving. Start a task to switch to AUTO.")
 
 
+def test_without_a_driver_manual_is_not_lit_and_the_card_says_that_nobody_drives(stage, card):
+    card.show(ControlStatus(mode="MANUAL"))
+    assert card.manual.fill == "accent"
+    card.who = ""
+    assert (card.manual.fill, card.said) == ("raised", "Nobody drives. Start a task to switch to AUTO.")
+    tap(stage, card.manual)
+    assert card.asked == []
+
+
+def test_another_driver_is_named(card):
+    card.ready, card.task, card.who = True, "patrol", "Anna"
+    card.show(ControlStatus(mode="PAUSED"))
+    assert card.said == "Anna is driving. AUTO continues: patrol."
+
+
 @pytest.mark.parametrize(
     ("now", "button", "mode"), [("PAUSED", "auto", "AUTO"), ("AUTO", "manual", "MANUAL")]
 )

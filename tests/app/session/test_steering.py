@@ -1,0 +1,114 @@
+"""Who steers and in which mode: one judge for the bar and for the card."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from app.screens.shell import status_text
+from app.session.steering import AUTO, MANUAL, PAUSED, READY, STOPPED, YOU, Steering, steering
+from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
+
+ME = "me"
+
+
+def session(
+    status: ControlStatus | None,
+    task: TaskStatus | None = None,
+    *,
+    driving: bool = False,
+    foreign: bool = False,
+) -> Any:
+    told = {"/control/status": status, "/task/status": task}
+    return SimpleNamespace(
+        feeds=SimpleNamespace(latest=told.get),
+        link=SimpleNamespace(driving=driving),
+        robot=SimpleNamespace(foreign=foreign),
+        robot_stop=SimpleNamespace(local=SimpleNamespace(latched=False)),
+        own_id=ME,
+        connected=True,
+    )
+
+
+MINE, ANNAS = {"driver": "Tablet", "driver_id": ME}, {"driver": "Anna", "driver_id": "a"}
+RUNS, WAITS = TaskStatus(task="patrol", state="RUNNING"), TaskStatus(task="patrol", state="PAUSED")
+
+
+@pytest.mark.parametrize(
+    ("status", "task", "driving", "found", "words"),
+    [
+        (ControlStatus(mode="MANUAL"), None, False, Steering(READY, "", "", False), "READY"),
+        (ControlStatus(mode="MANUAL", **MINE), None, False, Steering(MANUAL, YOU, "", False), "MANUAL · you"),
+        (
+            ControlStatus(mode="MANUAL", **ANNAS),
+            None,
+            False,
+            Steering(MANUAL, "Anna", "", False),
+            "MANUAL · Anna",
+        ),
+        (
+            ControlStatus(mode="AUTO", **MINE),
+            RUNS,
+            False,
+            Steering(AUTO, YOU, "patrol", False),
+            "AUTO · patrol",
+        ),
+        (
+            ControlStatus(mode="AUTO"),
+            RUNS,
+            False,
+            Steering(AUTO, "", "patrol", False),
+            "AUTO · patrol",
+        ),
+        (
+            ControlStatus(mode="PAUSED", **MINE),
+            WAITS,
+            False,
+            Steering(PAUSED, YOU, "patrol", True),
+            "PAUSED · patrol",
+        ),
+        (
+            ControlStatus(mode="PAUSED", **MINE),
+            WAITS,
+            True,
+            Steering(MANUAL, YOU, "patrol", True),
+            "MANUAL · patrol paused",
+        ),
+        (
+            ControlStatus(mode="PAUSED", **ANNAS),
+            WAITS,
+            False,
+            Steering(PAUSED, "Anna", "patrol", True),
+            "PAUSED · patrol",
+        ),
+        (
+            ControlStatus(mode="STOPPED", **MINE),
+            WAITS,
+            True,
+            Steering(STOPPED, YOU, "patrol", True),
+            "STOPPED",
+        ),
+    ],
+)
+def test_how_a_robot_is_steered(status, task, driving, found, words):
+    one = session(status, task, driving=driving)
+    assert steering(one) == found
+    assert status_text.mode(one)[0] == words
+
+
+def test_a_robot_that_has_told_nothing_is_steered_by_nobody_knows_whom():
+    assert steering(session(None)) is None
+    assert status_text.mode(session(None))[0] == "—"
+
+
+def test_of_a_robot_that_tells_nobody_who_drives_the_own_stick_tells():
+    assert steering(session(None, foreign=True)).mode == READY
+    assert steering(session(None, foreign=True, driving=True)) == Steering(MANUAL, YOU, "", False)
+
+
+def test_where_there_is_little_room_the_mode_is_short():
+    one = session(ControlStatus(mode="PAUSED", **MINE), WAITS, driving=True)
+    assert status_text.mode(one, "short")[0] == "MANUAL · paused"
+    assert status_text.mode(one, "tall")[0] == "MANUAL"
