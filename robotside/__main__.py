@@ -22,7 +22,9 @@ from bridge.core.address import BadAddress, host_and_port
 from bridge.core.errors import BridgeError
 from bridge.core.identity import Role
 from bridge.core.toml_files import FileFault
+from bridge.msgs import Msg
 from robotside import options as said
+from robotside.bringing_up.announcement import gateway_news, qr_code, ready
 from robotside.bringing_up.dialogue import NotAnswered, Simulated, ask
 from robotside.bringing_up.settling import blamed
 from robotside.commands.pairing_display import shown
@@ -163,6 +165,7 @@ class _Fleet:
             looker=kept.enter_context(WorkerThread(f"looking {number}")),
         )
         take_over(robot, records, station.events.say)
+        station.bus.subscribe("/events", partial(_tell_news, station), replay=False)
         addresses = Addresses(self._options.host, *ports)
         return StationServer(
             station,
@@ -191,6 +194,8 @@ class _Fleet:
             print(f"robotside: pair {pairing.link(offer)}", flush=True)
             serving.keys.on_offer = partial(_show_offer, serving)
             _show_offer(serving, offer)
+        else:
+            _show_address(serving)
         _say_ready(serving)
 
 
@@ -213,12 +218,24 @@ def _show_offer(serving: StationServer, offer: Offer) -> None:
 
 def _say_ready(serving: StationServer) -> None:
     where, name = serving.addresses, serving.station.info.name
-    print(f"robotside: ready bridge={where.bridge} http={where.http} robot={name}", flush=True)
-    for protocol, url in serving.gateways.endpoints.items():
-        print(f"robotside: gateway {protocol}={url}", flush=True)
-    guide = serving.gateways.guide()
-    if guide:
-        print(f"\n{guide}\n", flush=True)
+    for line in ready(name, where.bridge, where.http, serving.gateways.endpoints, host=where.host):
+        print(line, flush=True)
+
+
+def _show_address(serving: StationServer) -> None:
+    """Show a person at the terminal how the app comes to the robot."""
+    shown_code = qr_code(serving.station.info.name, serving.addresses.bridge) if sys.stderr.isatty() else ""
+    if shown_code:
+        with suppress(OSError):
+            print(shown_code, file=sys.stderr, flush=True)
+
+
+def _tell_news(station: Station, _: str, event: Msg) -> None:
+    """Tell in the terminal what happens to a gateway; a terminal that is gone is no reason not to serve."""
+    news = gateway_news(station.info.name, event)
+    if news:
+        with suppress(OSError):
+            print(news, file=sys.stderr, flush=True)
 
 
 def _robots(options: argparse.Namespace, ones: Sequence[One]) -> tuple[Sequence[Robot], str]:

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from bridge.server.reception.pages import read_origin
+from robotside.bringing_up import guide
 from robotside.bringing_up.settling import NO_ASK, VARIABLES, Ask, blamed, settle
 from robotside.commands import audit, erase, pair, people, token
 from robotside.commands.state_directory import base
@@ -47,13 +48,13 @@ OTHER = "ros:"
 
 
 class Command(Protocol):
-    """A module of `robotside.commands`."""
+    """A module of a command, as those of `robotside.commands`."""
 
     def add(self, commands: argparse._SubParsersAction[Any]) -> None:
         """Add the command and its options, with its `run(options) -> int` as their default `run`."""
 
 
-COMMANDS: tuple[Command, ...] = (people, token, pair, audit, erase)
+COMMANDS: tuple[Command, ...] = (guide, people, token, pair, audit, erase)
 """Those beside `serve` and `offer`, in the order of the help."""
 
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import ipaddress
 import socket
 
-__all__ = ["is_here", "listening_socket", "url"]
+__all__ = ["EVERYWHERE", "is_here", "listening_socket", "url"]
 
-_EVERYWHERE = ("0.0.0.0", "::", "")  # noqa: S104 - compared with, not bound to
+EVERYWHERE = ("0.0.0.0", "::", "")  # noqa: S104 - compared with, not bound to
+"""What a server listens on that is reached by all addresses of its machine."""
 
 
 def listening_socket(host: str, port: int) -> socket.socket:
@@ -31,7 +32,7 @@ def url(scheme: str, host: str, port: int, *, tls: bool = False) -> str:
     """
     if tls and not is_here(host):
         scheme += "s"
-    if host in _EVERYWHERE:
+    if host in EVERYWHERE:
         host = _own_address()
     return f"{scheme}://[{host}]:{port}" if ":" in host else f"{scheme}://{host}:{port}"
 

@@ -26,6 +26,8 @@ from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Control
 from bridge.msgs.sensor_msgs import CompressedImage
 from robotside.__main__ import main
 from robotside.core.clock import RobotClock
+from robotside.gateway_options import ALWAYS
+from robotside.gateways.discovery import adapters
 from robotside.serving.station_server import Addresses, StationServer
 from robotside.station.station import Station
 from tests.fakes import FakeRobot
@@ -285,7 +287,10 @@ def test_a_mistake_in_the_settings_file_is_one_sentence_and_no_robot_is_made(
             "serve --robot ros:ws://192.0.2.1:9090 --payloads arm",
             "--payloads is for simulated robots only.",
         ),
-        ("serve --protocols pigeon", "There is no protocol pigeon; there are rosbridge, http, mqtt."),
+        (
+            "serve --protocols pigeon",
+            f"There is no protocol pigeon; there are {', '.join((*ALWAYS, *adapters()))}.",
+        ),
         (
             "serve --config /nowhere/robot.toml",
             "The settings cannot be read from '/nowhere/robot.toml': no such file or directory.",
