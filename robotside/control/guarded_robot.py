@@ -12,7 +12,7 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Pose, Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.core.notice import Notice, Problem
-from robotside.core.robot import Equipped, Levelled, Manoeuvrable, Resettable, Robot, Stoppable
+from robotside.core.robot import Equipped, Levelled, Manoeuvrable, Prompt, Resettable, Robot, Stoppable
 from robotside.motion.manoeuvres import VERTICAL_KINDS, Order
 
 __all__ = ["GuardedRobot", "port_info"]
@@ -169,6 +169,15 @@ class GuardedRobot:
     def read(self, now: float) -> Iterable[tuple[str, Msg]]:
         """Topic and message of everything measured up to `now` [s, robot clock] since the last call."""
         return self._robot.read(now)
+
+    def on_pictures(self, ready: Callable[[], None] | None) -> None:
+        """Have it call `ready`, in any thread, when there is a picture; None for no longer. Some robots never do."""
+        if isinstance(self._robot, Prompt):
+            self._robot.on_pictures(ready)
+
+    def pictures(self, now: float) -> Iterable[tuple[str, Msg]]:
+        """Topic and picture of those that no `read` has given yet, up to `now` [s, robot clock]."""
+        return self._robot.pictures(now) if isinstance(self._robot, Prompt) else ()
 
     def want(self, topic: str, wanted: bool) -> None:
         """Make the messages of an on-demand topic from now on, or no longer."""

@@ -42,6 +42,10 @@ class RobotClock:
         count = math.ceil(passed / MAX_STEP - 1e-9)
         return [before + passed * number / count for number in range(1, count + 1)]
 
+    def at(self, wall: float) -> float:
+        """The robot's clock [s] at real time `wall` [s]; good for moments about the last tick."""
+        return self.now + (wall - self._last) * self._speed
+
     def real(self, stamp: float) -> float:
         """Real time [s] at which the robot's clock showed `stamp` [s]; good for moments about the last tick."""
         return self._last - (self.now - stamp) / self._speed

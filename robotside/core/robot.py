@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Protocol, runtime_checkable
 
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Pose, Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 
-__all__ = ["Equipped", "Levelled", "Manoeuvrable", "Resettable", "Robot", "Stoppable", "Switchable"]
+__all__ = [
+    "Equipped",
+    "Levelled",
+    "Manoeuvrable",
+    "Prompt",
+    "Resettable",
+    "Robot",
+    "Stoppable",
+    "Switchable",
+]
 
 
 class Robot(Protocol):
@@ -87,6 +96,17 @@ class Switchable(Protocol):
 
     def switch(self, topic: str, on: bool) -> None:
         """Measure what comes on `topic`, or no longer, so that it takes no power; unknown topics are ignored."""
+
+
+@runtime_checkable
+class Prompt(Protocol):
+    """A robot whose cameras take pictures at moments of their own, which need not wait for the next `read`."""
+
+    def on_pictures(self, ready: Callable[[], None] | None) -> None:
+        """Call `ready`, in any thread, when there is a picture; None for no longer. It asks for `pictures` soon, or for none."""
+
+    def pictures(self, now: float) -> Iterable[tuple[str, Msg]]:
+        """Topic and picture of those that no `read` has given yet, up to `now` [s, robot clock]."""
 
 
 @runtime_checkable

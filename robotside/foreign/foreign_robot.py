@@ -98,6 +98,7 @@ class ForeignRobot:
         self._remarks: tuple[str, ...] = ()
         self._refused = False
         self._stamps: dict[str, float] = {}
+        self._ready: Callable[[], None] | None = None
         self._twist: Twist | None = None
         self._rests, self._due = 0, -math.inf
         host_and_port(url)
@@ -154,6 +155,18 @@ class ForeignRobot:
         ]
         return [*events, *((topic, self._dated(topic, msg, now)) for topic, msg in newest.items())]
 
+    def on_pictures(self, ready: Callable[[], None] | None) -> None:
+        """Call `ready`, in the link's thread, when a picture came; None for no longer."""
+        with self._lock:
+            self._ready = ready
+
+    def pictures(self, now: float) -> list[tuple[str, Msg]]:
+        """The newest picture of each camera that no call has given yet, by our clock."""
+        with self._lock:
+            topics = [topic for topic, msg in self._newest.items() if isinstance(msg, CompressedImage)]
+            newest = [(topic, self._newest.pop(topic)) for topic in topics]
+        return [(topic, self._dated(topic, msg, now)) for topic, msg in newest]
+
     def want(self, topic: str, wanted: bool) -> None:
         """Ask for the messages of an on-demand topic from now on, or no longer."""
         self._link.want(topic, wanted)
@@ -191,6 +204,8 @@ class ForeignRobot:
             self._newest.pop(topic, None)
             self._newest[topic] = msg
             self._lock.notify_all()
+            if self._ready is not None and isinstance(msg, CompressedImage):
+                self._ready()
 
     def on_held(self, sentence: str) -> None:
         """The link: the robot obeys others, for this reason; empty when it obeys us."""

@@ -24,6 +24,7 @@ from robotside.serving.fleet_server import FleetServer, RunningServer
 from robotside.serving.gateway_board import GatewayBoard
 from robotside.serving.gateway_owner import GatewayOwner
 from robotside.serving.payload_switches import PayloadSwitches
+from robotside.serving.prompt_pictures import prompt_pictures
 from robotside.serving.station_keys import StationKeys
 from robotside.station.station import Station
 
@@ -89,6 +90,7 @@ class StationServer:
         self.door = self._door()
         """The door that all its gateways stand behind."""
         self._together: tuple[StationServer, ...] = (self,)
+        self._now = lambda: clock.at(wall())
         self._alone = FleetServer([self], clock, wall, wanted=wanted)
         self._pictures = PictureScaler()
         tls, plain_from = (keys.context, keys.plain_from) if keys else (None, anyone)
@@ -128,6 +130,7 @@ class StationServer:
             addresses.http_port,
             self._pictures,
             lambda: addresses.bridge,
+            stamps=self._now,
             tls=around.tls,
             plain_from=around.plain_from,
             pages=around.pages,
@@ -175,6 +178,7 @@ class StationServer:
                 opened.push_async_callback(gateway.stop)
             opened.push_async_callback(self.gateways.close)
             opened.push_async_callback(self._board.close)
+            opened.enter_context(prompt_pictures(self.station, self._now))
             opened.callback(self.station.robot.stop)  # before all else
             endpoints: dict[str, str] = {}
             for gateway in self._gateways:

@@ -116,14 +116,14 @@ class Station:
         """Queue and schedule."""
         self._next_diagnostics = -math.inf
         self._ending = False
-        self._take_in(first)
+        self.take_in(first)
         self.publish_control()
 
     def step(self, now: float) -> None:
         """Bring everything up to `now` [s, robot clock]; call it often."""
         self.now = now
         self._guard.run(partial(self.teleop.step, now))
-        self._take_in(self.robot.read(now))
+        self.take_in(self.robot.read(now))
         self._port.update(now)
         self.autonomy.status_publisher.update()
         self._guard.run(lambda: self.autonomy.update(now))
@@ -289,7 +289,8 @@ class Station:
             barred=self.fitness.barred,
         )
 
-    def _take_in(self, messages: Iterable[tuple[str, Msg]]) -> None:
+    def take_in(self, messages: Iterable[tuple[str, Msg]]) -> None:
+        """What the robot has measured, by topic."""
         for topic, msg in messages:
             if isinstance(msg, Event):
                 self.events.say(msg.kind, Notice.of(msg.text, msg), msg.level)

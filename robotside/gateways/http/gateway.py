@@ -45,6 +45,7 @@ class HttpGateway:
         pictures: PictureScaler,
         rosbridge_url: Callable[[], str],
         *,
+        stamps: Callable[[], float] | None = None,
         tls: ssl.SSLContext | None = None,
         plain_from: Callable[[str], bool] = anyone,
         pages: PagePolicy | None = None,
@@ -53,7 +54,8 @@ class HttpGateway:
         mounts: Mounts | None = None,
         usage: Usage = NOTHING_BESIDE,
     ) -> None:
-        """Port 0 takes a free one. The page names `rosbridge_url` to programs.
+        """Port 0 takes a free one. The page names `rosbridge_url` to programs. `stamps` is the clock of the pictures' stamps [s],
+        the door's when left out.
 
         With `tls` browsers may come encrypted, on the same port; `plain_from(host)` says who may come without, for more than
         STOP.
@@ -64,7 +66,7 @@ class HttpGateway:
         self.port = port
         """Where it listens; 0 until one was taken."""
         allowed = pages or PagePolicy(web_port=lambda: self.port)
-        self.cameras = CameraStreams(door, pictures, door.now)
+        self.cameras = CameraStreams(door, pictures, stamps or door.now)
         """Who looks, and how late the pictures are."""
         own = site(door, rosbridge_url, self.cameras, Sessions(door, allowed), pairing, usage)
         self.mounts = mounts or Mounts(lambda: self.endpoints()["http"])

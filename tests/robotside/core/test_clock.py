@@ -57,3 +57,10 @@ def test_the_real_time_of_a_picture_is_right_after_a_halt_that_left_the_robots_c
     clock.tick(130.0)
     assert clock.now < 101.0
     assert clock.real(clock.now) == pytest.approx(130.0)
+
+
+def test_between_two_ticks_the_robots_clock_is_known_too() -> None:
+    clock = RobotClock(100.0, speed=4.0)
+    clock.tick(100.1)
+    assert clock.at(100.15) == pytest.approx(100.6)
+    assert clock.real(clock.at(100.15)) == pytest.approx(100.15)

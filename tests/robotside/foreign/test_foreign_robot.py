@@ -336,3 +336,23 @@ def test_a_command_that_was_in_force_when_others_took_the_robot_is_not_said_when
     robot.read(102.0)
     robot.read(103.0)
     assert line.sent == []
+
+
+def test_a_picture_is_announced_as_it_comes_and_given_once_by_whoever_asks_first() -> None:
+    robot, _ = here(CAMERA, "/odom")
+    calls: list[int] = []
+    robot.on_pictures(lambda: calls.append(1))
+    robot.on_message("/odom", Odometry())
+    assert calls == []
+    for number in (1, 2):
+        robot.on_message(CAMERA, CompressedImage(Header(Time.at(5.0)), data=JPEG_START + bytes([number])))
+    assert calls == [1, 1]
+    [(topic, picture)] = robot.pictures(10.0)
+    assert isinstance(picture, CompressedImage)
+    assert (topic, picture.data, picture.header.stamp.seconds) == (CAMERA, JPEG_START + b"\2", 10.0)
+    assert [each for each, _ in robot.read(11.0)] == ["/odom"]
+    assert robot.pictures(11.0) == []
+    robot.on_pictures(None)
+    robot.on_message(CAMERA, CompressedImage(data=JPEG_START))
+    assert calls == [1, 1]
+    assert [each for each, _ in robot.read(12.0)] == [CAMERA]
