@@ -22,12 +22,12 @@ __all__ = ["NotAnswered", "Simulated", "ask", "can_ask", "chosen"]
 
 EVERYWHERE, HERE = "0.0.0.0", "127.0.0.1"  # noqa: S104 - said by the user
 _SIM, _ROS, _OTHER = "sim:", "ros:", "another"
+_USUAL = "usual"
 _ROLES = {
-    "watch": "watch: read topics, and press STOP",
-    "drive": "drive: also drive and give tasks",
-    "none": "nothing but STOP; a token is needed for more",
+    "watch": "watch, and STOP",
+    "drive": "drive, and give tasks",
+    "none": "STOP only",
 }
-_SCHEME = "://"
 
 
 class NotAnswered(Exception):
@@ -125,7 +125,7 @@ def _payloads(offered: Mapping[str, Any], serve: ServeSettings) -> tuple[str, ..
     if not names:
         return ()
     items = [Item(name.replace("_", " "), value=name, checked=name in serve.payloads) for name in names]
-    said = f"Which payloads beside what {offered['title']} has? One that is not chosen is not there."
+    said = f"Which payloads, beside {offered['title']}'s own?"
     return tuple(_checkbox(said, items))
 
 
@@ -172,17 +172,38 @@ def _gateway(adapter: Adapter, known: GatewaySettings | None) -> GatewaySettings
     from questionary import Choice as Item
 
     old = known or GatewaySettings()
-    forms = ", ".join(f"{scheme}{_SCHEME}…" for scheme in adapter.schemes)
-    url = _text(f"{adapter.name}: its URL ({forms}):", old.url or adapter.default, _url_problem(adapter))
+    url = _text(f"{adapter.name}: URL, {_forms(adapter)}:", old.url or adapter.default, _url_problem(adapter))
     user = password = ""
-    if url.partition(_SCHEME)[0] not in adapter.listens and "@" not in url and "site:" not in url[:5]:
+    if _is_broker(adapter, url) and "@" not in url:
         user = _text(f"{adapter.name}: user at the broker, empty for none:", old.user)
         if user:
             password = _password(f"{adapter.name}: password of {user}:", old.password)
     roles = [Item(said, value=role) for role, said in _ROLES.items()]
-    roles.insert(0, Item("as usual: what this computer's programs may, or watch", value="usual"))
-    role: Any = _select(f"{adapter.name}: without a token everybody may", roles, old.role or "usual")
-    return _with(old, on=True, url=url, user=user, password=password, role=None if role == "usual" else role)
+    roles.insert(0, Item("usual: watch, and on this computer what its programs may", value=_USUAL))
+    role: Any = _select(f"{adapter.name}: what may who shows no token?", roles, old.role or _USUAL)
+    return _with(old, on=True, url=url, user=user, password=password, role=None if role == _USUAL else role)
+
+
+def _forms(adapter: Adapter) -> str:
+    """How its URLs are written."""
+    from robotside.gateways.gateway_url import OWN, SITE
+
+    broker = any(scheme not in (*adapter.listens, SITE) for scheme in adapter.schemes)
+    prefix = "/PREFIX" if broker else ""
+    forms = []
+    for scheme, port in adapter.schemes.items():
+        if scheme == OWN:
+            forms.append(f"{adapter.default} for a broker of the robot's own")
+        else:
+            forms.append(f"{SITE}:/PATH" if scheme == SITE else f"{scheme}://HOST:{port}{prefix}")
+    return " or ".join(forms)
+
+
+def _is_broker(adapter: Adapter, url: str) -> bool:
+    """The gateway goes to a broker of others, which may want to know who comes."""
+    from robotside.gateways.gateway_url import SITE
+
+    return url.partition(":")[0] not in (*adapter.listens, SITE)
 
 
 def _with(settings: GatewaySettings, **changes: Any) -> GatewaySettings:

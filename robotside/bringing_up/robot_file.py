@@ -59,13 +59,14 @@ def keep(path: Path, choice: Choice) -> None:
         raise UserMistake(f"The choice cannot be kept in {str(path)!r}: {why}.") from error
 
 
-def _values(choice: Choice) -> dict[tuple[str, ...], Value]:
+def _values(choice: Choice) -> dict[tuple[str, ...], Value | None]:
+    """What the file has to say; None for what it must not say any more, as a role that everybody had."""
     names = ("robot", "world", "payloads", "host", "port", "http_port", "pair")
-    values: dict[tuple[str, ...], Value] = {("serve", name): getattr(choice, name) for name in names}
+    values: dict[tuple[str, ...], Value | None] = {("serve", name): getattr(choice, name) for name in names}
     for key, gateway in choice.gateways.items():
         usual = GatewaySettings()
         for name in gateway.__struct_fields__:
             value = getattr(gateway, name)
-            if name in ("on", "url") or value != getattr(usual, name):
-                values["gateways", key, name] = value
+            is_said = name in ("on", "url") or value != getattr(usual, name)
+            values["gateways", key, name] = value if is_said else None
     return values

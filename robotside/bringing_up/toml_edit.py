@@ -21,13 +21,19 @@ class CannotEdit(ValueError):
     """The text is written in a way that this cannot change; the text names the place."""
 
 
-def edited(text: str, values: Mapping[tuple[str, ...], Value]) -> str:
-    """`text`, which is right, with `values` by table and key. CannotEdit where that would change anything else."""
+def edited(text: str, values: Mapping[tuple[str, ...], Value | None]) -> str:
+    """`text`, which is right, with `values` by table and key, and without those that are None.
+
+    CannotEdit where that would change anything else.
+    """
     wanted = tomllib.loads(text)
     result = text
     for place, value in values.items():
         _put(wanted, place, value)
-        result = _with(result, place[:-1], place[-1], value)
+        if value is None:
+            result = _without(result, place[:-1], place[-1])
+        else:
+            result = _with(result, place[:-1], place[-1], value)
     try:
         said: Any = tomllib.loads(result)
     except ValueError:
@@ -38,13 +44,28 @@ def edited(text: str, values: Mapping[tuple[str, ...], Value]) -> str:
     return result
 
 
-def _put(content: dict[str, Any], place: tuple[str, ...], value: Value) -> None:
+def _put(content: dict[str, Any], place: tuple[str, ...], value: Value | None) -> None:
     for name in place[:-1]:
+        if value is None and name not in content:
+            return
         inner = content.setdefault(name, {})
         if not isinstance(inner, dict):
             raise CannotEdit(f"its {name} is no table")
         content = inner
-    content[place[-1]] = list(value) if isinstance(value, tuple) else value
+    if value is None:
+        content.pop(place[-1], None)
+    else:
+        content[place[-1]] = list(value) if isinstance(value, tuple) else value
+
+
+def _without(text: str, table: Keys, key: str) -> str:
+    """The text without a key; the comment behind it stays, in a line of its own."""
+    lines = text.splitlines()
+    for each in statements(text):
+        if each.table == table and each.told is not None and key in each.told:
+            comment = _comment(lines, each).strip()
+            return _joined(lines, each, [comment] if comment else [])
+    return text
 
 
 def _with(text: str, table: Keys, key: str, value: Value) -> str:
@@ -57,7 +78,7 @@ def _with(text: str, table: Keys, key: str, value: Value) -> str:
         if each.told is None:
             header = last = each.line
         elif key in each.told:
-            return _joined(lines, each, said + _comment(lines, each))
+            return _joined(lines, each, [said + _comment(lines, each)])
         elif each.told:
             last = each.line + each.length - 1
     if header:
@@ -67,9 +88,9 @@ def _with(text: str, table: Keys, key: str, value: Value) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _joined(lines: list[str], each: Statement, said: str) -> str:
+def _joined(lines: list[str], each: Statement, instead: list[str]) -> str:
     first = each.line - 1
-    return "\n".join([*lines[:first], said, *lines[first + each.length :]]) + "\n"
+    return "\n".join([*lines[:first], *instead, *lines[first + each.length :]]) + "\n"
 
 
 def _comment(lines: list[str], each: Statement) -> str:

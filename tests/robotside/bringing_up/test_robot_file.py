@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from robotside.bringing_up.robot_file import Choice, before, keep
@@ -41,9 +42,21 @@ def test_limits_and_comments_of_a_file_that_was_there_stay(tmp_path: Path) -> No
 def test_a_gateway_that_is_not_wanted_any_more_keeps_its_address(tmp_path: Path) -> None:
     file = tmp_path / "robot.toml"
     keep(file, CHOICE)
-    keep(file, replace(CHOICE, gateways={"mqtt": GatewaySettings(on=False, url="mqtt://broker/lab")}))
+    keep(file, replace(CHOICE, gateways={"mqtt": msgspec.structs.replace(MQTT, on=False)}))
     assert load(file).gateways["mqtt"].password == MQTT.password
     assert not load(file).gateways["mqtt"].on
+
+
+def test_what_was_taken_back_does_not_stay_in_the_file(tmp_path: Path) -> None:
+    """Else everybody at the broker might go on driving."""
+    file = tmp_path / "robot.toml"
+    keep(file, CHOICE)
+    file.write_text(file.read_text().replace('role = "drive"', 'role = "drive" # in the lab'))
+    plain = GatewaySettings(url="mqtt://other")
+    keep(file, replace(CHOICE, gateways={"mqtt": plain}))
+    assert load(file).gateways == {"mqtt": plain}
+    assert "# in the lab" in file.read_text()
+    assert "p\\" not in file.read_text()
 
 
 def test_a_link_to_the_file_stays_one(tmp_path: Path) -> None:

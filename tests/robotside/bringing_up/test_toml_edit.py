@@ -43,6 +43,11 @@ def test_a_table_that_is_not_there_comes_at_the_end() -> None:
     assert edited("", {("serve", "pair"): True}) == "[serve]\npair = true\n"
 
 
+def test_what_is_none_is_taken_out_and_its_comment_stays() -> None:
+    text = edited(MINE, {("serve", "robot"): None, ("serve", "none"): None, ("no", "table"): None})
+    assert text == MINE.replace('robot = "sim:scout # 2"   # in the hall', "# in the hall")
+
+
 @looped("value", ['"', "\\", "ä\u0000\u007f\n", "# no comment", "", 0.5, 7, True, ("a", "'")])
 def test_any_value_is_read_back_as_it_was(value: object) -> None:
     said = tomllib.loads(edited(MINE, {("serve", "robot"): value}))["serve"]["robot"]  # type: ignore[dict-item]
