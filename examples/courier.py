@@ -14,7 +14,7 @@ import time
 from collections.abc import Callable
 
 from examples.poses import pose
-from examples.protocols.ways import SCHEMES, Answer, Way, way_to
+from examples.protocols.ways import PROTOCOLS, Answer, Way, way_to
 
 __all__ = ["NotDelivered", "deliver", "place"]
 
@@ -87,7 +87,10 @@ def main() -> int:
     parser.add_argument("--start", default="reception", metavar="PLACE", help="where it is fetched")
     parser.add_argument("--goal", default="room_3", metavar="PLACE", help="where it is brought")
     parser.add_argument(
-        "--by", default="ws://127.0.0.1:9090", metavar="URL", help=f"begins with {', '.join(SCHEMES)}"
+        "--by",
+        default="ws://127.0.0.1:9090",
+        metavar="URL",
+        help=f"after one of {', '.join(PROTOCOLS)} and =",
     )
     parser.add_argument("--confirm", action="store_true", help="answer what the robot asks")
     parser.add_argument(

@@ -1,6 +1,7 @@
 """Calls a service of a robot by the protocol that a URL names, and prints the answer.
 
 python -m examples.protocols ws://127.0.0.1:9090 /arm/move '{"order": {"pose": "home"}}'
+python -m examples.protocols websocket=ws://127.0.0.1:9190 /task/go_home
 python -m examples.protocols mqtt://127.0.0.1:1883/pilothouse/Patrol-1 /stop
 """
 
@@ -9,7 +10,7 @@ from __future__ import annotations
 import argparse
 import json
 
-from examples.protocols.ways import SCHEMES, way_to
+from examples.protocols.ways import PROTOCOLS, way_to
 
 
 def main() -> None:
@@ -19,7 +20,7 @@ def main() -> None:
         description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("url", help=f"of the robot, or of its broker: {', '.join(sorted(set(SCHEMES)))}")
+    parser.add_argument("url", help=f"of the robot or its broker, after one of {', '.join(PROTOCOLS)} and =")
     parser.add_argument("service", help="as /arm/move")
     parser.add_argument("request", nargs="?", default="{}", type=json.loads, help="its fields as JSON")
     chosen = parser.parse_args()

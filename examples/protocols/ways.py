@@ -1,5 +1,7 @@
 """A way to call a robot's services, by the protocol that a URL names; each protocol is a module beside this one.
 
+A URL is written as for `robotside serve --gateway`: `websocket=ws://HOST:9190`; without a name its scheme tells the protocol.
+
 with way_to("mqtt://127.0.0.1:1883/pilothouse/Patrol-1") as way:
     print(way.call("/arm/move", {"order": {"pose": "home"}}))
 """
@@ -13,12 +15,14 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, Protocol
 
-__all__ = ["ANSWER_TIMEOUT", "SCHEMES", "Answer", "Way", "way_to"]
+__all__ = ["ANSWER_TIMEOUT", "PROTOCOLS", "Answer", "Way", "way_to"]
 
 ANSWER_TIMEOUT = 40.0
 """An answer that waits for an arm takes so long at most [s]."""
-SCHEMES = {"ws": "rosbridge", "wss": "rosbridge", "mqtt": "mqtt"}
-"""Scheme of a URL to the module of its protocol."""
+PROTOCOLS = ("mqtt", "rosbridge", "websocket")
+"""Modules beside this one."""
+SCHEMES = {"ws": "rosbridge", "mqtt": "mqtt"}
+"""Scheme of a URL without a name to the protocol that it means."""
 
 Answer = dict[str, Any]
 """As of the service's response: what commands answer has `success`, `message` and `code`."""
@@ -46,13 +50,15 @@ def way_to(url: str, name: str = "") -> Iterator[Way]:
 
     The robot calls this client `name`.
     """
-    scheme = url.partition(":")[0].lower()
-    if scheme not in SCHEMES:
-        raise ValueError(f"A robot's URL begins with one of {', '.join(SCHEMES)}, not {scheme!r}.")
-    opened: Callable[[str], Way] = importlib.import_module(f"examples.protocols.{SCHEMES[scheme]}").open_way
-    way = opened(url)
+    protocol, _, place = url.partition("=") if url.partition("=")[0] in PROTOCOLS else ("", "", url)
+    protocol = protocol or SCHEMES.get(place.partition(":")[0], "")
+    if not protocol:
+        known = ", ".join(f"{each}=URL" for each in PROTOCOLS)
+        raise ValueError(f"A way to a robot is {known}, or begins with {' or '.join(SCHEMES)}, not {url!r}.")
+    opened: Callable[[str], Way] = importlib.import_module(f"examples.protocols.{protocol}").open_way
+    way = opened(place)
     try:
-        yield _Named(way, name or f"{SCHEMES[scheme]} program")
+        yield _Named(way, name or f"{protocol} program")
     finally:
         way.close()
 

@@ -51,8 +51,6 @@ def arm_service(station: Station, answering: CommandService) -> Service:
 class _Motion:
     """What became of one order."""
 
-    said: str = ""
-    """What was accepted, as one sentence."""
     first: float = math.nan
     """When the arm was first heard after the order [s, robot clock]."""
     outcome: str = ""
@@ -105,7 +103,7 @@ class _ArmOrders:
             said += " This replaces an order that was not finished."
         replaced = f"{name} gave the arm another order before it was there."
         before.end(Notice(Code.ARM_REPLACED, replaced, actor_id=who, name=name))
-        self._newest = _Motion(said)
+        self._newest = _Motion()
         if asked.command_id:
             self._by_id[who, asked.command_id] = self._newest
             while len(self._by_id) > MAX_MOTIONS:
@@ -141,7 +139,7 @@ async def _when_over(answer: Msg | Awaitable[Msg], motion: _Motion) -> CommandRe
     if not given.success:
         return given
     outcome = await motion.over()
-    return MoveArmResponse(not isinstance(outcome, Notice), outcome, **coded(outcome))
+    return MoveArmResponse(not isinstance(outcome, Notice), str(outcome), **coded(outcome))
 
 
 def _rests(arm: ArmState) -> bool:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from bridge.codec import from_json, to_json
 from bridge.core.robot_catalogue import Operator
 from bridge.msgs import Msg
 from bridge.msgs.arrays import Float64Array
@@ -152,7 +153,9 @@ class Waiting:
                 break
             run.wait(0.1)
         assert self.task.done(), "no answer"
-        return self.task.result()
+        answer = self.task.result()
+        assert from_json(to_json(answer), MoveArmResponse) == answer, "as it travels"
+        return answer
 
 
 async def _turns() -> None:
