@@ -81,6 +81,12 @@ class Code(StrEnum):
         "gateway",
         "role",
     )
+    GATEWAY_CALLBACK_LOST = (
+        "gateway_callback_lost",
+        "A client does not take its callbacks; its subscription has ended.",
+        "gateway",
+        "reason",
+    )
     GATEWAY_NAMESAKE = (
         "gateway_namesake",
         "Another robot at the broker has the same name; both take STOP only.",
