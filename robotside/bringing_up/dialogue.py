@@ -115,7 +115,8 @@ def _world(simulated: Simulated, offered: Mapping[str, Any], serve: ServeSetting
     if serve.world and serve.world.endswith(".toml"):
         items.append(Item(f"{serve.world}, as now", value=serve.world))
         names.append(serve.world)
-    return _select("In which world?", items, serve.world if serve.world in names else offered["home"])
+    usual = serve.world if serve.world and serve.world in names else str(offered["home"])
+    return _select("In which world?", items, usual)
 
 
 def _payloads(offered: Mapping[str, Any], serve: ServeSettings) -> tuple[str, ...]:

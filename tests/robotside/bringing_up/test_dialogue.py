@@ -135,7 +135,7 @@ def test_answers_are_kept(simulated: Simulated, tmp_path: Path) -> None:
 
 def test_who_leaves_in_the_middle_leaves_nothing(simulated: Simulated, tmp_path: Path) -> None:
     file = tmp_path / "robot.toml"
-    for pressed in range(7):
+    for pressed in (0, 2, 6):
         with keys(*ENTER * pressed, CTRL_C), pytest.raises(NotAnswered):
             ask(file, simulated)
     assert list(tmp_path.iterdir()) == []
