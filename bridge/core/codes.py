@@ -368,6 +368,7 @@ class Code(StrEnum):
     EQUIPMENT_REFUSED = "equipment_refused", "The robot's own part refuses it."
     ARM_GOAL_MISSING = "arm_goal_missing", "Nothing says where the arm shall go."
     ARM_REPLACED = "arm_replaced", "The actor gave the arm another order before it was there.", "name"
+    ARM_HELD = "arm_held", "The arm was held before it was there."
     ARM_LATE = "arm_late", "The arm was not there in time.", "allowed"
 
     # the handheld

@@ -53,6 +53,8 @@ class _Motion:
 
     first: float = math.nan
     """When the arm was first heard after the order [s, robot clock]."""
+    goal: list[float] | None = None
+    """Where joints and gripper go, once that was heard."""
     outcome: str = ""
     """One sentence once it is over; a Notice for one that did not come there."""
     waiting: set[asyncio.Future[str]] = field(default_factory=set)
@@ -129,8 +131,8 @@ class _ArmOrders:
             motion.end(STOP_SENTENCE)
         elif math.isnan(motion.first):
             motion.first = now  # what is heard in this step may have been measured before the order
-        elif now > motion.first and _rests(msg):
-            motion.end("The arm is there and touches something." if msg.touching else "The arm is there.")
+        elif now > motion.first:
+            _judge(motion, msg)
 
 
 async def _when_over(answer: Msg | Awaitable[Msg], motion: _Motion) -> CommandResponse:
@@ -140,6 +142,16 @@ async def _when_over(answer: Msg | Awaitable[Msg], motion: _Motion) -> CommandRe
         return given
     outcome = await motion.over()
     return MoveArmResponse(not isinstance(outcome, Notice), str(outcome), **coded(outcome))
+
+
+def _judge(motion: _Motion, arm: ArmState) -> None:
+    """End the `motion` when the `arm` is there, or goes there no more."""
+    goal = [each for each in (*arm.wanted, arm.gripper_wanted) if not math.isnan(each)]
+    motion.goal = motion.goal or goal
+    if goal != motion.goal:
+        motion.end(Notice(Code.ARM_HELD, "The arm was held before it was there."))
+    elif _rests(arm):
+        motion.end("The arm is there and touches something." if arm.touching else "The arm is there.")
 
 
 def _rests(arm: ArmState) -> bool:

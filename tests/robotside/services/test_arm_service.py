@@ -209,6 +209,26 @@ async def test_stop_answers_who_waits(run: Hand) -> None:
     assert (answer.success, answer.message) == (False, STOP_SENTENCE)
 
 
+async def test_an_arm_that_is_held_on_its_way_is_not_there(run: Hand) -> None:
+    waiting = Waiting(run, STRETCH)
+    await _turns()
+    run.wait(0.3)
+    run.station.robot.hold_payloads()
+    answer = await waiting.over(run)
+    assert (answer.success, answer.code) == (False, "arm_held")
+
+
+async def test_what_was_measured_before_the_order_is_no_arrival(run: Hand) -> None:
+    before = arm(run)
+    waiting = Waiting(run, STRETCH)
+    for _ in range(2):  # both came with one step
+        run.station.bus.publish("/arm", before)
+    await _turns()
+    assert not waiting.task.done()
+    assert (await waiting.over(run)).success
+    assert arm(run).pose == "stretch"
+
+
 async def test_stop_right_after_the_order_is_no_arrival(run: Hand) -> None:
     waiting = Waiting(run, STRETCH)
     run.ask("/stop")
