@@ -186,18 +186,15 @@ def _gateway(adapter: Adapter, known: GatewaySettings | None) -> GatewaySettings
 
 
 def _forms(adapter: Adapter) -> str:
-    """How its URLs are written."""
+    """How its URLs are written: that of others by its first scheme, and that of a broker of the robot's own."""
     from robotside.gateways.gateway_url import OWN, SITE
 
-    broker = any(scheme not in (*adapter.listens, SITE) for scheme in adapter.schemes)
-    prefix = "/PREFIX" if broker else ""
-    forms = []
-    for scheme, port in adapter.schemes.items():
-        if scheme == OWN:
-            forms.append(f"{adapter.default} for a broker of the robot's own")
-        else:
-            forms.append(f"{SITE}:/PATH" if scheme == SITE else f"{scheme}://HOST:{port}{prefix}")
-    return " or ".join(forms)
+    scheme, port = next((each for each in adapter.schemes.items() if each[0] != OWN), (OWN, 0))
+    if scheme == SITE:
+        return f"{SITE}:/PATH"
+    prefix = "" if scheme in adapter.listens else "/PREFIX"
+    own = f", or {adapter.default} for a broker of its own" if adapter.default.startswith(OWN) else ""
+    return f"{scheme}://HOST:{port}{prefix}{own}"
 
 
 def _is_broker(adapter: Adapter, url: str) -> bool:

@@ -24,7 +24,7 @@ pre.guide{max-height:32rem;overflow:auto;user-select:text}
 .line{border-top:1px solid var(--line);padding:.6rem 0 .1rem}
 .line .name{font-weight:600;overflow-wrap:anywhere}.tag{display:inline-block;min-width:4.2rem;color:var(--accent);font-size:.85rem;font-weight:600}
 .cameras{list-style:none;padding:0;display:grid;gap:1rem;grid-template-columns:repeat(auto-fit,minmax(min(100%,22rem),1fr))}
-.cameras li{overflow-wrap:anywhere}.cameras img{display:block;margin-top:.5rem;max-width:100%;height:auto;border-radius:.4rem;background:var(--code)}
+.cameras li{overflow-wrap:anywhere;background:var(--card);border:1px solid var(--line);border-radius:.6rem;padding:.8rem 1rem;font-size:.92rem}.cameras img{display:block;margin-top:.5rem;max-width:100%;height:auto;border-radius:.4rem;background:var(--code)}
 table{border-collapse:collapse;width:100%}td,th{text-align:left;padding:.25rem .8rem .25rem 0;overflow-wrap:anywhere;vertical-align:top}
 input{font:inherit;padding:.5rem;width:min(100%,30rem);border:1px solid var(--line);border-radius:.4rem;background:var(--card);color:inherit}
 </style>
