@@ -75,6 +75,12 @@ class Code(StrEnum):
         "gateway",
         "reason",
     )
+    GATEWAY_REFUSED = (
+        "gateway_refused",
+        "The broker keeps a topic from the gateway, or does not take it.",
+        "gateway",
+        "topic",
+    )
     GATEWAY_OPEN = (
         "gateway_open",
         "Everybody who reaches the gateway has a role without a key.",

@@ -71,7 +71,7 @@ class Line(ABC):
             finally:
                 # one that is lost soon after it was made each time is tried as seldom as one that is not to be had
                 backoff = MIN_BACKOFF if self.is_standing else min(2 * backoff, MAX_BACKOFF)
-                self._up_since = math.inf
+                self._up_since = self._beat = math.inf
                 self._forget()
             self._fault = reason
             if self._on_down is not None:
@@ -92,8 +92,12 @@ class Line(ABC):
 
     def _came_up(self) -> None:
         """To be called by `_connect` when all that is wanted can be heard."""
-        self._beat = self._up_since = asyncio.get_running_loop().time()
+        self._up_since = asyncio.get_running_loop().time()
         self._fault = ""
+
+    def _look_alive(self) -> None:
+        """To be called by `_connect` when it begins to listen: from now on it counts how long the program stands still."""
+        self._beat = asyncio.get_running_loop().time()
 
     async def _watch_loop(self) -> None:
         """Return when this process stood still, so that what came meanwhile is too old."""

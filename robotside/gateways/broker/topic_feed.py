@@ -66,6 +66,10 @@ class TopicFeed:
         """The role of who reads along."""
         return self._with_audience(lambda operator: operator.role(self._door.now()))
 
+    def names(self) -> list[str]:
+        """The topics that `begin` publishes, and those that are made on demand."""
+        return self._with_audience(lambda operator: [each.name for each in self._carried(operator)])
+
     def birth(self) -> bytes:
         """What is published from `begin` on, as JSON: each topic with its ROS type, and by what number each of them begins."""
         self._births += 1

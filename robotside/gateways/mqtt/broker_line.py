@@ -143,6 +143,7 @@ class BrokerLine(Line):
             self._came_up()
             if self._on_up is not None:
                 await self._on_up()
+            self._look_alive()
             works = (self._listen(client), self._watch_loop(), self._send_replies(client))
             ends = [asyncio.create_task(work) for work in works]
             try:
@@ -280,8 +281,9 @@ def _heard(message: aiomqtt.Message) -> Heard:
     )
 
 
-def _is_failure(code: int | ReasonCode) -> bool:
-    return (code if isinstance(code, int) else code.value) >= _MIN_FAILURE
+def _is_failure(code: object) -> bool:
+    value = code.value if isinstance(code, ReasonCode) else code
+    return isinstance(value, int) and value >= _MIN_FAILURE
 
 
 def _reason(error: Exception) -> str:

@@ -39,7 +39,7 @@ def test_each_folder_with_an_adapter_is_one_of_its_name() -> None:
 def test_a_robot_without_gateways_loads_none_and_a_look_at_them_loads_no_library() -> None:
     done = subprocess.run([sys.executable, "-c", LOOKS], capture_output=True, text=True, check=True)
     bare, looked = (set(line.split()) for line in done.stdout.splitlines())
-    libraries = {adapter.package for adapter in adapters().values()} - {""} | {"paho"}
+    libraries = {adapter.package for adapter in adapters().values()} - {""} | {"paho", "confluent_kafka"}
     rooms = {
         f"robotside.gateways.{name}" for name in (*FOLDERS, "plain", "payloads", "discovery", "gateway_url")
     }

@@ -59,6 +59,8 @@ class Listening(Flapping):
 
     async def _connect(self) -> None:
         self._came_up()
+        time.sleep(0.1)  # noqa: ASYNC251 - before it listens nothing waits for it
+        self._look_alive()
         await self._watch_loop()
         self.ends += 1
 
