@@ -20,7 +20,7 @@ from bridge.trust.robot_link import RobotLink, read_link
 
 __all__ = ["main", "prepare", "quieten"]
 
-SCREENS = ("mission", "drive", "tasks", "topics", "inputs")
+SCREENS = ("mission", "drive", "tasks", "topics", "setup", "inputs")
 THEMES = ("dark", "sunlight", "night")
 SIZE = re.compile(r"(\d{3,5})x(\d{3,5})")
 

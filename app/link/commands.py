@@ -18,6 +18,10 @@ from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (
     AcknowledgeEventsRequest,
     AcknowledgeEventsResponse,
+    BringDownGatewayRequest,
+    BringDownGatewayResponse,
+    BringUpGatewayRequest,
+    BringUpGatewayResponse,
     CommandRequest,
     CommandResponse,
     DeletePlaceRequest,
@@ -39,6 +43,8 @@ from bridge.msgs.pilothouse_msgs import (
     SetModeResponse,
     SetOptionRequest,
     SetOptionResponse,
+    SetPayloadRequest,
+    SetPayloadResponse,
     SetPlaceRequest,
     SetPlaceResponse,
     SetQueueRequest,
@@ -53,6 +59,8 @@ __all__ = ["COMMANDS", "Commands", "Kind", "Outcome"]
 
 VALID_FOR = 5.0
 """A one-shot command is void when it reaches the robot later than this [s]."""
+SLOW = 40.0
+"""What takes a robot a while, such as a broker that begins, is asked for and waited for so long [s]."""
 NEVER_VOID = 1e9
 """Validity of STOP [s]: whenever it arrives, it is meant."""
 TRY = 1.0
@@ -87,6 +95,8 @@ class Kind:
     response: type[Msg] = CommandResponse
     about: Callable[[Mapping[str, Any]], Hashable] = lambda _: None
     """Which one of several things it changes; commands about different things do not wait for each other."""
+    patience: float = VALID_FOR
+    """It is asked for again, with the same id, for so long [s]."""
 
 
 COMMANDS: dict[str, Kind] = {
@@ -151,6 +161,29 @@ COMMANDS: dict[str, Kind] = {
     ),
     "lights": Kind("/lights/set", SetLightsRequest, "switch the lights", SetLightsResponse),
     "arm": Kind("/arm/move", MoveArmRequest, "move the arm", MoveArmResponse),
+    "gateway_up": Kind(
+        "/gateways/bring_up",
+        BringUpGatewayRequest,
+        "bring the protocol up",
+        BringUpGatewayResponse,
+        lambda fields: fields["name"],
+        SLOW,
+    ),
+    "gateway_down": Kind(
+        "/gateways/bring_down",
+        BringDownGatewayRequest,
+        "bring the protocol down",
+        BringDownGatewayResponse,
+        lambda fields: fields["name"],
+        SLOW,
+    ),
+    "payload": Kind(
+        "/payloads/set",
+        SetPayloadRequest,
+        "switch the payload",
+        SetPayloadResponse,
+        lambda fields: fields["key"],
+    ),
     "reset": Kind("/robot/reset", CommandRequest, "put the robot back"),
     "stop": Kind("/stop", CommandRequest, "STOP"),
     "stop_hold": Kind("/stop/hold", CommandRequest, "hold Release"),
@@ -293,7 +326,8 @@ class Commands:
 
     async def _ask(self, outcome: Outcome, request: Msg, started: float) -> Outcome:
         """Ask with the same id until there is an answer or the command is too old."""
-        deadline, kind = started + VALID_FOR, COMMANDS[outcome.name]
+        kind = COMMANDS[outcome.name]
+        deadline = started + kind.patience
         while True:
             if outcome.command_id == self._released_before:
                 return replace(outcome, phase="no_reply", reason=TAKEN_BACK)

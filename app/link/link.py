@@ -95,12 +95,9 @@ class Link:
         self._sources = Sources(client, self._on_message, self._on_event)
         self._advertiser = Advertiser(client)
         self._peek = Peek(client, posts.post_seen)
-        self._camera = CameraWatch(
-            url, self._sources, self._tasks, on_picture or (lambda _frame, _received: None), credentials
-        )
+        show = on_picture or (lambda _frame, _received: None)
+        self._camera = CameraWatch(url, self._sources, self._tasks, show, credentials)
         self._running: concurrent.futures.Future[None] | None = None
-
-    # what the UI thread calls
 
     @property
     def state(self) -> LinkState:
@@ -221,6 +218,10 @@ class Link:
     def ask_offer(self) -> None:
         """Ask again what the robot offers; told when it changed."""
         self._spawn(self._robot.renew)
+
+    def want(self, topic: str, wanted: bool) -> None:
+        """Listen to a topic that the robot makes only while somebody looks, or no longer."""
+        self._network.call(self._sources.want, topic, wanted)
 
     def place(self, message: PoseWithCovarianceStamped) -> None:
         """Tell the robot where it is."""

@@ -49,14 +49,21 @@ class Sources:
         self._client, self._deliver, self._event = client, deliver, event
         self._ends: dict[str, tuple[str, Callable[[], None]]] = {}
         self._offer: Capabilities | None = None
+        self._on_demand: set[str] = set()
+        """Topics that the robot makes only while somebody looks, of those that are looked at now."""
+
+    def want(self, topic: str, wanted: bool) -> None:
+        """Listen to an on-demand topic of the table, where the robot has it, or no longer."""
+        (self._on_demand.add if wanted else self._on_demand.discard)(topic)
+        self.follow(self._offer)
 
     def follow(self, offer: Capabilities | None) -> None:
         """Listen to what the robot offers; None, while that is not known, to the usual names."""
         self._offer = offer
         for entry in TOPICS:
-            if entry.to != "handheld" or entry.on_demand or entry.name in UNUSED:
+            if entry.to != "handheld" or entry.name in UNUSED:
                 continue
-            wanted = entry.name if offer is None else offer.source(entry.name)
+            wanted = self._wanted(entry)
             name, end = self._ends.get(entry.name, (None, None))
             if wanted == name:
                 continue
@@ -65,6 +72,14 @@ class Sources:
                 end()
             if wanted is not None:
                 self._ends[entry.name] = (wanted, self._subscribe(entry, wanted))
+
+    def _wanted(self, entry: Topic) -> str | None:
+        """The robot's name of a topic that is listened to; None for one that is not."""
+        offer = self._offer
+        if not entry.on_demand:
+            return entry.name if offer is None else offer.source(entry.name)
+        looked_at = entry.name in self._on_demand and offer is not None and entry.name in offer.topics
+        return entry.name if looked_at else None
 
     def _subscribe(self, entry: Topic, name: str) -> Callable[[], None]:
         if entry.once:

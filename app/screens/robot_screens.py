@@ -82,6 +82,7 @@ def robot_shell(app: Host, session: Session, layouts: LayoutChoice, **kwargs: An
         "drive": profile.screen,
         "tasks": maker("app.screens.tasks.tasks:TasksScreen", app=app, session=session),
         "topics": maker("app.screens.topics.topics:TopicsScreen", app=app, session=session),
+        "setup": maker("app.screens.setup.screen:SetupScreen", app=app, session=session),
         "inputs": maker("app.screens.inputs.screen:InputsScreen", app=app),
     }
     shell = Shell(ScreenSet(makers, session.now), app=app, session=session, **kwargs)

@@ -585,6 +585,7 @@ class Gateway(Msg, frozen=True, gc=False):
         "string",
         "string[]",
         "string",
+        "string[]",
         "string",
         "string",
         "string[]",
@@ -606,6 +607,10 @@ class Gateway(Msg, frozen=True, gc=False):
     """Options of its URL as name=value, without user, password and token; empty while it is down."""
     fault: str = ""
     """Why it is lost, or did not come up the last time; empty for none."""
+    qr_rows: list[str] = []
+    """Rows of the QR code of the endpoint from the top, each of 0 (light) and 1 (dark), without the quiet
+    zone.
+    """
     guide: str = ""
     """How it is used, with lines that can be pasted; empty while it is down."""
     usual: str = ""

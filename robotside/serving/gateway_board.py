@@ -112,14 +112,16 @@ class GatewayBoard:
     def _entry(self, name: str, adapter: Adapter, package: str) -> Gateway:
         standing = self._owner.standing(name)
         gateway = standing.gateway if standing.state in (UP, LOST) else None
+        endpoint = next(iter(gateway.endpoints().values()), "") if gateway else ""
         return Gateway(
             name,
             adapter.doc,
             package,
             state=standing.state,
-            endpoint=next(iter(gateway.endpoints().values()), "") if gateway else "",
+            endpoint=endpoint,
             options=_options(standing.url) if standing.url else [],
             fault=standing.fault,
+            qr_rows=_qr(endpoint),
             guide=gateway.guide() if gateway else "",
             usual=adapter.default,
             schemes=[f"{scheme}:{port}" for scheme, port in adapter.schemes.items()],
@@ -232,6 +234,14 @@ def _refusal(name: str, error: BridgeError) -> Refusal:
     if isinstance(notice, Notice):
         return Refusal(notice)
     return Refusal(Notice(Code.GATEWAY_UNABLE, str(error), gateway=name))
+
+
+def _qr(endpoint: str) -> list[str]:
+    if not endpoint:
+        return []
+    from robotside.trust.qr import as_rows  # takes a library that only who looks needs
+
+    return as_rows(endpoint)
 
 
 def _options(url: GatewayUrl) -> list[str]:

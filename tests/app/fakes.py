@@ -20,6 +20,10 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
     AcknowledgeEventsRequest,
     AcknowledgeEventsResponse,
+    BringDownGatewayRequest,
+    BringDownGatewayResponse,
+    BringUpGatewayRequest,
+    BringUpGatewayResponse,
     CommandRequest,
     CommandResponse,
     ControlStatus,
@@ -50,6 +54,8 @@ from bridge.msgs.pilothouse_msgs import (
     SetModeResponse,
     SetOptionRequest,
     SetOptionResponse,
+    SetPayloadRequest,
+    SetPayloadResponse,
     SetPlaceRequest,
     SetPlaceResponse,
     SetQueueRequest,
@@ -96,6 +102,9 @@ REQUESTS: dict[str, type[Msg]] = {
     "/mission/recall": RecallMissionRequest,
     "/lights/set": SetLightsRequest,
     "/robot/reset": CommandRequest,
+    "/gateways/bring_up": BringUpGatewayRequest,
+    "/gateways/bring_down": BringDownGatewayRequest,
+    "/payloads/set": SetPayloadRequest,
 }
 RESPONSES: dict[str, type[CommandResponse]] = {
     "/mode/set": SetModeResponse,
@@ -110,6 +119,9 @@ RESPONSES: dict[str, type[CommandResponse]] = {
     "/missions/get": GetMissionsResponse,
     "/mission/recall": RecallMissionResponse,
     "/lights/set": SetLightsResponse,
+    "/gateways/bring_up": BringUpGatewayResponse,
+    "/gateways/bring_down": BringDownGatewayResponse,
+    "/payloads/set": SetPayloadResponse,
 }
 """Of the services that answer with more than a sentence, or in a class of their own."""
 

@@ -51,7 +51,9 @@ class QrCode(Widget):
         if module < 1:
             return
         field, code = module * across, module * count
-        left, low = round(self.center_x - field / 2), round(self.center_y - field / 2)
+        # not from `center`: that is still the one of before when only the width or the height has changed
+        left = round(self.x + (self.width - field) / 2)
+        low = round(self.y + (self.height - field) / 2)
         inner = left + QUIET_ZONE * module, low + QUIET_ZONE * module
         self._code.add(Color(1, 1, 1, 1))
         self._code.add(Rectangle(pos=(left, low), size=(field, field)))

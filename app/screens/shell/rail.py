@@ -24,6 +24,7 @@ ENTRIES = {
     "mission": ("map", "Mission"),
     "tasks": ("list", "Tasks"),
     "topics": ("data_object", "Topics"),
+    "setup": ("tune", "Setup"),
     "talk": ("mic", "Talk"),
     "control_nav": ("person", "Control"),
     "record": ("fiber_manual_record", "Record"),
@@ -44,7 +45,9 @@ MIN_TALK_HEIGHT = 66
 """Height of the button to talk on a phone's side [dp]."""
 MAX_TALK_HEIGHT = 120
 """Height of the button to talk where there is room [dp]."""
-UPPER_COUNT = 4
+MIN_STEP = 54
+"""Along the lower edge, for a count beside an icon [dp]."""
+UPPER_COUNT = 5
 """As many stand at the upper end of the edge, the others at the lower."""
 
 Builder.load_string("""
@@ -109,7 +112,9 @@ class Rail(Edged, FloatLayout):
         self.form, tall = form, form == "tall"
         self._rect, self._dp = rect, dp
         put(self, rect)
-        absent = ("control_nav" if not tall else "", "talk")
+        # where there is no room for it, the robot's settings lead there
+        cramped = rect.width < MIN_STEP * (len(ENTRIES) - 1) * dp if tall else form == "short" and self.talks
+        absent = ("control_nav" if not tall else "", "setup" if cramped else "", "talk")
         buttons = [self.ids[name] for name in ENTRIES if name not in absent]
         self.clear_widgets()
         for button in [*buttons, *([self.ids.talk] if self.talks else [])]:
@@ -137,18 +142,19 @@ class Rail(Edged, FloatLayout):
         talk, gap = self.ids.talk, 8 * dp
         room = rect.height - 24 * dp - ((MIN_TALK_HEIGHT * dp + 2 * gap) if self.talks else 0)
         step = min(72 * dp, room / len(buttons))
-        high, lower = min(64 * dp, step), len(buttons) - UPPER_COUNT
+        upper = UPPER_COUNT - (self.ids.setup not in buttons)
+        high, lower = min(64 * dp, step), len(buttons) - upper
         for index, button in enumerate(buttons):
             # what is lower than its icon and its word need gives up its edges first
             edge = max(0.0, min(10 * dp, (high - 43 * dp) / 2))
             button.framed, button.padding = True, (0, edge, 0, max(0.0, edge - dp))
             button.size = rect.width - 12 * dp, high
-            if index >= UPPER_COUNT:
+            if index >= upper:
                 button.pos = rect.x + 6 * dp, rect.y + 12 * dp + (len(buttons) - 1 - index) * step
             else:
                 button.pos = rect.x + 6 * dp, rect.top - 12 * dp - high - index * step
         low = rect.y + 12 * dp + (lower - 1) * step + high + gap
-        top = rect.top - 12 * dp - high - (UPPER_COUNT - 1) * step - gap
+        top = rect.top - 12 * dp - high - (upper - 1) * step - gap
         talk.flow = "vertical"
         talk.size = rect.width - 6 * dp, max(MIN_TALK_HEIGHT * dp, min(MAX_TALK_HEIGHT * dp, top - low))
         talk.pos = rect.x + 3 * dp, low + (top - low - talk.height) / 2

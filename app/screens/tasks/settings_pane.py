@@ -24,9 +24,9 @@ Builder.load_string("""
 
 
 class SettingsPane(BoxLayout):
-    """Dispatches `on_close`, and `on_reset` when the robot shall be put back to where it started."""
+    """Dispatches `on_close`, `on_setup` for its protocols and payloads, and `on_reset` when the robot shall be put back."""
 
-    __events__ = ("on_close", "on_reset")
+    __events__ = ("on_close", "on_reset", "on_setup")
 
     def __init__(self, session: Session, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -34,6 +34,8 @@ class SettingsPane(BoxLayout):
         self.head, self.options = PaneHead(title="The robot's settings"), OptionList()
         self.add_widget(self.head)
         self.add_widget(self.options)
+        self.setup = QuietButton(text="Protocols and payloads", icon="tune")
+        self.setup.bind(on_release=lambda _: self.dispatch("on_setup"))
         self.back = QuietButton(text="Put it back to where it started", icon="replay")
         self.back.bind(on_release=lambda _: self.dispatch("on_reset"))
         self.head.bind(on_close=lambda _: self.dispatch("on_close"))
@@ -53,7 +55,11 @@ class SettingsPane(BoxLayout):
             self.options.forget()
         self.options.state = "live" if may and session.robot.offers("/settings/set") else "disabled"
         self.head.sentence = self._sentence()
-        possible = session.robot.capabilities is not None and session.robot.offers("/robot/reset")
+        known = session.robot.capabilities is not None
+        switches = known and session.robot.offers("/gateways/bring_up")
+        if switches != (self.setup.parent is self):
+            (self.add_widget if switches else self.remove_widget)(self.setup)
+        possible = known and session.robot.offers("/robot/reset")
         if possible != (self.back.parent is self):
             (self.add_widget if possible else self.remove_widget)(self.back)
         self.back.disabled = not may
@@ -71,6 +77,9 @@ class SettingsPane(BoxLayout):
 
     def on_close(self) -> None:
         """A finger asked to go back to the lists."""
+
+    def on_setup(self) -> None:
+        """A finger asked for the setup screen."""
 
     def on_reset(self) -> None:
         """A finger asked to put the robot back; nobody has confirmed that yet."""

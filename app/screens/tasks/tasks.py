@@ -79,7 +79,9 @@ class TasksScreen(RobotScreen):
             self.dashboard,
             on_close=self.close,
             on_place=self._bind_place,
-            on_settings=lambda pane: pane.bind(on_reset=lambda _: self._ask_reset()),
+            on_settings=lambda pane: pane.bind(
+                on_reset=lambda _: self._ask_reset(), on_setup=lambda _: self.app.show("setup")
+            ),
         )
         self.pane, self.mission_pane = self.panes.order, self.panes.mission
         self._body, self._form, self._dp = Rect(0, 0, 1, 1), "", 1.0

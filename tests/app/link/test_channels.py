@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pytest
 
+from app.link.capabilities import Capabilities
 from app.link.channels import EVENT, KNOWN, SEEN, LinkPosts
 from app.link.event_order import KnownEvents
 from app.link.feeds import Mailbox
-from app.link.subscriptions import Seen
+from app.link.subscriptions import Seen, Sources
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.pilothouse_msgs import ControlStatus
 
@@ -59,3 +62,29 @@ def test_how_far_events_are_known_comes_after_them(box: Box) -> None:
     box.posts.post_known(KnownEvents("boot", 2))
     box.posts.queue(EVENT)("event")
     assert box.drained() == [(EVENT, "event", 100.0), (KNOWN, KnownEvents("boot", 2), 100.0)]
+
+
+class Client:
+    """Takes subscriptions."""
+
+    def __init__(self) -> None:
+        self.subscribed: list[str] = []
+
+    def subscribe(self, topic: str, *_: object, **__: object) -> Callable[[], None]:
+        self.subscribed.append(topic)
+        return lambda: self.subscribed.remove(topic)
+
+
+def test_what_a_robot_makes_on_demand_is_listened_to_while_somebody_looks_and_where_it_is_offered() -> None:
+    client = Client()
+    sources = Sources(client, lambda *_: None, lambda *_: None)  # type: ignore[arg-type]
+    offers = Capabilities({"/gateways": "pilothouse_msgs/GatewayArray"}, frozenset())
+    sources.want("/gateways", True)
+    sources.want("/payloads", True)
+    assert not {"/gateways", "/payloads"} & set(client.subscribed), "nobody knows whether it has them"
+    sources.follow(offers)
+    assert client.subscribed.count("/gateways") == 1
+    assert "/payloads" not in client.subscribed
+    sources.want("/gateways", False)
+    assert "/gateways" not in client.subscribed
+    assert "/pose" in client.subscribed, "the others go on"

@@ -405,3 +405,15 @@ def test_what_confirmed_one_stop_does_not_confirm_the_next() -> None:
 
     run(robot, what)
     assert len(robot.calls) == 4
+
+
+def test_what_takes_the_robot_a_while_is_asked_for_longer_with_one_id_and_is_no_less_void_when_late() -> None:
+    robot = Robot(30.0, CommandResponse(success=True, message="mqtt is up."))
+    robot.script = [NoReply("The robot does not answer.")] * 20 + [CommandResponse(True, "mqtt is up.")]  # type: ignore[list-item]
+    outcome = run(robot, lambda commands: commands.send("gateway_up", name="mqtt", url=""))
+    assert (outcome.phase, outcome.reason) == ("accepted", "mqtt is up.")
+    assert robot.ids == {"id-0"}
+    assert {request.valid_for for _, request, _ in robot.calls} == {5.0}
+    silent = Robot(NoReply("The robot does not answer."))
+    assert run(silent, lambda commands: commands.send("gateway_down", name="mqtt")).phase == "no_reply"
+    assert 39.0 < silent.calls[-1][2] - silent.calls[0][2] <= 40.0

@@ -27,6 +27,7 @@ from robotside.gateways.adapter import Adapter, Surroundings
 from robotside.gateways.gateway_url import GatewayUrl
 from robotside.serving.gateway_board import FAREWELL_TIME, GatewayBoard
 from robotside.serving.gateway_owner import GatewayOwner
+from robotside.trust.qr import as_rows
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
 
@@ -183,6 +184,7 @@ async def test_it_is_up_only_when_it_is_and_down_when_nothing_is_left(board: Boa
     assert [each.gateways[3].state for each in board.heard] == ["down", "coming_up", "up"]
     pigeon = board.of("pigeon")
     assert (pigeon.endpoint, pigeon.guide) == ("coop://roof:7", "Tie it to a leg.")
+    assert pigeon.qr_rows == as_rows("coop://roof:7")
     assert pigeon.options == ["role=drive", "payloads=arm,lights", "rate=2"]
     assert (await board.down()).message == "pigeon is down."
     assert [each.gateways[3].state for each in board.heard[3:]] == ["going_down", "down"]

@@ -18,8 +18,12 @@ from app.screens.trust.people_dialog import PeopleDialog
 from bridge.core.identity import public_id
 from bridge.msgs.pilothouse_msgs import (
     ControlStatus,
+    Gateway,
+    GatewayArray,
     GetPeopleResponse,
     InvitePersonResponse,
+    Payload,
+    PayloadArray,
     Person,
     RobotInfo,
     TaskStatus,
@@ -95,6 +99,7 @@ def screens(walk: Walk) -> Iterator[tuple[str, Callable[[], object]]]:
     for name in ("drive", "mission", "tasks", "topics"):
         yield name, lambda name=name: app.show(name)
     yield "a topic", lambda: app.screens["topics"].open("/battery_state")
+    yield from of_setup(walk)
     mission = app.screens["mission"]
     yield "mission", lambda: app.show("mission")
     for mode in ("points", "home", "place", "place_robot"):
@@ -137,6 +142,25 @@ def screens(walk: Walk) -> Iterator[tuple[str, Callable[[], object]]]:
     yield "undo", lambda: app.shell._offer_undo("Office 12", lambda: None)
     for info in (AQUA, BOAT, DRONE, TRUCK, SCOUT):
         yield info.name, lambda info=info: introduce(walk, info)
+
+
+def of_setup(walk: Walk) -> Iterator[tuple[str, Callable[[], object]]]:
+    """The setup screen with what a robot told of itself."""
+    app, screen = walk.app, walk.app.screens["setup"]
+
+    def told(*gateways: Gateway) -> None:
+        app._deliver("/gateways", Post(GatewayArray(gateways=list(gateways)), 0.0, 1))
+        lights = Payload("lights", "lights", on=True, topics=["/lights"], services=["/lights/set"])
+        app._deliver("/payloads", Post(PayloadArray(payloads=[lights]), 0.0, 1))
+
+    down = Gateway("mqtt", "a broker", state="down", usual="mqtt://h:1", schemes=["mqtt:1", "own:1"])
+    up = Gateway("mqtt", "a broker", state="up", endpoint="mqtt://h:1", guide="Say hello.", qr_rows=["1"])
+    yield "setup", lambda: app.show("setup")
+    yield "setup told", lambda: told(down)
+    yield "a protocol", lambda: setattr(screen, "chosen", ("/gateways", "mqtt"))
+    yield "a protocol that is up", lambda: told(up)
+    yield "its guide", lambda: setattr(screen._panes["/gateways", "mqtt"], "reads", True)
+    yield "a payload", lambda: setattr(screen, "chosen", ("/payloads", "lights"))
 
 
 def introduce(walk: Walk, info: RobotInfo) -> None:

@@ -1,0 +1,93 @@
+"""Fields of a gateway's URL, with the usual values in them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from kivy.uix.boxlayout import BoxLayout
+
+from app.screens.setup.gateway_form import OWN, ROLES, SITE, BadForm, GatewayForm
+from bridge.msgs.pilothouse_msgs import Gateway
+from widgets.parts.kit import Column, Remark, Segmented, TextField
+
+__all__ = ["UrlForm"]
+
+FIELDS = {
+    "host": "Address",
+    "port": "Port",
+    "path": "Prefix or path",
+    "user": "User",
+    "password": "Password",
+    "rate": "Rate, at most [Hz]",
+    "payloads": "Payloads, empty for all",
+}
+"""Name of each field, as in `GatewayForm`, to its label."""
+ROWS = (("host", "port"), ("path", "rate"), ("user", "password"), ("payloads",))
+"""Fields beside each other."""
+HIDDEN = {SITE: ("host", "port", "user", "password"), OWN: ("user", "password")}
+"""Fields that a scheme has no use for."""
+
+
+class UrlForm(Column):
+    """What is typed stays until the app leaves the robot."""
+
+    def __init__(self, gateway: Gateway, **kwargs: Any) -> None:
+        super().__init__(spacing="8dp", **kwargs)
+        self._ports = dict(each.rsplit(":", 1) for each in gateway.schemes if ":" in each)
+        usual = GatewayForm.of(gateway.usual)
+        self.scheme = Segmented(options=list(self._ports), value=usual.scheme)
+        self.scheme.bind(on_choose=lambda _, scheme: self._choose(scheme))
+        self.role = Segmented(options=list(ROLES), value=usual.role)
+        self.fields = {
+            name: TextField(
+                text=getattr(usual, name), label=label, hint_text=label, password=name == "password"
+            )
+            for name, label in FIELDS.items()
+        }
+        self.fields["port"].size_hint_x = 0.4
+        for field in self.fields.values():
+            field.write_tab = False
+        for field in self.fields.values():
+            field.bind(text=lambda field, _: setattr(field, "wrong", False))
+        self.problem = Remark(role="danger")
+        self._lay()
+
+    def url(self) -> str:
+        """What is typed, as a URL; empty where it is none, which is said in the form."""
+        values = {name: field.text for name, field in self.fields.items()}
+        try:
+            found = GatewayForm(self.scheme.value, role=self.role.value, **values).url(self._ports)
+        except BadForm as bad:
+            self.problem.text = str(bad)
+            self.fields[bad.field].wrong = True
+            return ""
+        self.problem.text = ""
+        return found
+
+    def _choose(self, scheme: str) -> None:
+        """Another scheme has another usual port."""
+        if self.fields["port"].text in ("", *self._ports.values()):
+            self.fields["port"].text = self._ports.get(scheme, "")
+        self._lay()
+
+    def _lay(self) -> None:
+        hidden = HIDDEN.get(self.scheme.value, ())
+        self.clear_widgets()
+        if len(self._ports) > 1:
+            self.add_widget(self.scheme)
+        for names in ROWS:
+            shown = [name for name in names if name not in hidden]
+            if not shown:
+                continue
+            row = BoxLayout(size_hint_y=None, spacing="8dp")
+            for name in shown:
+                field = self.fields[name]
+                if field.parent is not None:
+                    field.parent.remove_widget(field)
+                row.add_widget(field)
+            row.height = self.fields[shown[0]].height
+            self.fields[shown[0]].bind(height=row.setter("height"))
+            self.add_widget(row)
+        self.add_widget(Remark(text="Without a token everybody there may", role="muted"))
+        self.add_widget(self.role)
+        self.add_widget(self.problem)
