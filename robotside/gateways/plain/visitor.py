@@ -83,14 +83,20 @@ class Visitor:
         False), one without any stamp is refused. STOP is pressed whatever the message says, or fails to say.
         """
         try:
-            if service == TIME:
-                return self._time()
-            self._check_carried(service)
-            request = self._request(service, self._door.service(service).request, raw, stamp, dated=dated)
-            answer = self._door.call(self.operator, service, request)
+            answer = self.ask(service, raw, stamp, dated=dated)
         except BridgeError as error:
             return refusal(error)
         return to_json(answer) if isinstance(answer, Msg) else _later(answer)
+
+    def ask(
+        self, service: str, raw: bytes, stamp: float = math.nan, *, dated: bool = True
+    ) -> Msg | Awaitable[Msg]:
+        """As `call`, with the answer as a message; raises BridgeError where it is refused at the door, now or when awaited."""
+        if service == TIME:
+            return self._time()
+        self._check_carried(service)
+        request = self._request(service, self._door.service(service).request, raw, stamp, dated=dated)
+        return self._door.call(self.operator, service, request)
 
     def run(
         self,
@@ -164,10 +170,10 @@ class Visitor:
         self.name = request.client_name or self.name
         return replace(request, client_id=self._client_id, client_name=self.name)
 
-    def _time(self) -> bytes:
+    def _time(self) -> GetTimeResponse:
         self._door.check(self.operator, "rosapi", TIME)
         self.operator.asked_time = True
-        return to_json(GetTimeResponse(Time.at(self._door.now())))
+        return GetTimeResponse(Time.at(self._door.now()))
 
     def _check_carried(self, name: str) -> None:
         if key_of(name) not in self._keys:

@@ -1,0 +1,83 @@
+"""Bodies and headers of requests: what form a body has, how long it may be, and when a command was meant."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from starlette.requests import Request
+
+from bridge.core.errors import ProtocolError
+from bridge.msgs import Msg
+from robotside.gateways.plain.strict_json import MAX_INPUT, decode
+from robotside.gateways.rest.forms import JSON, XML
+from robotside.gateways.rest.statuses import Rejected
+
+__all__ = ["CLIENT_ID", "CLIENT_NAME", "KEY", "STAMP", "body_of", "header", "stamp_of"]
+
+CLIENT_ID, CLIENT_NAME = "Client-Id", "Client-Name"
+"""Who asks, where no key says it: an id that stays, and a name for people."""
+KEY = "Idempotency-Key"
+"""The `command_id`: a command that is sent again with it is done once and answered alike."""
+STAMP = "Stamp"
+"""When a command was meant, in seconds of the robot's time."""
+
+_TYPES = {JSON: JSON, XML: XML, "text/xml": XML}
+MAX_HEADER = 64
+"""Characters of an id, a name or a key."""
+
+
+async def body_of(request: Request, cls: type[Msg]) -> dict[str, Any]:
+    """The object in a request's body, of a form that it names, `{}` for none.
+
+    Rejected for what is too long (413) or of another form (415), ProtocolError for what cannot be read. XML is read with
+    the types of `cls`.
+    """
+    raw = await _raw(request)
+    if not raw.strip():
+        return {}
+    named = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    form = _TYPES.get(named)
+    if form is None:
+        said = f"A body is {JSON} or {XML} by its Content-Type, not {named[:60]!r}."
+        raise Rejected(415, said, {"Accept": f"{JSON}, {XML}"})
+    if form == JSON:
+        return decode(raw)
+    from robotside.gateways.rest.xml_form import from_xml  # its library is loaded for who sends it
+
+    return from_xml(raw, cls)
+
+
+async def _raw(request: Request) -> bytes:
+    length = request.headers.get("content-length", "")
+    raw = bytearray()
+    if not (length.isdecimal() and int(length[:20]) > MAX_INPUT):
+        async for piece in request.stream():
+            raw += piece
+            if len(raw) > MAX_INPUT:
+                break
+        else:
+            return bytes(raw)
+    raise Rejected(413, f"A body has at most {MAX_INPUT} bytes.")
+
+
+def header(request: Request, name: str) -> str:
+    """The value of a header that names somebody or something; empty without one. ProtocolError for what cannot be shown."""
+    value = request.headers.get(name, "").strip()
+    if len(value) > MAX_HEADER or not value.isprintable():
+        raise ProtocolError(f"The header {name} has at most {MAX_HEADER} characters that can be shown.")
+    return value
+
+
+def stamp_of(request: Request) -> float:
+    """When a command was meant [s, operators' clock]; NaN where that is not said. ProtocolError for what is no time."""
+    text = request.headers.get(STAMP)
+    if text is None:
+        return math.nan
+    try:
+        stamp = float(text)
+    except ValueError:
+        stamp = math.nan
+    if not math.isfinite(stamp):
+        raise ProtocolError(f"The header {STAMP} is a time in seconds, not {text[:60]!r}.")
+    return stamp
