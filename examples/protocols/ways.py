@@ -19,7 +19,7 @@ __all__ = ["ANSWER_TIMEOUT", "PROTOCOLS", "Answer", "Way", "way_to"]
 
 ANSWER_TIMEOUT = 40.0
 """An answer that waits for an arm takes so long at most [s]."""
-PROTOCOLS = ("mqtt", "rosbridge", "websocket")
+PROTOCOLS = ("mqtt", "rosbridge", "soap", "websocket")
 """Modules beside this one."""
 SCHEMES = {"ws": "rosbridge", "mqtt": "mqtt"}
 """Scheme of a URL without a name to the protocol that it means."""

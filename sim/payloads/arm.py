@@ -159,8 +159,8 @@ class MountedArm:
         if not math.isnan(order.point.x):
             x, y, z = order.point.x, order.point.y, order.point.z
             own = (x - self._at[0], y - self._at[1], z - self._at[2])
-            known = all(map(math.isfinite, own)) and not math.isinf(order.pitch)
-            found = self.arm.inverse(own, order.pitch) if known else None
+            finite = all(map(math.isfinite, own)) and not math.isinf(order.pitch)
+            found = self.arm.inverse(own, order.pitch) if finite else None
             if found is None:
                 raise ValueError(f"The arm does not reach ({x:.2f}, {y:.2f}, {z:.2f}).")
             return found + self._wanted[BENDING:]

@@ -27,7 +27,7 @@ def everywhere(folder: Path, *options: str) -> Iterator[Everywhere]:
     """A robot called Rex, served with `options`, by which everybody may drive."""
     broker = Broker(folder)
     port = _free_port()
-    gateways = (f"mqtt={broker.url}?role=drive", f"websocket=ws://127.0.0.1:{port}?role=drive")
+    gateways = (f"mqtt={broker.url}?role=drive", f"websocket=ws://127.0.0.1:{port}?role=drive", "soap")
     brought = [each for gateway in gateways for each in ("--gateway", gateway)]
     try:
         with RobotProcess(
@@ -39,6 +39,7 @@ def everywhere(folder: Path, *options: str) -> Iterator[Everywhere]:
                     "rosbridge": process.url,
                     "mqtt": f"{broker.url}/pilothouse/Rex",
                     "websocket": f"websocket=ws://127.0.0.1:{port}",
+                    "soap": f"soap={process.web}/soap",
                 },
             )
     finally:

@@ -1,4 +1,4 @@
-"""Deliveries between named offices, ordered by each protocol: coffee, then a parcel back."""
+"""Deliveries between named offices, ordered by each of the papers' protocols: coffee, a parcel back, and on."""
 
 from __future__ import annotations
 
@@ -9,65 +9,56 @@ import pytest
 
 from examples import courier
 from examples.courier import NotDelivered, deliver, place
-from examples.demo.robot import RobotProcess
 from examples.demo.witness import Witness
 from examples.protocols.ways import way_to
-from tests.robotside.gateways.mqtt.broker import Broker
+from tests.examples.everywhere import Everywhere, everywhere
 
 pytestmark = pytest.mark.slow
 
-ROOM_3 = (2.0, 2.9)
-RECEPTION = (-10.2, 1.6)
+OFFICES = {"reception": (-10.2, 1.6), "room_3": (2.0, 2.9), "room_1": (-6.8, 2.9), "room_5": (-6.8, -2.9)}
+"""Where they are [m]."""
 DOCK = (-11.6, -1.2, 0.0)
 REACHED_DISTANCE = 0.5
 """A place counts as reached within this [m]."""
+ORDERS = {
+    "rosbridge": ("coffee", ("reception", "room_3")),
+    "soap": ("parcel", ("room_3", "room_1")),
+}
+"""By each protocol something between two offices."""
 
 
 @pytest.fixture
-def broker(tmp_path: Path) -> Iterator[Broker]:
-    made = Broker(tmp_path)
-    yield made
-    made.kill()
+def rex(tmp_path: Path) -> Iterator[Everywhere]:
+    with everywhere(tmp_path, "--robot", "sim:scout", "--world", "office", "--speed", "10") as served:
+        yield served
 
 
-@pytest.fixture
-def robot(tmp_path: Path, broker: Broker) -> Iterator[RobotProcess]:
-    options = ("--robot", "sim:scout", "--world", "office", "--speed", "10", "--name", "Rex")
-    gateways = ("--gateway", f"mqtt={broker.url}?role=drive")
-    state = ("--state", str(tmp_path / "state"))
-    with RobotProcess(*options, *gateways, *state, log=tmp_path / "robot.log") as process:
-        yield process
-
-
-def test_coffee_and_a_parcel_ordered_by_one_protocol_each_arrive(
-    robot: RobotProcess, broker: Broker, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_is_ordered_by_each_protocol_arrives(rex: Everywhere, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(courier, "LOOK_PERIOD", 0.05)
     monkeypatch.setattr(courier, "DELIVERY_TIMEOUT", 300.0)
-    witness = Witness(robot.url)
+    with way_to(rex.ways["rosbridge"], "reception") as way:
+        place(way, *DOCK)
+        assert way.call("/control/acquire", {})["success"]  # it was heard after the place
+        assert way.call("/control/release", {})["success"]
+    witness = Witness(rex.process.url)
     try:
-        for url, what, places, goal in (
-            (robot.url, "coffee", ("reception", "room_3"), ROOM_3),
-            (f"{broker.url}/pilothouse/Rex", "parcel", ("room_3", "reception"), RECEPTION),
-        ):
+        for protocol, (what, places) in ORDERS.items():
             said: list[str] = []
-            name = f"courier by {url.partition(':')[0]}"
-            with way_to(url, name) as way:
-                if goal is ROOM_3:
-                    place(way, *DOCK)
+            with way_to(rex.ways[protocol], f"courier by {protocol}") as way:
                 run = deliver(way, what, places, say=said.append, confirm=True)
-            assert (run["state"], run["visited"], run["by"]) == ("SUCCEEDED", 2, name)
+            assert (run["state"], run["visited"]) == ("SUCCEEDED", 2)
+            assert run["by"] == f"courier by {protocol}"
             assert run["reason"] == f"Delivered at {places[1]}."
             assert run["order"]["message"] == what
-            assert witness.distance(*goal) <= REACHED_DISTANCE
+            assert witness.distance(*OFFICES[places[1]]) <= REACHED_DISTANCE
             assert said[1:] == [f"It has been at {place}." for place in places]
     finally:
         witness.close()
 
 
-def test_an_office_that_there_is_not_is_refused_by_each_protocol(robot: RobotProcess, broker: Broker) -> None:
-    for url in (robot.url, f"{broker.url}/pilothouse/Rex"):
-        with way_to(url, "courier") as way:
+def test_an_office_that_there_is_not_is_refused_by_each_protocol(rex: Everywhere) -> None:
+    for protocol, url in rex.ways.items():
+        with way_to(url, f"by {protocol}") as way:
             place(way, *DOCK)
             with pytest.raises(NotDelivered, match="moon"):
                 deliver(way, "coffee", ("reception", "moon"))
