@@ -80,7 +80,7 @@ class Callers:
     def _leave(self, key: _Key) -> None:
         visitor = self._known.pop(key, None)
         if visitor is not None:
-            self._door.leave(visitor.operator)
+            visitor.leave()
 
     def _make_room(self) -> None:
         if len(self._known) < MAX_VISITORS:

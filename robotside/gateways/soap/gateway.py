@@ -46,6 +46,8 @@ log = logging.getLogger(__name__)
 
 _CHECK_PERIOD = 1.0
 """Between two looks for clients that are silent and subscriptions that are over [s]."""
+_STOP_PATIENCE = 0.1
+"""STOP waits no longer for the name of who presses it [s]."""
 _HOST = re.compile(r"[\w.\-\[\]:]{1,255}", re.ASCII)
 _WSDL, _SUBSCRIBER = "wsdl", "subscriber.wsdl"
 """Queries that ask for the contract of the robot's service, and of that of a client for callbacks."""
@@ -150,9 +152,9 @@ class SoapGateway:
 
     async def _post(self, request: Request) -> Response:
         operator: Operator = request.scope["state"][OPERATOR]
-        raw = await _body(request)
         if request.scope["state"][ONLY_STOP]:
-            return await self._stop(operator, raw or b"")
+            return await self._stop(operator, await _body_at_hand(request))
+        raw = await _body(request)
         if raw is None:
             return _fault(Refused(f"A message has at most {MAX_INPUT} bytes."), 413)
         problem = _wrong_type(request.headers.get("content-type", ""))
@@ -169,10 +171,7 @@ class SoapGateway:
         )
 
     async def _do(self, operator: Operator, asked: Asked) -> Response:
-        known = self._operations.get(asked.operation)
-        if known is None:
-            names = ", ".join(self._operations)
-            return _fault(Refused(f"There is no operation {asked.operation[:50]!r}; there are {names}."))
+        known = self._operations[asked.operation]
         caller = Caller() if asked.caller is None else read(asked.caller, Caller)
         try:
             visitor = self._callers.visit(operator, caller.client_id or "")
@@ -261,6 +260,15 @@ async def _body(request: Request) -> bytes | None:
         if len(raw) > MAX_INPUT:
             return None
     return bytes(raw)
+
+
+async def _body_at_hand(request: Request) -> bytes:
+    """The body of a STOP, which says who presses it; empty where it is too long, or does not come at once."""
+    try:
+        async with asyncio.timeout(_STOP_PATIENCE):
+            return await _body(request) or b""
+    except (TimeoutError, ClientDisconnect):
+        return b""
 
 
 def _wrong_type(told: str) -> str:

@@ -113,7 +113,7 @@ class Served:
 
     async def post(
         self,
-        raw: str | bytes,
+        raw: str | bytes | AsyncIterator[bytes],
         *,
         token: str = "drive",
         action: str = "",

@@ -61,12 +61,24 @@ async def test_anybody_stops_the_robot_whatever_the_message_says(served: Served)
 
 
 async def test_a_stop_that_no_header_tells_of_is_pressed_too(served: Served) -> None:
-    for inner, token in itertools.product(UNTOLD, TOKENS):
+    for inner, token, kind in itertools.product(UNTOLD, TOKENS, (TYPE, "text/plain")):
         moving(served)
-        answer = await served.post(message(inner), token=token, kind="text/plain")
+        answer = await served.post(message(inner), token=token, kind=kind)
         assert (answer.status, answer.value("message")) == (200, "Stopped."), (inner, token)
         assert served.stopped, (inner, token)
         assert served.scene.robot.at_rest, (inner, token)
+
+
+async def test_stop_waits_for_no_body_that_does_not_come(served: Served) -> None:
+    async def never() -> AsyncIterator[bytes]:
+        yield b"<"
+        await asyncio.get_running_loop().create_future()
+
+    moving(served)
+    async with asyncio.timeout(20):
+        answer = await served.post(never(), token="", action="Stop")
+    assert answer.value("message") == "Stopped."
+    assert served.scene.robot.at_rest
 
 
 async def test_a_page_of_the_world_presses_stop_only(served: Served) -> None:
@@ -139,6 +151,11 @@ async def test_what_is_wrong_is_a_fault_that_says_so_and_moves_nothing(served: S
     assert not wrong
     assert served.scene.task.state == "IDLE"
     assert served.scene.robot.at_rest
+
+
+async def test_a_message_is_utf_8_whatever_it_says_itself(served: Served) -> None:
+    raw = '<?xml version="1.0" encoding="ISO-8859-1"?>' + message(body("GoTo", place="Café"))
+    assert "'Café'" in (await served.post(raw.encode())).fault[1]
 
 
 async def test_a_comment_in_a_value_hides_no_part_of_it(served: Served) -> None:
@@ -251,20 +268,22 @@ async def test_a_client_with_an_id_keeps_control_between_its_calls_and_gives_it_
     assert not served.scene.control.driver  # who has no id is gone once it is answered
 
 
-async def drive(served: Served, caller: dict[str, object]) -> Answer:
-    return await served.ask("PublishMessage", caller, topic="/cmd_vel", message=AHEAD)
+async def drive(served: Served, caller: dict[str, object], host: str = "192.0.2.7") -> Answer:
+    asked = message(body("PublishMessage", topic="/cmd_vel", message=AHEAD), **caller)
+    return await served.post(asked, host=host)
 
 
 async def test_a_drive_command_of_nobody_or_of_unknown_or_too_great_age_moves_nothing(served: Served) -> None:
-    scene, me = served.scene, {"clientId": "a"}
-    assert "clientId" in (await drive(served, {"stamp": scene.clock})).fault[1]
-    await drive(served, me | {"stamp": scene.clock})  # of a clock that was never compared
-    assert scene.robot.at_rest
-    assert float((await served.ask("GetTime", me)).value("stamp") or 0) == pytest.approx(scene.clock)
-    await drive(served, me)
-    await drive(served, me | {"stamp": scene.clock - 1.0})
-    assert scene.robot.at_rest
-    assert not any(scene.robot.commands)
+    now = served.scene.clock
+    assert "clientId" in (await drive(served, {"stamp": now})).fault[1]
+    await drive(served, {"clientId": "a", "stamp": now}, "192.0.2.8")  # of a clock that was never compared
+    for host, stamp in (("192.0.2.9", {}), ("192.0.2.10", {"stamp": now - 1.0})):
+        time = await served.post(message(body("GetTime"), clientId="a"), host=host)
+        assert float(time.value("stamp") or 0) == pytest.approx(served.scene.clock)
+        await drive(served, {"clientId": "a", **stamp}, host)
+        served.scene.run(0.05)
+    assert served.scene.robot.at_rest
+    assert not any(served.scene.robot.commands)
 
 
 @pytest.mark.parametrize("ending", ["Leave", "time", "the gateway's end"])
