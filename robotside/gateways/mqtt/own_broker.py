@@ -122,8 +122,9 @@ class OwnBroker:
 
     async def _begin(self) -> Process:
         """A process that listens. BridgeError when it does not."""
+        # in a group of its own: Ctrl-C ends the robot, and that ends the broker when it has said goodbye
         process = await asyncio.create_subprocess_exec(
-            *self._command(), stdin=PIPE, stdout=DEVNULL, stderr=DEVNULL
+            *self._command(), stdin=PIPE, stdout=DEVNULL, stderr=DEVNULL, process_group=0
         )
         try:
             async with asyncio.timeout(START_TIMEOUT):

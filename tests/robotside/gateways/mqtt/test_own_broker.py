@@ -85,6 +85,16 @@ async def test_it_speaks_mqtt_5_comes_back_when_it_dies_and_leaves_nothing(progr
     await broker.stop()
 
 
+async def test_what_ends_a_robot_in_its_terminal_does_not_end_the_broker_before_it(program: str) -> None:
+    broker = OwnBroker("127.0.0.1", 0, program=program)
+    await broker.start()
+    try:
+        assert broker._process is not None
+        assert os.getpgid(broker._process.pid) != os.getpgrp()  # Ctrl-C is for a whole group
+    finally:
+        await broker.stop()
+
+
 def test_it_ends_with_a_robot_that_was_killed(program: str, tmp_path: Path) -> None:
     robot = subprocess.run(
         [sys.executable, "-c", ORPHANED, program],
