@@ -110,15 +110,17 @@ class Door:
         token: str = "",
         trusted: bool = True,
         role: Role | None = None,
+        client: str = "",
     ) -> Operator:
         """A client came from `address`, `HOST:PORT`; the operator that it is from now on, with an id that no other has.
 
         It came by the gateway `way`, over TLS when `secure`, and showed `token`, empty for none. One that is not `trusted` never
         counts as a program of this machine: a web page may have opened it. `role` is that of everybody who comes that way
-        without a token, None where the address decides. Raises Refused for a wrong token.
+        without a token, None where the address decides. `client` is its name where the address is that of a broker with many
+        behind it: wrong tokens count for each of them. Raises Refused for a wrong token.
         """
         try:
-            identity = who_comes(self._gate, address, token, trusted=trusted, role=role)
+            identity = who_comes(self._gate, address, token, trusted=trusted, role=role, client=client)
         except Refused as refusal:
             if self._trail:
                 self._trail.unknown(address, way, refusal)

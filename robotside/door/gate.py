@@ -23,8 +23,11 @@ class Gate(Protocol):
         One that is not `trusted` may be a web page and never counts as a program of this machine.
         """
 
-    def identify(self, token: str, address: str) -> Identity:
-        """Whose token it is; raises Refused, with one sentence for every reason."""
+    def identify(self, token: str, address: str, client: str = "") -> Identity:
+        """Whose token it is; raises Refused, with one sentence for every reason.
+
+        `client` is the name of who shows it where `address` is that of a broker with many behind it.
+        """
 
     def needed(self, verb: str, name: str) -> Role:
         """The role that an operation needs, as of `robotside.trust.permissions`."""
@@ -36,7 +39,7 @@ class _Open:
     def admit(self, address: str, *, trusted: bool) -> Identity:
         return Identity("", "", Role.MANAGE)
 
-    def identify(self, token: str, address: str) -> Identity:
+    def identify(self, token: str, address: str, client: str = "") -> Identity:
         raise Refused("This robot knows no keys.")
 
     def needed(self, verb: str, name: str) -> Role:
@@ -47,13 +50,15 @@ OPEN: Gate = _Open()
 """The gate of a robot that only this process reaches."""
 
 
-def who_comes(gate: Gate, address: str, token: str, *, trusted: bool, role: Role | None) -> Identity:
+def who_comes(
+    gate: Gate, address: str, token: str, *, trusted: bool, role: Role | None, client: str = ""
+) -> Identity:
     """Who a client is: by its token, else with the `role` that everybody has who comes its way, None where its address decides.
 
     Raises Refused for a wrong token.
     """
     if token:
-        return gate.identify(token, address)
+        return gate.identify(token, address, client)
     return gate.admit(address, trusted=trusted) if role is None else Identity("", "", role)
 
 

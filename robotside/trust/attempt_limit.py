@@ -1,9 +1,10 @@
-"""A limit on attempts of each address, in a table that strangers cannot make grow."""
+"""A limit on attempts of each address, or of each client behind one, in a table that strangers cannot make grow."""
 
 from __future__ import annotations
 
 import ipaddress
 from collections import OrderedDict, deque
+from collections.abc import Hashable
 
 __all__ = ["AttemptLimit", "host_of"]
 
@@ -26,19 +27,19 @@ def host_of(address: str) -> str:
 
 
 class AttemptLimit:
-    """Counts the attempts of hosts; a host that made too many waits until the oldest of them is old enough."""
+    """Counts the attempts of hosts, or of what else they are told apart by; a host that made too many waits until the oldest of them is old enough."""
 
     def __init__(self, most: int, period: float) -> None:
         """At most `most` attempts in any `period` [s]."""
         self._most, self._period = most, period
-        self._hosts: OrderedDict[str, deque[float]] = OrderedDict()
+        self._hosts: OrderedDict[Hashable, deque[float]] = OrderedDict()
 
-    def is_reached(self, host: str, now: float) -> bool:
+    def is_reached(self, host: Hashable, now: float) -> bool:
         """`host` has no attempt left at `now` [s]."""
         tries = self._hosts.get(host)
         return tries is not None and len(tries) == self._most and now - tries[0] < self._period
 
-    def note(self, host: str, now: float) -> None:
+    def note(self, host: Hashable, now: float) -> None:
         """`host` made an attempt at `now` [s]."""
         self._hosts.setdefault(host, deque(maxlen=self._most)).append(now)
         self._hosts.move_to_end(host)

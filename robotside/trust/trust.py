@@ -34,6 +34,8 @@ R = TypeVar("R")
 
 MAX_WRONG, WRONG_PERIOD = 5, 60.0
 """Wrong keys of one host in as many seconds; after them no further one is looked at."""
+MAX_WRONG_BEHIND = 30
+"""Wrong keys of all clients behind one broker in `WRONG_PERIOD`: each name there has its own, and names can be made up."""
 MAX_LOGGED, LOG_PERIOD = 20, 60.0
 """Lines about wrong keys in as many seconds, whoever shows them."""
 CHECK_PERIOD = 0.5
@@ -69,6 +71,7 @@ class Trust:
         self._verified: dict[str, tuple[str, bytes]] = {}
         """By id, the kept hash and that of the token that has proven it: reconnecting costs no scrypt."""
         self._wrong = AttemptLimit(MAX_WRONG, WRONG_PERIOD)
+        self._wrong_behind = AttemptLimit(MAX_WRONG_BEHIND, WRONG_PERIOD)
         self._logged = AttemptLimit(MAX_LOGGED, LOG_PERIOD)
         self._seen: dict[str, float] = {}
         """Who was seen when [s], not yet written."""
@@ -99,19 +102,22 @@ class Trust:
         # by TLS nobody may less than without it: a handheld that is not paired comes by the address of the HELLO
         return STRANGER if self._plain is None else Identity("", "", self._plain)
 
-    def identify(self, token: str, address: str) -> Identity:
-        """Whose token it is; raises Refused, with one sentence for unknown, wrong and ended ones: the log has which."""
-        now, host = self._now(), host_of(address)
+    def identify(self, token: str, address: str, client: str = "") -> Identity:
+        """Whose token it is; raises Refused, with one sentence for unknown, wrong and ended ones: the log has which.
+
+        `client` is the name of who shows it where `address` is that of a broker with many behind it.
+        """
+        now, source = self._now(), (host_of(address), client)
         id, _, secret = token[: MAX_TOKEN + 1].partition(".")
         person = self._people.get(id)
         digest = hashlib.sha256(token.encode(errors="replace")).digest()
         if person is None or not self._has_proven(person, digest):
-            self._check_attempts(host, now)
+            self._check_attempts(source, now)
             if person is None:
-                self._wrong.note(host, now)
+                self._note_wrong(source, now)
                 self._refuse(address, "unknown", now)
             if not self._proves(person, token, secret, digest):
-                self._wrong.note(host, now)
+                self._note_wrong(source, now)
                 self._refuse(address, f"not the key of {person.name}", now)
         if self._has_ended(person, now):
             self._refuse(address, f"of {person.name}, whose role has ended", now)
@@ -239,10 +245,18 @@ class Trust:
         seen = max(each.last_seen or each.created for each in self._people.values())
         return max(now, seen) >= person.end
 
-    def _check_attempts(self, host: str, now: float) -> None:
-        if self._wrong.is_reached(host, now):
-            said = f"Too many wrong keys came from your address: try again in {WRONG_PERIOD:.0f} s."
+    def _check_attempts(self, source: tuple[str, str], now: float) -> None:
+        host, client = source
+        if self._wrong.is_reached(source, now) or (client and self._wrong_behind.is_reached(host, now)):
+            whose = "under your name or by your broker" if client else "from your address"
+            said = f"Too many wrong keys came {whose}: try again in {WRONG_PERIOD:.0f} s."
             raise Refused(Notice(Code.TRUST_ATTEMPTS, said, seconds=WRONG_PERIOD))
+
+    def _note_wrong(self, source: tuple[str, str], now: float) -> None:
+        host, client = source
+        self._wrong.note(source, now)
+        if client:
+            self._wrong_behind.note(host, now)
 
     def _refuse(self, address: str, why: str, now: float) -> NoReturn:
         if not self._logged.is_reached(_ALL, now):

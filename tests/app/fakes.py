@@ -135,7 +135,7 @@ class KnowsAll:
     def admit(self, address: str, *, trusted: bool) -> Identity:
         return Identity("", "", Role.MANAGE)
 
-    def identify(self, token: str, address: str) -> Identity:
+    def identify(self, token: str, address: str, client: str = "") -> Identity:
         return Identity(token.partition(".")[0], "", Role.MANAGE, proven=True)
 
     def needed(self, verb: str, name: str) -> Role:

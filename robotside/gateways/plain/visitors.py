@@ -60,7 +60,13 @@ class Visitors:
     def newcomer(self, name: str, token: str = "") -> Visitor:
         """A client that is not remembered, for one message; `leave` it afterwards. Raises Refused for a wrong token."""
         operator = self._door.join(
-            self._address, way=self._way, secure=self._secure, token=token, trusted=True, role=self._role
+            self._address,
+            way=self._way,
+            secure=self._secure,
+            token=token,
+            trusted=True,
+            role=self._role,
+            client=name,
         )
         # how long a broker kept what comes next nobody knows: without a stamp it drives nothing
         operator.answered = -math.inf

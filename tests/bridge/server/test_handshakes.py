@@ -28,7 +28,7 @@ class Gate:
         self.admitted.append(trusted)
         return Identity("", "", Role.DRIVE) if trusted else STRANGER
 
-    def identify(self, token: str, address: str) -> Identity:
+    def identify(self, token: str, address: str, client: str = "") -> Identity:
         if token not in ROLES:
             raise Refused("This key is not known here.")
         return Identity(token[0], f"Person {token[0]}", ROLES[token], proven=True)

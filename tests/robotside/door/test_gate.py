@@ -29,7 +29,7 @@ class OneKeyEach:
     def admit(self, address: str, *, trusted: bool) -> Identity:
         return STRANGER
 
-    def identify(self, token: str, address: str) -> Identity:
+    def identify(self, token: str, address: str, client: str = "") -> Identity:
         if token not in KEYS:
             raise Refused("This key is not known here.")
         return Identity(token, f"Person {token}", KEYS[token], ends=100.0, proven=True)

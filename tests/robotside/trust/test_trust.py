@@ -17,7 +17,7 @@ from robotside.core.refusal import Refusal
 from robotside.trust import people as keys
 from robotside.trust.people import HANDHELD, TOKEN, Person
 from robotside.trust.people_file import PeopleFile, Unkept
-from robotside.trust.trust import Trust
+from robotside.trust.trust import MAX_WRONG_BEHIND, Trust
 
 FAR, HERE = "192.0.2.9:1", "127.0.0.1:5"
 WRONG = "does not accept the key"
@@ -133,6 +133,29 @@ class TestAKey:
         assert house.trust.identify(token, FAR).id == anna.id  # known by now, so it is no guess
         house.clock += 60.0
         assert WRONG in house.refused(f"{anna.id}.{'A' * 43}")
+
+    async def test_after_five_wrong_ones_of_a_client_behind_a_broker_the_others_there_are_looked_at(
+        self, house: House
+    ) -> None:
+        anna, token = await house.known()
+        wrong = f"{anna.id}.{'A' * 43}"
+        for _ in range(5):
+            with pytest.raises(Refused, match=WRONG):
+                house.trust.identify(wrong, FAR, "mallory")
+        with pytest.raises(Refused, match="came under your name or by your broker: try again in 60 s"):
+            house.trust.identify(token, FAR, "mallory")
+        assert house.trust.identify(token, FAR, "anna").id == anna.id
+
+    async def test_made_up_names_behind_a_broker_have_a_bounded_number_of_tries(self, house: House) -> None:
+        anna, token = await house.known()
+        for number in range(MAX_WRONG_BEHIND):
+            with pytest.raises(Refused, match=WRONG):
+                house.trust.identify(f"{anna.id}.{'A' * 43}", FAR, f"made up {number}")
+        for name in ("one more", "anna"):
+            with pytest.raises(Refused, match="Too many wrong keys"):
+                house.trust.identify(token, FAR, name)
+        assert house.trust.identify(token, FAR).id == anna.id  # which did not come by the broker
+        assert house.trust.identify(token, FAR, "anna").id == anna.id  # known by now, so it is no guess
 
     async def test_of_nobody_counts_as_a_wrong_one(self, house: House) -> None:
         for number in range(5):

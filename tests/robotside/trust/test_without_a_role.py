@@ -66,7 +66,7 @@ class OneRole:
     def admit(self, address: str, *, trusted: bool) -> Identity:
         return Identity("", "", self.role)
 
-    def identify(self, token: str, address: str) -> Identity:
+    def identify(self, token: str, address: str, client: str = "") -> Identity:
         raise Refused("This key is not known here.")
 
     def needed(self, verb: str, name: str) -> Role:

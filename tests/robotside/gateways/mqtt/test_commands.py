@@ -158,6 +158,28 @@ async def test_who_has_no_token_has_the_role_of_the_gateway_and_a_token_gives_mo
         trust.close()
 
 
+async def test_wrong_tokens_of_one_client_lock_out_no_other_at_the_broker(
+    scene: Scene, broker: Broker, tmp_path: Path
+) -> None:
+    trust = Trust(PeopleFile(tmp_path), scene.station.clock, TrustSettings())
+    _, token = await trust.add("Anna", Role.DRIVE, TOKEN)
+    door = StationDoor(scene.station, trust)
+    try:
+        async with (
+            serving(scene, broker.url, "role=watch", door),
+            client(broker) as me,
+            client(broker, "other") as other,
+        ):
+            await online(me)
+            for code in [Code.TRUST_KEY] * 5 + [Code.TRUST_ATTEMPTS]:
+                wrong = await other.ask("call/control/acquire", expiry=FRESH, token=token[:-1] + "~")
+                assert wrong["code"] == code
+            assert (await me.ask("call/control/acquire", expiry=FRESH, token=token))["success"]
+    finally:
+        door.close()
+        trust.close()
+
+
 async def test_without_a_role_the_gateway_lets_watch(scene: Scene, broker: Broker, tmp_path: Path) -> None:
     async with serving(scene, broker.url, ""), client(broker) as me:
         await online(me)
