@@ -1,4 +1,4 @@
-"""Clients of a broker: they come and go without a connection of their own, and are known by a name and a token."""
+"""Clients without a connection of their own, as those of a broker: they come and go, and are known by host, name and token."""
 
 from __future__ import annotations
 
@@ -37,36 +37,37 @@ class Visitors:
     ) -> None:
         """They come by the gateway `way` from the broker at `address`, `HOST:PORT`, and reach the payloads `keys`.
 
-        `role` is that of who shows no token, None where the broker's address decides.
+        `role` is that of who shows no token, None where the address decides. Who does not come from the broker has an address
+        of its own.
         """
         self._door, self._way, self._address, self._keys = door, way, address, keys
         self._role, self._secure = role, secure
-        self._known: dict[tuple[str, str], Visitor] = {}
+        self._known: dict[tuple[str, str, str], Visitor] = {}
 
     def __len__(self) -> int:
         return len(self._known)
 
-    def visit(self, name: str, token: str = "") -> Visitor:
+    def visit(self, name: str, token: str = "", address: str = "") -> Visitor:
         """The client of that name and token, from whom a message came. Raises Refused for a wrong token, or without room."""
-        key = (name, token)
+        key = (_host(address), name, token)
         visitor = self._known.get(key)
         if visitor is None:
             self._make_room()
-            visitor = self._known[key] = self.newcomer(name, token)
+            visitor = self._known[key] = self.newcomer(name, token, address)
             visitor.operator.on_expelled = lambda: self._leave(key)
         visitor.heard()
         return visitor
 
-    def newcomer(self, name: str, token: str = "") -> Visitor:
+    def newcomer(self, name: str, token: str = "", address: str = "") -> Visitor:
         """A client that is not remembered, for one message; `leave` it afterwards. Raises Refused for a wrong token."""
         operator = self._door.join(
-            self._address,
+            address or self._address,
             way=self._way,
             secure=self._secure,
             token=token,
             trusted=True,
             role=self._role,
-            client=name,
+            client="" if address else name,  # who has an address of its own chooses its name
         )
         # how long a broker kept what comes next nobody knows: without a stamp it drives nothing
         operator.answered = -math.inf
@@ -76,9 +77,9 @@ class Visitors:
         """This client is gone."""
         visitor.leave()
 
-    def leave_name(self, name: str, token: str = "") -> None:
+    def leave_name(self, name: str, token: str = "", address: str = "") -> None:
         """The client of that name and token is gone, if it was there."""
-        self._leave((name, token))
+        self._leave((_host(address), name, token))
 
     def leave_silent(self) -> None:
         """Clients that are silent for `IDLE_TIMEOUT` are gone; to be called every second or so."""
@@ -92,7 +93,7 @@ class Visitors:
         for key in list(self._known):
             self._leave(key)
 
-    def _leave(self, key: tuple[str, str]) -> None:
+    def _leave(self, key: tuple[str, str, str]) -> None:
         visitor = self._known.pop(key, None)
         if visitor is not None:
             visitor.leave()
@@ -105,3 +106,8 @@ class Visitors:
             said = f"{MAX_VISITORS} clients use this gateway already; only STOP is answered to others."
             raise Refused(Notice(Code.GATEWAY_FULL, said, max=MAX_VISITORS))
         self._leave(key)
+
+
+def _host(address: str) -> str:
+    """The host of `HOST:PORT`: programs that send one message each have another port each time."""
+    return address.rpartition(":")[0]

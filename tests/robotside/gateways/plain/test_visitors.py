@@ -54,6 +54,15 @@ def test_without_a_stamp_nothing_moves_however_new_the_client_is(scene: Scene, v
     assert scene.robot.at_rest
 
 
+def test_clients_of_one_name_are_another_one_at_each_host(scene: Scene, visitors: Visitors) -> None:
+    anna = visitors.visit("anna", address="192.0.2.1:5000")
+    assert visitors.visit("anna", address="192.0.2.1:6000") is anna
+    assert visitors.visit("anna", address="192.0.2.2:5000") is not anna
+    assert anna.operator.address == "192.0.2.1:5000"
+    visitors.leave_name("anna", address="192.0.2.2:5000")
+    assert len(visitors) == 1
+
+
 def test_a_stamp_counts_only_of_a_clock_that_was_compared(scene: Scene, visitors: Visitors) -> None:
     visitors.visit("anna").publish("/cmd_vel", AHEAD, scene.clock)
     assert scene.robot.at_rest
