@@ -24,7 +24,7 @@ from bridge.core.identity import Role
 from bridge.core.toml_files import FileFault
 from bridge.msgs import Msg
 from robotside import options as said
-from robotside.bringing_up.announcement import gateway_news, qr_code, ready
+from robotside.bringing_up.announcement import news, qr_code, ready
 from robotside.bringing_up.dialogue import NotAnswered, Simulated, ask
 from robotside.bringing_up.settling import blamed
 from robotside.commands.pairing_display import shown
@@ -176,6 +176,7 @@ class _Fleet:
             origins=self._options.allow_origin,
             gateways=for_robot(self._options.gateways, number),
             mdns=self._options.mdns,
+            without=self._options.without,
         )
 
     def _keys(self, state: Path, station: Station, config: Config) -> StationKeys:
@@ -231,11 +232,11 @@ def _show_address(serving: StationServer) -> None:
 
 
 def _tell_news(station: Station, _: str, event: Msg) -> None:
-    """Tell in the terminal what happens to a gateway; a terminal that is gone is no reason not to serve."""
-    news = gateway_news(station.info.name, event)
-    if news:
+    """Tell in the terminal what happens to a gateway or payload; a terminal that is gone is no reason not to serve."""
+    said_of_it = news(station.info.name, event)
+    if said_of_it:
         with suppress(OSError):
-            print(news, file=sys.stderr, flush=True)
+            print(said_of_it, file=sys.stderr, flush=True)
 
 
 def _robots(options: argparse.Namespace, ones: Sequence[One]) -> tuple[Sequence[Robot], str]:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from bridge.core.identity import Role
 from robotside.bringing_up.settling import GATEWAYS as VARIABLE
+from robotside.bringing_up.settling import blamed
 from robotside.commands.user_mistake import UserMistake
 from robotside.core.config import GatewaySettings
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load them
     from robotside.gateways.adapter import Adapter
     from robotside.gateways.gateway_url import GatewayUrl
 
-__all__ = ["ALWAYS", "VARIABLE", "add_options", "for_robot", "wishes"]
+__all__ = ["ALWAYS", "VARIABLE", "add_options", "for_robot", "wishes", "without"]
 
 ALWAYS = ("rosbridge", "http")
 """The protocols that every robot has."""
@@ -117,6 +118,19 @@ def _check_package(adapter: Adapter) -> None:
     if lacking:
         said = f"The gateway {adapter.name} needs {lacking}, which is not installed"
         raise UserMistake(f"{said}: pip install 'pilothouse[gateways]' brings it.")
+
+
+def without(options: argparse.Namespace) -> tuple[str, ...]:
+    """The payloads that are off from the start; UserMistake with one sentence for one that there is not."""
+    words = tuple(filter(None, options.without.split(",")))
+    if words:
+        from robotside.gateways.payloads.offered import chosen_keys
+
+        try:
+            chosen_keys(words)
+        except ValueError as problem:
+            raise UserMistake(blamed(options, f"--without: {problem}")) from problem
+    return words
 
 
 def for_robot(asked: list[tuple[Adapter, GatewayUrl]], number: int) -> list[tuple[Adapter, GatewayUrl]]:

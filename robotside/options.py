@@ -22,7 +22,7 @@ from robotside.commands.state_directory import base
 from robotside.commands.user_mistake import UserMistake
 from robotside.core.config import DEFAULT_CONFIG, Config, load
 from robotside.gateway_options import add_options as add_gateways
-from robotside.gateway_options import wishes
+from robotside.gateway_options import wishes, without
 from robotside.gateways.addresses import is_here
 from robotside.trust.people_file import PeopleFile, Unkept
 
@@ -129,6 +129,10 @@ def _add_serve(serve: argparse.ArgumentParser) -> None:
     )
     add("--http-port", type=int, help="port of the web site, by default 8080, likewise")
     add("--payloads", help="extra payloads of a simulated robot: arm,laser,…")
+    add(
+        "--without",
+        help="payloads that are off from the start, of every robot: camera,line_sensor,…; what safety needs stays on",
+    )
     _add_more(serve)
 
 
@@ -215,6 +219,7 @@ def _check(options: argparse.Namespace) -> None:
     if options.gui and not os.environ.get("DISPLAY"):
         raise UserMistake("--gui needs a display, and DISPLAY is not set.")
     options.gateways = wishes(options)
+    options.without = without(options)
 
 
 def _check_mdns(options: argparse.Namespace) -> None:

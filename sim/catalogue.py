@@ -27,6 +27,7 @@ def catalogue() -> dict[str, list[dict[str, Any]]]:
                 "description": model.parameters.info.description,
                 "home": model.home,
                 "payloads": _payloads(model),
+                "own": _own(model),
             }
             for name, model in ROBOTS.items()
         ],
@@ -45,6 +46,12 @@ def _payloads(model: Model) -> list[str]:
     """Names of the payloads that such a robot can carry, each by itself, and has not got already."""
     own = {_SAME_AS.get(name, name) for name in model.parameters.__struct_fields__ if name != "camera"}
     return [name for name in PAYLOADS if name not in own and _carries(model, name)]
+
+
+def _own(model: Model) -> list[str]:
+    """Payloads that such a robot has of its own and can do without."""
+    fields = model.parameters.__struct_fields__
+    return ["camera", *(_SAME_AS[name] for name in ("line",) if name in fields)]
 
 
 def _carries(model: Model, name: str) -> bool:

@@ -11,7 +11,7 @@ from bridge.trust.robot_link import RobotLink
 from robotside.gateways.addresses import EVERYWHERE, is_here
 from robotside.trust.qr import as_text
 
-__all__ = ["gateway_news", "qr_code", "ready"]
+__all__ = ["news", "qr_code", "ready"]
 
 
 def ready(robot: str, bridge: str, site: str, gateways: Mapping[str, str], *, host: str) -> list[str]:
@@ -30,9 +30,9 @@ def qr_code(robot: str, bridge: str) -> str:
     return f"{as_text(link)}\nTo connect to {robot}, scan this with the phone's camera.\n{link}"
 
 
-def gateway_news(robot: str, event: Msg) -> str:
-    """What an event tells of a gateway, such as that its broker does not answer; empty for any other."""
-    if isinstance(event, Event) and event.code.startswith("gateway_"):
+def news(robot: str, event: Msg) -> str:
+    """What an event tells of a gateway, such as that its broker does not answer, or of a payload; empty for any other."""
+    if isinstance(event, Event) and event.code.startswith(("gateway_", "payload_")):
         return f"robotside: {robot}: {event.text}"
     return ""
 

@@ -71,12 +71,13 @@ def chosen(simulated: Simulated, known: Config) -> Choice:
     robot = _robot(simulated, serve)
     offered = simulated.robot(robot.removeprefix(_SIM))
     world = _world(simulated, offered, serve) if offered else ""
-    payloads = _payloads(offered, serve) if offered else ()
+    payloads, without = _payloads(offered, serve) if offered else ((), serve.without)
     host, pair = _reach(serve)
     return Choice(
         robot,
         world,
         payloads,
+        without,
         host,
         _port("Port of rosbridge, for the app and ROS tools", serve.port, 9090),
         _port("Port of the web site, with STOP, cameras and usage", serve.http_port, 8080),
@@ -119,15 +120,25 @@ def _world(simulated: Simulated, offered: Mapping[str, Any], serve: ServeSetting
     return _select("In which world?", items, usual)
 
 
-def _payloads(offered: Mapping[str, Any], serve: ServeSettings) -> tuple[str, ...]:
+def _payloads(offered: Mapping[str, Any], serve: ServeSettings) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The payloads that it carries besides its own, and those of its own that are off."""
     from questionary import Choice as Item
 
-    names = offered["payloads"]
-    if not names:
-        return ()
-    items = [Item(name.replace("_", " "), value=name, checked=name in serve.payloads) for name in names]
-    said = f"Which payloads, beside {offered['title']}'s own?"
-    return tuple(_checkbox(said, items))
+    own, more = offered["own"], offered["payloads"]
+    items = [
+        Item(f"{_words(name)} (its own)", value=(name, ""), checked=name not in serve.without) for name in own
+    ]
+    items += [Item(_words(name), value=("", name), checked=name in serve.payloads) for name in more]
+    if not items:
+        return (), serve.without
+    chosen_ones = _checkbox("Which payloads? What is not chosen is off.", items)
+    kept = [name for name in serve.without if name not in own]  # what the file says and nobody was asked
+    kept += [name for name in own if (name, "") not in chosen_ones]
+    return tuple(name for _, name in chosen_ones if name), tuple(kept)
+
+
+def _words(name: str) -> str:
+    return name.replace("_", " ")
 
 
 def _reach(serve: ServeSettings) -> tuple[str, bool]:
@@ -214,11 +225,11 @@ def _select(message: str, items: list[Any], usual: str) -> str:
     return str(questionary.select(message, items, default=usual, instruction=" ").unsafe_ask())
 
 
-def _checkbox(message: str, items: list[Any]) -> list[str]:
+def _checkbox(message: str, items: list[Any]) -> list[Any]:
     import questionary
 
     said = "(space chooses, Enter goes on)"
-    return [str(each) for each in questionary.checkbox(message, items, instruction=said).unsafe_ask()]
+    return list(questionary.checkbox(message, items, instruction=said).unsafe_ask())
 
 
 def _text(message: str, usual: str, problem: Callable[[str], str] = lambda _: "") -> str:

@@ -26,6 +26,7 @@ class Choice:
     robot: str = "sim:patrol"
     world: str = ""
     payloads: tuple[str, ...] = ()
+    without: tuple[str, ...] = ()
     host: str = "127.0.0.1"
     port: int = 9090
     http_port: int = 8080
@@ -61,7 +62,7 @@ def keep(path: Path, choice: Choice) -> None:
 
 def _values(choice: Choice) -> dict[tuple[str, ...], Value | None]:
     """What the file has to say; None for what it must not say any more, as a role that everybody had."""
-    names = ("robot", "world", "payloads", "host", "port", "http_port", "pair")
+    names = ("robot", "world", "payloads", "without", "host", "port", "http_port", "pair")
     values: dict[tuple[str, ...], Value | None] = {("serve", name): getattr(choice, name) for name in names}
     for key, gateway in choice.gateways.items():
         usual = GatewaySettings()

@@ -21,6 +21,7 @@ VARIABLES = {
     "robot": "PILOTHOUSE_ROBOT",
     "world": "PILOTHOUSE_WORLD",
     "payloads": "PILOTHOUSE_PAYLOADS",
+    "without": "PILOTHOUSE_WITHOUT",
     "host": "PILOTHOUSE_HOST",
     "port": "PILOTHOUSE_PORT",
     "http_port": "PILOTHOUSE_HTTP_PORT",
@@ -34,12 +35,13 @@ _DEFAULTS: dict[str, Any] = {
     "robot": "sim:patrol",
     "world": "",
     "payloads": "",
+    "without": "",
     "host": "127.0.0.1",
     "port": 9090,
     "http_port": 8080,
     "protocols": "",
 }
-_OF_ROBOT = ("robot", "world", "payloads")
+_OF_ROBOT = ("robot", "world", "payloads", "without")
 
 
 def settle(options: argparse.Namespace, environment: Mapping[str, str], ask: Ask | None = None) -> None:
@@ -50,7 +52,7 @@ def settle(options: argparse.Namespace, environment: Mapping[str, str], ask: Ask
     """
     _from_environment(options, environment)
     said = bool(options.config or options.gateway or environment.get(GATEWAYS)) or any(
-        getattr(options, name) is not None for name in ("robot", "payloads", "protocols")
+        getattr(options, name) is not None for name in ("robot", "payloads", "without", "protocols")
     )
     kept = options.config[0] if options.config else kept_at(options.state)
     if _asks(options, environment, said=said, kept=kept) and ask is not None:

@@ -143,6 +143,8 @@ class ServeSettings(_Section, frozen=True):
     """Of simulated robots; a name or a file."""
     payloads: tuple[str, ...] = ()
     """Extra payloads of the only simulated robot."""
+    without: tuple[str, ...] = ()
+    """Payloads that are off from the start, by the keys of the table of payloads."""
     host: str | None = None
     """Address to listen on."""
     port: _Port | None = None

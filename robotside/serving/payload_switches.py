@@ -95,34 +95,44 @@ class PayloadSwitches:
         if known[key].on == asked.on:
             return f"{words.capitalize()} is {_word(asked.on)} already."
         if not asked.on:
-            self._may_go(client, known[key])
+            self._may_go(known[key], client)
         who = self._station.controls.name(client)
         said = f"{who} switched {words} {_word(asked.on)}."
-        if asked.on:
+        actor = {"actor_id": self._station.controls.id(client), "name": who}
+        self._switch(known[key], said, on=asked.on, **actor)
+        return f"{words.capitalize()} is {_word(asked.on)}."
+
+    def leave_out(self, key: str) -> None:
+        """Switch a payload off because the robot was brought up without it. Raises Refusal where something needs it."""
+        known = {each.key: each for each in self._payloads()}
+        if key not in known:
+            said = f"This robot has no payload {key!r} to go without; it has {', '.join(known)}."
+            raise Refusal(Notice(Code.PAYLOAD_UNKNOWN, said, payload=key))
+        if known[key].on:
+            self._may_go(known[key])
+            said = f"{key.replace('_', ' ').capitalize()} is off: the robot was brought up without."
+            self._switch(known[key], said, on=False, name="")
+
+    def _switch(self, was: Payload, said: str, *, on: bool, **actor: str) -> None:
+        """Switch it, and tell of it by the sentence `said`."""
+        key = was.key
+        if on:
             del self._off[key]
         else:
-            was = known[key]
             self._off[key] = Payload(key, was.doc, False, False, said, was.topics, was.services)
-        self._door.switch(key, self._names(key), on=asked.on, power=key != _HIDDEN)
-        notice = Notice(
-            Code.PAYLOAD_SWITCHED,
-            said,
-            actor_id=self._station.controls.id(client),
-            name=who,
-            payload=key,
-            state=_word(asked.on),
-        )
+        self._door.switch(key, self._names(key), on=on, power=key != _HIDDEN)
+        notice = Notice(Code.PAYLOAD_SWITCHED, said, **actor, payload=key, state=_word(on))
         self._station.events.say("control", notice)
         self._update()
         self._on_change()
-        return f"{words.capitalize()} is {_word(asked.on)}."
 
-    def _may_go(self, client: Operator, payload: Payload) -> None:
+    def _may_go(self, payload: Payload, client: Operator | None = None) -> None:
         """Raises Refusal where something needs it; what moves or shines on it is at rest afterwards."""
         key = payload.key
         if payload.fixed:
             raise Refusal(Notice(Code.PAYLOAD_FIXED, f"{payload.why} It stays on.", payload=key))
-        self._permits.may_change(client)
+        if client is not None:
+            self._permits.may_change(client)
         self._permits.idle()
         if self._station.controls.driver is not None and not self._station.at_rest:
             said = f"Somebody drives the robot: {key.replace('_', ' ')} stays on until it stands."

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Callable, Iterable, Mapping
+from collections.abc import AsyncIterator, Callable, Collection, Iterable, Mapping
 from contextlib import AsyncExitStack, asynccontextmanager
 from typing import TYPE_CHECKING, Protocol
 from urllib.parse import urlsplit
@@ -24,6 +24,7 @@ from robotside.serving.fleet_server import FleetServer, RunningServer
 from robotside.serving.gateway_board import GatewayBoard
 from robotside.serving.gateway_owner import GatewayOwner
 from robotside.serving.payload_switches import PayloadSwitches
+from robotside.serving.payloads_left_out import PayloadsLeftOut
 from robotside.serving.prompt_pictures import prompt_pictures
 from robotside.serving.station_keys import StationKeys
 from robotside.station.station import Station
@@ -76,11 +77,13 @@ class StationServer:
         wanted: Callable[[], bool] = lambda: True,
         gateways: Iterable[tuple[Adapter, GatewayUrl]] = (),
         mdns: bool = False,
+        without: Collection[str] = (),
     ) -> None:
         """`keys` know who may do what; without them everybody may do everything, and nothing is encrypted.
 
         Web pages of `origins`, beside its own, may speak to it. `wanted` is asked once a second and ends the serving when it says no.
         `gateways` are brought up beside rosbridge and HTTP. With `mdns` it is announced by mDNS as well as by HELLO.
+        The payloads `without` which it is brought up go off once it has told of them.
         """
         self.addresses = addresses
         self.station = station
@@ -121,6 +124,7 @@ class StationServer:
         self._board = GatewayBoard(self.door, station, self.gateways, self._endpoints)
         self.payloads = PayloadSwitches(self.door, station, self._board.update)
         """Which payloads are on."""
+        self._left_out = PayloadsLeftOut(self.payloads, station, without)
 
     def _web_site(self, around: Surroundings, mounts: Mounts) -> HttpGateway:
         keys, addresses = self.keys, self.addresses

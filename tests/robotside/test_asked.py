@@ -100,7 +100,7 @@ def test_serve_asks_once_and_starts_at_once_the_next_time(tmp_path: Path) -> Non
         for question, keys in {
             "Which robot?": [ENTER],
             "In which world?": [ENTER],
-            "Which payloads": [SPACE, ENTER],
+            "Which payloads": [SPACE, ENTER],  # not its camera
             "Who can reach it?": [ENTER],
             "Port of rosbridge": [ENTER],
             "Port of the web site": [ENTER],
@@ -114,10 +114,11 @@ def test_serve_asks_once_and_starts_at_once_the_next_time(tmp_path: Path) -> Non
     finally:
         assert first.close() == 0
     config = load(tmp_path / "pilothouse" / "robot.toml")
-    assert (config.serve.robot, config.serve.payloads) == ("sim:patrol", ("sonar",))
+    assert (config.serve.robot, config.serve.without) == ("sim:patrol", ("camera",))
     second = Terminal(FREE, tmp_path)
     try:
         assert "Which" not in second.until("robotside: ready")
+        second.until("Camera is off")
     finally:
         assert second.close() == 0
 

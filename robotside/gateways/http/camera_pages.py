@@ -106,7 +106,7 @@ def cameras_part(door: StationDoor, bridge_url: str, delays: Delays) -> str:
             streams=", ".join(_stream(name, kind, delay_words(delays, topic, kind)) for kind in MEDIA_TYPES),
         )
         for name, topic in topics.items()
-        if name in door.info.cameras
+        if name in door.info.cameras and not door.is_off(name)
     )
 
 

@@ -74,7 +74,7 @@ def make_sheet(
         f"{info.description}{f' in {info.world}' if info.world else ''}.",
         (status.reason if isinstance(status, TaskStatus) else "") or "It has no task.",
         reached,
-        tuple(_commands(site, info.cameras, pin)),
+        tuple(_commands(site, [name for name in info.cameras if not door.is_off(name)], pin)),
         _program(reached),
         tuple(gateways),
         payloads,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import String
 from bridge.trust.robot_link import read_link
-from robotside.bringing_up.announcement import gateway_news, qr_code, ready
+from robotside.bringing_up.announcement import news, qr_code, ready
 
 
 def test_each_gateway_has_one_line_and_the_rest_is_on_the_page() -> None:
@@ -33,6 +33,9 @@ def test_a_code_is_shown_where_others_reach_the_robot() -> None:
 
 def test_what_happens_to_a_gateway_is_told_and_nothing_else() -> None:
     lost = Event(text="The MQTT broker is not reached: connection refused.", code="gateway_lost")
-    assert gateway_news("Rex", lost) == "robotside: Rex: The MQTT broker is not reached: connection refused."
-    assert gateway_news("Rex", Event(text="The task is done.", code="task_done")) == ""
-    assert gateway_news("Rex", String("gateway_lost")) == ""
+    assert news("Rex", lost) == "robotside: Rex: The MQTT broker is not reached: connection refused."
+    assert (
+        news("Rex", Event(text="Camera is off.", code="payload_switched")) == "robotside: Rex: Camera is off."
+    )
+    assert news("Rex", Event(text="The task is done.", code="task_done")) == ""
+    assert news("Rex", String("gateway_lost")) == ""

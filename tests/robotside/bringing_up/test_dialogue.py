@@ -57,7 +57,7 @@ def test_a_robot_of_the_network_with_payloads_and_a_broker(simulated: Simulated)
     with keys(
         to_scout,
         to_office,
-        SPACE + DOWN * 6 + SPACE + ENTER,
+        SPACE + DOWN + SPACE + DOWN * 6 + SPACE + ENTER,
         DOWN + ENTER,
         CLEAR + "0" + ENTER,
         ENTER,
@@ -70,13 +70,17 @@ def test_a_robot_of_the_network_with_payloads_and_a_broker(simulated: Simulated)
         choice = chosen(simulated, Config())
     gateway = GatewaySettings(url="mqtt://broker/lab", user="rex", password="s3cret", role="drive")
     everywhere = "0.0.0.0"
-    wanted = Choice("sim:scout", "office", ("laser", "arm"), everywhere, 0, 8080, True, {"mqtt": gateway})
+    wanted = Choice(
+        "sim:scout", "office", ("laser", "arm"), ("camera",), everywhere, 0, 8080, True, {"mqtt": gateway}
+    )
     assert choice == wanted
 
 
 def test_the_old_answers_are_the_defaults(simulated: Simulated) -> None:
     old = Config(
-        serve=ServeSettings("sim:scout", "orchard", ("arm",), "192.0.2.7", 7001, 7002, pair=True),
+        serve=ServeSettings(
+            "sim:scout", "orchard", ("arm",), ("camera", "imu"), "192.0.2.7", 7001, 7002, pair=True
+        ),
         gateways={
             "mqtt": GatewaySettings(url="mqtt://b", user="rex", password="old", role="drive", rate=2.0)
         },
@@ -84,7 +88,8 @@ def test_the_old_answers_are_the_defaults(simulated: Simulated) -> None:
     with keys(*ENTER * 11):
         choice = chosen(simulated, old)
     kept = replace(
-        Choice("sim:scout", "orchard", ("arm",), "192.0.2.7", 7001, 7002, True), gateways=old.gateways
+        Choice("sim:scout", "orchard", ("arm",), ("imu", "camera"), "192.0.2.7", 7001, 7002, True),
+        gateways=old.gateways,
     )
     assert choice == kept
 

@@ -13,7 +13,9 @@ from robotside.commands.user_mistake import UserMistake
 from robotside.core.config import GatewaySettings, load
 
 MQTT = GatewaySettings(url="mqtt://broker/lab", user="rex", password='p"\\w', role="drive")
-CHOICE = Choice("sim:scout", "office", ("arm", "lights"), "0.0.0.0", 0, 8081, True, {"mqtt": MQTT})
+CHOICE = Choice(
+    "sim:scout", "office", ("arm", "lights"), ("camera",), "0.0.0.0", 0, 8081, True, {"mqtt": MQTT}
+)
 
 
 def test_what_is_kept_is_read_back_as_it_was_and_is_for_its_owner_only(tmp_path: Path) -> None:
@@ -22,6 +24,7 @@ def test_what_is_kept_is_read_back_as_it_was_and_is_for_its_owner_only(tmp_path:
     config = load(file)
     serve = config.serve
     assert (serve.robot, serve.world, serve.payloads) == ("sim:scout", "office", ("arm", "lights"))
+    assert serve.without == ("camera",)
     assert (serve.host, serve.port, serve.http_port, serve.pair) == ("0.0.0.0", 0, 8081, True)
     assert config.gateways == {"mqtt": MQTT}
     assert file.stat().st_mode & 0o777 == 0o600

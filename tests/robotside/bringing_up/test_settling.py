@@ -19,6 +19,7 @@ FILE = """[serve]
 robot = "sim:scout"
 world = "office"
 payloads = ["lights"]
+without = ["camera"]
 host = "127.0.0.2"
 port = 7001
 http_port = 0
@@ -53,7 +54,7 @@ def test_the_kept_file_says_what_is_served_with_all_its_limits(kept: Path) -> No
     options = read(["serve"])
     assert robots(options) == [One("scout", ("lights",), "")]
     assert (options.world, options.host, options.port, options.http_port) == ("office", "127.0.0.2", 7001, 0)
-    assert options.config == [kept]
+    assert (options.config, options.without) == ([kept], ("camera",))
     (adapter, url), *others = options.gateways
     assert (adapter.name, url.shown, url.user, url.password) == (
         "mqtt",
@@ -131,6 +132,10 @@ def test_a_state_directory_has_a_file_of_its_own(kept: Path, tmp_path: Path) -> 
         (
             "[serve]\nrobot = 'ros:ws://h:1'\nworld = 'office'",
             "{file}: [serve]: --world is for simulated robots",
+        ),
+        (
+            "[serve]\nwithout = ['leg']",
+            "{file}: [serve]: --without: There is no payload leg; there are robot, ",
         ),
         ("[gateways.pigeon]", "{file}: gateways.pigeon: There is no gateway 'pigeon'; there are "),
         ("[gateways.mqtt]\nurl = 'http://h'", "{file}: gateways.mqtt.url: A URL is written as mqtt://HOST"),

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import msgspec
 import pytest
 
+from bridge.core.topics import camera_topics
 from robotside.gateways.usage_sheet.sheet import make_sheet
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
@@ -34,10 +36,23 @@ def test_who_is_at_the_robot_needs_no_key(scene: Scene) -> None:
     assert "Credentials" not in sheet.program
 
 
-def test_each_camera_has_a_line_and_services_of_no_payload_are_named(scene: Scene) -> None:
+def test_each_camera_that_is_on_has_a_line(tmp_path: Path) -> None:
+    robot = FakeRobot()
+    robot.info = msgspec.structs.replace(robot.info, cameras=["front"])
+    door = Scene(robot, tmp_path).door
+
+    def pictures() -> list[str]:
+        return [
+            each.line for each in make_sheet(door, "", "http://h:1", ()).commands if "/snapshot/" in each.line
+        ]
+
+    assert pictures() == ["curl -o front.jpg 'http://h:1/snapshot/front.jpg?width=320'"]
+    door.switch("camera", camera_topics(["front"]).values(), on=False)
+    assert pictures() == []
+
+
+def test_services_of_no_payload_are_named(scene: Scene) -> None:
     sheet = make_sheet(scene.door, "", "http://127.0.0.1:8080", ())
-    for name in scene.door.info.cameras:
-        assert any(f"/snapshot/{name}.jpg" in command.line for command in sheet.commands)
     told = {line.name for each in sheet.payloads for line in each.lines}
     assert {name for name, _ in sheet.services} | told >= set(scene.door.services)
     assert not {name for name, _ in sheet.services} & told
