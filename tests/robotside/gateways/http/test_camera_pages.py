@@ -16,6 +16,7 @@ import httpx
 import pytest
 from PIL import Image
 
+from bridge.core.errors import Refused
 from robotside.gateways.http import browser_connection as visit
 from robotside.gateways.http import camera_streams as streams
 from robotside.gateways.http.camera_pages import delay_words
@@ -197,6 +198,28 @@ async def test_a_viewer_who_does_not_read_is_cut_off_and_the_camera_rests(
         filmed.cancel()
         await asyncio.gather(filmed, return_exceptions=True)
         lazy.close()
+
+
+@pytest.mark.parametrize("place", ["front.mjpeg", *KINDS])
+async def test_who_may_not_look_any_more_sees_no_further_picture(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: str
+) -> None:
+    def refuse(*_: object) -> None:
+        raise Refused("The invitation has ended.")
+
+    async with filming(tmp_path) as (robot, serves, web):
+        async with playing(web, place) as player:
+            await robot.until(True)
+            shoot(serves, numbered(1))
+            while len(player.film) < 200:
+                await player.read()
+            shown = player.film
+            monkeypatch.setattr(serves.door, "check", refuse)
+            shoot(serves, numbered(2))
+            with pytest.raises(StopAsyncIteration):
+                await player.read()
+            assert player.film == shown
+        await robot.until(False)
 
 
 async def test_an_encoder_that_fails_ends_the_film_properly_and_the_site_goes_on(

@@ -166,8 +166,10 @@ async def test_who_leaves_while_a_picture_is_being_made_leaves_nothing_behind(
     with camera.films.watching(FILM):
         await camera.shoot(1)
         await begun.wait()
-    assert camera.closed == []
+    await until(lambda: camera.films.count == 0)
+    assert camera.closed == []  # the thread still works with it
     go.set()
+    await until(lambda: camera.closed == camera.encoders)
 
 
 async def test_who_reads_nothing_is_left_out_until_a_complete_picture_and_holds_up_nobody(
@@ -182,6 +184,24 @@ async def test_who_reads_nothing_is_left_out_until_a_complete_picture_and_holds_
         assert [await lazy.next()] == got[-1:]  # what it had not fetched is gone, and it begins anew
         assert got[-1] is not None
         assert got[-1].key
+
+
+async def test_who_was_left_out_gets_nothing_that_it_cannot_begin_with(
+    camera: Camera, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(shared_encodings, "MAX_QUEUED", 2)
+    with camera.films.watching(FILM) as quick, camera.films.watching(FILM) as lazy:
+        await camera.shoot(0, quick)
+        monkeypatch.setattr(shared_encodings, "MIN_KEY_PERIOD", 3600.0)
+        for number in range(1, 5):
+            picture = await camera.shoot(number, quick)
+            assert picture is not None
+            assert not picture.key
+        waiting = asyncio.create_task(lazy.next())
+        await asyncio.sleep(0)
+        assert not waiting.done()
+        monkeypatch.setattr(shared_encodings, "MIN_KEY_PERIOD", 0.0)
+        assert await camera.shoot(5, quick) is await waiting
 
 
 async def test_viewers_who_come_and_go_do_not_make_every_picture_a_complete_one(
