@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import argparse
 import sys
-from http.client import HTTPException
 from pathlib import Path
-from urllib.error import HTTPError, URLError
 from urllib.parse import urlsplit
-from urllib.request import ProxyHandler, build_opener
 
 from bridge.core.address import at_port
 from robotside.bringing_up.robot_file import before, kept_at
@@ -60,6 +57,10 @@ def _usual(state: Path | None) -> str:
 
 
 def _asked(site: str) -> str:
+    from http.client import HTTPException
+    from urllib.error import HTTPError, URLError
+    from urllib.request import ProxyHandler, build_opener
+
     opener = build_opener(ProxyHandler({}))  # a robot of this computer is not asked by way of others
     try:
         with opener.open(f"{site.rstrip('/')}/usage.txt", timeout=TIMEOUT) as answer:

@@ -15,7 +15,7 @@ from bridge.core.errors import BridgeError
 from bridge.core.identity import Role
 from robotside.core.notice import Notice
 from robotside.gateways.adapter import Adapter, AdapterGateway, Surroundings
-from robotside.gateways.usage_sheet.sheet import Running
+from robotside.gateways.usage_sheet.running import Running
 
 if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load it
     from robotside.gateways.gateway_url import GatewayUrl

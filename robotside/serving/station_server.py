@@ -19,7 +19,7 @@ from robotside.gateways.http.mounts import Mounts
 from robotside.gateways.http.usage_pages import Usage
 from robotside.gateways.rosbridge.gateway import RosbridgeGateway
 from robotside.gateways.scaling.picture_scaling import PictureScaler
-from robotside.gateways.usage_sheet.sheet import Running
+from robotside.gateways.usage_sheet.running import Running
 from robotside.serving.fleet_server import FleetServer, RunningServer
 from robotside.serving.gateway_board import GatewayBoard
 from robotside.serving.gateway_owner import GatewayOwner

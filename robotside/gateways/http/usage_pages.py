@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
 from starlette.requests import Request
@@ -18,10 +19,12 @@ from robotside.gateways.http.asker import is_known, operator_of
 from robotside.gateways.http.camera_pages import cameras_part
 from robotside.gateways.http.camera_streams import CameraStreams
 from robotside.gateways.http.pairing_part import pairing_part
-from robotside.gateways.usage_sheet.rendering import Parts, as_page, as_text, strangers_page
-from robotside.gateways.usage_sheet.sheet import Running, Sheet, make_sheet
+from robotside.gateways.usage_sheet.running import Running
 from robotside.trust.pairing import Pairing
 from robotside.trust.qr import as_svg
+
+if TYPE_CHECKING:  # when somebody looks at the page
+    from robotside.gateways.usage_sheet.sheet import Sheet
 
 __all__ = ["NOTHING_BESIDE", "Usage", "UsagePages", "strangers"]
 
@@ -71,6 +74,8 @@ class UsagePages:
         """The sheet as a page; a stranger sees who the robot is."""
         if not is_known(self._door, request):
             return strangers(self._door, "Show the token that you were given to see more.")
+        from robotside.gateways.usage_sheet.rendering import Parts, as_page
+
         manages = operator_of(request).role(self._door.now()) >= Role.MANAGE
         sheet = self._sheet(request)
         link = self._link()
@@ -86,9 +91,13 @@ class UsagePages:
 
     async def text(self, request: Request) -> Response:
         """The sheet as text; the doorkeeper has sent strangers away."""
+        from robotside.gateways.usage_sheet.rendering import as_text
+
         return PlainTextResponse(as_text(self._sheet(request)), headers={"Cache-Control": "no-store"})
 
     def _sheet(self, request: Request) -> Sheet:
+        from robotside.gateways.usage_sheet.sheet import make_sheet
+
         host, port = request.scope.get("server") or ("127.0.0.1", 0)
         site = f"{request.scope.get('scheme', 'http')}://{at_port(host, port)}"
         running = self._usage.running()
@@ -103,4 +112,6 @@ class UsagePages:
 
 def strangers(door: StationDoor, said: str, status: int = 200) -> Response:
     """What a stranger sees: the robot's name, STOP, and where to show a token."""
+    from robotside.gateways.usage_sheet.rendering import strangers_page
+
     return HTMLResponse(strangers_page(door.info.name, said), status, _PRIVATE)

@@ -12,22 +12,9 @@ from bridge.core.address import at_port
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from robotside.door.station_door import StationDoor
 from robotside.gateways.payloads.offered import CALL, PUBLISH, READ, Line, OfferedPayload, offered
+from robotside.gateways.usage_sheet.running import Running
 
-__all__ = ["Command", "Running", "Sheet", "make_sheet", "rosbridge_message"]
-
-
-@dataclass(frozen=True, slots=True)
-class Running:
-    """A gateway that is up, beside rosbridge and the web site."""
-
-    name: str
-    doc: str
-    """What it is, in a few words."""
-    url: str
-    guide: str
-    """How it is used, with lines that can be pasted."""
-    fault: str = ""
-    """Why it does not reach its broker, as a sentence; empty when it does."""
+__all__ = ["Command", "Sheet", "make_sheet", "rosbridge_message"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ import html
 import json
 import re
 import shutil
+import subprocess
 import sys
 from collections.abc import AsyncIterator
 from pathlib import Path
@@ -203,3 +204,10 @@ async def test_the_page_takes_nothing_from_elsewhere_and_runs_no_script(tmp_path
     assert "default-src 'none'" in policy
     assert "script-src" not in policy
     assert "frame-ancestors 'none'" in policy
+
+
+def test_a_robot_of_which_nobody_asks_loads_no_sheet() -> None:
+    heavy = ["mako", "questionary", "prompt_toolkit", "robotside.gateways.payloads.table"]
+    code = f"import sys, robotside.__main__; print([name for name in {heavy} if name in sys.modules])"
+    said = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert said.stdout == "[]\n"

@@ -9,7 +9,8 @@ import msgspec
 import pytest
 
 from robotside.gateways.usage_sheet.rendering import Parts, as_page, as_text, strangers_page
-from robotside.gateways.usage_sheet.sheet import Running, Sheet, make_sheet, rosbridge_message
+from robotside.gateways.usage_sheet.running import Running
+from robotside.gateways.usage_sheet.sheet import Sheet, make_sheet, rosbridge_message
 from tests.robotside.gateways.payloads.test_table import EquippedRobot
 from tests.robotside.scene import Scene
 
