@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import errno
+import importlib
 import logging
 from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -156,6 +158,7 @@ class GatewayOwner:
         gateway = None
         try:
             async with asyncio.timeout(START_TIMEOUT):
+                await _load(adapter)
                 gateway = adapter.make(replace(self._robot, say=partial(self._say, adapter.name)), url)
                 await gateway.start()
         except BaseException as error:
@@ -195,6 +198,20 @@ class GatewayOwner:
             return
         said = f"Everybody who reaches {name} at {url.shown} may {url.role.word} without a key."
         self._robot.say("control", Notice(Code.GATEWAY_OPEN, said, gateway=name, role=url.role.word), "warn")
+
+
+async def _load(adapter: Adapter) -> None:
+    """Import what a gateway needs beside the loop, which drives the robot meanwhile: some libraries take more than a second."""
+    package, _, module = adapter.make.__module__.rpartition(".")
+    if module != "adapter":
+        return
+    loader = ThreadPoolExecutor(1, f"import {adapter.name}")
+    try:
+        await asyncio.get_running_loop().run_in_executor(
+            loader, importlib.import_module, f"{package}.gateway"
+        )
+    finally:
+        loader.shutdown(wait=False)
 
 
 def _sentence(name: str, url: GatewayUrl, error: BaseException) -> str:

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import asyncio
+import dataclasses
+import sys
+import threading
 from collections.abc import Mapping
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
 from bridge.core.errors import BridgeError
 from robotside.gateways.adapter import Adapter, Surroundings
+from robotside.gateways.discovery import adapters
 from robotside.gateways.gateway_url import GatewayUrl
+from robotside.serving import gateway_owner
 from robotside.serving.gateway_owner import GatewayOwner
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
@@ -95,3 +101,30 @@ async def test_one_that_does_not_end_keeps_no_other_from_ending(owner: GatewayOw
     await owner.close()
     assert owner.running == ()
     assert asyncio.all_tasks() == before
+
+
+async def test_what_a_gateway_imports_is_imported_beside_the_loop(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A robot is driven meanwhile; FastAPI alone takes a second."""
+    folder = tmp_path / "slowly"
+    folder.mkdir()
+    (folder / "__init__.py").touch()
+    (folder / "gateway.py").write_text("import threading\nTHREAD = threading.current_thread()\n")
+    monkeypatch.syspath_prepend(tmp_path)
+
+    def make(robot: Surroundings, url: GatewayUrl) -> Gateway:
+        return Gateway(robot, url)
+
+    make.__module__ = "slowly.adapter"
+    slow = dataclasses.replace(adapter("slowly"), make=make)
+    await gateway_owner._load(slow)
+    assert sys.modules.pop("slowly.gateway").THREAD is not threading.main_thread()
+    sys.modules.pop("slowly")
+
+
+@pytest.mark.parametrize("name", sorted(adapters()))
+def test_each_adapter_has_what_is_imported_before_it_is_made(name: str) -> None:
+    package, _, module = adapters()[name].make.__module__.rpartition(".")
+    assert module == "adapter"
+    assert find_spec(f"{package}.gateway") is not None
