@@ -35,13 +35,14 @@ from robotside.core.worker_thread import WorkerThread
 from robotside.foreign.foreign_link import ForeignLink
 from robotside.foreign.foreign_robot import ForeignRobot
 from robotside.foreign.robot_keys import key_for, read_keys
-from robotside.gateway_options import for_robot
+from robotside.gateway_options import for_robot, keeper
 from robotside.kinds.registry import kind_of
 from robotside.options import OTHER, One, UserMistake
 from robotside.records.landmarks import take_over
 from robotside.records.opening import open_records
 from robotside.serving.fleet_server import FleetServer
 from robotside.serving.garbage import set_aside
+from robotside.serving.gateway_board import Keep
 from robotside.serving.malloc_trim import trim
 from robotside.serving.station_keys import StationKeys
 from robotside.serving.station_server import Addresses, StationServer
@@ -117,6 +118,7 @@ class _Fleet:
         given = options.certificate is not None
         self._certificate = users_certificate(options.certificate, options.key) if given else None
         self._clock = RobotClock(wall(), options.speed)
+        self._keep: Keep | None = None
 
     async def run(
         self,
@@ -124,6 +126,7 @@ class _Fleet:
         wanted: Callable[[], bool],
     ) -> None:
         """Serve all of them until told to end, or no longer `wanted`."""
+        self._keep = keeper(self._options.config, len(robots))
         with ExitStack() as kept:
             servings = [self._serving(number, *each, kept) for number, each in enumerate(robots)]
             for serving in servings:
@@ -177,6 +180,7 @@ class _Fleet:
             gateways=for_robot(self._options.gateways, number),
             mdns=self._options.mdns,
             without=self._options.without,
+            keep=self._keep,
         )
 
     def _keys(self, state: Path, station: Station, config: Config) -> StationKeys:

@@ -4,21 +4,23 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bridge.core.identity import Role
+from robotside.bringing_up.robot_file import keep_gateway
 from robotside.bringing_up.settling import GATEWAYS as VARIABLE
 from robotside.bringing_up.settling import blamed
 from robotside.commands.user_mistake import UserMistake
-from robotside.core.config import GatewaySettings
+from robotside.core.config import BadConfig, GatewaySettings
 
 if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load them
     from robotside.gateways.adapter import Adapter
     from robotside.gateways.gateway_url import GatewayUrl
 
-__all__ = ["ALWAYS", "VARIABLE", "add_options", "for_robot", "wishes", "without"]
+__all__ = ["ALWAYS", "VARIABLE", "add_options", "for_robot", "keeper", "wishes", "without"]
 
 ALWAYS = ("rosbridge", "http")
 """The protocols that every robot has."""
@@ -131,6 +133,24 @@ def without(options: argparse.Namespace) -> tuple[str, ...]:
         except ValueError as problem:
             raise UserMistake(blamed(options, f"--without: {problem}")) from problem
     return words
+
+
+def keeper(files: Sequence[Path], robots: int) -> Callable[[str, str | None], str] | None:
+    """Keeps in its robot.toml which gateways clients bring up and down; None where one robot has not one file of its own.
+
+    It takes a name and a URL, empty for the usual one, None for down, and gives the sentence of why it is not kept.
+    """
+    if len(files) != 1 or robots != 1:
+        return None
+
+    def keep(name: str, url: str | None) -> str:
+        try:
+            keep_gateway(files[0], name, url)
+        except (UserMistake, BadConfig) as problem:
+            return str(problem)
+        return ""
+
+    return keep
 
 
 def for_robot(asked: list[tuple[Adapter, GatewayUrl]], number: int) -> list[tuple[Adapter, GatewayUrl]]:

@@ -11,7 +11,7 @@ from robotside.commands.user_mistake import UserMistake
 from robotside.core.config import Config, GatewaySettings, load, parse
 from robotside.trust.private_file import write_private
 
-__all__ = ["Choice", "before", "keep", "kept_at"]
+__all__ = ["Choice", "before", "keep", "keep_gateway", "kept_at"]
 
 NAME = "robot.toml"
 _HEAD = """# What `python -m robotside serve` asked; `serve --ask` asks again. Comments, and settings beside these, stay.
@@ -47,10 +47,30 @@ def before(path: Path) -> Config:
 
 def keep(path: Path, choice: Choice) -> None:
     """Put `choice` into the file, for its owner only; whole, or not at all. UserMistake with one sentence."""
+    _put(path, _values(choice))
+
+
+def keep_gateway(path: Path, name: str, url: str | None) -> None:
+    """Have the gateway `name` brought up at `url` at the next start, empty for its usual one; None for no longer.
+
+    One that is not any longer keeps its address. UserMistake or BadConfig with one sentence where the file cannot be changed.
+    """
+    before(path)  # somebody may have written in it meanwhile
+    here = ("gateways", name)
+    if url is None:
+        _put(path, {(*here, "on"): False})
+        return
+    said: dict[tuple[str, ...], Value | None] = {
+        (*here, field): None for field in GatewaySettings.__struct_fields__
+    }
+    _put(path, said | {(*here, "on"): True, (*here, "url"): url})
+
+
+def _put(path: Path, values: dict[tuple[str, ...], Value | None]) -> None:
     try:
         path = path.resolve()  # a link stays one
         text = path.read_text(encoding="utf-8") if path.exists() else _HEAD
-        changed = edited(text, _values(choice))
+        changed = edited(text, values)
         parse(changed, str(path))
         write_private(path, changed.encode())
     except CannotEdit as problem:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable, Iterable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -32,7 +33,7 @@ from robotside.station.station import Station
 if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load it
     from robotside.gateways.gateway_url import GatewayUrl
 
-__all__ = ["ALWAYS", "FAREWELL_TIME", "TOPIC", "GatewayBoard"]
+__all__ = ["ALWAYS", "FAREWELL_TIME", "TOPIC", "GatewayBoard", "Keep"]
 
 TOPIC = "/gateways"
 ALWAYS = {
@@ -40,6 +41,9 @@ ALWAYS = {
     "http": "web pages, pictures and STOP by HTTP",
 }
 """What every robot has, with what it is."""
+Keep = Callable[[str, str | None], str]
+"""Keeps the URL of a gateway that is brought up at the next start, empty for the usual one, None for one that is not; why that
+cannot be as one sentence, empty when it is done. Called in a thread of its own."""
 FAREWELL_TIME = 0.5
 """A client that brings down its own gateway is answered so long before [s]."""
 MAX_URL = 2000
@@ -55,10 +59,14 @@ class GatewayBoard:
         station: Station,
         owner: GatewayOwner,
         fixed: Callable[[], Mapping[str, str]],
+        keep: Keep | None = None,
         pause: Callable[[float], Awaitable[object]] = asyncio.sleep,
     ) -> None:
-        """`fixed` gives the URLs of those that always run, by name; `pause` waits so long [s]."""
-        self._pause = pause
+        """`fixed` gives the URLs of those that always run, by name; `keep` keeps for the next start which of the others
+        were brought up here, None for nowhere to keep it. `pause` waits so long [s].
+        """
+        self._keep, self._pause = keep, pause
+        self._keeping = asyncio.Lock()
         self._station, self._owner, self._fixed = station, owner, fixed
         self._lasting = LastingCommands(station, door.trail)
         self._farewells: set[asyncio.Task[None]] = set()
@@ -135,9 +143,9 @@ class GatewayBoard:
             raise Refusal(
                 Notice(Code.GATEWAY_RUNS, f"{name} is up already; bring it down first.", gateway=name)
             )
-        return partial(self._up, adapter, url, *self._who(client))
+        return partial(self._up, adapter, url, asked.url, *self._who(client))
 
-    async def _up(self, adapter: Adapter, url: GatewayUrl, id: str, who: str) -> str:
+    async def _up(self, adapter: Adapter, url: GatewayUrl, typed: str, id: str, who: str) -> str:
         name = adapter.name
         try:
             await self._owner.bring_up(adapter, url)
@@ -150,7 +158,8 @@ class GatewayBoard:
             "control",
             Notice(Code.GATEWAY_BROUGHT_UP, said, actor_id=id, name=who, gateway=name, endpoint=where),
         )
-        return f"{name} is up at {where}."
+        kept = await self._kept(name, typed)
+        return f"{name} is up at {where}.{kept}"
 
     def _bring_down(self, client: Operator, asked: BringDownGatewayRequest) -> Callable[[], Awaitable[str]]:
         name = plain(asked.name, 50)
@@ -181,7 +190,22 @@ class GatewayBoard:
         self._station.events.say(
             "control", Notice(Code.GATEWAY_BROUGHT_DOWN, said, actor_id=id, name=who, gateway=name)
         )
-        return f"{name} is down."
+        kept = await self._kept(name, None)
+        return f"{name} is down.{kept}"
+
+    async def _kept(self, name: str, url: str | None) -> str:
+        """Keep for the next start that it is up at `url`, or None for down; what is to be said of that."""
+        if self._keep is None:
+            return ""
+        async with self._keeping:
+            disk = ThreadPoolExecutor(1, "robot.toml")  # which may be slow, and the robot goes on
+            try:
+                problem = await asyncio.get_running_loop().run_in_executor(disk, self._keep, name, url)
+            finally:
+                disk.shutdown(wait=False)
+        if problem:
+            return f" The next start does not know of it: {problem}"
+        return "" if url is None else " So it is after the next start."
 
     async def _down_soon(self, name: str, id: str, who: str, stays: str) -> str:
         """Who asks is answered before its connection ends."""

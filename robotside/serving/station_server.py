@@ -21,7 +21,7 @@ from robotside.gateways.rosbridge.gateway import RosbridgeGateway
 from robotside.gateways.scaling.picture_scaling import PictureScaler
 from robotside.gateways.usage_sheet.running import Running
 from robotside.serving.fleet_server import FleetServer, RunningServer
-from robotside.serving.gateway_board import GatewayBoard
+from robotside.serving.gateway_board import GatewayBoard, Keep
 from robotside.serving.gateway_owner import GatewayOwner
 from robotside.serving.payload_switches import PayloadSwitches
 from robotside.serving.payloads_left_out import PayloadsLeftOut
@@ -78,12 +78,14 @@ class StationServer:
         gateways: Iterable[tuple[Adapter, GatewayUrl]] = (),
         mdns: bool = False,
         without: Collection[str] = (),
+        keep: Keep | None = None,
     ) -> None:
         """`keys` know who may do what; without them everybody may do everything, and nothing is encrypted.
 
         Web pages of `origins`, beside its own, may speak to it. `wanted` is asked once a second and ends the serving when it says no.
         `gateways` are brought up beside rosbridge and HTTP. With `mdns` it is announced by mDNS as well as by HELLO.
         The payloads `without` which it is brought up go off once it has told of them.
+        `keep` keeps for the next start which gateways clients bring up and down.
         """
         self.addresses = addresses
         self.station = station
@@ -121,7 +123,7 @@ class StationServer:
         self._wished, self._mdns = tuple(gateways), mdns
         self.gateways = GatewayOwner(around)
         """The gateways beside those two, which come and go while it runs."""
-        self._board = GatewayBoard(self.door, station, self.gateways, self._endpoints)
+        self._board = GatewayBoard(self.door, station, self.gateways, self._endpoints, keep)
         self.payloads = PayloadSwitches(self.door, station, self._board.update)
         """Which payloads are on."""
         self._left_out = PayloadsLeftOut(self.payloads, station, without)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from robotside.commands.user_mistake import UserMistake
-from robotside.gateway_options import VARIABLE, for_robot, wishes
+from robotside.core.config import GatewaySettings, load
+from robotside.gateway_options import VARIABLE, for_robot, keeper, wishes
 from robotside.gateways.discovery import read_wish
 from robotside.options import read
 
@@ -48,3 +50,16 @@ def test_a_broker_is_the_same_for_all_robots_and_a_listener_has_the_next_port() 
     assert [each.port for _, each in for_robot([broker, own, free], 2)] == [1883, 1885, 0]
     with pytest.raises(UserMistake, match="Robot 3 would have port 65537 for mqtt"):
         for_robot([(own[0], replace(own[1], port=65535))], 2)
+
+
+def test_what_clients_bring_up_is_kept_where_one_robot_has_one_file(tmp_path: Path) -> None:
+    file = tmp_path / "robot.toml"
+    assert keeper([], 1) is keeper([file], 2) is keeper([file, file], 1) is None
+    keep = keeper([file], 1)
+    assert keep is not None
+    assert keep("mqtt", "own://127.0.0.1:7") == ""
+    assert load(file).gateways == {"mqtt": GatewaySettings(url="own://127.0.0.1:7")}
+    file.write_text("gateways = { mqtt = { on = false } }\n")
+    assert "do so by hand" in keep("mqtt", None)
+    file.write_text("[limits")
+    assert keep("mqtt", "")

@@ -8,7 +8,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from robotside.bringing_up.robot_file import Choice, before, keep
+from robotside.bringing_up.robot_file import Choice, before, keep, keep_gateway
 from robotside.commands.user_mistake import UserMistake
 from robotside.core.config import GatewaySettings, load
 
@@ -84,3 +84,41 @@ def test_what_cannot_be_kept_is_a_sentence_and_leaves_the_file(tmp_path: Path) -
 
 def test_without_a_file_all_is_usual(tmp_path: Path) -> None:
     assert before(tmp_path / "none.toml").serve.robot is None
+
+
+def test_a_gateway_that_a_client_brings_up_is_kept_with_what_it_said_and_nothing_of_before(
+    tmp_path: Path,
+) -> None:
+    """Else everybody might go on driving by a role that was said for another address."""
+    file = tmp_path / "robot.toml"
+    keep(file, CHOICE)
+    file.write_text("# by me\n" + file.read_text())
+    keep_gateway(file, "mqtt", "own://127.0.0.1:7?role=watch")
+    keep_gateway(file, "kafka", "")
+    config = load(file)
+    assert config.gateways == {
+        "mqtt": GatewaySettings(url="own://127.0.0.1:7?role=watch"),
+        "kafka": GatewaySettings(),
+    }
+    assert config.serve == before(file).serve
+    assert file.read_text().startswith("# by me\n")
+    assert file.stat().st_mode & 0o777 == 0o600
+
+
+def test_one_that_a_client_brings_down_is_down_at_the_next_start_and_keeps_its_address(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "robot.toml"
+    keep(file, CHOICE)
+    keep_gateway(file, "mqtt", None)
+    assert load(file).gateways == {"mqtt": msgspec.structs.replace(MQTT, on=False)}
+    keep_gateway(file, "kafka", None)
+    assert not load(file).gateways["kafka"].on
+
+
+def test_a_file_that_cannot_be_changed_is_left_as_it_is_with_a_sentence(tmp_path: Path) -> None:
+    file = tmp_path / "robot.toml"
+    file.write_text("gateways = { mqtt = { on = false } }\n")
+    with pytest.raises(UserMistake, match="do so by hand"):
+        keep_gateway(file, "mqtt", "")
+    assert file.read_text() == "gateways = { mqtt = { on = false } }\n"

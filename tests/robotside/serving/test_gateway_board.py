@@ -81,15 +81,23 @@ EAGLE = replace(PIGEON, name="eagle", package="no_such_library")
 class Board:
     """A station with a board, and a listener to it."""
 
-    def __init__(self, state: Path) -> None:
+    def __init__(self, state: Path, *, keeps: bool = False) -> None:
         self.scene = Scene(FakeRobot(), state)
         scene = self.scene
         self.owner = GatewayOwner(Surroundings(scene.door, scene.station.events.say))
         self.paused: list[float] = []
         self.go_on = asyncio.Event()
-        self.board = GatewayBoard(scene.door, scene.station, self.owner, lambda: FIXED, self.pause)
+        self.kept: list[tuple[str, str | None]] = []
+        self.unkept = ""
+        self.board = GatewayBoard(
+            scene.door, scene.station, self.owner, lambda: FIXED, self.keep if keeps else None, self.pause
+        )
         self.heard: list[GatewayArray] = []
         self.end: Callable[[], None] = lambda: None
+
+    def keep(self, name: str, url: str | None) -> str:
+        self.kept.append((name, url))
+        return self.unkept
 
     async def pause(self, seconds: float) -> None:
         self.paused.append(seconds)
@@ -314,3 +322,20 @@ async def test_who_brought_it_up_and_down_and_that_everybody_may_drive_are_event
         f"{name} brought pigeon up at coop://roof:5.",
     ]
     await board.owner.close()
+
+
+async def test_what_was_brought_up_and_down_is_kept_for_the_next_start(
+    tmp_path: Path, known: list[int]
+) -> None:
+    board = Board(tmp_path, keeps=True)
+    answer = await board.up(url="coop://anna:secret@roof?role=drive")
+    assert answer.message == "pigeon is up at coop://roof:5. So it is after the next start."
+    await board.up("eagle")
+    assert not (await board.up(url="coop://elsewhere")).success
+    assert board.kept == [("pigeon", "coop://anna:secret@roof?role=drive")], (
+        "what did not come up is not kept"
+    )
+    board.unkept = "The file is read-only."
+    answer = await board.down()
+    assert (answer.success, board.kept[-1]) == (True, ("pigeon", None))
+    assert answer.message == "pigeon is down. The next start does not know of it: The file is read-only."
