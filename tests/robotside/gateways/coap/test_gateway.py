@@ -186,6 +186,30 @@ async def test_stop_comes_through_a_flood_of_which_little_is_heard(scene: Scene)
         assert len(heard) < 20 * 200 / 2
 
 
+async def test_stop_is_heard_at_the_very_moment_at_which_nothing_else_is(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(flood_guard, "ALL_RATE", 0.0)
+    async with serving(scene) as gateway:
+        socket, heard = gateway._server.socket, []
+        socket._dispatch = heard.append
+        order, look, stop = (
+            Message(code=code, payload=b"stop", _mtype=NON, _mid=1, uri_path=path).encode()
+            for code, path in (
+                (CoapCode.POST, ("cmd_vel",)),
+                (CoapCode.GET, ("stop",)),
+                (CoapCode.POST, ("stop",)),
+            )
+        )
+        for number in range(1000):
+            socket._hear(order, ("127.0.0.1", number % 7))
+        count = len(heard)
+        assert count <= flood_guard.ALL_BURST
+        for raw in (order, look, stop, order, look):
+            socket._hear(raw, ("127.0.0.1", 5000))
+        assert [datagrams.is_stop(message) for message in heard[count:]] == [True]
+
+
 async def test_stop_is_answered_where_too_much_is_under_way_and_nothing_else(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:

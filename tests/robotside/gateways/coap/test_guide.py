@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import re
 import shutil
 import time
@@ -103,19 +104,35 @@ def test_who_has_no_role_is_told_of_stop_alone(scene: Scene) -> None:
     assert "odom" not in links(payloads, Role.NONE)
 
 
-async def run(gateway: CoapGateway, *words: str, path: str) -> str:
-    """What libcoap's client prints."""
-    url = f"{gateway.endpoints()['coap']}{path}"
-    done = await asyncio.create_subprocess_exec(
+async def begin(gateway: CoapGateway, *words: str, path: str) -> asyncio.subprocess.Process:
+    return await asyncio.create_subprocess_exec(
         TOOL,
         *words,
-        url,
+        f"{gateway.endpoints()['coap']}{path}",
         stdin=asyncio.subprocess.DEVNULL,
         stdout=asyncio.subprocess.PIPE,
         stderr=asyncio.subprocess.STDOUT,
     )
-    said, _ = await done.communicate()
+
+
+async def run(gateway: CoapGateway, *words: str, path: str) -> str:
+    """What libcoap's client prints."""
+    said, _ = await (await begin(gateway, *words, path=path)).communicate()
     return said.decode(errors="replace")
+
+
+async def watch(scene: Scene, gateway: CoapGateway) -> None:
+    """libcoap's client observes until it has printed several notifications."""
+    watching, printed = await begin(gateway, "-s", "60", path="/odom?rate=50"), b""
+    try:
+        while printed.count(b'"child_frame_id"') < 4:
+            scene.run(0.05)
+            with contextlib.suppress(TimeoutError):
+                async with asyncio.timeout(0.05):
+                    printed += await watching.stdout.read(65536)
+    finally:
+        watching.kill()
+        await watching.wait()
 
 
 @pytest.fixture
@@ -132,13 +149,7 @@ async def test_another_library_reads_observes_and_stops(scene: Scene, gateway: C
     assert (await run(gateway, path="/map")).strip() == whole
     assert '"pose"' in await run(gateway, path="/odom")
     assert "does not carry" in await run(gateway, path="/nothing")
-    watching = asyncio.create_task(run(gateway, "-s", "1", path="/odom?rate=50"))
-    while not len(gateway._site.observers):  # noqa: ASYNC110 - what is waited for is no event
-        await asyncio.sleep(0.01)
-    while not watching.done():
-        scene.run(0.05)
-        await asyncio.sleep(0.02)
-    assert (await watching).count('"child_frame_id"') > 3
+    await watch(scene, gateway)
     stamp = f"?stamp={scene.clock}"
     assert "home" in await run(
         gateway, "-m", "put", "-e", '{"order": {"pose": "home"}}', path=f"/arm/move{stamp}"
