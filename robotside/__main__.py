@@ -59,6 +59,9 @@ SETTLED = 2.0
 NOT_ANSWERED = 130
 """Exit status of who ends the dialogue, as of Ctrl-C in a shell."""
 
+_ENDING = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
+"""What ends it in order, the robot at rest: SIGHUP is that its terminal was closed."""
+
 _HERE = ("127.0.0.1", "localhost", "::1")
 
 
@@ -133,8 +136,9 @@ class _Fleet:
                 serving.belong(servings)
             together = FleetServer(servings, self._clock, self._wall, wanted=wanted)
             loop = asyncio.get_running_loop()
-            for signal_number in (signal.SIGTERM, signal.SIGINT):
-                loop.add_signal_handler(signal_number, together.end)
+            for signal_number in _ENDING:
+                if signal.getsignal(signal_number) is not signal.SIG_IGN:  # as nohup has it
+                    loop.add_signal_handler(signal_number, together.end)
             # what the maps were made of is freed by the first steps
             later = loop.call_later(SETTLED, trim)
             set_aside()

@@ -128,7 +128,9 @@ def _payloads(offered: Mapping[str, Any], serve: ServeSettings) -> tuple[tuple[s
     items = [
         Item(f"{_words(name)} (its own)", value=(name, ""), checked=name not in serve.without) for name in own
     ]
-    items += [Item(_words(name), value=("", name), checked=name in serve.payloads) for name in more]
+    for name in more:
+        title = f"{_words(name)} (one more)" if name in own else _words(name)
+        items.append(Item(title, value=("", name), checked=name in serve.payloads))
     if not items:
         return (), serve.without
     chosen_ones = _checkbox("Which payloads? What is not chosen is off.", items)

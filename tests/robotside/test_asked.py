@@ -50,6 +50,8 @@ class Terminal:
         )
         os.close(theirs)
         self.seen = b""
+        self.told = False
+        """It was told to end already."""
 
     def press(self, *keys: bytes) -> None:
         os.write(self._ours, b"".join(keys))
@@ -79,7 +81,7 @@ class Terminal:
 
     def close(self) -> int:
         """End it if it has not ended; its exit status."""
-        if self.process.poll() is None:
+        if self.process.poll() is None and not self.told:
             self.process.send_signal(signal.SIGTERM)
         try:
             while select.select([self._ours], [], [], LIMIT)[0] and os.read(self._ours, 65536):
@@ -119,6 +121,8 @@ def test_serve_asks_once_and_starts_at_once_the_next_time(tmp_path: Path) -> Non
     try:
         assert "Which" not in second.until("robotside: ready")
         second.until("Camera is off")
+        second.process.send_signal(signal.SIGHUP)  # the window is closed
+        second.told = True
     finally:
         assert second.close() == 0
 
