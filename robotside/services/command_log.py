@@ -15,7 +15,7 @@ from robotside.core.refusal import Refusal
 from robotside.core.text import number, plain
 from robotside.records.answers import MAX_ANSWERS
 
-__all__ = ["ANSWER_LIFETIME", "CommandLog"]
+__all__ = ["ANSWER_LIFETIME", "CommandLog", "refused"]
 
 ANSWER_LIFETIME = 60.0
 """So long is an answer kept [s]; an id that comes later is one that was counted anew."""
@@ -54,13 +54,13 @@ class CommandLog:
         if len(request.command_id) > MAX_ID_LENGTH:
             count = len(request.command_id)
             said = f"A command_id has at most {MAX_ID_LENGTH} characters, not {count}."
-            return _refused(Notice(Code.COMMAND_ID_INVALID, said, length=count, max=MAX_ID_LENGTH), response)
+            return refused(Notice(Code.COMMAND_ID_INVALID, said, length=count, max=MAX_ID_LENGTH), response)
         key, now = (sender, service, request.command_id), self._now()
         given, known = self._answers.get(key, (-math.inf, None))
         if known is not None and abs(now - given) <= ANSWER_LIFETIME:
             return from_json(known, response) if isinstance(known, str) else known
         untimely = self._untimely(request)
-        answer = _refused(untimely, response) if untimely else _answer(action, response)
+        answer = refused(untimely, response) if untimely else _answer(action, response)
         if request.command_id:
             self._answers[key] = now, answer
             self._answers.move_to_end(key)
@@ -101,9 +101,10 @@ def _answer(action: Callable[[], str | CommandResponse], response: type[CommandR
     try:
         done = action()
     except Refusal as refusal:
-        return _refused(refusal.notice, response)
+        return refused(refusal.notice, response)
     return done if isinstance(done, CommandResponse) else response(True, done)
 
 
-def _refused(notice: Notice, response: type[CommandResponse]) -> CommandResponse:
+def refused(notice: Notice, response: type[CommandResponse]) -> CommandResponse:
+    """The answer that refuses, with the notice's sentence and code."""
     return response(False, plain(notice, MAX_REASON_LENGTH), **coded(notice))

@@ -12,10 +12,9 @@ from bridge.core.async_tasks import cancel_all
 from bridge.core.errors import Refused
 from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
-from robotside.core.notice import coded
 from robotside.core.refusal import Refusal
 from robotside.services.audit_trail import AuditTrail
-from robotside.services.command_log import CommandLog
+from robotside.services.command_log import CommandLog, refused
 from robotside.services.command_service import sender_of
 from robotside.services.stop_answer import Later
 from robotside.station.station import Station
@@ -92,7 +91,7 @@ class LastingCommands:
         try:
             answer = response(True, await work())
         except Refusal as refusal:
-            answer = response(False, refusal.notice, **coded(refusal.notice))
+            answer = refused(refusal.notice, response)
         except Exception:
             log.exception("%s failed", key[1])
             answer = response(False, f"The robot failed at {key[1]}; its log says why.")

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from bridge.codec import to_json
 from bridge.core.codes import Code
 from bridge.core.errors import Refused
 from bridge.core.robot_catalogue import Operator, Service
@@ -90,6 +91,7 @@ async def test_what_is_refused_at_once_or_in_the_end_has_its_code_however_often_
     for _ in range(2):
         told = await answer(slow.ask(id="2"))
         assert (told.success, told.message, told.code) == (False, "Port 1 is taken.", "gateway_port_taken")
+        assert b'"Port 1 is taken."' in to_json(told), "it goes over the wire"
     assert slow.begun == 1
 
 
