@@ -34,6 +34,10 @@ KEEPALIVE = 2
 """Between two signs of life [s]; a broker gives up after one and a half of it, and publishes the last will."""
 CONNECT_TIMEOUT = 5.0
 """For one answer of the broker [s]."""
+PROBE_TIMEOUT = 5.0
+"""What a line publishes to itself comes back within so long [s], or the broker does not pass on what it granted."""
+EARLY_TIME = 1.0
+"""What a broker has kept comes within so long after a subscription [s]."""
 MAX_IN = 1024
 """Messages that wait to be handled; more are dropped."""
 MAX_REPLIES = 256
@@ -60,6 +64,8 @@ class Heard(NamedTuple):
     """To be repeated in the answer."""
     properties: dict[str, str]
     """The sender's own, each once."""
+    early: bool = False
+    """It came before the line's own probe did, so that the broker may have kept it from before."""
 
 
 class Reply(NamedTuple):
@@ -85,6 +91,7 @@ class BrokerLine(Line):
         subscriptions: Iterable[str],
         on_message: Callable[[Heard], None],
         *,
+        probe: str,
         kept: str = "",
         will: tuple[str, bytes] | None = None,
         on_up: Callable[[], Awaitable[None]] | None = None,
@@ -93,11 +100,14 @@ class BrokerLine(Line):
     ) -> None:
         """`on_up()` is awaited after each connection; `on_down` and `drops_stale` are as of every line.
 
+        `probe` is a topic that the subscriptions have in them, and nobody else publishes on: what is published there must come back.
         `kept` is a topic of which what the broker has kept is heard too, before all else. `will` is the topic and retained message
         that the broker publishes when this end is gone without a word.
         """
         super().__init__(on_down=on_down, drops_stale=drops_stale)
         self._url, self._subscriptions, self._on_message = url, tuple(subscriptions), on_message
+        self._probe, self._probed = probe, math.inf
+        self._is_early = True
         self._kept = kept
         self._will, self._on_up = will, on_up
         # the same each time, so that a broker ends what it still has of a line before, its last will included, first
@@ -105,6 +115,11 @@ class BrokerLine(Line):
         self._client: aiomqtt.Client | None = None
         self._replies: deque[Reply] = deque(maxlen=MAX_REPLIES)
         self._wake = asyncio.Event()
+
+    @property
+    def is_deaf(self) -> bool:
+        """The broker let it subscribe, and passes nothing on."""
+        return self.is_up and asyncio.get_running_loop().time() - self._probed > PROBE_TIMEOUT
 
     def reply(self, reply: Reply) -> None:
         """Send an answer as soon as that can be; it is dropped when the line is lost before."""
@@ -137,9 +152,12 @@ class BrokerLine(Line):
         """One connection from its beginning to its end; returns when what waits is too old to be heard."""
         async with _opened(self._new_client()) as client:
             if self._kept:
-                await _subscribe(client, [self._kept], SubscribeOptions.RETAIN_SEND_ON_SUBSCRIBE)
+                await _subscribe(client, [self._kept], SubscribeOptions.RETAIN_SEND_ON_SUBSCRIBE, deaf=True)
             await _subscribe(client, self._subscriptions, SubscribeOptions.RETAIN_DO_NOT_SEND)
             self._client = client
+            self._is_early = True
+            await self.publish(self._probe, b"", qos=1)
+            self._probed = asyncio.get_running_loop().time()
             self._came_up()
             if self._on_up is not None:
                 await self._on_up()
@@ -155,6 +173,7 @@ class BrokerLine(Line):
 
     def _forget(self) -> None:
         self._client = None
+        self._probed = math.inf
         self._replies.clear()
 
     def _reason(self, error: Exception) -> str:
@@ -165,7 +184,10 @@ class BrokerLine(Line):
         async for message in client.messages:
             if self._is_stale():
                 return
-            self._handle(message)
+            if str(message.topic) == self._probe:
+                self._probed, self._is_early = math.inf, False
+            else:
+                self._handle(message)
 
     def _new_client(self) -> aiomqtt.Client:
         url, tls = self._url, ssl.create_default_context() if self._url.scheme == "mqtts" else None
@@ -197,7 +219,8 @@ class BrokerLine(Line):
 
     def _handle(self, message: aiomqtt.Message) -> None:
         try:
-            self._on_message(_heard(message))
+            since = asyncio.get_running_loop().time() - self._up_since
+            self._on_message(_heard(message)._replace(early=self._is_early and since < EARLY_TIME))
         except Exception:
             log.exception("A message on %s failed", message.topic)
 
@@ -235,9 +258,14 @@ async def _opened(client: aiomqtt.Client) -> AsyncIterator[aiomqtt.Client]:
             await client.__aexit__(None, None, None)
 
 
-async def _subscribe(client: aiomqtt.Client, topics: Sequence[str], handling: int) -> None:
-    """Ask for topics; raises SubscriptionRefused when the broker does not pass one of them on."""
-    options = SubscribeOptions(qos=1, noLocal=True, retainAsPublished=True, retainHandling=handling)
+async def _subscribe(
+    client: aiomqtt.Client, topics: Sequence[str], handling: int, *, deaf: bool = False
+) -> None:
+    """Ask for topics, but for what this client itself publishes where it is `deaf`.
+
+    Raises SubscriptionRefused when the broker does not let it have one of them.
+    """
+    options = SubscribeOptions(qos=1, noLocal=deaf, retainAsPublished=True, retainHandling=handling)
     granted = await uncut(client.subscribe([(topic, options) for topic in topics]))
     for topic, code in zip(topics, granted, strict=False):
         if _is_failure(code):

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import secrets
+from collections import OrderedDict
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
@@ -23,7 +25,7 @@ from robotside.gateways.gateway_url import OWN, GatewayUrl
 from robotside.gateways.mqtt.broker_line import BrokerLine, Heard, Reply
 from robotside.gateways.mqtt.guide import guide
 from robotside.gateways.mqtt.own_broker import OwnBroker
-from robotside.gateways.mqtt.topic_names import Asked, TopicNames
+from robotside.gateways.mqtt.topic_names import PROBE, Asked, TopicNames
 from robotside.gateways.payloads.offered import offered
 from robotside.gateways.plain.visitor import STOP, refusal
 from robotside.gateways.plain.visitors import Visitors
@@ -33,6 +35,8 @@ __all__ = ["MAX_EXPIRY", "MqttGateway"]
 WAY, _BROKER = "mqtt", "MQTT broker"
 MAX_EXPIRY = 10.0
 """A call whose message is good for longer needs a stamp [s]."""
+MAX_KEPT_STOPS = 64
+"""STOPs that a broker keeps, and that are remembered to have been pressed."""
 FAREWELL_TIMEOUT = 1.0
 """For the broker to take the last state [s]."""
 _CHECK_PERIOD = 1.0
@@ -61,16 +65,23 @@ class MqttGateway:
         self._namesakes = Namesakes(WAY, _BROKER, boot, name, robot.say)
         self._tasks: set[asyncio.Task[None]] = set()
         self._is_ending = False
+        self._kept_stops: OrderedDict[bytes, None] = (
+            OrderedDict()
+        )  # those that were pressed, as the broker keeps them
+        self._told_of: set[str] = set()
+        id = f"probe-{secrets.token_hex(6)}"
         self._commands = BrokerLine(
             url,
             self._names.commands,
             self._on_command,
+            probe=self._names.probe(id),
             kept=self._names.state,
             will=(self._names.state, self._state(LOST)),
             on_up=self._begin,
             on_down=self._on_lost,
         )
-        self._stop = BrokerLine(url, self._names.stop, self._on_stop, drops_stale=False)
+        stop_probe = self._names.probe(id, stop=True)
+        self._stop = BrokerLine(url, self._names.stop, self._on_stop, probe=stop_probe, drops_stale=False)
 
     async def start(self) -> None:
         """Begin to reach for the broker; whether it is there or not, the robot goes on."""
@@ -118,7 +129,8 @@ class MqttGateway:
         self._feed.begin()
 
     async def _say_online(self) -> None:
-        await self._commands.publish(self._names.state, self._state(ONLINE), retain=True, qos=1)
+        if not self._is_ending:  # after a goodbye it would be here for ever
+            await self._commands.publish(self._names.state, self._state(ONLINE), retain=True, qos=1)
 
     def _on_lost(self, reason: str) -> None:
         """The broker is gone, and with it everybody behind it."""
@@ -135,19 +147,46 @@ class MqttGateway:
             await asyncio.sleep(_CHECK_PERIOD)
             self._visitors.leave_silent()
             self._losses.check(self._commands, self._stop)
+            self._check_hearing()
             if self._namesakes.update(asyncio.get_running_loop().time()):
                 await self._say_online()
+
+    def _check_hearing(self) -> None:
+        """Say once of a line that its broker let it subscribe and passes nothing on, as an access list may have it."""
+        for line, topic in ((self._commands, self._names.commands[0]), (self._stop, self._names.stop[0])):
+            if line.is_deaf and topic not in self._told_of:
+                self._told_of.add(topic)
+                what = "STOP" if line is self._stop else "a command"
+                said = (
+                    f"The {_BROKER} passes on to the robot nothing of what it publishes itself, so perhaps no {what} either: "
+                    f"let it read {topic} and write there in the access list."
+                )
+                self._say("control", Notice(Code.GATEWAY_REFUSED, said, gateway=WAY, topic=topic), "alarm")
 
     def _on_stop(self, heard: Heard) -> None:
         """STOP, on a line that nothing else can fill."""
         asked = self._names.read(heard.topic)
         if asked is not None:
-            self._desk.press_stop(self._command(self._stop, asked, heard))
+            self._press_stop(self._command(self._stop, asked, heard), heard)
+
+    def _press_stop(self, command: Command, heard: Heard) -> None:
+        """Press STOP; one that a broker has kept from before, though it was asked not to pass such on, once only."""
+        if heard.retained and heard.early:
+            kept = b"\0".join((heard.topic.encode(), heard.payload, heard.correlation or b""))
+            if kept in self._kept_stops:
+                return
+            self._kept_stops[kept] = None
+            while len(self._kept_stops) > MAX_KEPT_STOPS:
+                self._kept_stops.popitem(last=False)
+            said = f"The {_BROKER} keeps a STOP of {command.client} from before, which is pressed once. Remove it there."
+            notice = Notice(Code.GATEWAY_RETAINED, said, operation=STOP)
+            self._say("control", notice, "warn")
+        self._desk.press_stop(command)
 
     def _on_state(self, heard: Heard) -> None:
         """A robot of this name is at the broker, or gone from there: what it is told this one must not do."""
         now = asyncio.get_running_loop().time()
-        if self._namesakes.hear(heard.payload, now, self._visitors.leave_all) and not self._is_ending:
+        if self._namesakes.hear(heard.payload, now, self._visitors.leave_all):
             self._desk.start(self._say_online())
 
     def _on_command(self, heard: Heard) -> None:
@@ -155,13 +194,13 @@ class MqttGateway:
             self._on_state(heard)
             return
         asked = self._names.read(heard.topic)
-        if asked is None:
+        if asked is None or asked.name == PROBE:  # of another robot of this name
             return
         command = self._command(self._commands, asked, heard)
         if asked.name == STOP and asked.verb == CALL:
-            # by both lines, since nobody sees which of them is deaf; one that is retained was sent now too: what a broker
-            # kept from before is not asked for
-            self._desk.press_stop(command)
+            # by both lines, since nobody sees which of them is deaf; one that is retained was sent now too, but where a broker
+            # passes on what it kept from before though that is not asked for
+            self._press_stop(command, heard)
             return
         try:
             self._obey(command, heard)

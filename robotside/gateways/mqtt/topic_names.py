@@ -13,6 +13,7 @@
     PREFIX/ROBOT/clients/CLIENT/answer/NAME     the answer
     PREFIX/ROBOT/clients/CLIENT/feedback/NAME   how far a goal is
     PREFIX/ROBOT/clients/CLIENT/bye             CLIENT is gone; meant as its last will
+    PREFIX/ROBOT/clients/ID/probe               a robot hears its own, or the broker does not pass on what it granted
 
 A broker that lets each user write below `clients/USER` alone proves who is behind each name.
 """
@@ -24,10 +25,12 @@ from typing import NamedTuple
 
 from robotside.gateways.broker.command_desk import BYE, CALL, VERBS
 
-__all__ = ["PREFIX", "Asked", "TopicNames"]
+__all__ = ["PREFIX", "PROBE", "Asked", "TopicNames"]
 
 PREFIX = "pilothouse"
 """Where the URL of the gateway names no other."""
+PROBE = "/probe"
+"""What a robot calls to hear itself; no service."""
 MAX_CLIENT_NAME = 64
 """Characters of a client's name."""
 MAX_NAME = 256
@@ -84,7 +87,11 @@ class TopicNames:
     @property
     def stop(self) -> tuple[str, ...]:
         """What it subscribes to for STOP alone."""
-        return (f"{self._clients}+/{CALL}/stop",)
+        return (f"{self._clients}+/{CALL}/stop", f"{self._clients}+{PROBE}")
+
+    def probe(self, id: str, *, stop: bool = False) -> str:
+        """Where the line for commands, or that for STOP, publishes to hear itself; `id` is its own."""
+        return f"{self._clients}{id}{PROBE}" if stop else self.command(id, CALL, PROBE)
 
     def read(self, topic: str) -> Asked | None:
         """What a topic asks for; None when it is no command, or a name in it is too long or cannot be shown."""

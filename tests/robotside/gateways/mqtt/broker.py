@@ -41,8 +41,9 @@ dynamic_filters = true
 class Broker:
     """A broker on a port of this machine, started at once."""
 
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
+    def __init__(self, folder: Path, *, mosquitto: str = MOSQUITTO, access: str = "") -> None:
+        """`mosquitto` is its program, empty for the broker of iotcore; `access` is an access list of Mosquitto."""
+        self._folder, self._mosquitto, self._access = folder, mosquitto, access
         for _ in range(20):  # another program may take the port first
             self.port = _free_port()
             self._process = self._begin()
@@ -72,9 +73,15 @@ class Broker:
 
     def _begin(self) -> subprocess.Popen[bytes]:
         file = self._folder / "mosquitto.conf"
-        if MOSQUITTO:
-            file.write_text(f"listener {self.port} 127.0.0.1\nallow_anonymous true\npersistence false\n")
-            command = [MOSQUITTO, "-c", str(file)]
+        if self._mosquitto:
+            access = self._folder / "access"
+            access.write_text(self._access)
+            access.chmod(0o700)
+            file.write_text(
+                f"listener {self.port} 127.0.0.1\nallow_anonymous true\npersistence false\nuser root\n"
+                + (f"acl_file {access}\n" if self._access else "")
+            )
+            command = [self._mosquitto, "-c", str(file)]
         else:
             file = self._folder / "broker.toml"
             file.write_text(_RUMQTTD.format(port=self.port))

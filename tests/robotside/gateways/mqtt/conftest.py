@@ -36,6 +36,8 @@ def patient(monkeypatch: pytest.MonkeyPatch) -> None:
     """A busy computer on which these tests are slow is no robot that stood still, and no client that is lost."""
     monkeypatch.setattr(line, "STALL_TIMEOUT", 60.0)
     monkeypatch.setattr(broker_line, "KEEPALIVE", 60)
+    monkeypatch.setattr(broker_line, "PROBE_TIMEOUT", 60.0)
+    monkeypatch.setattr(broker_line, "EARLY_TIME", 60.0)
     monkeypatch.setattr(line, "STANDING_TIME", 0.0)
     monkeypatch.setattr(mqtt_gateway, "_CHECK_PERIOD", 0.02)
 

@@ -49,7 +49,7 @@ class _Library:
 
 
 async def test_an_answer_that_cannot_be_sent_holds_up_no_other() -> None:
-    line, library = BrokerLine(URL, (), lambda heard: None), _Library()
+    line, library = BrokerLine(URL, (), lambda heard: None, probe="p"), _Library()
     line._client = library  # type: ignore[assignment]
     line._came_up()
     sending = asyncio.create_task(line._send_replies(library))  # type: ignore[arg-type]

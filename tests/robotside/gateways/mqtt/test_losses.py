@@ -15,8 +15,9 @@ from bridge.msgs.pilothouse_msgs import Event
 from robotside.gateways.broker import line
 from robotside.gateways.mqtt import broker_line
 from tests.fakes import FakeRobot
+from tests.lacking import lacking
 from tests.robotside import scene as scenes
-from tests.robotside.gateways.mqtt.broker import Broker
+from tests.robotside.gateways.mqtt.broker import MOSQUITTO, Broker
 from tests.robotside.gateways.mqtt.client import (
     FRESH,
     ROOT,
@@ -166,6 +167,37 @@ async def test_a_broker_that_refuses_a_subscription_is_an_event_that_says_what_t
     assert "does not let the robot read pilothouse/Fake-1/clients/" in said
     assert refused in said
     assert Code.GATEWAY_UP not in codes(scene)
+
+
+async def test_a_broker_that_grants_a_subscription_and_passes_nothing_on_is_an_alarm(
+    scene: Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if not MOSQUITTO:
+        lacking("mosquitto", "the other broker has no access list")
+    monkeypatch.setattr(broker_line, "PROBE_TIMEOUT", 0.2)
+    broker = Broker(tmp_path, access=f"topic write {ROOT}/#\ntopic read {ROOT}/state\n")
+    try:
+        async with serving(scene, broker.url) as gateway:
+            await until(lambda: codes(scene).count(Code.GATEWAY_REFUSED) == 2)
+            assert gateway._commands.is_up
+    finally:
+        broker.kill()
+    said = [msg for _, msg in scene.said if isinstance(msg, Event) and msg.code == Code.GATEWAY_REFUSED]
+    assert {each.level for each in said} == {"alarm"}
+    assert any(f"let it read {ROOT}/clients/+/call/stop and write there" in each.text for each in said)
+
+
+async def test_a_broker_that_passes_on_what_it_granted_is_none(
+    scene: Scene, broker: Broker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async with serving(scene, broker.url) as gateway, client(broker) as me:
+        await online(me)
+        lines = (gateway._commands, gateway._stop)
+        await until(lambda: all(line.is_up and not line._is_early for line in lines))
+        monkeypatch.setattr(broker_line, "PROBE_TIMEOUT", 0.0)
+        assert not any(line.is_deaf for line in lines)
+        gateway._check_hearing()
+        assert Code.GATEWAY_REFUSED not in codes(scene)
 
 
 async def test_a_broker_that_comes_and_goes_is_told_of_once(

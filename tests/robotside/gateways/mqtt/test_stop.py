@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import asyncio
+import socket
 from pathlib import Path
 
 import pytest
 
+from bridge.core.codes import Code
 from bridge.msgs.geometry_msgs import Twist
+from robotside.gateways.mqtt.broker_line import BrokerLine
 from tests.fakes import FakeRobot
-from tests.lacking import lacking
+from tests.lacking import lacking, package
 from tests.looped import looped
 from tests.robotside.gateways.mqtt.broker import MOSQUITTO, Broker
-from tests.robotside.gateways.mqtt.client import (
-    AHEAD,
-    client,
-    online,
-    serving,
-    until,
-)
+from tests.robotside.gateways.mqtt.client import AHEAD, client, codes, online, serving, until
 from tests.robotside.scene import Scene
 
 STOPS = (b"", b"{}", b"stop!", b'{"client_name": "Fred", "surprise": 1}', b"\xff", b"[" * 70000)
@@ -71,6 +68,40 @@ async def test_a_retained_stop_from_before_is_not_heard(scene: Scene, broker: Br
             await until(lambda: gateway._stop.is_up)
             await me.ask("call/rosapi/get_time")
             assert not scene.station.controls.stopped
+
+
+async def test_a_stop_that_a_broker_keeps_and_passes_on_unasked_is_pressed_once_and_said(
+    scene: Scene, tmp_path: Path
+) -> None:
+    package("iotcore")
+    broker = Broker(tmp_path, mosquitto="")
+    try:
+        async with client(broker) as me:
+            await me.send("call/stop", retain=True)
+            scene.run(5.0)
+            async with serving(scene, broker.url) as gateway:
+                await until(lambda: scene.station.controls.stopped)
+                scene.run(1.0)
+                assert codes(scene).count(Code.GATEWAY_RETAINED) == 1
+                assert scene.release_stop().success
+                for line in (gateway._commands, gateway._stop):
+                    await again(line)
+                await online(me)
+                await me.ask("call/rosapi/get_time")
+                assert not scene.station.controls.stopped
+                assert (await me.ask("call/stop", retain=True))["success"]
+                assert scene.station.controls.stopped
+    finally:
+        broker.kill()
+
+
+async def again(line: BrokerLine) -> None:
+    """The line is cut, and has heard its own probe on a new connection."""
+    await until(lambda: not line._is_early)
+    assert line._client is not None
+    line._client._client.socket().shutdown(socket.SHUT_RDWR)
+    await until(lambda: not line.is_up)
+    await until(lambda: line.is_up and not line._is_early)
 
 
 async def test_stop_comes_through_while_others_flood_the_robot(scene: Scene, broker: Broker) -> None:
