@@ -5,12 +5,14 @@ Everything here lives in the network thread.
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from app.link.capabilities import CAMERA, POSE, Capabilities
 from bridge.client.client import BridgeClient
+from bridge.core.codes import Code
 from bridge.core.errors import BridgeError
 from bridge.core.topics import TOPICS, Topic
 from bridge.msgs import TYPES, Msg, ros1_name
@@ -83,7 +85,7 @@ class Sources:
 
     def _subscribe(self, entry: Topic, name: str) -> Callable[[], None]:
         if entry.once:
-            return self._client.subscribe(name, entry.type, self._event, queue_length=100)
+            return self._client.subscribe(name, entry.type, self._on_event, queue_length=100)
         fast = entry.rate * MIN_INTERVAL > 1000
         return self._client.subscribe(
             name,
@@ -94,6 +96,18 @@ class Sources:
             if entry.type.MSGTYPE in (INFINITE_TYPES if self._ours else ()) + CBOR_TYPES
             else "none",
         )
+
+    def _on_event(self, event: Any, received: float) -> None:
+        self._event(event, received)
+        if event.code == Code.PAYLOAD_SWITCHED:
+            asyncio.get_running_loop().call_soon(self._renew)
+
+    def _renew(self) -> None:
+        """Ask again for what was refused while its payload was off; events go on, so that none is missed."""
+        for entry in TOPICS:
+            if not entry.once and entry.name in self._ends:
+                self._ends.pop(entry.name)[1]()
+        self.follow(self._offer)
 
     @property
     def _ours(self) -> bool:

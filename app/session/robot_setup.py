@@ -21,6 +21,8 @@ from bridge.msgs.pilothouse_msgs import (
 __all__ = ["GATEWAYS", "PAYLOADS", "RobotSetup", "State"]
 
 GATEWAYS, PAYLOADS, ME = "/gateways", "/payloads", "/people/me"
+MAX_SHOWN = 64
+"""Protocols, and payloads, that are shown of a robot that has more."""
 State = tuple[str, str]
 """A sentence, and the role of its colour: `muted`, `text`, `accent`, `ok`, `warn` or `danger`."""
 _GATEWAY_COMMANDS = ("gateway_up", "gateway_down")
@@ -83,12 +85,12 @@ class RobotSetup:
     @property
     def gateways(self) -> list[Gateway]:
         """The robot's protocols; empty until it told."""
-        return self._gateways.gateways if self._gateways else []
+        return self._gateways.gateways[:MAX_SHOWN] if self._gateways else []
 
     @property
     def payloads(self) -> list[Payload]:
         """The robot's payloads; empty until it told."""
-        return self._payloads.payloads if self._payloads else []
+        return self._payloads.payloads[:MAX_SHOWN] if self._payloads else []
 
     @property
     def why_not(self) -> str:

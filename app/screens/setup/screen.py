@@ -174,10 +174,11 @@ class SetupScreen(RobotScreen):
 
     def _shown(self) -> Key | None:
         """What is beside the list, or on a phone in its place."""
-        if self.chosen in self.rows:
+        entries = self._entries()
+        if self.chosen in entries:
             found: Key = self.chosen
             return found
-        return None if self._form == "tall" else next(iter(self.rows), None)
+        return None if self._form == "tall" else next(iter(entries), None)
 
     def _lay(self) -> None:
         if not self._places:
@@ -205,10 +206,11 @@ class SetupScreen(RobotScreen):
     def _turn(self, key: Key, on: bool) -> None:
         """Ask the robot; the switch shows what it says, and not yet what was asked."""
         kind, name = key
+        entry = self._entries().get(key)
         if kind == PAYLOADS:
             self.setup.switch(name, on)
-        elif on:
-            pane = self.pane(key, self._entries()[key])
+        elif on and entry is not None:
+            pane = self.pane(key, entry)
             if isinstance(pane, GatewayPane):
                 pane.bring_up()
         else:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 
@@ -12,7 +14,7 @@ from app.link.event_order import KnownEvents
 from app.link.feeds import Mailbox
 from app.link.subscriptions import Seen, Sources
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
-from bridge.msgs.pilothouse_msgs import ControlStatus
+from bridge.msgs.pilothouse_msgs import ControlStatus, Event
 
 
 class Box:
@@ -69,9 +71,14 @@ class Client:
 
     def __init__(self) -> None:
         self.subscribed: list[str] = []
+        self.anew: list[str] = []
+        """In the order in which they came, those that ended too."""
+        self.callbacks: dict[str, Any] = {}
 
-    def subscribe(self, topic: str, *_: object, **__: object) -> Callable[[], None]:
+    def subscribe(self, topic: str, _: object, callback: object, **__: object) -> Callable[[], None]:
         self.subscribed.append(topic)
+        self.anew.append(topic)
+        self.callbacks[topic] = callback
         return lambda: self.subscribed.remove(topic)
 
 
@@ -88,3 +95,20 @@ def test_what_a_robot_makes_on_demand_is_listened_to_while_somebody_looks_and_wh
     sources.want("/gateways", False)
     assert "/gateways" not in client.subscribed
     assert "/pose" in client.subscribed, "the others go on"
+
+
+async def test_what_was_refused_while_its_payload_was_off_is_asked_for_again_when_one_is_switched() -> None:
+    client, told = Client(), list[Event]()
+    sources = Sources(client, lambda *_: None, lambda event, _: told.append(event))  # type: ignore[arg-type]
+    sources.follow(Capabilities({}, frozenset()))
+    before = list(client.subscribed)
+    client.anew.clear()
+    for code in ("task_started", "payload_switched"):
+        client.callbacks["/events"](Event(code=code), 0.0)
+        await asyncio.sleep(0)
+        await asyncio.sleep(0)
+        assert bool(client.anew) == (code == "payload_switched")
+    assert sorted(client.subscribed) == sorted(before), "each once"
+    assert "/arm" in client.anew
+    assert "/events" not in client.anew, "none is missed meanwhile"
+    assert len(told) == 2

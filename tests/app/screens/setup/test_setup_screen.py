@@ -209,6 +209,18 @@ def test_the_robot_need_not_tell_who_does_not_look(setup: Setup) -> None:
     setup.glass.until(lambda: "/gateways" not in sources._ends, "still listens")
 
 
+def test_who_comes_back_sees_what_the_robot_says_then_and_what_was_typed(setup: Setup) -> None:
+    setup.tell(DOWN)
+    setup.screen.chosen = MQTT
+    setup.pane().form.fields["host"].text = "broker"
+    setup.glass.app.show("drive")
+    setup.glass.app.show("setup")
+    setup.tell(UP)
+    assert setup.screen.rows[MQTT].switch.active
+    setup.tell(DOWN)
+    assert setup.pane().form.fields["host"].text == "broker"
+
+
 def test_on_a_phone_a_pane_takes_the_place_of_the_list_and_back_leads_to_it(
     setup: Setup, monkeypatch: pytest.MonkeyPatch
 ) -> None:
