@@ -22,10 +22,10 @@ EXPIRY = 5
 
 
 class _Mqtt:
-    def __init__(self, url: str) -> None:
+    def __init__(self, url: str, client: str) -> None:
         place = urlsplit(url)
         self._state = f"{place.path.strip('/')}/state"
-        self._own = f"{place.path.strip('/')}/clients/program-{uuid.uuid4().hex[:12]}"
+        self._own = f"{place.path.strip('/')}/clients/program-{client[:12]}"
         self._heard: queue.Queue[tuple[bytes, Answer]] = queue.Queue()
         self._ready = threading.Event()
         self._client = Client(CallbackAPIVersion.VERSION2, protocol=MQTTv5)
@@ -77,6 +77,6 @@ class _Mqtt:
         self._client.loop_stop()
 
 
-def open_way(url: str) -> Way:
+def open_way(url: str, client: str) -> Way:
     """A connection to the broker."""
-    return _Mqtt(url)
+    return _Mqtt(url, client)

@@ -36,6 +36,6 @@ class _Rosbridge:
         self._undo.close()
 
 
-def open_way(url: str) -> Way:
+def open_way(url: str, _: str) -> Way:
     """A connection to the robot."""
     return _Rosbridge(url)

@@ -19,9 +19,9 @@ COMMAND = {"client_id": "clientId", "client_name": "clientName", "command_id": "
 
 
 class _Soap:
-    def __init__(self, url: str) -> None:
+    def __init__(self, url: str, client: str) -> None:
         self._client = zeep.Client(f"{url}?wsdl", transport=Transport(operation_timeout=ANSWER_TIMEOUT))
-        self._caller: dict[str, str] = {}
+        self._caller = {"clientId": client}
 
     def call(self, service: str, request: Answer) -> Answer:
         """As of `Way`; a fault is an answer like any other."""
@@ -44,12 +44,11 @@ class _Soap:
         header = etree.Element(f"{{{NS}}}Caller")
         for name, value in self._caller.items():
             etree.SubElement(header, f"{{{NS}}}{name}").text = value
-        return self._client.service[operation](**fields, _soapheaders=[header] if self._caller else None)
+        return self._client.service[operation](**fields, _soapheaders=[header])
 
     def close(self) -> None:
         """Say goodbye, so that control is free, and end the connection."""
-        if self._caller:
-            self._ask("Leave")
+        self._ask("Leave")
         self._client.transport.session.close()
 
 
@@ -59,6 +58,6 @@ def _code(fault: zeep.exceptions.Fault) -> str:
     return "" if found is None else found.text or ""
 
 
-def open_way(url: str) -> Way:
+def open_way(url: str, client: str) -> Way:
     """The robot's web service."""
-    return _Soap(url)
+    return _Soap(url, client)

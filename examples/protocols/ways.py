@@ -19,9 +19,9 @@ __all__ = ["ANSWER_TIMEOUT", "PROTOCOLS", "Answer", "Way", "way_to"]
 
 ANSWER_TIMEOUT = 40.0
 """An answer that waits for an arm takes so long at most [s]."""
-PROTOCOLS = ("mqtt", "rosbridge", "soap", "websocket")
+PROTOCOLS = ("kafka", "mqtt", "rest", "rosbridge", "soap", "websocket")
 """Modules beside this one."""
-SCHEMES = {"ws": "rosbridge", "mqtt": "mqtt"}
+SCHEMES = {"ws": "rosbridge", "mqtt": "mqtt", "kafka": "kafka"}
 """Scheme of a URL without a name to the protocol that it means."""
 
 Answer = dict[str, Any]
@@ -55,19 +55,20 @@ def way_to(url: str, name: str = "") -> Iterator[Way]:
     if not protocol:
         known = ", ".join(f"{each}=URL" for each in PROTOCOLS)
         raise ValueError(f"A way to a robot is {known}, or begins with {' or '.join(SCHEMES)}, not {url!r}.")
-    opened: Callable[[str], Way] = importlib.import_module(f"examples.protocols.{protocol}").open_way
-    way = opened(place)
+    opened: Callable[[str, str], Way] = importlib.import_module(f"examples.protocols.{protocol}").open_way
+    client = uuid.uuid4().hex
+    way = opened(place, client)
     try:
-        yield _Named(way, name or f"{protocol} program")
+        yield _Named(way, client, name or f"{protocol} program")
     finally:
         way.close()
 
 
 class _Named:
-    """Adds to each command who gives it and an id, by which the robot carries it out once however often it comes."""
+    """Adds to each command who gives it and an id of its own, by which the robot carries it out once however often it comes."""
 
-    def __init__(self, way: Way, name: str) -> None:
-        self._way, self._name, self._id = way, name, uuid.uuid4().hex
+    def __init__(self, way: Way, client: str, name: str) -> None:
+        self._way, self._id, self._name = way, client, name
         self._numbers = itertools.count(1)
 
     def call(self, service: str, request: Answer) -> Answer:

@@ -38,6 +38,6 @@ class _WebSocket:
         self._undo.close()
 
 
-def open_way(url: str) -> Way:
+def open_way(url: str, _: str) -> Way:
     """A connection to the gateway."""
     return _WebSocket(url)

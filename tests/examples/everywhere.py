@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from examples.demo.robot import RobotProcess
+from tests.robotside.gateways.kafka.cluster import Cluster
 from tests.robotside.gateways.mqtt.broker import Broker
 
 __all__ = ["Everywhere", "everywhere"]
@@ -25,9 +26,15 @@ class Everywhere:
 @contextmanager
 def everywhere(folder: Path, *options: str) -> Iterator[Everywhere]:
     """A robot called Rex, served with `options`, by which everybody may drive."""
-    broker = Broker(folder)
+    broker, cluster = Broker(folder), Cluster()
     port = _free_port()
-    gateways = (f"mqtt={broker.url}?role=drive", f"websocket=ws://127.0.0.1:{port}?role=drive", "soap")
+    gateways = (
+        f"mqtt={broker.url}?role=drive",
+        f"websocket=ws://127.0.0.1:{port}?role=drive",
+        "soap=?role=drive",
+        "rest=?role=drive",
+        f"kafka=kafka://{cluster.address}?role=drive",
+    )
     brought = [each for gateway in gateways for each in ("--gateway", gateway)]
     try:
         with RobotProcess(
@@ -39,10 +46,13 @@ def everywhere(folder: Path, *options: str) -> Iterator[Everywhere]:
                     "rosbridge": process.url,
                     "mqtt": f"{broker.url}/pilothouse/Rex",
                     "websocket": f"websocket=ws://127.0.0.1:{port}",
+                    "rest": f"rest={process.web}/api",
+                    "kafka": f"kafka://{cluster.address}/pilothouse.Rex",
                     "soap": f"soap={process.web}/soap",
                 },
             )
     finally:
+        cluster.close()
         broker.kill()
 
 

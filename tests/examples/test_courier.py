@@ -22,7 +22,8 @@ REACHED_DISTANCE = 0.5
 """A place counts as reached within this [m]."""
 ORDERS = {
     "rosbridge": ("coffee", ("reception", "room_3")),
-    "soap": ("parcel", ("room_3", "room_1")),
+    "rest": ("parcel", ("room_3", "room_1")),
+    "soap": ("letter", ("room_1", "room_5")),
 }
 """By each protocol something between two offices."""
 
