@@ -141,6 +141,9 @@ class Code(StrEnum):
     PAYLOAD_FIXED = "payload_fixed", "The payload is never switched off.", "payload"
     PAYLOAD_IN_USE = "payload_in_use", "The payload is in use.", "payload"
 
+    WEBHOOK_FAILED = "webhook_failed", "A webhook's receiver takes no events.", "url", "reason"
+    WEBHOOK_ADDRESS = "webhook_address", "Events are not sent to that address for who asks."
+
     # control
 
     CONTROL_TAKEN = "control_taken", "The actor has control.", "name"

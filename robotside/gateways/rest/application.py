@@ -25,6 +25,8 @@ from robotside.gateways.rest.openapi import described
 from robotside.gateways.rest.payload_list import payload_list, payload_state
 from robotside.gateways.rest.statuses import Rejected, status_of
 from robotside.gateways.rest.topic_stream import TopicStreams
+from robotside.gateways.rest.webhook_paths import WebhookPaths
+from robotside.gateways.webhooks.hooks import Hooks
 
 __all__ = ["application"]
 
@@ -35,11 +37,12 @@ MAX_WORD = 256
 Number = Annotated[int, Path(ge=0, le=MAX_NUMBER)]
 Word = Annotated[str, Path(min_length=1, max_length=MAX_WORD)]
 Count = Annotated[int, Query(ge=0, le=MAX_NUMBER)]
+Limit = Annotated[int, Query(ge=1, le=200)]
 Rate = Annotated[float, Query(gt=0, le=MAX_RATE, allow_inf_nan=False)]
 Handler = Callable[..., Awaitable[Response]]
 
 
-def application(desk: Desk, streams: TopicStreams, guide: Callable[[], str]) -> FastAPI:
+def application(desk: Desk, streams: TopicStreams, hooks: Hooks, guide: Callable[[], str]) -> FastAPI:
     """The application; `guide()` is how it is used now."""
     app = FastAPI(
         title=f"{desk.door.info.name}",
@@ -60,6 +63,8 @@ def application(desk: Desk, streams: TopicStreams, guide: Callable[[], str]) -> 
         app.add_api_route(path, handler, methods=["GET"], name=what, response_model=None)
     for path, handler, what in paths.doing():
         app.add_api_route(path, handler, methods=["POST"], name=what, response_model=None)
+    for method, path, handler, what in WebhookPaths(desk, hooks).all():
+        app.add_api_route(path, handler, methods=[method], name=what, response_model=None)
     for command in COMMANDS:
         app.add_api_route(
             command.path,
@@ -192,7 +197,7 @@ class _Paths:
     async def queue(self, request: Request) -> Response:
         return await self._desk.newest(request, "/task/queue")
 
-    async def history(self, request: Request, before: Count = 0, limit: Count = 50) -> Response:
+    async def history(self, request: Request, before: Count = 0, limit: Limit = 50) -> Response:
         return await self._desk.ask(request, "/history/get", {"before": before, "limit": limit})
 
     async def missions(self, request: Request) -> Response:
@@ -298,11 +303,13 @@ async def _http_refusal(request: Request, error: Exception) -> Response:
 
 def _methods(request: Request) -> list[str]:
     """The methods that the path of a request has."""
-    found: set[str] = set()
-    for route in request.app.routes:
-        if isinstance(route, APIRoute) and route.matches(request.scope)[0].value > 0:
-            found |= route.methods or set()
-    return sorted(found)
+    fitting = [
+        route
+        for route in request.app.routes
+        if isinstance(route, APIRoute) and route.matches(request.scope)[0].value > 0
+    ]
+    path = min(fitting, key=lambda route: "{" in route.path).path if fitting else ""
+    return sorted({method for route in fitting if route.path == path for method in route.methods or ()})
 
 
 async def _wrong_parameter(request: Request, error: Exception) -> Response:

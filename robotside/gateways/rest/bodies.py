@@ -13,7 +13,7 @@ from robotside.gateways.plain.strict_json import MAX_INPUT, decode
 from robotside.gateways.rest.forms import JSON, XML
 from robotside.gateways.rest.statuses import Rejected
 
-__all__ = ["CLIENT_ID", "CLIENT_NAME", "KEY", "STAMP", "body_of", "header", "stamp_of"]
+__all__ = ["CLIENT_ID", "CLIENT_NAME", "KEY", "MAX_HEADER", "STAMP", "body_of", "header", "stamp_of"]
 
 CLIENT_ID, CLIENT_NAME = "Client-Id", "Client-Name"
 """Who asks, where no key says it: an id that stays, and a name for people."""
@@ -27,22 +27,23 @@ MAX_HEADER = 64
 """Characters of an id, a name or a key."""
 
 
-async def body_of(request: Request, cls: type[Msg]) -> dict[str, Any]:
+async def body_of(request: Request, cls: type[Msg] | None) -> dict[str, Any]:
     """The object in a request's body, of a form that it names, `{}` for none.
 
     Rejected for what is too long (413) or of another form (415), ProtocolError for what cannot be read. XML is read with
-    the types of `cls`.
+    the types of `cls`, and not at all without it.
     """
     raw = await _raw(request)
     if not raw.strip():
         return {}
     named = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     form = _TYPES.get(named)
-    if form is None:
-        said = f"A body is {JSON} or {XML} by its Content-Type, not {named[:60]!r}."
-        raise Rejected(415, said, {"Accept": f"{JSON}, {XML}"})
     if form == JSON:
         return decode(raw)
+    if form is None or cls is None:
+        forms = (JSON, XML) if cls else (JSON,)
+        said = f"A body is {' or '.join(forms)} by its Content-Type, not {named[:60]!r}."
+        raise Rejected(415, said, {"Accept": ", ".join(forms)})
     from robotside.gateways.rest.xml_form import from_xml  # its library is loaded for who sends it
 
     return from_xml(raw, cls)
@@ -64,8 +65,8 @@ async def _raw(request: Request) -> bytes:
 def header(request: Request, name: str) -> str:
     """The value of a header that names somebody or something; empty without one. ProtocolError for what cannot be shown."""
     value = request.headers.get(name, "").strip()
-    if len(value) > MAX_HEADER or not value.isprintable():
-        raise ProtocolError(f"The header {name} has at most {MAX_HEADER} characters that can be shown.")
+    if len(value) > MAX_HEADER or not (value.isascii() and value.isprintable()):
+        raise ProtocolError(f"The header {name} has at most {MAX_HEADER} letters, digits and signs of ASCII.")
     return value
 
 

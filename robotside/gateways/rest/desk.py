@@ -116,8 +116,10 @@ class Desk:
             return
         for name, field in ((KEY, "command_id"), (CLIENT_ID, "client_id"), (CLIENT_NAME, "client_name")):
             value = header(request, name)
-            if value and body.setdefault(field, value) != value:
+            if value and (body.get(field) or value) != value:
                 raise ProtocolError(f"The header {name} and the field {field} differ.")
+            if value:
+                body[field] = value
 
     def _visit(self, request: Request, body: dict[str, Any]) -> Visitor:
         """Who asks, by the header or by what the body says."""

@@ -26,6 +26,7 @@ from robotside.gateways.rest.forms import JSON, chosen_form, refused
 from robotside.gateways.rest.guide import guide
 from robotside.gateways.rest.statuses import Rejected
 from robotside.gateways.rest.topic_stream import TopicStreams
+from robotside.gateways.webhooks.hooks import Hooks
 
 __all__ = ["RestGateway"]
 
@@ -44,7 +45,8 @@ class RestGateway:
         self._path = f"/{url.path}"
         self._desk = Desk(robot.door, url.keys)
         self._streams = TopicStreams(robot.door)
-        self._app = application(self._desk, self._streams, self.guide)
+        self._hooks = Hooks(robot.door, robot.say)
+        self._app = application(self._desk, self._streams, self._hooks, self.guide)
         self._unmount: Callable[[], None] | None = None
         self._tasks: list[asyncio.Task[Any]] = []
 
@@ -69,6 +71,7 @@ class RestGateway:
         if self._unmount is not None:
             self._unmount()
         self._desk.clients.leave_all()
+        await self._hooks.close()
         await cancel_all(self._tasks)
 
     def endpoints(self) -> Mapping[str, str]:

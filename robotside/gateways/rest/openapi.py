@@ -5,16 +5,18 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
+import msgspec
 from fastapi.openapi.utils import get_openapi
 from msgspec.structs import fields
 
 from bridge.msgs import TYPES, Msg
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from bridge.msgs.rosapi_msgs import GetTimeResponse
-from robotside.gateways.rest.bodies import CLIENT_ID, CLIENT_NAME, KEY, STAMP
+from robotside.gateways.rest.bodies import CLIENT_ID, CLIENT_NAME, KEY, MAX_HEADER, STAMP
 from robotside.gateways.rest.commands import COMMANDS, Command
 from robotside.gateways.rest.forms import EVENTS, JSON, TEXT, XML
 from robotside.gateways.rest.schemas import Schemas
+from robotside.gateways.webhooks.hooks import Wish
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
@@ -119,6 +121,8 @@ class _Description:
         if command is not None:
             operation.pop("x-service", None)
             self._command(operation, command)
+        elif path.startswith("/webhooks"):
+            self._webhook(method, operation)
         elif method == "POST":
             self._doing(path, operation)
         else:
@@ -147,16 +151,34 @@ class _Description:
 
     def _doing(self, path: str, operation: Described) -> None:
         if path == "/stop":
-            _add_headers(operation, CLIENT_NAME)
+            operation["parameters"] = [
+                {
+                    "name": CLIENT_NAME,
+                    "in": "header",
+                    "description": _HEADERS[CLIENT_NAME],
+                    "schema": {"type": "string"},
+                }
+            ]
             operation["responses"]["200"] = _answer("STOP is pressed.", self.schemas.of(CommandResponse))
             return
         _add_headers(operation, *_HEADERS)
         operation["requestBody"] = {
-            "content": {form: {"schema": {"type": "object"}} for form in (JSON, XML)},
+            "content": {JSON: {"schema": {"type": "object"}}, XML: {}},
             "description": "A message of the topic, or the request of the service, in ROS's names.",
         }
         status = "202" if path.startswith("/topics") else "200"
         operation["responses"][status] = _answer("Taken.", _ANY)
+
+    def _webhook(self, method: str, operation: Described) -> None:
+        made, parts = msgspec.json.schema_components([Wish], ref_template="#/components/schemas/{name}")
+        if method == "POST":
+            self.schemas.components |= parts
+            example = {"url": "https://192.0.2.7/robot", "levels": ["alarm"]}
+            operation["requestBody"] = {
+                "content": {JSON: {"schema": made[0], "example": example}},
+                "required": True,
+            }
+        operation["responses"]["201" if method == "POST" else "200"] = _answer("Done.", _ANY)
 
     def _reading(self, path: str, operation: Described) -> None:
         door = self._desk.door
@@ -182,7 +204,7 @@ class _Description:
 
     def _body(self, cls: type[Msg], example: str) -> Described:
         schema = self.schemas.of(cls)
-        content: Described = {JSON: {"schema": schema}, XML: {"schema": schema}}
+        content: Described = {JSON: {"schema": schema}, XML: {}}
         if example:
             content[JSON]["example"] = json.loads(example)
         return {"content": content}
@@ -196,7 +218,7 @@ def _answer(what: str, schema: Described) -> Described:
 def _add_headers(operation: Described, *names: str) -> None:
     found = operation.setdefault("parameters", [])
     for name in names:
-        schema: Described = {"type": "string", "maxLength": 64}
+        schema: Described = {"type": "string", "maxLength": MAX_HEADER, "pattern": "^[ -~]*$"}
         if name == STAMP:
             schema = {"type": "number"}
         found.append({"name": name, "in": "header", "description": _HEADERS[name], "schema": schema})

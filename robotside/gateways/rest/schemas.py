@@ -68,5 +68,14 @@ class Schemas:
         code = CODES.get(field.base, "")
         if code not in WIDTHS:
             return {"type": "string"}
-        least, most = least_and_most(code)
-        return {"type": "integer", "minimum": -128 if field.base == "byte" else least, "maximum": most}
+        least, most = _told_range(field) or least_and_most(code)
+        return {"type": "integer", "minimum": least, "maximum": most}
+
+
+def _told_range(field: Field) -> tuple[int, int] | None:
+    """What the reader allows of a single whole number, where that is not what its width alone says."""
+    for each in typing.get_args(field.hint)[1:]:
+        if isinstance(each, msgspec.Meta) and each.ge is not None and each.le is not None:
+            least, most = int(each.ge), int(each.le)
+            return least, 2**64 - 1 if (least, most) == (0, 2**63 - 1) else most
+    return None

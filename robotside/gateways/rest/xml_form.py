@@ -105,7 +105,7 @@ def _typed(text: str, base: str) -> Any:
     """A number, true or false, null for nothing; the text itself where it is none of them."""
     if base == "bool":
         return {"true": True, "false": False}.get(text, text)
-    if not text:
+    if text in ("", "null"):
         return None
     if _WHOLE.fullmatch(text) and len(text) <= 20:
         return int(text)

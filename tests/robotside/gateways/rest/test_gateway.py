@@ -224,7 +224,7 @@ async def test_a_command_that_is_sent_again_with_its_key_is_done_once(served: Se
         for name in ("Idempotency-Key", "Client-Id", "Client-Name"):
             answer = await web.post("places", json={"name": "C"}, headers={name: "x" * 65})
             assert answer.status_code == 422
-            assert f"header {name} has at most 64 characters" in answer.json()["message"]
+            assert f"header {name} has at most 64 letters" in answer.json()["message"]
         assert len((await web.get("places")).json()["places"]) == 1
 
 
