@@ -45,6 +45,9 @@ class Tuning(TransportTuning):  # type: ignore[misc]  # aiocoap has no types
 
     ACK_TIMEOUT = 1.0
     MAX_RETRANSMIT = 2
+    EMPTY_ACK_DELAY = 1.5
+    """An answer so soon after its request is one message with the acknowledgement [s]: a client repeats a request after 2 s at the
+    earliest, and libcoap 4.3.1 cannot put blocks together that come apart from it."""
     EXCHANGE_LIFETIME = 50.0
     """A request is the same as one with its number before for so long [s]: a client repeats one for at most 45 s."""
 

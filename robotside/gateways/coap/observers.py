@@ -24,7 +24,7 @@ __all__ = ["FIRST_TIMEOUT", "MAX_OBSERVERS", "MAX_OBSERVERS_OF_HOST", "Observers
 
 MAX_OBSERVERS, MAX_OBSERVERS_OF_HOST = 64, 16
 """Observations at a time, and those of one host; beyond them a client is answered once, as CoAP has it."""
-FIRST_TIMEOUT = 3.0
+FIRST_TIMEOUT = 10.0
 """For the first message of a topic that is made on demand [s]."""
 _NUMBERS = 1 << 24
 """Of notifications; they begin anew then."""

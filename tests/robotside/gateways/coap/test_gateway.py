@@ -15,6 +15,7 @@ import msgspec
 import pytest
 from aiocoap import Context, Message
 from aiocoap.numbers.codes import Code as CoapCode
+from aiocoap.numbers.constants import TransportTuning
 from aiocoap.numbers.optionnumbers import OptionNumber
 from aiocoap.numbers.types import ACK, CON, NON, RST
 from aiocoap.optiontypes import OpaqueOption
@@ -472,6 +473,22 @@ async def test_a_camera_is_asked_for_its_next_picture(scene: Scene) -> None:
         assert int(answer.opt.content_format) == 22
         assert answer.payload == b"\xff\xd8" * 900
         assert not scene.robot.wanted["/camera/image/compressed"]
+
+
+async def test_an_answer_that_takes_a_moment_comes_with_the_acknowledgement(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert 1.0 < datagrams.Tuning.EMPTY_ACK_DELAY < TransportTuning.ACK_TIMEOUT
+    monkeypatch.setattr(datagrams.Tuning, "EMPTY_ACK_DELAY", 60.0)  # on a machine that may be busy
+    async with serving(scene) as gateway, device(gateway) as me:
+        me.say(CON, 5, CoapCode.GET, "/camera/image/compressed")
+        await until(lambda: scene.robot.wanted.get("/camera/image/compressed"))
+        await asyncio.sleep(2 * TransportTuning.EMPTY_ACK_DELAY)
+        scene.station.bus.publish(
+            "/camera/image/compressed", CompressedImage(format="jpeg", data=b"\xff" * 3000)
+        )
+        answer = await me.hear()
+        assert (answer.mtype, answer.mid, answer.code) == (ACK, 5, CoapCode.CONTENT)
 
 
 async def test_an_observer_is_told_the_newest_in_order(scene: Scene) -> None:
