@@ -98,8 +98,7 @@ class PayloadSwitches:
             self._may_go(known[key], client)
         who = self._station.controls.name(client)
         said = f"{who} switched {words} {_word(asked.on)}."
-        actor = {"actor_id": self._station.controls.id(client), "name": who}
-        self._switch(known[key], said, on=asked.on, **actor)
+        self._switch(known[key], said, on=asked.on, actor_id=self._station.controls.id(client), name=who)
         return f"{words.capitalize()} is {_word(asked.on)}."
 
     def leave_out(self, key: str) -> None:
@@ -111,17 +110,19 @@ class PayloadSwitches:
         if known[key].on:
             self._may_go(known[key])
             said = f"{key.replace('_', ' ').capitalize()} is off: the robot was brought up without."
-            self._switch(known[key], said, on=False, name="")
+            self._switch(known[key], said, on=False)
 
-    def _switch(self, was: Payload, said: str, *, on: bool, **actor: str) -> None:
-        """Switch it, and tell of it by the sentence `said`."""
+    def _switch(self, was: Payload, said: str, *, on: bool, actor_id: str = "", name: str = "") -> None:
+        """Switch it, and tell of it by the sentence `said`; `name` is who did so, nobody at the start."""
         key = was.key
         if on:
             del self._off[key]
         else:
             self._off[key] = Payload(key, was.doc, False, False, said, was.topics, was.services)
         self._door.switch(key, self._names(key), on=on, power=key != _HIDDEN)
-        notice = Notice(Code.PAYLOAD_SWITCHED, said, **actor, payload=key, state=_word(on))
+        notice = Notice(
+            Code.PAYLOAD_SWITCHED, said, actor_id=actor_id, name=name, payload=key, state=_word(on)
+        )
         self._station.events.say("control", notice)
         self._update()
         self._on_change()
