@@ -27,10 +27,13 @@ from robotside.door.station_door import StationDoor
 from robotside.records import Records
 from robotside.station.station import Station
 from tests.fakes import FakeClient, FakeRobot
+from tests.robotside.gateways.adapter_clients import WAYS
 from tests.robotside.gateways.in_process import Client, Gateways
 
 pytestmark = pytest.mark.slow
 
+HOWS = ("rosbridge", "memory", *WAYS)
+"""By which clients come to a station."""
 NAMES = ("anna", "bert", "carl")
 WHO = strategies.sampled_from(NAMES)
 TICK = 1 / 60
@@ -257,7 +260,7 @@ class OperatorsAtTheDoor(Operators):
         self.gateways.close()
 
     def _fresh(self, name: str) -> Operator:
-        how = ("rosbridge", "memory", "broker")[next(self.numbers) % 3]
+        how = HOWS[next(self.numbers) % len(HOWS)]
         client = self.gateways.connect(how, name)
         self.by_id[client.operator.id] = client
         self._call(client.operator, "/missions/get", client_id=name, client_name=name.capitalize())

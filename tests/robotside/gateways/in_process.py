@@ -5,10 +5,9 @@ from __future__ import annotations
 import asyncio
 import itertools
 import json
-from typing import Any, Protocol
+from typing import Any
 
 from bridge.codec import from_json, to_json
-from bridge.core.robot_catalogue import Operator
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from bridge.server.flow.send_queue import WriteBatch
@@ -21,19 +20,13 @@ from robotside.gateways.plain.visitors import Visitors
 from robotside.gateways.rosbridge.gateway import RosbridgeGateway
 from robotside.gateways.scaling.picture_scaling import PictureScaler
 from tests.bridge.server.flow.test_send_queue import FrameWriter
+from tests.robotside.gateways.adapter_clients import HOST, WAYS, Adapters, Client
 from tests.robotside.gateways.memory import MemoryGateway
 
 __all__ = ["Client", "Gateways"]
 
 
-class Client(Protocol):
-    """An operator at one gateway."""
-
-    operator: Operator
-
-    def publish(self, topic: str, msg: Msg, stamp: float) -> None: ...
-    def ask(self, service: str, request: CommandRequest) -> CommandResponse: ...
-    def leave(self) -> None: ...
+_PORTS = itertools.count(6000)
 
 
 class Gateways:
@@ -47,9 +40,12 @@ class Gateways:
         self.memory = MemoryGateway(door, door.now)
         self._visitors = Visitors(door, "broker", "broker:1", KEYS, role=None, secure=False)
         self._door = door
+        self._adapters = Adapters(door, self.http, self._loop)
 
     def connect(self, how: str, name: str) -> Client:
-        """A client that comes by `rosbridge`, `memory` or a `broker`."""
+        """A client that comes by `rosbridge`, `memory`, a `broker` in plain JSON, or one of the adapters' `WAYS`."""
+        if how in WAYS:
+            return self._adapters.connect(how, name)
         if how == "broker":
             return _Visiting(self._visitors, name)
         return _Direct(self.memory, name) if how == "memory" else self.run(self._connect(name))
@@ -81,6 +77,7 @@ class Gateways:
 
     def close(self) -> None:
         """End the gateways and their loop."""
+        self._adapters.close()
         self.run(self.rosbridge.stop())
         self.run(self.http.stop())
         self.run(self.memory.stop())
@@ -135,7 +132,7 @@ class _Rosbridge:
         self._ids = itertools.count()
         self._soon: list[Any] = []
         self._writer = FrameWriter()
-        self.operator = door.join(f"rosbridge:{name}")
+        self.operator = door.join(f"{HOST}:{next(_PORTS)}")
         context = gateways.rosbridge.server._context
         self._session = RosbridgeSession(self._writer, WriteBatch(self._soon.append), self.operator, context)
         self._say(op="call_service", service="/rosapi/get_time")
