@@ -47,11 +47,13 @@ class Callers:
             return self.newcomer(operator)
         key = _key(operator, client_id)
         visitor = self._known.get(key)
+        if visitor is not None and visitor.operator.identity != operator.identity:
+            self._leave(key)  # with another role it begins anew: what it had, it has no more
+            visitor = None
         if visitor is None:
             self._make_room()
             visitor = self._known[key] = self.newcomer(stand_in(self._door, operator))
             visitor.operator.on_expelled = lambda: self._leave(key)
-        visitor.operator.identity = operator.identity  # its role may be another one by now
         visitor.heard()
         return visitor
 

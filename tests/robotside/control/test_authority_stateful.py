@@ -1,7 +1,7 @@
 """Hundreds of random sequences of what operators may do with control: never two drivers, never a stranger's command, STOP always.
 
-Once with the controls alone; once with a whole station behind its door, where operators come by rosbridge, by a gateway
-in memory and by a broker in plain JSON, and STOP by HTTP as well. Sequences of eight there are all gone through by `tests/slow`; these are longer.
+Once with the controls alone; once with a whole station behind its door, where operators come by all gateways, by the adapters' own
+code, and STOP by HTTP as well. Sequences of eight there are all gone through by `tests/slow`; these are longer.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import random
 
 import pytest
 from hypothesis import HealthCheck, settings, strategies
-from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
+from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
 from bridge.core.identity import public_id
 from bridge.core.link_state import CONTROL_TIMEOUT
@@ -118,6 +118,9 @@ class Operators(RuleBasedStateMachine):
 
     @rule(who=WHO, age=strategies.floats(-0.2, 0.6), speed=strategies.sampled_from([0.0, 0.3, -0.7]))
     def drive(self, who: str, age: float, speed: float) -> None:
+        self._drive(who, age, speed)
+
+    def _drive(self, who: str, age: float, speed: float) -> None:
         client, before, stopped = self._heard(who), self._driver(), self.controls.stopped
         if not self._obeys(client, Twist.planar(speed, 0.0), self.now - age):
             return
@@ -254,13 +257,29 @@ class OperatorsAtTheDoor(Operators):
         )
         self.gateways = Gateways(StationDoor(self.station))
         self.by_id: dict[str, Client] = {}
+        self.hows = itertools.cycle(HOWS)
         return self.station.controls
+
+    @initialize(hows=strategies.permutations(HOWS))
+    def come(self, hows: list[str]) -> None:
+        """All of them come, each by another gateway, and by the next ones whenever they come again."""
+        self.hows = itertools.cycle(hows)
+        for name in NAMES:
+            self._leave(self.clients[name])
+            self.clients[name] = self._fresh(name)
+
+    @rule(who=WHO, speed=strategies.sampled_from([0.0, 0.3]))
+    def let_go_and_drive(self, who: str, speed: float) -> None:
+        """A stick counts once it was let go."""
+        self._drive(who, 0.0, 0.0)
+        self._pass(TICK)
+        self._drive(who, 0.0, speed)
 
     def teardown(self) -> None:
         self.gateways.close()
 
     def _fresh(self, name: str) -> Operator:
-        how = HOWS[next(self.numbers) % len(HOWS)]
+        how = next(self.hows)
         client = self.gateways.connect(how, name)
         self.by_id[client.operator.id] = client
         self._call(client.operator, "/missions/get", client_id=name, client_name=name.capitalize())

@@ -9,6 +9,8 @@ from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 from xml.sax.saxutils import escape
 
+from aiocoap.message import Message
+from aiocoap.numbers.codes import Code as CoapCode
 from aiokafka.structs import ConsumerRecord
 from lxml import etree
 
@@ -20,10 +22,14 @@ from bridge.server.flow.send_queue import WriteBatch
 from robotside.door.station_door import StationDoor
 from robotside.gateways.adapter import AdapterGateway, Surroundings
 from robotside.gateways.broker.command_desk import BYE, CALL, PUBLISH
+from robotside.gateways.coap.datagrams import Endpoint
+from robotside.gateways.coap.requests import JSON
+from robotside.gateways.coap.site import CoapSite
 from robotside.gateways.discovery import read_wish
 from robotside.gateways.http.gateway import HttpGateway
 from robotside.gateways.mqtt.broker_line import Heard
 from robotside.gateways.plain.visitor import STOP, TIME
+from robotside.gateways.plain.visitors import Visitors
 from robotside.gateways.soap.fields import NS, SOAP
 from tests.bridge.server.flow.test_send_queue import FrameWriter
 
@@ -99,7 +105,7 @@ class Adapters:
     def close(self) -> None:
         """End all of them."""
         for way, gateway in self._made.items():
-            if way in _ON_SITE:
+            if way in _ON_SITE or way == "coap":
                 self.run(gateway.stop())
             elif way in _BROKERS:
                 gateway._visitors.leave_all()
@@ -114,6 +120,11 @@ def _said(request: CommandRequest) -> bytes:
     """The request without what it does not say."""
     given = json.loads(to_json(request))
     return json.dumps({name: value for name, value in given.items() if value not in ("", None)}).encode()
+
+
+def _known(visitors: Visitors, name: str) -> Operator:
+    """Who goes by that name."""
+    return next(visitor.operator for key, visitor in visitors._known.items() if name in key)
 
 
 class Rest:
@@ -232,7 +243,12 @@ class WebSocket:
         self._all.run(self._hear(json.dumps(said)))
 
     async def _hear(self, text: str) -> None:
+        self._session.measure_round_trip()  # as its gateway does five times a second
+        self._answer_pings()
         assert self._session.on_message(text)
+        self._answer_pings()
+
+    def _answer_pings(self) -> None:
         while self._soon:
             self._soon.pop(0)()
         for ping in self._wire.unanswered:
@@ -249,7 +265,7 @@ class _AtBroker:
         self._all, self._name, self._gateway = all, name, all.gateway(self.way)
         self._told: list[Any] = []
         self._tell(CALL, TIME, b"{}")
-        self.operator = self._gateway._visitors._known[name, ""].operator
+        self.operator = _known(self._gateway._visitors, name)
 
     def publish(self, topic: str, msg: Msg, stamp: float) -> None:
         self._tell(PUBLISH, topic, to_json(msg), stamp)
@@ -303,10 +319,69 @@ class Kafka(_AtBroker):
         )
 
 
+class _Pipe:
+    """One request and its answer."""
+
+    def __init__(self, request: Message) -> None:
+        self.request = request
+        self.answers: list[Message] = []
+
+    def add_response(self, response: Message, *, is_last: bool) -> None:
+        assert is_last
+        self.answers.append(response)
+
+
+class Coap:
+    """A client of the CoAP gateway, by requests of one message each."""
+
+    def __init__(self, all: Adapters, name: str) -> None:
+        self._all, self._name, self._gateway = all, name, all.gateway("coap")
+        self._ask(TIME, b"")
+        self.operator = _known(self._gateway._clients, name)
+
+    def publish(self, topic: str, msg: Msg, stamp: float) -> None:
+        self._ask(topic, to_json(msg), stamp)
+
+    def ask(self, service: str, request: CommandRequest) -> CommandResponse:
+        return from_json(self._ask(service, to_json(request), self._all.door.now()), CommandResponse)
+
+    def leave(self) -> None:
+        self._ask("/bye", b"")
+
+    def _ask(self, path: str, raw: bytes, stamp: float | None = None) -> bytes:
+        query = [f"client={self._name}", *([] if stamp is None else [f"stamp={stamp!r}"])]
+        parts = tuple(path.strip("/").split("/"))
+        asked = Message(
+            code=CoapCode.POST,
+            payload=raw,
+            uri_path=parts,
+            uri_query=tuple(query),
+            accept=JSON,
+            content_format=JSON,
+        )
+        asked.remote = Endpoint(HOST, 5003, "127.0.0.1:5683", None)
+        return self._all.run(self._answered(_Pipe(asked)))  # type: ignore[no-any-return]
+
+    async def _answered(self, pipe: _Pipe) -> bytes:
+        if self._gateway._site is None:
+            door, url = self._all.door, self._gateway._url
+            self._gateway._site = CoapSite(
+                door,
+                self._gateway._clients,
+                url.keys,
+                url.rate,
+                plain_from=lambda _: True,
+                pages=self._gateway._page,
+            )
+        await self._gateway._site.answer(pipe)
+        return bytes(pipe.answers[0].payload)
+
+
 WAYS: dict[str, Callable[[Adapters, str], Client]] = {
     "rest": Rest,
     "soap": Soap,
     "websocket": WebSocket,
+    "coap": Coap,
     "mqtt": Mqtt,
     "kafka": Kafka,
 }
@@ -316,6 +391,7 @@ _URLS = {
     "rest": "rest=?role=drive",
     "soap": "soap=?role=drive",
     "websocket": "websocket=ws://127.0.0.1:9190?role=drive",
+    "coap": "coap=coap://127.0.0.1:5683?role=drive",
     "mqtt": "mqtt=mqtt://192.0.2.99:1883?role=drive",
     "kafka": "kafka=kafka://192.0.2.99:9092?role=drive",
 }

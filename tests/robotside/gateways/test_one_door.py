@@ -20,7 +20,7 @@ from tests.robotside.gateways.adapter_clients import WAYS, Client
 from tests.robotside.gateways.in_process import Gateways
 
 HOWS = ("rosbridge", "memory", *WAYS)
-DIRECT = ("rosbridge", "rest", "soap", "websocket")
+DIRECT = ("rosbridge", "rest", "soap", "websocket", "coap")
 """Those whose clients come by a connection of their own from one host; behind a broker the broker is the host."""
 AHEAD = Twist.planar(0.3, 0.0)
 

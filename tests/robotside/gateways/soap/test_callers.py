@@ -8,6 +8,7 @@ from bridge.core.errors import Refused
 from bridge.core.identity import Identity, Role
 from bridge.core.robot_catalogue import Operator
 from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import CommandRequest
 from robotside.gateways.payloads.table import KEYS
 from robotside.gateways.plain.visitors import IDLE_TIMEOUT, MAX_VISITORS, SILENT_TIMEOUT
 from robotside.gateways.soap.callers import Callers
@@ -44,11 +45,14 @@ def test_who_gives_none_is_gone_with_its_request(callers: Callers, scene: Scene)
     assert len(callers) == 0
 
 
-def test_it_has_the_role_that_it_shows_now(callers: Callers, scene: Scene) -> None:
+def test_with_another_role_it_begins_anew_and_has_control_no_more(callers: Callers, scene: Scene) -> None:
     kept = callers.visit(request(scene), "a")
-    weak = Identity("", "", Role.WATCH)
-    assert callers.visit(request(scene, identity=weak), "a").operator.role(scene.clock) is Role.WATCH
-    assert kept.operator.role(scene.clock) is Role.WATCH
+    assert scene.door.call(kept.operator, "/control/acquire", CommandRequest()).success  # type: ignore[union-attr]
+    weak = callers.visit(request(scene, identity=Identity("", "", Role.WATCH)), "a")
+    assert weak is not kept
+    assert weak.operator.role(scene.clock) is Role.WATCH
+    assert not scene.control.driver
+    assert len(callers) == 1
 
 
 @pytest.mark.parametrize("ending", ["leaves", "all leave", "is expelled"])
