@@ -247,13 +247,13 @@ class _Paths:
     async def topics(self, request: Request) -> Response:
         return self._desk.topics(request)
 
-    async def topic(self, request: Request, name: Word, rate: Rate = 5.0) -> Response:
+    async def topic(self, request: Request, name: Word, rate: Rate = MAX_RATE) -> Response:
         form = chosen_form(", ".join(request.headers.getlist("accept")), (*FORMS, EVENTS))
         if form == EVENTS:
             return await self.stream(request, name, rate)
         return await self._desk.newest(request, f"/{name}")
 
-    async def stream(self, request: Request, name: Word, rate: Rate = 5.0) -> Response:
+    async def stream(self, request: Request, name: Word, rate: Rate = MAX_RATE) -> Response:
         chosen_form(", ".join(request.headers.getlist("accept")), (EVENTS,))
         topic = self._desk.topic(request, f"/{name}")
         return self._streams.stream(operator_of(request), topic, rate)

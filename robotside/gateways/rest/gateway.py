@@ -44,7 +44,7 @@ class RestGateway:
         self._door, self._say, self._url, self._site = robot.door, robot.say, url, robot.site
         self._path = f"/{url.path}"
         self._desk = Desk(robot.door, url.keys)
-        self._streams = TopicStreams(robot.door)
+        self._streams = TopicStreams(robot.door, url.rate)
         self._hooks = Hooks(robot.door, robot.say)
         self._app = application(self._desk, self._streams, self._hooks, self.guide)
         self._unmount: Callable[[], None] | None = None

@@ -34,8 +34,9 @@ _ALIVE = b": alive\n\n"
 class TopicStreams:
     """The streams of one gateway."""
 
-    def __init__(self, door: StationDoor) -> None:
-        self._door = door
+    def __init__(self, door: StationDoor, rate: float) -> None:
+        """Of each at most `rate` messages a second are sent [Hz]."""
+        self._door, self._rate = door, rate
         self._open: set[_Stream] = set()
 
     def __len__(self) -> int:
@@ -46,7 +47,7 @@ class TopicStreams:
         if len(self._open) >= MAX_STREAMS:
             said = f"{MAX_STREAMS} streams are read already; close one of them."
             raise Refused(Notice(Code.GATEWAY_FULL, said, max=MAX_STREAMS))
-        return _Stream(self._door, self._open, operator, topic, rate)
+        return _Stream(self._door, self._open, operator, topic, min(rate, self._rate))
 
 
 class _Stream(Response):

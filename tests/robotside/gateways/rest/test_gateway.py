@@ -137,14 +137,18 @@ async def test_a_driver_that_falls_silent_leaves_a_robot_at_rest_and_control_lap
 
 
 async def test_a_drive_command_needs_a_stamp_of_the_robots_time_that_is_fresh(served: Served) -> None:
-    now = served.scene.clock
     async with served.client(Client_Id="me") as web:
         assert (await web.post("control")).json()["success"]
         answer = await push(served, web)
         assert (answer.status_code, answer.json()["code"]) == (409, "drive_clock_unknown")
         await web.get("time")
+        await web.post("topics/cmd_vel", json={})  # released before it is pushed
+        served.scene.run(0.05)
         answer = await web.post("topics/cmd_vel", json=AHEAD)
         assert (answer.status_code, answer.json()["code"]) == (422, "gateway_undated")
+        served.scene.run(0.1)
+        assert served.scene.robot.at_rest
+        now = served.scene.clock
         for stamp in ("never", "nan", "inf", ""):
             answer = await web.post("topics/cmd_vel", json=AHEAD, headers={"Stamp": stamp})
             assert answer.status_code == 422
