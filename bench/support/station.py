@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import IO
@@ -60,16 +60,17 @@ def _cpu(process: psutil.Process) -> float:
 def serving(
     module: str = "robotside",
     *more: str,
+    before: Sequence[str] = (),
     state: str | None = None,
     log: IO[str] | None = None,
     own_session: bool = False,
 ) -> Iterator[Serving]:
-    """Run `python -m module serve`, with the simulated patrol robot unless `more` says otherwise, until the end of the block.
+    """Run `python -m module serve`, with the words `before` between the two, with the simulated patrol robot unless `more` says otherwise, until the end of the block.
 
     With its records in the folder `state`; in a folder of its own if None. It logs to `log`, to our standard error if None;
     `own_session` is as `child` has it.
     """
-    options = ("serve", "--port", "0", "--http-port", "0", *more, "--state")
+    options = (*before, "serve", "--port", "0", "--http-port", "0", *more, "--state")
     with (
         tempfile.TemporaryDirectory() as own,
         child(module, *options, state or own, log=log, own_session=own_session) as process,
