@@ -19,9 +19,9 @@ __all__ = ["ANSWER_TIMEOUT", "PROTOCOLS", "Answer", "Way", "way_to"]
 
 ANSWER_TIMEOUT = 40.0
 """An answer that waits for an arm takes so long at most [s]."""
-PROTOCOLS = ("kafka", "mqtt", "rest", "rosbridge", "soap", "websocket")
+PROTOCOLS = ("coap", "kafka", "mqtt", "rest", "rosbridge", "soap", "websocket")
 """Modules beside this one."""
-SCHEMES = {"ws": "rosbridge", "mqtt": "mqtt", "kafka": "kafka"}
+SCHEMES = {"ws": "rosbridge", "mqtt": "mqtt", "kafka": "kafka", "coap": "coap"}
 """Scheme of a URL without a name to the protocol that it means."""
 
 Answer = dict[str, Any]

@@ -27,11 +27,12 @@ class Everywhere:
 def everywhere(folder: Path, *options: str) -> Iterator[Everywhere]:
     """A robot called Rex, served with `options`, by which everybody may drive."""
     broker, cluster = Broker(folder), Cluster()
-    port = _free_port()
+    port, datagrams = _free_port(), _free_port(socket.SOCK_DGRAM)
     gateways = (
         f"mqtt={broker.url}?role=drive",
         f"websocket=ws://127.0.0.1:{port}?role=drive",
         "soap=?role=drive",
+        f"coap=coap://127.0.0.1:{datagrams}?role=drive",
         "rest=?role=drive",
         f"kafka=kafka://{cluster.address}?role=drive",
     )
@@ -46,6 +47,7 @@ def everywhere(folder: Path, *options: str) -> Iterator[Everywhere]:
                     "rosbridge": process.url,
                     "mqtt": f"{broker.url}/pilothouse/Rex",
                     "websocket": f"websocket=ws://127.0.0.1:{port}",
+                    "coap": f"coap://127.0.0.1:{datagrams}",
                     "rest": f"rest={process.web}/api",
                     "kafka": f"kafka://{cluster.address}/pilothouse.Rex",
                     "soap": f"soap={process.web}/soap",
@@ -56,7 +58,8 @@ def everywhere(folder: Path, *options: str) -> Iterator[Everywhere]:
         broker.kill()
 
 
-def _free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as taken:
+def _free_port(kind: socket.SocketKind = socket.SOCK_STREAM) -> int:
+    with socket.socket(socket.AF_INET, kind) as taken:
+        taken.bind(("127.0.0.1", 0))
         port: int = taken.getsockname()[1]
         return port

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -78,6 +79,8 @@ def test_the_page_shows_the_picture_touches_the_box_and_stops_the_arm(
         chromium.until(f"document.querySelector('[data-pose={pose}]').ariaPressed === 'true'")
         arm = newest(robot)
         assert (arm.pose, arm.touching) == (pose, bool(touching))
+        if touching and "PICTURES" in os.environ:  # for the docs
+            (Path(os.environ["PICTURES"]) / "object-touch.png").write_bytes(chromium.picture())
         chromium.run("document.getElementById('said').textContent = ''")
 
     chromium.click("[data-pose=stretch]")
