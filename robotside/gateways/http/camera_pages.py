@@ -16,6 +16,8 @@ from bridge.core.topics import CAMERA, camera_topics
 from robotside.door.station_door import StationDoor
 from robotside.gateways.http.asker import is_known, operator_of
 from robotside.gateways.http.camera_streams import MEDIA_TYPES, CameraStreams
+from robotside.gateways.http.mounts import STAYS
+from robotside.gateways.http.whep import MAX_OFFER, BadOffer
 from robotside.gateways.video.delays import Delays
 from robotside.gateways.video.views import BadViewError, View, view_of
 
@@ -24,12 +26,13 @@ __all__ = ["SNAPSHOT_TIMEOUT", "CameraPages", "cameras_part", "delay_words"]
 SNAPSHOT_TIMEOUT = 2.0
 """How long to wait for a picture [s]."""
 
+_SDP = "application/sdp"
 _FRESH = {"Cache-Control": "no-store"}
 _PICTURES = {"jpg": "image/jpeg", "png": "image/png"}
 
 _CAMERA = """<li>camera {name}: <code>{bridge}/camera/{name}</code>, a picture as <a href="/snapshot/{name}.jpg">jpg</a> or
-<a href="/snapshot/{name}.png">png</a>, moving pictures as {streams}. All take <code>?width=</code> [px] and <code>quality=</code>
-(1 to 95; not png), the moving ones <code>rate=</code> [Hz] and <code>codec=</code> (webm: vp8 or vp9). A browser's player
+<a href="/snapshot/{name}.png">png</a>, moving pictures as {streams}, and by WebRTC: <code>POST /whep/{name}</code> ({whep}). All take <code>?width=</code> [px] and <code>quality=</code>
+(1 to 95; not png), the moving ones <code>rate=</code> [Hz] and <code>codec=</code> (webm: vp8 or vp9; WebRTC: h264 or vp8). A browser's player
 keeps mp4 and webm back for 2 to 4 s more: drive by mjpeg.<br>
 <img src="/stream/{name}.mjpeg?width=480&amp;rate=10" width="480" alt="what the camera sees"></li>
 """
@@ -46,6 +49,8 @@ class CameraPages:
         return [
             Route("/snapshot/{name}.{kind}", self.snapshot),
             Route("/stream/{name}.{kind}", self.stream),
+            Route("/whep/{name}", self.whep, methods=["POST"]),
+            Route("/whep/{name}/{session}", self.leave, methods=["DELETE"]),
         ]
 
     async def snapshot(self, request: Request) -> Response:
@@ -68,6 +73,33 @@ class CameraPages:
         operator_of(request).on_expelled = viewer.end
         return viewer
 
+    async def whep(self, request: Request) -> Response:
+        """An answer to who offers to receive by WebRTC."""
+        view = self._view(request, ("whep",), "whep")
+        if request.headers.get("content-type", "").partition(";")[0].strip().lower() != _SDP:
+            raise HTTPException(415, f"An offer is {_SDP}.")
+        operator = operator_of(request)
+        try:
+            name, answer, end = await self._streams.whep.open(
+                view,
+                await _offer(request),
+                request.client.host if request.client else "",
+                lambda: self._may_watch(request),
+                lambda: self._door.leave(operator),
+            )
+        except BadOffer as problem:
+            raise HTTPException(400, str(problem)) from problem
+        setattr(request.state, STAYS, True)  # until the session ends
+        operator.on_expelled = end
+        where = {"Location": f"/whep/{request.path_params['name']}/{name}"}
+        return Response(answer, 201, _FRESH | where, media_type=_SDP)
+
+    async def leave(self, request: Request) -> Response:
+        """Who looked by WebRTC leaves."""
+        if not self._streams.whep.end(request.path_params["session"]):
+            raise HTTPException(404, "There is no such session.")
+        return Response(headers=_FRESH)
+
     def _may_watch(self, request: Request) -> bool:
         try:
             self._door.check(operator_of(request), "camera", request.path_params["name"])
@@ -75,9 +107,9 @@ class CameraPages:
             return False
         return True
 
-    def _view(self, request: Request, kinds: Iterable[str]) -> View:
+    def _view(self, request: Request, kinds: Iterable[str], kind: str = "") -> View:
         """What of which camera is asked for; HTTPException with one sentence for what does not exist or may not be seen."""
-        name, kind = request.path_params["name"], request.path_params["kind"]
+        name, kind = request.path_params["name"], kind or request.path_params["kind"]
         try:
             self._door.check(operator_of(request), "camera", name)
         except Refused as refusal:
@@ -96,6 +128,19 @@ class CameraPages:
             raise HTTPException(422, str(problem)) from problem
 
 
+async def _offer(request: Request) -> str:
+    """The body; HTTPException for what is too long or no text."""
+    body = b""
+    async for part in request.stream():
+        body += part
+        if len(body) > MAX_OFFER:
+            raise HTTPException(413, f"An offer has at most {MAX_OFFER} bytes.")
+    try:
+        return body.decode()
+    except UnicodeDecodeError as fault:
+        raise HTTPException(400, "An offer is UTF-8.") from fault
+
+
 def cameras_part(door: StationDoor, bridge_url: str, delays: Delays) -> str:
     """The items of the page's list that say how each camera is reached, each stream with its measured delay."""
     topics = camera_topics(door.info.cameras)
@@ -103,6 +148,7 @@ def cameras_part(door: StationDoor, bridge_url: str, delays: Delays) -> str:
         _CAMERA.format(
             name=html.escape(name),
             bridge=html.escape(bridge_url),
+            whep=delay_words(delays, topic, "whep"),
             streams=", ".join(_stream(name, kind, delay_words(delays, topic, kind)) for kind in MEDIA_TYPES),
         )
         for name, topic in topics.items()

@@ -15,6 +15,7 @@ from bridge.core.async_tasks import cancel_all
 from bridge.core.errors import BridgeError
 from bridge.core.robot_door import RobotDoor
 from bridge.core.topics import CAMERA
+from robotside.gateways.http.whep import WhepSessions
 from robotside.gateways.scaling.picture_scaling import PictureScaler, Superseded
 from robotside.gateways.video.delays import Delays
 from robotside.gateways.video.film_file import FilmFile, Mp4File, WebmFile
@@ -57,9 +58,12 @@ class CameraStreams:
         """What MP4 and WebM show."""
         self.delays = Delays()
         """How old pictures are when they are written, by camera and kind of stream."""
+        self.whep = WhepSessions(self.films, self.delays)
+        """Who looks by WebRTC."""
 
     async def close(self) -> None:
-        """End the films."""
+        """End the films and who looks by WebRTC."""
+        await self.whep.close()
         await self.films.close()
 
     async def picture(self, view: View, patience: float) -> bytes | None:

@@ -9,6 +9,7 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, contextmanager
+from types import ModuleType
 
 from bridge.core.errors import BridgeError
 from robotside.gateways.video.newest_picture import NewestPicture, Pace
@@ -60,6 +61,10 @@ class FilmViewer:
         """As of `VideoEncoder.parameters`."""
         return self._film.encoder.parameters
 
+    def want_key(self) -> None:
+        """It lost something on the way, and needs a complete picture to go on."""
+        self._film.want_key()
+
     def offer(self, picture: Encoded) -> None:
         """The film goes on."""
         if self._waits_for_key and not picture.key:
@@ -101,10 +106,10 @@ class SharedEncodings:
         """Films that are being made, or come to their end."""
         return len(self._films) + len(self._ending)
 
-    async def load(self) -> None:
-        """Load what makes film, beside the loop. Raises NoVideo where it is not installed."""
+    async def load(self, what: Callable[[], ModuleType] = library) -> ModuleType:
+        """Load what makes film, or `what` is needed beside it, beside the loop. Raises NoVideo where it is not installed."""
         self._worker = self._worker or ThreadPoolExecutor(1, thread_name_prefix="film")
-        await asyncio.get_running_loop().run_in_executor(self._worker, library)
+        return await asyncio.get_running_loop().run_in_executor(self._worker, what)
 
     def check(self, view: View) -> None:
         """Raises FullError when there are too many films that differ from `view`."""

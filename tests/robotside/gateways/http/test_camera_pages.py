@@ -261,13 +261,13 @@ async def test_the_end_of_the_robot_side_ends_films_and_their_thread_too(tmp_pat
 async def test_the_page_says_how_late_each_kind_of_stream_is_once_somebody_has_looked(tmp_path: Path) -> None:
     async with filming(tmp_path) as (robot, serves, web):
         before = (await web.get("/")).text
-        assert before.count("delay: measured once somebody looks") == 3
+        assert before.count("delay: measured once somebody looks") == 4
         async with playing(web, "front.mp4") as player:
             await robot.until(True)
             shoot(serves, numbered(1))
             await player.until(1)
         after = (await web.get("/")).text
-        assert after.count("delay: measured once somebody looks") == 2
+        assert after.count("delay: measured once somebody looks") == 3
         assert '<a href="/stream/front.mp4">mp4</a> (delay: half of the pictures up to' in after
 
 
