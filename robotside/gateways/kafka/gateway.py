@@ -141,7 +141,7 @@ class KafkaGateway:
         if new:
             self._told_of |= new
             said = (
-                f"The {_BROKER} does not take {len(new)} topics of the robot, as {min(new)}: "
+                f"The {_BROKER} does not take {len(new)} of the robot's topics, as {min(new)}: "
                 "make them, or let the broker make topics by itself."
             )
             notice = Notice(Code.GATEWAY_REFUSED, said, gateway=WAY, topic=min(new))

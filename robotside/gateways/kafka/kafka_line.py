@@ -250,7 +250,7 @@ class KafkaLine(Line):
         await consumer.seek_to_end()
         for partition in consumer.assignment():
             end = await consumer.position(partition)
-            known = self._positions.get(partition, end)
+            known = self._positions[partition] = min(self._positions.get(partition, end), end)
             if not self._drops_stale and known < end:
                 consumer.seek(partition, known)
 

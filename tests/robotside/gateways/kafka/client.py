@@ -18,11 +18,11 @@ from robotside.gateways.adapter import Surroundings
 from robotside.gateways.gateway_url import GatewayUrl, read_url
 from robotside.gateways.kafka.adapter import ADAPTER
 from robotside.gateways.kafka.gateway import KafkaGateway
-from robotside.gateways.kafka.kafka_line import close_ends
+from robotside.gateways.kafka.kafka_line import KafkaLine, close_ends
 from tests.robotside.gateways.kafka.cluster import Cluster
 from tests.robotside.scene import Scene
 
-__all__ = ["AHEAD", "ROOT", "Client", "client", "codes", "driving", "online", "serving", "until"]
+__all__ = ["AHEAD", "ROOT", "Client", "client", "codes", "driving", "hold_back", "online", "serving", "until"]
 
 ROOT = "pilothouse.Fake-1"
 AHEAD = {"linear": {"x": 0.2}}
@@ -163,6 +163,18 @@ def codes(scene: Scene) -> list[str]:
 async def online(gateway: KafkaGateway) -> None:
     """Both lines listen."""
     await until(lambda: math.inf not in (gateway._commands._beat, gateway._stop._beat))
+
+
+def hold_back(line: KafkaLine) -> asyncio.Event:
+    """The line is not made again before the event is set."""
+    connect, gate = line._connect, asyncio.Event()
+
+    async def later() -> None:
+        await gate.wait()
+        await connect()
+
+    line._connect = later  # type: ignore[method-assign]
+    return gate
 
 
 async def driving(scene: Scene, me: Client) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from pathlib import Path
 
 import pytest
@@ -10,10 +9,18 @@ import pytest
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Event
 from robotside.gateways.kafka import kafka_line
-from robotside.gateways.kafka.gateway import KafkaGateway
 from tests.fakes import FakeRobot
 from tests.robotside import scene as scenes
-from tests.robotside.gateways.kafka.client import ROOT, client, codes, driving, online, serving, until
+from tests.robotside.gateways.kafka.client import (
+    ROOT,
+    client,
+    codes,
+    driving,
+    hold_back,
+    online,
+    serving,
+    until,
+)
 from tests.robotside.gateways.kafka.cluster import STORAGE, UNAUTHORIZED, UNKNOWN, Cluster
 from tests.robotside.scene import Scene
 
@@ -31,25 +38,13 @@ def losses(scene: Scene) -> list[str]:
     return [msg.text for _, msg in scene.said if isinstance(msg, Event) and msg.code == Code.GATEWAY_LOST]
 
 
-def hold_back(gateway: KafkaGateway) -> asyncio.Event:
-    """Commands are not reached again before the event is set."""
-    connect, gate = gateway._commands._connect, asyncio.Event()
-
-    async def later() -> None:
-        await gate.wait()
-        await connect()
-
-    gateway._commands._connect = later  # type: ignore[method-assign]
-    return gate
-
-
 async def test_the_robot_rests_when_its_broker_dies_and_obeys_nothing_old_when_it_is_back(
     scene: Scene, cluster: Cluster
 ) -> None:
     async with serving(scene, cluster) as gateway, client(scene, cluster) as me:
         await online(gateway)
         await driving(scene, me)
-        gate = hold_back(gateway)
+        gate = hold_back(gateway._commands)
         cluster.down()
         await until(lambda: scene.robot.at_rest)
         assert not scene.control.driver
@@ -130,7 +125,7 @@ async def test_a_topic_of_the_robot_that_the_broker_does_not_take_is_said_once_a
         scene.run(1.0)
         assert (await me.ask("call", "/rosapi/get_time"))["time"]
     (said,) = [msg for _, msg in scene.said if isinstance(msg, Event) and msg.code == Code.GATEWAY_REFUSED]
-    assert f"does not take 1 topics of the robot, as {ROOT}.topics.odom" in said.text
+    assert f"does not take 1 of the robot's topics, as {ROOT}.topics.odom" in said.text
 
 
 async def test_two_robots_of_one_name_take_stop_only_until_one_of_them_is_gone(

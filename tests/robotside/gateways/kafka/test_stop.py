@@ -12,7 +12,7 @@ from bridge.msgs.geometry_msgs import Twist
 from robotside.gateways.kafka import kafka_line
 from tests.fakes import FakeRobot
 from tests.looped import looped
-from tests.robotside.gateways.kafka.client import AHEAD, client, codes, online, serving, until
+from tests.robotside.gateways.kafka.client import AHEAD, client, codes, hold_back, online, serving, until
 from tests.robotside.gateways.kafka.cluster import Cluster
 from tests.robotside.scene import Scene
 
@@ -87,21 +87,23 @@ async def test_a_stop_from_before_the_robot_came_is_not_heard(scene: Scene, clus
             assert not scene.station.controls.stopped
 
 
+@pytest.mark.parametrize("had_one", [False, True])
 async def test_a_stop_that_was_pressed_while_the_line_was_gone_holds(
-    scene: Scene, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
+    had_one: bool, scene: Scene, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    scene.run(4.0)
     async with serving(scene, cluster) as gateway, client(scene, cluster) as me:
         await online(gateway)
-        assert (await me.press_stop())["success"]
-        scene.run(1.0)
-        assert scene.release_stop().success
-        line = gateway._stop
-        positions = dict(line._positions)
-        assert positions
+        if had_one:
+            assert (await me.press_stop())["success"]
+            scene.run(1.0)
+            assert scene.release_stop().success
+        gate = hold_back(gateway._stop)
         monkeypatch.setattr(kafka_line, "ANSWER_TIMEOUT", 1.0)
         cluster.down()
-        await until(lambda: not line.is_up and Code.GATEWAY_LOST in codes(scene))
+        await until(lambda: not gateway._stop.is_up and Code.GATEWAY_LOST in codes(scene))
         cluster.up()
-        # as one that was pressed meanwhile: the line is behind the end of its topic
-        line._positions = {each: at - 1 for each, at in positions.items()}
+        await me.put("stop", b"{}")
+        assert not scene.station.controls.stopped
+        gate.set()
         await until(lambda: scene.station.controls.stopped)
