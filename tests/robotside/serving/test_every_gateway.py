@@ -58,11 +58,15 @@ class Manager:
 
     async def up(self, name: str, url: str) -> BringUpGatewayResponse:
         request = BringUpGatewayRequest(name=name, url=url)
-        return await self._client.call("/gateways/bring_up", request, BringUpGatewayResponse)
+        return await self._client.call(
+            "/gateways/bring_up", request, BringUpGatewayResponse, timeout=PATIENCE
+        )
 
     async def down(self, name: str) -> BringDownGatewayResponse:
         request = BringDownGatewayRequest(name=name)
-        return await self._client.call("/gateways/bring_down", request, BringDownGatewayResponse)
+        return await self._client.call(
+            "/gateways/bring_down", request, BringDownGatewayResponse, timeout=PATIENCE
+        )
 
 
 @asynccontextmanager
