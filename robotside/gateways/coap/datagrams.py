@@ -32,7 +32,9 @@ MAX_DATAGRAM = 2048
 MAX_TOKEN = 8
 """Bytes of a token; CoAP has no longer ones, which aiocoap takes."""
 MAX_BURST = 64
-"""Datagrams in one step of the loop."""
+"""Datagrams that are read in one step of the loop."""
+MAX_HEARD = 8
+"""Those of them that are more than dropped: a request takes the robot half a millisecond, and others have their turn between."""
 ACK_LIFETIME = 15.0
 """No acknowledgement comes later than this [s]: aiocoap has given up."""
 STOP_PATH = ("stop",)
@@ -157,6 +159,7 @@ class DatagramSocket:
         """The robot asks nobody."""
 
     def _read(self) -> None:
+        heard = 0
         for _ in range(MAX_BURST):
             try:
                 data, address = self._sock.recvfrom(MAX_DATAGRAM)
@@ -166,23 +169,25 @@ class DatagramSocket:
                 log.info("A datagram cannot be read: %s", error)
                 return
             try:
-                self._hear(data, address)
+                heard += self._hear(data, address)
             except Exception:
                 log.exception("A datagram from %s was not understood", address[0])
-            if self._manager is None:
+            if self._manager is None or heard >= MAX_HEARD:
                 return
 
-    def _hear(self, data: bytes, address: Any) -> None:
+    def _hear(self, data: bytes, address: Any) -> bool:
+        """Handle a datagram; False for one that was dropped."""
         host, port = address[:2]
-        now = self._loop.time()
-        if not _LOOKS_LIKE_STOP.search(data):
-            if self._guard.hears(host, port, now):
-                self._dispatch(_decoded(data, Endpoint(host, port, self._own, address)))
-            return
-        message = _decoded(data, Endpoint(host, port, self._own, address))
-        heard = message is not None and is_stop(message) and self._guard.hears_stop(now)
-        if heard or self._guard.hears(host, port, now):
-            self._dispatch(message)
+        now, message = self._loop.time(), None
+        if _LOOKS_LIKE_STOP.search(data):
+            message = _decoded(data, Endpoint(host, port, self._own, address))
+            if message is not None and is_stop(message) and self._guard.hears_stop(now):
+                self._dispatch(message)
+                return True
+        if not self._guard.hears(host, port, now):
+            return False
+        self._dispatch(message or _decoded(data, Endpoint(host, port, self._own, address)))
+        return True
 
     def _dispatch(self, message: Any) -> None:
         if message is None or self._manager is None:

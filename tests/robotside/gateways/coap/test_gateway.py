@@ -192,8 +192,8 @@ async def test_stop_is_heard_at_the_very_moment_at_which_nothing_else_is(
 ) -> None:
     monkeypatch.setattr(flood_guard, "ALL_RATE", 0.0)
     async with serving(scene) as gateway:
-        socket, heard = gateway._server.socket, []
-        socket._dispatch = heard.append
+        own, heard = gateway._server.socket, []
+        own._dispatch = heard.append
         order, look, stop = (
             Message(code=code, payload=b"stop", _mtype=NON, _mid=1, uri_path=path).encode()
             for code, path in (
@@ -203,12 +203,32 @@ async def test_stop_is_heard_at_the_very_moment_at_which_nothing_else_is(
             )
         )
         for number in range(1000):
-            socket._hear(order, ("127.0.0.1", number % 7))
+            own._hear(order, ("127.0.0.1", number % 7))
         count = len(heard)
         assert count <= flood_guard.ALL_BURST
         for raw in (order, look, stop, order, look):
-            socket._hear(raw, ("127.0.0.1", 5000))
+            own._hear(raw, ("127.0.0.1", 5000))
         assert [datagrams.is_stop(message) for message in heard[count:]] == [True]
+
+
+async def test_of_a_flood_a_few_are_heard_before_others_have_their_turn(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(flood_guard, "ALL_RATE", 0.0)
+    monkeypatch.setattr(flood_guard, "ALL_BURST", 50.0)
+    async with serving(scene) as gateway, device(gateway) as noise:
+        own, heard = gateway._server.socket, []
+        own._dispatch = heard.append
+        for number in range(50):
+            noise.say(NON, number, CoapCode.POST, "/cmd_vel")
+        own._read()
+        assert len(heard) == datagrams.MAX_HEARD
+        await until(lambda: len(heard) == 50)
+        for number in range(40):
+            noise.say(NON, number, CoapCode.POST, "/cmd_vel")
+        noise.say(NON, 99, CoapCode.POST, "/stop")
+        own._read()
+        assert datagrams.is_stop(heard[-1]), "what is dropped takes no turn"
 
 
 async def test_stop_is_answered_where_too_much_is_under_way_and_nothing_else(
