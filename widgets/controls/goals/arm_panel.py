@@ -282,47 +282,49 @@ def _state(pose: str, **figures: Any) -> ArmState:
     )
 
 
+def _made(
+    msg: ArmState | None, size: tuple[float, float] = (326.0, 228.0), **more: Any
+) -> Callable[[], Widget]:
+    """Builds a panel that shows a message, or nothing yet."""
+
+    def build() -> ArmPanel:
+        panel = ArmPanel(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
+        if msg is not None:
+            panel.show(msg)
+        return panel
+
+    return build
+
+
 def samples() -> dict[str, Callable[[], Widget]]:
     """The states of the panel by name."""
-
-    def made(
-        msg: ArmState | None, size: tuple[float, float] = (326.0, 228.0), **more: Any
-    ) -> Callable[[], Widget]:
-        def build() -> ArmPanel:
-            panel = ArmPanel(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
-            if msg is not None:
-                panel.show(msg)
-            return panel
-
-        return build
-
     home, stretch = _state("home"), _state("stretch")
     moving = _state("home", angles=(0.4, -0.5, 0.1, 0.3, 0.5), wanted=POSES["stretch"])
     many = _state("home", poses=[*POSES, "pick", "place", "wave"])
     return {
-        "never": made(None, state="never"),
-        "live": made(home),
-        "moving": made(moving),
-        "touching": made(_state("stretch", gripper=0.02, touching=True)),
-        "look down": made(_state("look_down", gripper=0.075)),
-        "refused": made(home, outcome="refused", aim=[0.38, 0.36]),
-        "dragged": made(home, held="tip", aim=[0.33, 0.04]),
-        "turned": made(home, held="turn", bearing=0.9),
-        "rolled": made(home, held="roll", bearing=-0.6),
-        "four joints": made(_state("home", angles=POSES["home"][:4])),
-        "many poses": made(many),
-        "small": made(home, SMALL),
-        "small moving": made(moving, SMALL),
-        "stacked": made(home, (268.0, 176.0)),
-        "stacked dragged": made(home, (268.0, 176.0), held="tip", aim=[0.3, 0.05]),
-        "small dragged": made(home, SMALL, held="tip", aim=[0.2, 0.1]),
-        "small poses": made(home, SMALL, choosing=True),
-        "small many poses": made(many, SMALL, choosing=True),
-        "small never": made(None, SMALL, state="never"),
-        "tall": made(stretch, (228.0, 330.0)),
-        "large": made(home, (520.0, 330.0)),
-        "not known": made(_state("home", angles=(0.0, math.nan, 0.0, 0.0))),
-        "stale": made(home, state="stale", age=2.0),
-        "alarm": made(home, state="alarm"),
-        "disabled": made(home, state="disabled"),
+        "never": _made(None, state="never"),
+        "live": _made(home),
+        "moving": _made(moving),
+        "touching": _made(_state("stretch", gripper=0.02, touching=True)),
+        "look down": _made(_state("look_down", gripper=0.075)),
+        "refused": _made(home, outcome="refused", aim=[0.38, 0.36]),
+        "dragged": _made(home, held="tip", aim=[0.33, 0.04]),
+        "turned": _made(home, held="turn", bearing=0.9),
+        "rolled": _made(home, held="roll", bearing=-0.6),
+        "four joints": _made(_state("home", angles=POSES["home"][:4])),
+        "many poses": _made(many),
+        "small": _made(home, SMALL),
+        "small moving": _made(moving, SMALL),
+        "stacked": _made(home, (268.0, 176.0)),
+        "stacked dragged": _made(home, (268.0, 176.0), held="tip", aim=[0.3, 0.05]),
+        "small dragged": _made(home, SMALL, held="tip", aim=[0.2, 0.1]),
+        "small poses": _made(home, SMALL, choosing=True),
+        "small many poses": _made(many, SMALL, choosing=True),
+        "small never": _made(None, SMALL, state="never"),
+        "tall": _made(stretch, (228.0, 330.0)),
+        "large": _made(home, (520.0, 330.0)),
+        "not known": _made(_state("home", angles=(0.0, math.nan, 0.0, 0.0))),
+        "stale": _made(home, state="stale", age=2.0),
+        "alarm": _made(home, state="alarm"),
+        "disabled": _made(home, state="disabled"),
     }
