@@ -145,7 +145,11 @@ class _Paths:
     def doing(self) -> tuple[tuple[str, Handler, str], ...]:
         """The paths that do something, beside the commands of resources."""
         return (
-            ("/stop", self.stop, "Presses STOP, for anyone."),
+            (
+                "/stop",
+                self.stop,
+                "Presses STOP, for anyone, whatever else is said; Client-Name may say by whom.",
+            ),
             ("/topics/{name:path}", self.publish, "Publishes a message."),
             ("/services/{name:path}", self.call, "Calls a service."),
         )

@@ -151,14 +151,6 @@ class _Description:
 
     def _doing(self, path: str, operation: Described) -> None:
         if path == "/stop":
-            operation["parameters"] = [
-                {
-                    "name": CLIENT_NAME,
-                    "in": "header",
-                    "description": _HEADERS[CLIENT_NAME],
-                    "schema": {"type": "string"},
-                }
-            ]
             operation["responses"]["200"] = _answer("STOP is pressed.", self.schemas.of(CommandResponse))
             return
         _add_headers(operation, *_HEADERS)
