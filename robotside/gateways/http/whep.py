@@ -114,13 +114,13 @@ class _Session:
         self._delays, self._may_watch = delays, may_watch
         self._peer = aiortc.RTCPeerConnection(aiortc.RTCConfiguration(iceServers=[]))
         self._peer.on("connectionstatechange", self._on_change)
-        self._connected, self._ended = asyncio.Event(), asyncio.Event()
+        self._answered, self._connected, self._ended = asyncio.Event(), asyncio.Event(), asyncio.Event()
         self._film: asyncio.Future[FilmViewer] = asyncio.get_running_loop().create_future()
 
     def end(self) -> None:
         """It is over."""
-        self._ended.set()
-        self._connected.set()
+        for event in (self._ended, self._connected, self._answered):
+            event.set()
 
     async def answer(self, offer: str) -> str:
         """The answer to an offer. Raises BadOffer."""
@@ -145,13 +145,15 @@ class _Session:
         if videos != [video]:
             raise BadOffer(f"An offer has one video that it wants to receive, not {len(videos)}.")
         await self._peer.setLocalDescription(await self._peer.createAnswer())
+        self._answered.set()
         answer: str = self._peer.localDescription.sdp
         return answer
 
     async def run(self) -> None:
         """Serve until it is over."""
         try:
-            async with asyncio.timeout(ANSWER_TIMEOUT + CONNECT_TIMEOUT):
+            await self._answered.wait()
+            async with asyncio.timeout(CONNECT_TIMEOUT):
                 await self._connected.wait()
             if not self._ended.is_set():
                 with self._films.watching(self._view) as film:

@@ -206,8 +206,8 @@ async def test_the_page_takes_nothing_from_elsewhere_and_runs_no_script(tmp_path
     assert "frame-ancestors 'none'" in policy
 
 
-def test_a_robot_of_which_nobody_asks_loads_no_sheet() -> None:
-    heavy = ["mako", "questionary", "prompt_toolkit", "robotside.gateways.payloads.table"]
+def test_a_robot_of_which_nobody_asks_loads_no_sheet_and_nothing_for_film() -> None:
+    heavy = ["mako", "questionary", "prompt_toolkit", "robotside.gateways.payloads.table", "av", "aiortc"]
     code = f"import sys, robotside.__main__; print([name for name in {heavy} if name in sys.modules])"
     said = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
     assert said.stdout == "[]\n"

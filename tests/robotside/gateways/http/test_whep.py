@@ -126,7 +126,7 @@ async def test_a_viewer_that_lost_something_gets_a_complete_picture(
         [source] = receiver.getSynchronizationSources()
         await receiver._send_rtcp_pli(source.source)
         await one.sees(5, serves)
-    assert len(wishes) == 1
+    assert wishes
 
 
 async def test_a_viewer_that_is_gone_is_forgotten(tmp_path: Path) -> None:
@@ -139,7 +139,6 @@ async def test_a_viewer_that_is_gone_is_forgotten(tmp_path: Path) -> None:
 
 async def test_who_never_connects_is_forgotten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(whep, "CONNECT_TIMEOUT", 0.05)
-    monkeypatch.setattr(whep, "ANSWER_TIMEOUT", 0.5)
     async with filming(tmp_path) as (robot, serves, web), viewer() as one:
         answer = await web.post("/whep/front", content=await one.offer(), headers=SDP)
         assert answer.status_code == 201
@@ -243,7 +242,6 @@ async def test_broken_offers_are_refused_or_forgotten_and_leave_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(whep, "CONNECT_TIMEOUT", 0.05)
-    monkeypatch.setattr(whep, "ANSWER_TIMEOUT", 0.5)
     rng = random.Random(1)
     async with filming(tmp_path) as (robot, serves, web), viewer() as one:
         lines = (await one.offer()).splitlines()
