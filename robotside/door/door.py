@@ -268,15 +268,7 @@ class Door:
         if isinstance(answer, Msg):
             return answer
         self._calls.begin(operator.id)
-        return self._answer(operator, service, answer, timeout)
-
-    async def _answer(
-        self, operator: Operator, service: str, answer: Awaitable[Msg], timeout: float | None
-    ) -> Msg:
-        try:
-            return await self._calls.answer(operator.id, service, answer, timeout)
-        except Exception as error:
-            raise _refused(service, operator, error) from error
+        return _answered(self._calls, operator, service, answer, timeout)
 
     async def run(
         self, operator: Operator, action: str, goal: Msg, on_feedback: Callable[[Msg], None]
@@ -288,6 +280,16 @@ class Door:
             return await known.start(operator, goal, on_feedback)
         except Exception as error:
             raise _refused(action, operator, error) from error
+
+
+async def _answered(
+    calls: CallsInProgress, operator: Operator, service: str, answer: Awaitable[Msg], timeout: float | None
+) -> Msg:
+    """The answer of a call that has begun."""
+    try:
+        return await calls.answer(operator.id, service, answer, timeout)
+    except Exception as error:
+        raise _refused(service, operator, error) from error
 
 
 def _refused(name: str, operator: Operator, error: Exception) -> BridgeError:
