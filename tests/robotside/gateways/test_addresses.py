@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import socket
 
 import pytest
@@ -45,3 +46,19 @@ def test_beyond_this_machine_a_server_with_tls_is_reached_by_it() -> None:
     assert url("ws", "192.168.1.7", 9090, tls=True) == "wss://192.168.1.7:9090"
     assert url("http", "robot.local", 8080, tls=True) == "https://robot.local:8080"
     assert url("ws", "192.168.1.7", 9090) == "ws://192.168.1.7:9090"
+
+
+async def test_what_is_sent_to_who_comes_leaves_at_once() -> None:
+    came: asyncio.Future[int] = asyncio.get_running_loop().create_future()
+
+    def look(_: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        own = writer.get_extra_info("socket")
+        came.set_result(own.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY))
+        writer.close()
+
+    with listening_socket("127.0.0.1", 0) as listener:
+        server = await asyncio.start_server(look, sock=listener)
+        _, writer = await asyncio.open_connection(*listener.getsockname())
+        assert await came != 0
+        writer.close()
+        server.close()
