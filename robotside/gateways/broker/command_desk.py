@@ -114,10 +114,10 @@ class CommandDesk:
         elif command.verb == CANCEL:
             self._cancel(visitor, command)
         elif command.verb == READ:
-            _say(command, self._feed.read(visitor, command.name))
+            _confirm(command, self._feed.read(visitor, command.name))
         elif command.verb == LEAVE:
             visitor.leave_topic(command.name)
-            _say(command, f"{command.name} is not asked for by you any more.")
+            _confirm(command, f"{command.name} is not asked for by you any more.")
         else:
             raise Refused(f"A command is one of {', '.join(VERBS)}, not {command.verb[:60]!r}.")
 
@@ -183,7 +183,7 @@ async def _send(command: Command, answer: Awaitable[bytes]) -> None:
     command.answer(await answer)
 
 
-def _say(command: Command, text: str) -> None:
+def _confirm(command: Command, text: str) -> None:
     command.answer(msgspec.json.encode({"success": True, "message": text}))
 
 

@@ -202,7 +202,7 @@ class RobotServices:
 
     async def _info(self, call: Call) -> messages.Info:
         self._may_read(call, "/robot/info")
-        info, arm = self._door.info, self._last("/arm", msgs.ArmState)
+        info, arm = self._door.info, _last(self._door, "/arm", msgs.ArmState)
         return messages.Info(
             info.name,
             info.kind,
@@ -220,9 +220,9 @@ class RobotServices:
 
     async def _status(self, call: Call) -> messages.Status:
         self._may_read(call, "/control/status")
-        control = self._last("/control/status", msgs.ControlStatus) or msgs.ControlStatus()
-        task = self._last("/task/status", msgs.TaskStatus) or msgs.TaskStatus()
-        battery = self._last("/battery_state", BatteryState)
+        control = _last(self._door, "/control/status", msgs.ControlStatus) or msgs.ControlStatus()
+        task = _last(self._door, "/task/status", msgs.TaskStatus) or msgs.TaskStatus()
+        battery = _last(self._door, "/battery_state", BatteryState)
         return messages.Status(
             control.mode,
             control.driver,
@@ -240,7 +240,7 @@ class RobotServices:
 
     async def _pose(self, call: Call) -> messages.Pose:
         self._may_read(call, "/pose")
-        told = self._last("/pose", PoseWithCovarianceStamped)
+        told = _last(self._door, "/pose", PoseWithCovarianceStamped)
         if told is None:
             raise Refused("The robot has not said yet where it is.")
         pose, stamp = Pose2.from_msg(told.pose.pose), told.header.stamp
@@ -255,7 +255,7 @@ class RobotServices:
 
     async def _places(self, call: Call) -> messages.Places:
         self._may_read(call, "/places")
-        told = self._last("/places", msgs.PlaceArray) or msgs.PlaceArray()
+        told = _last(self._door, "/places", msgs.PlaceArray) or msgs.PlaceArray()
         return messages.Places(
             tuple(
                 messages.Place(each.id, each.name, each.kind, each.floor, each.x, each.y, each.yaw, each.note)
@@ -326,9 +326,10 @@ class RobotServices:
     def _may_read(self, call: Call, topic: str) -> Topic:
         return readable(self._door, self._keys, call.operator, topic)
 
-    def _last(self, topic: str, cls: type[M]) -> M | None:
-        msg = self._door.last(topic)
-        return msg if isinstance(msg, cls) else None
+
+def _last(door: StationDoor, topic: str, cls: type[M]) -> M | None:
+    msg = door.last(topic)
+    return msg if isinstance(msg, cls) else None
 
 
 async def _answered(answer: bytes | Awaitable[bytes]) -> bytes:
