@@ -119,7 +119,8 @@ def _bound(host: str, port: int) -> socket.socket:
         family, _, _, _, where = socket.getaddrinfo(host, port, type=socket.SOCK_DGRAM)[0]
         everywhere = ipaddress.ip_address(where[0]).is_unspecified
     except (OSError, ValueError) as error:
-        raise BridgeError(f"CoAP cannot listen at {host[:100]}: {error}.") from error
+        why = getattr(error, "strerror", None) or error
+        raise BridgeError(f"CoAP cannot listen at {host[:100]}: {why}.") from error
     if everywhere:
         said = f"CoAP listens at one address of this machine, as coap://192.168.1.7:{port}, not at {host}."
         raise BridgeError(said)

@@ -200,7 +200,7 @@ class KafkaLine(Line):
         if isinstance(error, TopicAuthorizationFailedError):
             topic = str(error.args[0] if error.args else "its topics")
             return f"it does not let the robot have {topic}; allow that in its access list"
-        text = re.sub(r"^\w+: ", "", str(error).strip().rstrip("."))[:200]
+        text = re.sub(r"^(\w+: |\[Errno -?\d+\] )", "", str(error).strip().rstrip("."))[:200]
         if not text or isinstance(error, TimeoutError | KafkaConnectionError):
             text = "it does not answer"
         # a broker ends a connection whose user it does not know without a word

@@ -23,6 +23,7 @@ from paho.mqtt.subscribeoptions import SubscribeOptions
 from bridge.core.async_tasks import cancel_all, is_cancelled_from_outside
 from robotside.gateways.broker.line import Line
 from robotside.gateways.gateway_url import GatewayUrl
+from robotside.gateways.mqtt.library_client import LibraryClient
 
 __all__ = ["BrokerLine", "Heard", "Reply", "uncut"]
 
@@ -192,7 +193,7 @@ class BrokerLine(Line):
     def _new_client(self) -> aiomqtt.Client:
         url, tls = self._url, ssl.create_default_context() if self._url.scheme == "mqtts" else None
         will = aiomqtt.Will(self._will[0], self._will[1], qos=1, retain=True) if self._will else None
-        return aiomqtt.Client(
+        return LibraryClient(
             url.host,
             url.port,
             username=url.user or None,
@@ -316,7 +317,10 @@ def _is_failure(code: object) -> bool:
 
 def _reason(error: Exception) -> str:
     """Why there is no connection, as part of a sentence."""
-    text = re.sub(r"^\[code:\d+\] ", "", str(error.__cause__ or error).strip()) or "it does not answer"
+    text = (
+        re.sub(r"^\[(code:|Errno )-?\d+\] ", "", str(error.__cause__ or error).strip())
+        or "it does not answer"
+    )
     remedy = (
         "; check the user and password in the gateway's URL" if _is_login(error.__cause__ or error) else ""
     )

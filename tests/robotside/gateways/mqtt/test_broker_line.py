@@ -67,3 +67,5 @@ def test_a_refused_login_says_what_to_check_and_another_fault_says_what_it_is() 
     assert _reason(refused) == "Not authorized; check the user and password in the gateway's URL"
     assert _reason(aiomqtt.MqttError("Operation timed out.")) == "Operation timed out"
     assert _reason(aiomqtt.MqttError("")) == "it does not answer"
+    assert _reason(aiomqtt.MqttError("[Errno 111] Connection refused")) == "Connection refused"
+    assert _reason(aiomqtt.MqttError("[Errno -2] Name or service not known")) == "Name or service not known"
