@@ -103,6 +103,7 @@ class Code(StrEnum):
     GATEWAY_RETAINED = "gateway_retained", "A command is not kept by a broker for later.", "operation"
     GATEWAY_CANCELLED = "gateway_cancelled", "The goal was taken back, or its client is gone.", "operation"
     GATEWAY_FULL = "gateway_full", "Too many clients use the gateway.", "max"
+    GATEWAY_BUSY = "gateway_busy", "Too many requests wait for their turn.", "max"
     GATEWAY_LEFT_OUT = "gateway_left_out", "The gateway does not carry that.", "operation"
     GATEWAY_BROUGHT_UP = (
         "gateway_brought_up",

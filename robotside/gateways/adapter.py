@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ssl
 from collections.abc import Callable, Mapping, MutableMapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol
 
 from bridge.core.errors import BridgeError
@@ -12,6 +12,7 @@ from bridge.core.identity import Role
 from bridge.server.reception.pages import PagePolicy
 from robotside.door.station_door import StationDoor
 from robotside.gateways.gateway import Gateway
+from robotside.gateways.plain.turns import Turns
 from robotside.records.events import Say
 
 if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load it
@@ -61,6 +62,8 @@ class Surroundings:
     """The web pages that may connect; None for none."""
     site: Site | None = None
     """The robot's web site, for what is served there; None where it has none."""
+    turns: Turns = field(default_factory=Turns)
+    """In which requests begin, but for STOP, which waits for none."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -58,6 +58,7 @@ class CoapGateway:
             self._url.rate,
             plain_from=self._robot.plain_from,
             pages=self._page,
+            turns=self._robot.turns,
         )
         self._server = CoapServer(site.answer, sock, guard)
         site.observers.socket = self._server.socket

@@ -40,6 +40,7 @@ from robotside.gateways.coap.requests import (
     read_asked,
 )
 from robotside.gateways.payloads.table import key_of
+from robotside.gateways.plain.turns import Turns
 from robotside.gateways.plain.visitor import STOP, TIME
 from robotside.gateways.plain.visitors import Visitors
 
@@ -65,12 +66,14 @@ class CoapSite:
         *,
         plain_from: Callable[[str], bool],
         pages: Callable[[str, Operator], Body],
+        turns: Turns,
     ) -> None:
         """`rate` is that of who observes without one [Hz]; only payloads among `keys` are carried, and only STOP is
         answered to hosts from which `plain_from` takes nothing. `pages(path, operator)` is the guide, and the list of all.
+        Requests begin in their `turns`, STOP at once.
         """
         self._door, self._clients, self._keys = door, clients, keys
-        self._plain_from, self._pages = plain_from, pages
+        self._plain_from, self._pages, self._turns = plain_from, pages, turns
         self._in, self._out = BlocksIn(), BlocksOut()
         self._clock = asyncio.get_running_loop().time
         self._under_way = 0
@@ -96,6 +99,7 @@ class CoapSite:
         try:
             if is_stop(request):
                 return await self._press_stop(request)
+            await self._turns.take(("coap", request.remote.host))
             if self._under_way >= MAX_UNDER_WAY:
                 raise Failure(
                     CoapCode.SERVICE_UNAVAILABLE, f"{MAX_UNDER_WAY} requests are under way.", max_age=1

@@ -16,8 +16,9 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from bridge.core.errors import BridgeError
 from bridge.core.identity import Role
+from bridge.core.robot_catalogue import Operator
 
-__all__ = ["LONG", "ONLY_STOP", "OPERATOR", "STAYS", "Mount", "Mounts", "Written"]
+__all__ = ["LONG", "ONLY_STOP", "OPERATOR", "STAYS", "Mount", "Mounts", "Written", "source"]
 
 OPERATOR = "pilothouse.operator"
 """Key of who asks in the state of a request's scope, an `Operator` for as long as the answer takes."""
@@ -40,6 +41,12 @@ def _never(_: Scope) -> bool:
 
 def _sentence(_: Scope, status: int, refusal: BridgeError) -> Response:
     return PlainTextResponse(f"{refusal}\n", status)
+
+
+def source(scope: Scope) -> tuple[str, str]:
+    """Who has its turn among all who ask: a computer, by one application."""
+    operator: Operator = scope["state"][OPERATOR]
+    return operator.way, operator.address.rpartition(":")[0]
 
 
 class Mount:

@@ -10,21 +10,21 @@ from starlette.types import Receive, Scope, Send
 
 from bridge.core.async_tasks import cancel_all
 from bridge.core.codes import Code
-from bridge.core.errors import BridgeError
+from bridge.core.errors import BridgeError, Refused
 from bridge.core.identity import Role
 from robotside.control.authority import MAX_NAME_LENGTH
 from robotside.core.notice import Notice
 from robotside.core.text import plain
 from robotside.gateways.adapter import Surroundings
 from robotside.gateways.gateway_url import GatewayUrl
-from robotside.gateways.http.mounts import ONLY_STOP, OPERATOR
+from robotside.gateways.http.mounts import ONLY_STOP, OPERATOR, source
 from robotside.gateways.payloads.offered import offered
 from robotside.gateways.rest.application import application
 from robotside.gateways.rest.bodies import CLIENT_NAME
 from robotside.gateways.rest.desk import Desk
 from robotside.gateways.rest.forms import JSON, chosen_form, refused
 from robotside.gateways.rest.guide import guide
-from robotside.gateways.rest.statuses import Rejected
+from robotside.gateways.rest.statuses import Rejected, status_of
 from robotside.gateways.rest.topic_stream import TopicStreams
 from robotside.gateways.webhooks.hooks import Hooks
 
@@ -42,6 +42,7 @@ class RestGateway:
         if robot.site is None:
             raise BridgeError("REST needs the robot's web site, which this one has not.")
         self._door, self._say, self._url, self._site = robot.door, robot.say, url, robot.site
+        self._turns = robot.turns
         self._path = f"/{url.path}"
         self._desk = Desk(robot.door, url.keys)
         self._streams = TopicStreams(robot.door, url.rate)
@@ -87,8 +88,13 @@ class RestGateway:
         return scope["method"] == "POST" and path in (f"{self._path}/stop", f"{self._path}/services/stop")
 
     async def _answer(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer one request; STOP before anything in it is read."""
+        """Answer one request in its turn; STOP before all others, and before anything in it is read."""
         if not scope["state"].get(ONLY_STOP):
+            try:
+                await self._turns.take(source(scope))
+            except Refused as busy:
+                await refused(scope, status_of(busy), busy)(scope, receive, send)
+                return
             await self._app(scope, receive, send)
             return
         name = plain(_header(scope, CLIENT_NAME), MAX_NAME_LENGTH)

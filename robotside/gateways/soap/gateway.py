@@ -19,7 +19,7 @@ from bridge.core.robot_catalogue import Operator
 from robotside.core.notice import Notice
 from robotside.gateways.adapter import Surroundings
 from robotside.gateways.gateway_url import GatewayUrl
-from robotside.gateways.http.mounts import ONLY_STOP, OPERATOR
+from robotside.gateways.http.mounts import ONLY_STOP, OPERATOR, source
 from robotside.gateways.payloads.offered import offered
 from robotside.gateways.plain.strict_json import MAX_INPUT
 from robotside.gateways.soap.callbacks import Callbacks
@@ -49,6 +49,8 @@ _CHECK_PERIOD = 1.0
 _STOP_PATIENCE = 0.1
 """STOP waits no longer for the name of who presses it [s]."""
 _HOST = re.compile(r"[\w.\-\[\]:]{1,255}", re.ASCII)
+_LOOKS_LIKE_STOP = re.compile(rb"[<:]%s[\s/>]" % STOP.name.encode())
+"""What the envelope of a STOP has in it: not every one is read whole before its turn."""
 _WSDL, _SUBSCRIBER = "wsdl", "subscriber.wsdl"
 """Queries that ask for the contract of the robot's service, and of that of a client for callbacks."""
 
@@ -61,6 +63,7 @@ class SoapGateway:
         if robot.site is None:
             raise BridgeError("SOAP is served on the robot's web site, which this robot has not.")
         self._site, self._door, self._say, self._url = robot.site, robot.door, robot.say, url
+        self._turns = robot.turns
         self._path = f"/{url.path}"
         self._contract, self._subscriber = robot_contract(), subscriber_contract()
         self._judge = self._contract.judge()
@@ -157,18 +160,24 @@ class SoapGateway:
         raw = await _body(request)
         if raw is None:
             return _fault(Refused(f"A message has at most {MAX_INPUT} bytes."), 413)
+        if _LOOKS_LIKE_STOP.search(raw) and stops(raw):
+            return await self._stop(operator, raw)
+        try:
+            await self._turns.take(source(request.scope))
+        except Refused as busy:
+            return _fault(busy, code=SERVER)
+        return await self._in_turn(request, operator, raw)
+
+    async def _in_turn(self, request: Request, operator: Operator, raw: bytes) -> Response:
+        """Answer what is no STOP."""
         problem = _wrong_type(request.headers.get("content-type", ""))
         if problem:
-            return await self._stop(operator, raw) if stops(raw) else _fault(Refused(problem), 415)
+            return _fault(Refused(problem), 415)
         try:
             asked = read_envelope(raw, self._judge, self._operations)
         except BridgeError as error:
-            return await self._stop(operator, raw) if stops(raw) else _fault(error)
-        return (
-            await self._stop(operator, raw)
-            if asked.operation == STOP.name
-            else await self._do(operator, asked)
-        )
+            return _fault(error)
+        return await self._do(operator, asked)
 
     async def _do(self, operator: Operator, asked: Asked) -> Response:
         known = self._operations[asked.operation]

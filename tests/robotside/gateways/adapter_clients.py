@@ -372,6 +372,7 @@ class Coap:
                 url.rate,
                 plain_from=lambda _: True,
                 pages=self._gateway._page,
+                turns=self._gateway._robot.turns,
             )
         await self._gateway._site.answer(pipe)
         return bytes(pipe.answers[0].payload)
