@@ -6,6 +6,7 @@ import asyncio
 import errno
 import importlib
 import logging
+import sys
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
@@ -18,6 +19,7 @@ from bridge.core.identity import Role
 from robotside.core.notice import Notice
 from robotside.gateways.adapter import Adapter, AdapterGateway, Surroundings
 from robotside.gateways.usage_sheet.running import Running
+from robotside.serving.garbage import loading
 
 if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load it
     from robotside.gateways.gateway_url import GatewayUrl
@@ -205,11 +207,13 @@ async def _load(adapter: Adapter) -> None:
     package, _, module = adapter.make.__module__.rpartition(".")
     if module != "adapter":
         return
+    wanted = f"{package}.gateway"
+    if wanted in sys.modules:
+        return
     loader = ThreadPoolExecutor(1, f"import {adapter.name}")
     try:
-        await asyncio.get_running_loop().run_in_executor(
-            loader, importlib.import_module, f"{package}.gateway"
-        )
+        with loading():
+            await asyncio.get_running_loop().run_in_executor(loader, importlib.import_module, wanted)
     finally:
         loader.shutdown(wait=False)
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from starlette.types import Receive, Scope, Send
+from starlette.types import ASGIApp, Receive, Scope, Send
 
 from bridge.core.async_tasks import cancel_all
 from bridge.core.codes import Code
@@ -47,12 +48,13 @@ class RestGateway:
         self._desk = Desk(robot.door, url.keys)
         self._streams = TopicStreams(robot.door, url.rate)
         self._hooks = Hooks(robot.door, robot.say)
-        self._app = application(self._desk, self._streams, self._hooks, self.guide)
+        self._app: ASGIApp = _absent
         self._unmount: Callable[[], None] | None = None
         self._tasks: list[asyncio.Task[Any]] = []
 
     async def start(self) -> None:
         """Begin to answer. BridgeError when the path is taken."""
+        self._app = await self._built()
         self._unmount = self._site.mount(
             self._path,
             self._answer,
@@ -66,6 +68,16 @@ class RestGateway:
             said = f"Everybody who reaches the robot's web site may {role} by REST without a key."
             self._say("control", Notice(Code.GATEWAY_OPEN, said, gateway="rest", role=role), "warn")
         self._tasks = [asyncio.create_task(self._check())]
+
+    async def _built(self) -> ASGIApp:
+        """The application, built beside the loop, which drives the robot: FastAPI takes a twentieth of a second for its paths."""
+        builder = ThreadPoolExecutor(1, "build REST")
+        try:
+            return await asyncio.get_running_loop().run_in_executor(
+                builder, application, self._desk, self._streams, self._hooks, self.guide
+            )
+        finally:
+            builder.shutdown(wait=False)
 
     async def stop(self) -> None:
         """End all answers and what clients have; nothing is left running."""
@@ -109,6 +121,10 @@ class RestGateway:
         while True:
             await asyncio.sleep(_CHECK_PERIOD)
             self._desk.clients.leave_silent()
+
+
+async def _absent(*_: object) -> None:
+    """Nothing is mounted before the application is built."""
 
 
 def _header(scope: Scope, name: str) -> str:

@@ -110,7 +110,9 @@ async def test_what_a_gateway_imports_is_imported_beside_the_loop(
     folder = tmp_path / "slowly"
     folder.mkdir()
     (folder / "__init__.py").touch()
-    (folder / "gateway.py").write_text("import threading\nTHREAD = threading.current_thread()\n")
+    (folder / "gateway.py").write_text(
+        "import gc, threading\nTHREAD = threading.current_thread()\nCOLLECTS = gc.isenabled()\n"
+    )
     monkeypatch.syspath_prepend(tmp_path)
 
     def make(robot: Surroundings, url: GatewayUrl) -> Gateway:
@@ -119,7 +121,9 @@ async def test_what_a_gateway_imports_is_imported_beside_the_loop(
     make.__module__ = "slowly.adapter"
     slow = dataclasses.replace(adapter("slowly"), make=make)
     await gateway_owner._load(slow)
-    assert sys.modules.pop("slowly.gateway").THREAD is not threading.main_thread()
+    loaded = sys.modules.pop("slowly.gateway")
+    assert loaded.THREAD is not threading.main_thread()
+    assert not loaded.COLLECTS  # which would hold up the loop too
     sys.modules.pop("slowly")
 
 

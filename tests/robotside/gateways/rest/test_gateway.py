@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import threading
 from collections.abc import AsyncIterator
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
@@ -16,8 +18,9 @@ from bridge.core.link_state import CONTROL_TIMEOUT
 from robotside.gateways.adapter import Surroundings
 from robotside.gateways.gateway_url import read_url
 from robotside.gateways.plain.visitors import IDLE_TIMEOUT
-from robotside.gateways.rest import clients
+from robotside.gateways.rest import clients, gateway
 from robotside.gateways.rest.adapter import ADAPTER
+from robotside.gateways.rest.application import application
 from robotside.gateways.rest.gateway import RestGateway
 from tests.fakes import FakeRobot
 from tests.robotside.gateways.http.test_doorkeeper import Gate
@@ -297,3 +300,20 @@ async def test_everybody_may_what_the_url_says_and_an_event_says_so(scene: Scene
     with contextlib.suppress(ValueError):
         read_url(f"{ADAPTER.default}?role=manage", ADAPTER.schemes)
         pytest.fail("Nobody manages a robot without a key.")
+
+
+async def test_the_application_is_built_beside_the_loop(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A robot is driven meanwhile."""
+    threads = []
+
+    def build(*parts: Any) -> Any:
+        threads.append(threading.current_thread())
+        return application(*parts)
+
+    monkeypatch.setattr(gateway, "application", build)
+    async with serving(scene) as served, served.client() as web:
+        assert (await web.get("time")).status_code == 200
+    assert len(threads) == 1
+    assert threads[0] is not threading.current_thread()
