@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import os
 import random
 import sys
 import time
@@ -27,6 +28,9 @@ STOP = "/stop"
 ENVELOPE = "http://schemas.xmlsoap.org/soap/envelope/"
 IN_FLIGHT = 4
 """Calls of one client under way at a time while it floods."""
+
+NAME = f"bench-{os.getpid()}"
+"""Of this process's clients at brokers: answers to those of another process are not for them."""
 
 Call = Callable[[str], Awaitable[dict[str, Any]]]
 """Calls a service, and returns its answer."""
@@ -72,7 +76,7 @@ async def mqtt(url: str, stack: AsyncExitStack) -> Call:
     from paho.mqtt.properties import Properties
 
     parts = urlsplit(url)
-    root, me = parts.path.strip("/"), "bench"
+    root, me = parts.path.strip("/"), NAME
     client = await stack.enter_async_context(
         aiomqtt.Client(
             parts.hostname or "",
@@ -109,7 +113,7 @@ async def kafka(url: str, stack: AsyncExitStack) -> Call:
     from aiokafka import AIOKafkaConsumer, AIOKafkaProducer
 
     parts = urlsplit(url)
-    root, me = parts.path.strip("/"), "bench"
+    root, me = parts.path.strip("/"), NAME
     settings = {"bootstrap_servers": f"{parts.hostname}:{parts.port}"}
     consumer = AIOKafkaConsumer(
         f"{root}.answers", auto_offset_reset="latest", fetch_max_wait_ms=10, **settings
@@ -199,7 +203,7 @@ class Waiting:
     def new(self) -> str:
         """The number of a new call."""
         self._count += 1
-        number = str(self._count)
+        number = f"{NAME}-{self._count}"
         self._waiting[number] = asyncio.get_running_loop().create_future()
         return number
 
