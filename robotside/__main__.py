@@ -35,7 +35,7 @@ from robotside.core.worker_thread import WorkerThread
 from robotside.foreign.foreign_link import ForeignLink
 from robotside.foreign.foreign_robot import ForeignRobot
 from robotside.foreign.robot_keys import key_for, read_keys
-from robotside.gateway_options import for_robot, keeper
+from robotside.gateway_options import for_robot, keeper, required
 from robotside.kinds.registry import kind_of
 from robotside.options import OTHER, One, UserMistake
 from robotside.records.landmarks import take_over
@@ -182,6 +182,7 @@ class _Fleet:
             keys=self._keys(state, station, config),
             origins=self._options.allow_origin,
             gateways=for_robot(self._options.gateways, number),
+            required=required(self._options),
             mdns=self._options.mdns,
             without=self._options.without,
             keep=self._keep,

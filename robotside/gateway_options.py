@@ -20,7 +20,7 @@ if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load them
     from robotside.gateways.adapter import Adapter
     from robotside.gateways.gateway_url import GatewayUrl
 
-__all__ = ["ALWAYS", "VARIABLE", "add_options", "for_robot", "keeper", "wishes", "without"]
+__all__ = ["ALWAYS", "VARIABLE", "add_options", "for_robot", "keeper", "required", "wishes", "without"]
 
 ALWAYS = ("rosbridge", "http")
 """The protocols that every robot has."""
@@ -72,6 +72,12 @@ def wishes(
     for adapter, _ in found:
         _check_package(adapter)
     return found
+
+
+def required(options: argparse.Namespace) -> frozenset[str]:
+    """Names of the gateways that an option of this very command asks for: without them it does not serve."""
+    named = {word for word in (options.protocols or "").split(",") if word and word not in ALWAYS}
+    return frozenset(named | {text.partition("=")[0] for text in options.gateway})
 
 
 def _read(where: str, texts: list[str]) -> dict[str, tuple[Adapter, GatewayUrl]]:

@@ -7,10 +7,13 @@ from contextlib import AsyncExitStack, asynccontextmanager
 from typing import TYPE_CHECKING, Protocol
 from urllib.parse import urlsplit
 
+from bridge.core.codes import Code
+from bridge.core.errors import BridgeError
 from bridge.discovery.beacon import Beacon, Hello
 from bridge.server.reception.pages import PagePolicy
 from bridge.server.reception.reception import anyone
 from robotside.core.clock import RobotClock
+from robotside.core.notice import Notice
 from robotside.door.station_door import StationDoor
 from robotside.gateways.adapter import Adapter, Surroundings
 from robotside.gateways.gateway import Gateway
@@ -76,6 +79,7 @@ class StationServer:
         origins: Iterable[str] = (),
         wanted: Callable[[], bool] = lambda: True,
         gateways: Iterable[tuple[Adapter, GatewayUrl]] = (),
+        required: Collection[str] = (),
         mdns: bool = False,
         without: Collection[str] = (),
         keep: Keep | None = None,
@@ -83,7 +87,8 @@ class StationServer:
         """`keys` know who may do what; without them everybody may do everything, and nothing is encrypted.
 
         Web pages of `origins`, beside its own, may speak to it. `wanted` is asked once a second and ends the serving when it says no.
-        `gateways` are brought up beside rosbridge and HTTP. With `mdns` it is announced by mDNS as well as by HELLO.
+        `gateways` are brought up beside rosbridge and HTTP; it is served without one that cannot come up, unless `required`
+        names it. With `mdns` it is announced by mDNS as well as by HELLO.
         The payloads `without` which it is brought up go off once it has told of them.
         `keep` keeps for the next start which gateways clients bring up and down.
         """
@@ -120,7 +125,7 @@ class StationServer:
         self._http = self._web_site(around, mounts)
         self._gateways: tuple[Gateway, ...] = (self._http, self._rosbridge)
         """In the order in which they start."""
-        self._wished, self._mdns = tuple(gateways), mdns
+        self._wished, self._required, self._mdns = tuple(gateways), frozenset(required), mdns
         self.gateways = GatewayOwner(around)
         """The gateways beside those two, which come and go while it runs."""
         self._board = GatewayBoard(self.door, station, self.gateways, self._endpoints, keep)
@@ -174,7 +179,7 @@ class StationServer:
 
     @asynccontextmanager
     async def listening(self) -> AsyncIterator[RunningServer]:
-        """Hold its ports for as long as this is open. BridgeError when one is taken."""
+        """Hold its ports for as long as this is open. BridgeError when one is taken, or a required gateway does not come up."""
         async with AsyncExitStack() as opened:
             if self.keys is not None:
                 opened.callback(self.keys.close)
@@ -192,7 +197,7 @@ class StationServer:
                 endpoints.update(gateway.endpoints())
             self.addresses.note(endpoints)
             for adapter, url in self._wished:
-                await self.gateways.bring_up(adapter, url)
+                await self._bring_up(adapter, url)
             announcers: list[Announcer] = [Beacon(self.hello, host=self.addresses.host)]
             if self._mdns:
                 announcers.append(self._advert())
@@ -209,6 +214,20 @@ class StationServer:
                     await each.close()
 
             yield RunningServer(work, leave)
+
+    async def _bring_up(self, adapter: Adapter, url: GatewayUrl) -> None:
+        """Bring up a gateway that was wished for. One that cannot come up is told of and stands as down; the robot runs."""
+        try:
+            await self.gateways.bring_up(adapter, url)
+        except BridgeError as error:
+            why, said = error.args[0], f"The gateway {adapter.name} is not up: {error}"
+            unable = Code.GATEWAY_UNABLE
+            told = (
+                why.reworded(said) if isinstance(why, Notice) else Notice(unable, said, gateway=adapter.name)
+            )
+            if adapter.name in self._required:
+                raise BridgeError(told) from error
+            self.station.events.say("control", told, "warn")
 
     def _advert(self) -> Announcer:
         from robotside.serving.mdns_advert import MdnsAdvert

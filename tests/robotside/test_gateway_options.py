@@ -9,7 +9,7 @@ import pytest
 
 from robotside.commands.user_mistake import UserMistake
 from robotside.core.config import GatewaySettings, load
-from robotside.gateway_options import VARIABLE, for_robot, keeper, wishes
+from robotside.gateway_options import VARIABLE, for_robot, keeper, required, wishes
 from robotside.gateways.discovery import read_wish
 from robotside.options import read
 
@@ -28,6 +28,12 @@ def test_all_three_ways_ask_for_the_same() -> None:
     usual = ["mqtt own://127.0.0.1:1883"]
     assert asked("--gateway mqtt") == asked("--protocols http,mqtt") == asked("", "mqtt") == usual
     assert asked("--gateway mqtt=mqtt://h:99/lab --protocols mqtt") == ["mqtt mqtt://h:99/lab"]
+
+
+def test_only_what_this_very_command_asks_for_is_required() -> None:
+    options = read(["serve", "--gateway", "mqtt=mqtt://h", "--gateway", "coap", "--protocols", "http,rest"])
+    assert required(options) == {"mqtt", "coap", "rest"}
+    assert required(read(["serve"])) == set()
 
 
 @pytest.mark.parametrize(

@@ -22,12 +22,20 @@ from bridge.core.errors import BridgeError
 from bridge.core.toml_files import FileFault
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, ControlStatus, RobotInfo
+from bridge.msgs.pilothouse_msgs import (
+    CommandRequest,
+    CommandResponse,
+    ControlStatus,
+    Event,
+    GatewayArray,
+    RobotInfo,
+)
 from bridge.msgs.sensor_msgs import CompressedImage
 from robotside.__main__ import main
+from robotside.bringing_up.announcement import news
 from robotside.core.clock import RobotClock
 from robotside.gateway_options import ALWAYS
-from robotside.gateways.discovery import adapters
+from robotside.gateways.discovery import adapters, read_wish
 from robotside.serving.station_server import Addresses, StationServer
 from robotside.station.station import Station
 from tests.fakes import FakeRobot
@@ -213,6 +221,45 @@ async def test_a_port_that_is_taken_is_said_and_nothing_is_left_open(tmp_path: P
         web = StationServer(station, RobotClock(0.0), lambda: 0.0, Addresses("127.0.0.1", 0, port))
         with pytest.raises(BridgeError, match=f"Cannot serve HTTP on 127.0.0.1:{port}.*--http-port names"):
             await web.run(lambda _: None)
+
+
+async def test_a_gateway_that_cannot_come_up_is_told_of_and_the_robot_runs_without_it(tmp_path: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = other.getsockname()[1]
+        gone, stays = read_wish(f"websocket=ws://127.0.0.1:{port}"), read_wish("mqtt=own://127.0.0.1:0")
+        station = Station(FakeRobot(), records_at(tmp_path), now=0.0, clock=lambda: 0.0, rng=random.Random(1))
+        events: list[Msg] = []
+        station.bus.subscribe("/events", lambda _, event: events.append(event), replay=False)
+        boards: list[Msg] = []
+        where = Addresses("127.0.0.1", 0, 0)
+        serves = StationServer(
+            station, RobotClock(0.0), lambda: 0.0, where, gateways=[gone, stays], required=["mqtt"]
+        )
+        async with asyncio.timeout(60), serves.listening():
+            assert serves.gateways.running == ("mqtt",)
+            serves.door.subscribe("asker", "/gateways", lambda _, board: boards.append(board))
+            serves.door.leave("asker")
+            (told,) = (
+                each for each in events if isinstance(each, Event) and each.code == "gateway_port_taken"
+            )
+            assert told.text.startswith("The gateway websocket is not up: ")
+            assert str(port) in told.text
+            assert news("Rex", told) == f"robotside: Rex: {told.text}"
+            assert isinstance(boards[-1], GatewayArray)
+            (entry,) = (each for each in boards[-1].gateways if each.name == "websocket")
+            assert entry.state == "down"
+            assert str(port) in entry.fault
+
+
+def test_a_gateway_that_the_command_asks_for_and_that_cannot_come_up_ends_it_with_a_sentence_that_names_it(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr("robotside.__main__._robots", lambda *_: ([FakeRobot()], "hall"))
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        wish = f"websocket=ws://127.0.0.1:{other.getsockname()[1]}"
+        words = ["serve", "--state", str(tmp_path), "--port", "0", "--http-port", "0", "--gateway", wish]
+        assert main(words) == 2
+    assert "robotside: The gateway websocket is not up: " in capsys.readouterr().err
 
 
 def test_a_state_directory_that_cannot_be_made_is_one_sentence_and_lets_go_of_the_robot(
