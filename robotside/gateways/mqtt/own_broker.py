@@ -12,6 +12,7 @@ import shutil
 import socket
 import sys
 from asyncio.subprocess import DEVNULL, PIPE, Process
+from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
@@ -29,8 +30,8 @@ START_TIMEOUT = 15.0
 """For it to listen [s]."""
 STOP_TIMEOUT = 2.0
 """For it to end by itself [s]."""
-RESTART_PAUSE = 0.5
-"""Between its death and the next start [s]."""
+RESTART_PAUSE, MAX_RESTART_PAUSE = 0.5, 30.0
+"""Between its death and the next start [s]; while it does not come up the pause doubles from one try to the next."""
 _POLL_PERIOD = 0.02
 """Between two looks whether it listens [s]."""
 _PLACES = os.pathsep.join((os.environ.get("PATH", os.defpath), "/usr/sbin", "/usr/local/sbin"))
@@ -66,8 +67,16 @@ def mosquitto() -> str:
 class OwnBroker:
     """A broker on one port of this machine; owns its process."""
 
-    def __init__(self, host: str, port: int, *, program: str | None = None) -> None:
+    def __init__(
+        self,
+        host: str,
+        port: int,
+        *,
+        program: str | None = None,
+        pause: Callable[[float], Awaitable[object]] = asyncio.sleep,
+    ) -> None:
         """Port 0 takes a free one. `program` is that of Mosquitto, empty for iotcore's broker, None for what is installed.
+        `pause` waits so long [s].
 
         Raises BridgeError for an address that others reach, since it knows no keys, and for a port that is taken.
         """
@@ -85,6 +94,8 @@ class OwnBroker:
             said = f"Port {port} on {self._host} is taken, perhaps by a broker"
             raise BridgeError(f"{said}: mqtt=mqtt://{self._host}:{port} goes to that one.") from error
         self._folder: TemporaryDirectory[str] | None = None
+        self._pause = pause
+        self._words: list[str] = []
         self._process: Process | None = None
         self._watching: asyncio.Task[None] | None = None
 
@@ -95,6 +106,7 @@ class OwnBroker:
                 "There is no broker on this machine: install Mosquitto or iotcore, or give the URL of one."
             )
         self._folder = TemporaryDirectory(prefix="pilothouse-broker-")
+        self._words = self._command(Path(self._folder.name))
         self._process = await self._begin()
         self._watching = asyncio.create_task(self._watch())
 
@@ -114,17 +126,26 @@ class OwnBroker:
             code = await self._process.wait()
             await _end(self._process)  # what is left of it
             log.warning("The robot's own MQTT broker ended with %s and is started again", code)
-            await asyncio.sleep(RESTART_PAUSE)
+            self._process = await self._begun_again()
+
+    async def _begun_again(self) -> Process:
+        """A process that listens, however long that takes; what keeps it from that is logged when it is something new."""
+        pause, logged = RESTART_PAUSE, ""
+        while True:
+            await self._pause(pause)
             try:
-                self._process = await self._begin()
-            except BridgeError as error:
-                log.warning("%s", error)
+                return await self._begin()
+            except (BridgeError, OSError) as error:
+                said = str(error)
+            if said != logged:
+                log.warning("The robot's own MQTT broker does not come up and is tried again: %s", said)
+            pause, logged = min(2 * pause, MAX_RESTART_PAUSE), said
 
     async def _begin(self) -> Process:
         """A process that listens. BridgeError when it does not."""
         # in a group of its own: Ctrl-C ends the robot, and that ends the broker when it has said goodbye
         process = await asyncio.create_subprocess_exec(
-            *self._command(), stdin=PIPE, stdout=DEVNULL, stderr=DEVNULL, process_group=0
+            *self._words, stdin=PIPE, stdout=DEVNULL, stderr=DEVNULL, process_group=0
         )
         try:
             async with asyncio.timeout(START_TIMEOUT):
@@ -143,8 +164,8 @@ class OwnBroker:
             raise BridgeError(f"The robot's own broker cannot listen on {self._host}:{self.port}.")
         return process
 
-    def _command(self) -> list[str]:
-        folder = Path(self._folder.name if self._folder else ".")
+    def _command(self, folder: Path) -> list[str]:
+        """What starts it, by the settings that this writes to `folder`."""
         values = {
             "host": f"[{self._host}]" if ":" in self._host and not self._program else self._host,
             "port": self.port,

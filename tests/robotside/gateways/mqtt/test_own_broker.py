@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import errno
 import os
 import signal
 import socket
@@ -139,6 +140,54 @@ async def test_one_that_does_not_come_up_is_one_sentence_and_leaves_nothing(tmp_
     broker = OwnBroker("127.0.0.1", 0, program=str(program))
     with pytest.raises(BridgeError, match="cannot listen on 127"):
         await broker.start()
+    await broker.stop()
+
+
+class Child:
+    """A process of a broker."""
+
+    stdin = None
+
+    def __init__(self) -> None:
+        self.ended = asyncio.Event()
+
+    async def wait(self) -> int:
+        await self.ended.wait()
+        return 1
+
+
+async def test_one_that_does_not_come_up_again_is_tried_ever_less_often_and_told_of_once(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    pauses: list[float] = []
+
+    async def pause(seconds: float) -> None:
+        pauses.append(seconds)
+
+    broker, dead, back = OwnBroker("127.0.0.1", 0, program="", pause=pause), Child(), Child()
+    full = OSError(errno.ENOSPC, "No space left on device")
+    faults, is_back = iter([BridgeError("Taken."), *[full] * 8]), asyncio.Event()
+
+    async def begin() -> Child:
+        for fault in faults:
+            raise fault
+        is_back.set()
+        return back
+
+    monkeypatch.setattr(broker, "_begin", begin)
+    broker._process = dead  # type: ignore[assignment]
+    broker._watching = asyncio.create_task(broker._watch())
+    dead.ended.set()
+    async with asyncio.timeout(60):
+        await is_back.wait()
+    assert pauses == [0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 30.0, 30.0, 30.0, 30.0]
+    said = [record.getMessage() for record in caplog.records]
+    assert [each.rpartition(": ")[2] for each in said] == [
+        "The robot's own MQTT broker ended with 1 and is started again",
+        "Taken.",
+        "[Errno 28] No space left on device",
+    ]
+    back.ended.set()
     await broker.stop()
 
 
