@@ -37,6 +37,8 @@ BEAT_PERIOD = 1.0
 """Between two looks whether the broker is there [s]."""
 FETCH_WAIT = 0.02
 """For so long a broker may wait for more before it gives an answer without any record [s]."""
+PREPARE_PERIOD = 5.0
+"""From the answer that there is no such topic to the next question for it [s]: somebody may make it later."""
 MAX_FETCH = 262144
 """Bytes of one partition that are fetched at a time."""
 MAX_BEHIND = 1024
@@ -160,14 +162,16 @@ class KafkaLine(Line):
             log.debug("A record was not taken: %s", future.exception())
 
     def _begin_to_prepare(self, topic: str) -> None:
-        """Ask for a topic that was not asked for at the beginning; what is sent meanwhile is dropped."""
+        """Ask for a topic that the broker did not have so far; what is sent meanwhile is dropped."""
         if self._producer is None or topic in self._preparing:
             return
 
         async def prepare() -> None:
-            await self.prepare([topic])
+            if await self.prepare([topic]):
+                await asyncio.sleep(PREPARE_PERIOD)
 
-        self._preparing[topic] = asyncio.create_task(prepare())
+        task = self._preparing[topic] = asyncio.create_task(prepare())
+        task.add_done_callback(lambda _: self._preparing.pop(topic, None))
 
     async def _connect(self) -> None:
         async with self._opened() as (producer, consumer):
@@ -255,8 +259,8 @@ class KafkaLine(Line):
                 consumer.seek(partition, known)
 
     async def _close(self, producer: AIOKafkaProducer, consumer: AIOKafkaConsumer) -> None:
-        await cancel_all(self._preparing.values())
-        self._preparing.clear()
+        self._producer = None  # so that nothing more is begun by it
+        await cancel_all(tuple(self._preparing.values()))
         await close_ends(producer, consumer)
 
     async def _listen(self, consumer: AIOKafkaConsumer) -> None:

@@ -8,8 +8,15 @@ from typing import Any
 
 import pytest
 from aiokafka import TopicPartition
-from aiokafka.errors import KafkaConnectionError, KafkaError, KafkaTimeoutError, TopicAuthorizationFailedError
+from aiokafka.errors import (
+    KafkaConnectionError,
+    KafkaError,
+    KafkaTimeoutError,
+    TopicAuthorizationFailedError,
+    UnknownTopicOrPartitionError,
+)
 
+from bridge.core.async_tasks import cancel_all
 from robotside.gateways.gateway_url import read_url
 from robotside.gateways.kafka import kafka_line
 from robotside.gateways.kafka.adapter import ADAPTER
@@ -123,6 +130,44 @@ async def test_records_that_wait_for_the_broker_are_bounded() -> None:
     assert len(producer.taken) == MAX_UNCONFIRMED + 1
     flooding.cancel()
     await asyncio.gather(flooding, return_exceptions=True)
+
+
+class LateProducer(FullProducer):
+    """Has a topic once somebody has made it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.asked, self.has = 0, False
+
+    async def partitions_for(self, _: str) -> set[int]:
+        self.asked += 1
+        if not self.has:
+            raise UnknownTopicOrPartitionError
+        return {0}
+
+
+async def test_a_topic_that_is_made_later_is_asked_for_again_after_a_while_and_published_then(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    made, producer = line(), LateProducer()
+    made._producer = producer  # type: ignore[assignment]
+
+    async def keep_sending() -> None:
+        for _ in range(50):
+            await made.send(Record("t", b"{}"))
+            await asyncio.sleep(0)
+
+    await keep_sending()
+    assert producer.asked == 1, "not at each record"
+    await cancel_all(tuple(made._preparing.values()))
+    monkeypatch.setattr(kafka_line, "PREPARE_PERIOD", 0.0)
+    await keep_sending()
+    assert producer.asked > 3
+    assert not producer.taken
+    producer.has = True
+    await keep_sending()
+    assert producer.taken
+    assert not made._preparing
 
 
 async def test_what_is_sent_without_a_connection_is_dropped() -> None:
