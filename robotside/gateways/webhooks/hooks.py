@@ -90,13 +90,20 @@ class Hooks:
 
     async def add(self, operator: Operator, found: object) -> dict[str, Any]:
         """Have events sent; what was made, with its secret. ProtocolError or Refused with one sentence when that is not done."""
-        role = self._role(operator)
-        wish = _read(found)
-        target, asker = read_target(wish.url), Asker(operator.address.rpartition(":")[0], role)
+        self._role(operator)
+        wish, owner = _read(found), operator.identity.id
+        target = read_target(wish.url)
         try:
             address = await look_up(target.host, TIMEOUT)
         except OSError as error:
             raise ProtocolError(f"url has a host that is not found: {target.host[:100]!r}.") from error
+        role = self._role(operator)  # who asks may be another one, or nobody, since the look-up began
+        if operator.identity.id != owner:
+            said = "The webhook is not made: you are somebody else than who asked for it."
+            raise Refused(
+                Notice(Code.TRUST_ROLE, said, operation="webhooks", role=role.word, needed=Role.DRIVE.word)
+            )
+        asker = Asker(operator.address.rpartition(":")[0], role)
         check_address(address, asker)
         if len(self._hooks) >= MAX_HOOKS:
             raise Refused(

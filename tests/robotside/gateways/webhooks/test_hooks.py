@@ -15,7 +15,7 @@ import pytest
 
 from bridge.core.codes import Code
 from bridge.core.errors import ProtocolError, Refused
-from bridge.core.identity import Identity, Role
+from bridge.core.identity import STRANGER, Identity, Role
 from bridge.core.robot_catalogue import Operator
 from robotside.core.notice import Notice
 from robotside.gateways.webhooks import delivery, hooks
@@ -269,6 +269,29 @@ async def test_the_webhooks_of_who_may_nothing_any_more_end(scene: Scene, made: 
         say(scene, "One.")
         assert len(made) == 0
         assert len(receiver.got) == 1
+
+
+@pytest.mark.parametrize(
+    ("becomes", "said"),
+    [
+        (STRANGER, "Webhooks need the role drive"),
+        (Identity("m", "m", Role.WATCH, proven=True), "Webhooks need the role drive"),
+        (Identity("other", "other", Role.MANAGE, proven=True), "somebody else"),
+    ],
+)
+async def test_who_may_less_once_the_host_is_looked_up_makes_none(
+    scene: Scene, made: Hooks, monkeypatch: pytest.MonkeyPatch, becomes: Identity, said: str
+) -> None:
+    operator = someone()
+
+    async def look_up(*_: object) -> str:
+        operator.identity = becomes
+        return "192.0.2.7"
+
+    monkeypatch.setattr(hooks, "look_up", look_up)
+    with pytest.raises(Refused, match=said):
+        await made.add(operator, {"url": "http://elsewhere.example/hook"})
+    assert not len(made)
 
 
 async def test_by_rest_they_are_made_read_and_removed_and_end_with_the_gateway(scene: Scene) -> None:
