@@ -5,7 +5,7 @@ ROBOT ?= patrol
 WORLD ?=
 export PYTHONPATH := $(CURDIR)
 
-.PHONY: help setup voice setup-test setup-js run demo test test-fast test-slow mutate bench android-check gallery lint format
+.PHONY: help setup voice video setup-test setup-js run demo test test-fast test-slow mutate bench android-check gallery lint format
 
 help: ## list the commands
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -15,6 +15,9 @@ setup: ## install what running needs into .venv, if missing: app, robot side, si
 
 voice: ## install what spoken commands and the voice that answers need
 	@bash scripts/setup.sh voice
+
+video: ## install what film and WebRTC of the camera need
+	@bash scripts/setup.sh video
 
 setup-test: ## install what tests, benches and lint need
 	@bash scripts/setup.sh voice test

@@ -15,6 +15,7 @@ from robotside.bringing_up.settling import GATEWAYS as VARIABLE
 from robotside.bringing_up.settling import blamed
 from robotside.commands.user_mistake import UserMistake
 from robotside.core.config import BadConfig, GatewaySettings
+from robotside.core.installing import how_to_install
 
 if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load them
     from robotside.gateways.adapter import Adapter
@@ -125,7 +126,7 @@ def _check_package(adapter: Adapter) -> None:
     lacking = missing_package(adapter)
     if lacking:
         said = f"The gateway {adapter.name} needs {lacking}, which is not installed"
-        raise UserMistake(f"{said}: pip install 'pilothouse[gateways]' brings it.")
+        raise UserMistake(f"{said}: {how_to_install('gateways')} brings it.")
 
 
 def without(options: argparse.Namespace) -> tuple[str, ...]:

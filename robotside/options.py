@@ -21,6 +21,7 @@ from robotside.commands import audit, erase, pair, people, token
 from robotside.commands.state_directory import base
 from robotside.commands.user_mistake import UserMistake
 from robotside.core.config import DEFAULT_CONFIG, Config, load
+from robotside.core.installing import how_to_install
 from robotside.gateway_options import add_options as add_gateways
 from robotside.gateway_options import wishes, without
 from robotside.gateways.addresses import is_here
@@ -225,7 +226,7 @@ def _check(options: argparse.Namespace) -> None:
 def _check_mdns(options: argparse.Namespace) -> None:
     if options.mdns and find_spec("zeroconf") is None:
         raise UserMistake(
-            "--mdns needs zeroconf, which is not installed: pip install 'pilothouse[mdns]' brings it."
+            f"--mdns needs zeroconf, which is not installed: {how_to_install('mdns')} brings it."
         )
 
 

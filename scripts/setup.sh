@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what Pilothouse needs into .venv, in steps that each leave a stamp; a step whose stamp holds does nothing.
-#   scripts/setup.sh [voice] [test] [clients]   app, robot side and simulator first of all; voice: speech; test: what tests,
-#                                               benches and lint need; clients: the JavaScript libraries of tests/clients
+#   scripts/setup.sh [voice] [video] [test] [clients]   app, robot side and simulator first of all; voice: speech; video: film
+#                                                       of the camera; test: what tests, benches and lint need; clients: the
+#                                                       JavaScript libraries of tests/clients
 # SETUP_LIMIT=SECONDS allows each download longer than 15 minutes, and npm longer than 3. One set-up works at a time.
 # Exit codes: 0 ready, 1 a fault, 2 something that the user has to do; each of them said in one sentence.
 set -euo pipefail
@@ -240,6 +241,8 @@ set_up_run() {
 
 set_up_voice() { install_extras "voice" voice vosk espeak; }
 
+set_up_video() { install_extras "film and WebRTC" video; }
+
 set_up_test() {
     install_extras "what tests, benches and lint need" dev video
     # tests kill it and start it again; without it they take iotcore's broker
@@ -281,8 +284,8 @@ set_up_clients() {
 # nothing else can be installed before the first step made .venv
 for step in run "$@"; do
     case $step in
-        run | voice | test | clients) ;;
-        *) say "there is no step $step; there are run, voice, test and clients." >&2; exit 2 ;;
+        run | voice | video | test | clients) ;;
+        *) say "there is no step $step; there are run, voice, video, test and clients." >&2; exit 2 ;;
     esac
     if ! ready "$step"; then
         work_alone

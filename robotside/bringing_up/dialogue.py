@@ -13,6 +13,7 @@ from bridge.core.address import BadAddress, host_and_port
 from robotside.bringing_up.robot_file import Choice, before, keep
 from robotside.commands.user_mistake import UserMistake
 from robotside.core.config import Config, GatewaySettings, ServeSettings
+from robotside.core.installing import how_to_install
 from robotside.gateways.addresses import is_here
 
 if TYPE_CHECKING:  # loaded when somebody is asked
@@ -56,7 +57,7 @@ def can_ask() -> bool:
 def ask(file: Path, simulated: Simulated) -> None:
     """Ask with what `file` says as answers, and keep the new ones there. NotAnswered, UserMistake, or BadConfig."""
     if not can_ask():
-        raise UserMistake("--ask needs questionary: pip install 'pilothouse[gateways]' brings it.")
+        raise UserMistake(f"--ask needs questionary: {how_to_install('gateways')} brings it.")
     known = before(file)
     try:
         choice = chosen(simulated, known)
@@ -172,7 +173,7 @@ def _gateways(known: Mapping[str, GatewaySettings]) -> dict[str, GatewaySettings
     items = []
     for name, adapter in there.items():
         lacking = missing_package(adapter)
-        why = f"needs {lacking}: pip install 'pilothouse[gateways]'" if lacking else None
+        why = f"needs {lacking}: {how_to_install('gateways')}" if lacking else None
         on = name in known and known[name].on and not lacking
         items.append(Item(f"{name:<11} {adapter.doc}", value=name, checked=on, disabled=why))
     can_be = any(not item.disabled for item in items)  # a list of which none can be chosen is an error there

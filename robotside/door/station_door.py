@@ -45,6 +45,8 @@ class Health(NamedTuple):
     """Of the task, as in TaskStatus."""
     position_sure: bool
     """It is certain where it is."""
+    stopped: bool
+    """STOP is pressed."""
 
 
 class StationDoor(Door):
@@ -157,6 +159,7 @@ class StationDoor(Door):
             status.task,
             status.state,
             station.autonomy.pose_estimator.sure,
+            station.controls.stopped,
         )
 
     def last(self, topic: str) -> Msg | None:

@@ -21,6 +21,7 @@ from bridge.msgs.pilothouse_msgs import (
     GatewayArray,
 )
 from bridge.msgs.std_msgs import Time
+from robotside.core.installing import how_to_install
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
@@ -240,9 +241,7 @@ def _read(name: str, url: str) -> tuple[Adapter, GatewayUrl]:
         raise Refusal(Notice(Code.GATEWAY_UNKNOWN, said, gateway=name))
     package = missing_package(known[name])
     if package:
-        said = (
-            f"{name} needs {package}, which is not installed: pip install 'pilothouse[gateways]' brings it."
-        )
+        said = f"{name} needs {package}, which is not installed: {how_to_install('gateways')} brings it."
         raise Refusal(Notice(Code.GATEWAY_LACKING, said, gateway=name, package=package))
     if len(url) > MAX_URL:
         said = f"A URL has at most {MAX_URL} characters, not {len(url)}."

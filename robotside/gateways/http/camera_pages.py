@@ -13,6 +13,7 @@ from starlette.routing import Route
 
 from bridge.core.errors import Refused
 from bridge.core.topics import CAMERA, camera_topics
+from robotside.core.installing import how_to_install, is_installed
 from robotside.door.station_door import StationDoor
 from robotside.gateways.http.asker import is_known, operator_of
 from robotside.gateways.http.camera_streams import MEDIA_TYPES, CameraStreams
@@ -21,21 +22,23 @@ from robotside.gateways.http.whep import MAX_OFFER, BadOffer
 from robotside.gateways.video.delays import Delays
 from robotside.gateways.video.views import BadViewError, View, view_of
 
-__all__ = ["SNAPSHOT_TIMEOUT", "CameraPages", "cameras_part", "delay_words"]
+__all__ = ["SNAPSHOT_TIMEOUT", "CameraPages", "cameras_part", "cameras_text", "delay_words"]
 
 SNAPSHOT_TIMEOUT = 2.0
 """How long to wait for a picture [s]."""
 
+_FILM_LIBRARY, _WEBRTC_LIBRARY = "av", "aiortc"
 _SDP = "application/sdp"
 _FRESH = {"Cache-Control": "no-store"}
 _PICTURES = {"jpg": "image/jpeg", "png": "image/png"}
 
 _CAMERA = """<li>camera {name}: <code>{bridge}/camera/{name}</code>, a picture as <a href="/snapshot/{name}.jpg">jpg</a> or
-<a href="/snapshot/{name}.png">png</a>, moving pictures as {streams}, and by WebRTC: <code>POST /whep/{name}</code> ({whep}). All take <code>?width=</code> [px] and <code>quality=</code>
-(1 to 95; not png), the moving ones <code>rate=</code> [Hz] and <code>codec=</code> (webm: vp8 or vp9; WebRTC: h264 or vp8). A browser's player
-keeps mp4 and webm back for 2 to 4 s more: drive by mjpeg.<br>
+<a href="/snapshot/{name}.png">png</a>, moving pictures as {streams}. {film} All take <code>?width=</code> [px] and <code>quality=</code>
+(1 to 95; not png), the moving ones <code>rate=</code> [Hz].<br>
 <img src="/stream/{name}.mjpeg?width=480&amp;rate=10" width="480" alt="what the camera sees"></li>
 """
+_FILM = """<code>codec=</code> is vp8 or vp9 of webm, h264 or vp8 of WebRTC. A browser's player keeps mp4 and webm back for 2 to 4 s more:
+drive by mjpeg."""
 
 
 class CameraPages:
@@ -143,17 +146,55 @@ async def _offer(request: Request) -> str:
 
 def cameras_part(door: StationDoor, bridge_url: str, delays: Delays) -> str:
     """The items of the page's list that say how each camera is reached, each stream with its measured delay."""
+    found = []
+    for name, topic in _working(door):
+        streams = [_stream(name, kind, delay_words(delays, topic, kind)) for kind in _kinds()]
+        if _has_webrtc():
+            streams.append(
+                f"WebRTC by <code>POST /whep/{html.escape(name)}</code> ({delay_words(delays, topic, 'whep')})"
+            )
+        said = " ".join([_FILM] * is_installed(_FILM_LIBRARY) + _lacking())
+        shown, bridge = html.escape(name), html.escape(bridge_url)
+        found.append(_CAMERA.format(name=shown, bridge=bridge, streams=", ".join(streams), film=said))
+    return "".join(found)
+
+
+def cameras_text(door: StationDoor, site: str, bridge_url: str, delays: Delays) -> str:
+    """The same for a terminal; empty for a robot without a camera. `site` is the URL of the web site."""
+    lines = []
+    for name, topic in _working(door):
+        lines += [f"camera {name}:", f"  {bridge_url}/camera/{name}"]
+        lines += [f"  {site}/stream/{name}.{kind} ({delay_words(delays, topic, kind)})" for kind in _kinds()]
+        if _has_webrtc():
+            lines.append(f"  WebRTC: POST {site}/whep/{name} ({delay_words(delays, topic, 'whep')})")
+        lines += [f"  {said}" for said in _lacking()]
+    return "\n".join(lines)
+
+
+def _working(door: StationDoor) -> list[tuple[str, str]]:
+    """Name and topic of each camera that is on."""
     topics = camera_topics(door.info.cameras)
-    return "".join(
-        _CAMERA.format(
-            name=html.escape(name),
-            bridge=html.escape(bridge_url),
-            whep=delay_words(delays, topic, "whep"),
-            streams=", ".join(_stream(name, kind, delay_words(delays, topic, kind)) for kind in MEDIA_TYPES),
-        )
-        for name, topic in topics.items()
-        if name in door.info.cameras and not door.is_off(name)
-    )
+    return [
+        (name, topic) for name, topic in topics.items() if name in door.info.cameras and not door.is_off(name)
+    ]
+
+
+def _kinds() -> list[str]:
+    """The kinds of streams that can be made with what is installed."""
+    film = is_installed(_FILM_LIBRARY)
+    return [kind for kind in MEDIA_TYPES if film or kind == "mjpeg"]
+
+
+def _has_webrtc() -> bool:
+    return is_installed(_FILM_LIBRARY, _WEBRTC_LIBRARY)
+
+
+def _lacking() -> list[str]:
+    """What is not offered and what brings it, as a sentence; none where nothing lacks."""
+    if _has_webrtc():
+        return []
+    what = "WebRTC" if is_installed(_FILM_LIBRARY) else "mp4, webm and WebRTC"
+    return [f"{how_to_install('video')} brings {what}, for which a library is not installed."]
 
 
 def _stream(name: str, kind: str, delay: str) -> str:

@@ -16,7 +16,7 @@ from bridge.trust.robot_link import RobotLink
 from robotside.door.station_door import StationDoor
 from robotside.gateways.addresses import is_here
 from robotside.gateways.http.asker import is_known, operator_of
-from robotside.gateways.http.camera_pages import cameras_part
+from robotside.gateways.http.camera_pages import cameras_part, cameras_text
 from robotside.gateways.http.camera_streams import CameraStreams
 from robotside.gateways.http.pairing_part import pairing_part
 from robotside.gateways.usage_sheet.running import Running
@@ -33,9 +33,12 @@ _PRIVATE = {
     "X-Frame-Options": "DENY",
     "Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; img-src 'self'; form-action 'self'; "
     "base-uri 'none'; frame-ancestors 'none'",
-    "Referrer-Policy": "no-referrer",
+    "Referrer-Policy": "same-origin",
 }
-"""Pages are neither kept nor shown inside pages of others, run no script, and take nothing from elsewhere."""
+"""Pages are neither kept nor shown inside pages of others, run no script, and take nothing from elsewhere.
+
+With no referrer at all browsers would send their STOP as from the origin null, that of pages of nobody.
+"""
 
 
 def _nothing() -> Sequence[Running]:
@@ -93,15 +96,16 @@ class UsagePages:
         """The sheet as text; the doorkeeper has sent strangers away."""
         from robotside.gateways.usage_sheet.rendering import as_text
 
-        return PlainTextResponse(as_text(self._sheet(request)), headers={"Cache-Control": "no-store"})
+        site = _site(request)
+        cameras = cameras_text(self._door, site, self._bridge_url(), self._streams.delays)
+        text = as_text(self._sheet(request), cameras)
+        return PlainTextResponse(text, headers={"Cache-Control": "no-store"})
 
     def _sheet(self, request: Request) -> Sheet:
         from robotside.gateways.usage_sheet.sheet import make_sheet
 
-        host, port = request.scope.get("server") or ("127.0.0.1", 0)
-        site = f"{request.scope.get('scheme', 'http')}://{at_port(host, port)}"
         running = self._usage.running()
-        return make_sheet(self._door, self._bridge_url(), site, running, self._usage.pin)
+        return make_sheet(self._door, self._bridge_url(), _site(request), running, self._usage.pin)
 
     def _link(self) -> str:
         """What brings the app here; empty where no other machine can come."""
@@ -110,8 +114,16 @@ class UsagePages:
         return RobotLink.of(url, self._door.info.name).text if host and not is_here(host) else ""
 
 
-def strangers(door: StationDoor, said: str, status: int = 200) -> Response:
-    """What a stranger sees: the robot's name, STOP, and where to show a token."""
-    from robotside.gateways.usage_sheet.rendering import strangers_page
+def _site(request: Request) -> str:
+    """The URL of this site as the asker reached it."""
+    host, port = request.scope.get("server") or ("127.0.0.1", 0)
+    return f"{request.scope.get('scheme', 'http')}://{at_port(host, port)}"
 
-    return HTMLResponse(strangers_page(door.info.name, said), status, _PRIVATE)
+
+def strangers(door: StationDoor, said: str, status: int = 200) -> Response:
+    """What a stranger sees: the robot's name, STOP, whether it is pressed, and where to show a token."""
+    from robotside.gateways.usage_sheet.rendering import strangers_page
+    from robotside.gateways.usage_sheet.sheet import stop_words
+
+    page = strangers_page(door.info.name, said, stop_words(door, named=False))
+    return HTMLResponse(page, status, _PRIVATE)

@@ -9,14 +9,16 @@ from concurrent.futures import ThreadPoolExecutor
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
-from starlette.responses import JSONResponse, PlainTextResponse, Response
+from starlette.responses import JSONResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route
 
 from bridge.core.errors import BridgeError, Refused
+from bridge.server.reception.places import Place
 from robotside.control.authority import MAX_NAME_LENGTH
 from robotside.core.text import plain
 from robotside.door.station_door import StationDoor
 from robotside.gateways.http.asker import is_known, operator_of
+from robotside.gateways.http.browser_connection import PLACE
 from robotside.gateways.http.camera_pages import CameraPages
 from robotside.gateways.http.camera_streams import CameraStreams
 from robotside.gateways.http.sessions import Sessions
@@ -93,7 +95,10 @@ class _Pages:
             raise HTTPException(
                 405, "STOP is pressed by POST, from anywhere and by anyone.", {"Allow": "POST"}
             )
-        return PlainTextResponse(*await _stop(self._door, request))
+        said, status = await _stop(self._door, request)
+        if status == 200 and _shows_pages(request):
+            return RedirectResponse("/", 303, _FRESH)  # to the page, which says that the robot is stopped
+        return PlainTextResponse(said, status)
 
     async def login(self, request: Request) -> Response:
         try:
@@ -110,6 +115,12 @@ async def _stop(door: StationDoor, request: Request) -> tuple[str, int]:
     name = plain(request.query_params.get("name", ""), MAX_NAME_LENGTH)
     answer = await door.stop(operator_of(request), name)
     return f"{answer.message}\n", 200 if answer.success else 503
+
+
+def _shows_pages(request: Request) -> bool:
+    """A browser asks, in which somebody looks; not where the site is full, which would have no page for it."""
+    place: Place | None = request.scope.get("state", {}).get(PLACE)
+    return "text/html" in request.headers.get("accept", "") and not (place is not None and place.only_stop)
 
 
 async def _sentence(_: Request, problem: Exception) -> Response:

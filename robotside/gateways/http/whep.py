@@ -14,6 +14,7 @@ from types import ModuleType
 from typing import Any
 
 from bridge.core.errors import BridgeError
+from robotside.core.installing import how_to_install
 from robotside.gateways.video.delays import Delays
 from robotside.gateways.video.shared_encodings import FilmViewer, FullError, SharedEncodings
 from robotside.gateways.video.video_encoder import TIME_SCALE, Encoded, NoVideo, library
@@ -203,7 +204,7 @@ def _library() -> ModuleType:
         import aiortc.mediastreams
     except ImportError as missing:
         raise NoVideo(
-            "This robot speaks no WebRTC: aiortc of the extra `video` is not installed (pip install 'pilothouse[video]')."
+            f"This robot speaks no WebRTC: aiortc is not installed; {how_to_install('video')} brings it."
         ) from missing
     return aiortc
 

@@ -10,7 +10,11 @@
 <header><div>
 <h1>${sheet.name}</h1>
 <form method="post" action="/stop"><button class="stop">STOP</button></form>
-</div></header>
+</div>
+% if sheet.stopped:
+<p class="stopped" role="status">${sheet.stopped}</p>
+% endif
+</header>
 <main>
 <p>${sheet.about} ${sheet.state}</p>
 

@@ -41,16 +41,18 @@ def as_page(sheet: Sheet, parts: Parts) -> str:
     return str(shown)
 
 
-def strangers_page(name: str, said: str) -> str:
-    """What a stranger sees: the robot's name, STOP, one sentence, and where to show a token."""
-    return str(_template("stranger.mako").render(name=name, said=said))
+def strangers_page(name: str, said: str, stopped: str = "") -> str:
+    """What a stranger sees: the robot's name, STOP, whether it is pressed, one sentence, and where to show a token."""
+    return str(_template("stranger.mako").render(name=name, said=said, stopped=stopped))
 
 
-def as_text(sheet: Sheet) -> str:
-    """The same for a terminal."""
-    lines = [sheet.name, f"{sheet.about} {sheet.state}", "", f"rosbridge: {sheet.bridge}", ""]
+def as_text(sheet: Sheet, cameras: str = "") -> str:
+    """The same for a terminal; `cameras` says where the pictures of each are."""
+    head = [sheet.name, *filter(None, [sheet.stopped]), f"{sheet.about} {sheet.state}"]
+    lines = [*head, "", f"rosbridge: {sheet.bridge}", ""]
     for command in sheet.commands:
         lines += [f"# {command.doc}", command.line]
+    lines += ["", *cameras.splitlines()] if cameras else []
     for gateway in sheet.gateways:
         lines += [
             "",

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from urllib.parse import urlsplit
 
 from bridge.core.address import at_port
-from bridge.msgs.pilothouse_msgs import TaskStatus
+from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
 from robotside.door.station_door import StationDoor
 from robotside.gateways.payloads.offered import CALL, PUBLISH, READ, Line, OfferedPayload, offered
 from robotside.gateways.usage_sheet.running import Running
 
-__all__ = ["Command", "Sheet", "make_sheet", "rosbridge_message"]
+__all__ = ["Command", "Sheet", "make_sheet", "rosbridge_message", "stop_words"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +34,8 @@ class Sheet:
     """What the robot is, and where."""
     state: str
     """What it does now."""
+    stopped: str
+    """That STOP is pressed, by whom, and what releases it; empty while it is not."""
     bridge: str
     """URL of the rosbridge socket, for this reader."""
     commands: tuple[Command, ...]
@@ -60,6 +62,7 @@ def make_sheet(
         info.name,
         f"{info.description}{f' in {info.world}' if info.world else ''}.",
         (status.reason if isinstance(status, TaskStatus) else "") or "It has no task.",
+        stop_words(door),
         reached,
         tuple(_commands(site, [name for name in info.cameras if not door.is_off(name)], pin)),
         _program(reached),
@@ -67,6 +70,15 @@ def make_sheet(
         payloads,
         tuple((name, each.type) for name, each in sorted(door.services.items()) if name not in told),
     )
+
+
+def stop_words(door: StationDoor, *, named: bool = True) -> str:
+    """That STOP is pressed, by whom while `named`, and what releases it, as a sentence; empty while it is not pressed."""
+    status = door.last("/control/status")
+    if not isinstance(status, ControlStatus) or not status.stopped:
+        return ""
+    by = f" by {status.stopped_by}" if named and status.stopped_by else ""
+    return f"STOP is pressed{by}; release it in the app."
 
 
 def rosbridge_message(line: Line) -> str:

@@ -10,7 +10,11 @@
 <header><div>
 <h1>${name}</h1>
 <form method="post" action="/stop"><button class="stop">STOP</button></form>
-</div></header>
+</div>
+% if stopped:
+<p class="stopped" role="status">${stopped}</p>
+% endif
+</header>
 <main>
 <section class="card"><p>${said}</p>
 <form method="post" action="/login"><p><label>Token<br><input name="token" type="password" autocomplete="off"></label></p>

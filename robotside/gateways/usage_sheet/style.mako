@@ -1,13 +1,14 @@
 <style>
-:root{color-scheme:light dark;--ground:#f4f6f8;--card:#fff;--text:#17202a;--quiet:#5b6775;--line:#d8dfe6;--code:#eef2f6;--accent:#0b63c5}
-@media(prefers-color-scheme:dark){:root{--ground:#11161c;--card:#1a2129;--text:#e8edf2;--quiet:#9aa7b4;--line:#2d3742;--code:#232c36;--accent:#6cb2ff}}
+:root{color-scheme:light dark;--ground:#f4f6f8;--card:#fff;--text:#17202a;--quiet:#5b6775;--line:#d8dfe6;--code:#eef2f6;--accent:#0b63c5;--alarm:#c40d1e}
+@media(prefers-color-scheme:dark){:root{--ground:#11161c;--card:#1a2129;--text:#e8edf2;--quiet:#9aa7b4;--line:#2d3742;--code:#232c36;--accent:#6cb2ff;--alarm:#ff8a8a}}
 *{box-sizing:border-box}
 body{margin:0;background:var(--ground);color:var(--text);font:16px/1.5 system-ui,"Segoe UI",Roboto,"DejaVu Sans",sans-serif}
 header{position:sticky;top:0;z-index:1;background:var(--card);border-bottom:1px solid var(--line)}
 header>div,main{max-width:70rem;margin:0 auto;padding:.7rem 1rem}
 header>div{display:flex;align-items:center;justify-content:space-between;gap:1rem}
+.stopped{max-width:70rem;margin:0 auto;padding:0 1rem .6rem;font-weight:600;color:var(--alarm);overflow-wrap:anywhere}
 h1{font-size:1.35rem;margin:0;overflow-wrap:anywhere}h2{font-size:1.15rem;margin:1.8rem 0 .6rem}h3{font-size:1rem;margin:0}
-p{margin:.3rem 0 .6rem}a{color:var(--accent)}.fault{color:#c40d1e;font-weight:600}.quiet{color:var(--quiet);font-size:.92rem}
+p{margin:.3rem 0 .6rem}a{color:var(--accent)}.fault{color:var(--alarm);font-weight:600}.quiet{color:var(--quiet);font-size:.92rem}
 form{margin:0}button{font:inherit;cursor:pointer}
 .stop{background:#c40d1e;color:#fff;border:0;border-radius:.5rem;font-weight:700;font-size:1.2rem;min-height:3rem;padding:.3rem 1.8rem;letter-spacing:.05em}
 .stop:focus-visible,summary:focus-visible,a:focus-visible{outline:3px solid var(--accent);outline-offset:2px}

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from bridge.core.camera_frames import picture_size
 from bridge.core.errors import BridgeError
+from robotside.core.installing import how_to_install
 
 if TYPE_CHECKING:
     from av.video.frame import VideoFrame
@@ -93,7 +94,7 @@ def library() -> ModuleType:
         import av
     except ImportError as missing:
         raise NoVideo(
-            "This robot makes no film: the extra `video` of its software is not installed (pip install 'pilothouse[video]')."
+            f"This robot makes no film: PyAV is not installed; {how_to_install('video')} brings it."
         ) from missing
     return av
 

@@ -148,7 +148,7 @@ def test_who_leaves_in_the_middle_leaves_nothing(simulated: Simulated, tmp_path:
 
 def test_without_the_library_it_says_what_brings_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(dialogue, "can_ask", lambda: False)
-    with pytest.raises(UserMistake, match="needs questionary: pip install"):
+    with pytest.raises(UserMistake, match="needs questionary: make setup brings it"):
         ask(tmp_path / "robot.toml", Simulated())
 
 

@@ -147,7 +147,12 @@ async def test_without_the_library_film_is_not_there_and_all_else_is(
     async with filming(tmp_path) as (robot, serves, web):
         answer = await web.get("/stream/front.webm")
         assert (answer.status_code, answer.text.count("\n")) == (501, 1)
-        assert "pip install 'pilothouse[video]'" in answer.text
+        assert "make video brings it" in answer.text
+        for told in ((await web.get("/")).text, (await web.get("/usage.txt")).text):
+            assert "make video brings mp4, webm and WebRTC" in told
+            assert "/stream/front.mjpeg" in told
+            for gone in (".mp4", ".webm", "/whep/", "codec="):
+                assert gone not in told
         asked = asyncio.create_task(web.get("/snapshot/front.png?width=100"))
         await robot.until(True)
         shoot(serves, PHOTO)
@@ -266,9 +271,13 @@ async def test_the_page_says_how_late_each_kind_of_stream_is_once_somebody_has_l
             await robot.until(True)
             shoot(serves, numbered(1))
             await player.until(1)
-        after = (await web.get("/")).text
+        after, text = (await web.get("/")).text, (await web.get("/usage.txt")).text
         assert after.count("delay: measured once somebody looks") == 3
         assert '<a href="/stream/front.mp4">mp4</a> (delay: half of the pictures up to' in after
+        assert f"{web.base_url}".rstrip("/") + "/stream/front.mp4 (delay: half of the pictures up to" in text
+        assert text.count("delay: measured once somebody looks") == 3
+        assert "/whep/front (delay" in text
+        assert "make video" not in after + text
 
 
 def test_a_delay_is_told_in_milliseconds() -> None:

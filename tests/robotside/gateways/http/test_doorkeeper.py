@@ -78,6 +78,12 @@ async def test_a_stranger_sees_a_name_a_stop_button_and_where_to_show_a_token(si
         assert 'action="/login"' in page
         assert "Patrols the yard" not in page
         assert "/cmd_vel" not in page
+        assert "STOP is pressed" not in page
+        assert (await web.get("/healthz")).json() == {"ok": True}
+        await web.post("/stop?name=Fred")
+        page = (await web.get("/")).text
+        assert "STOP is pressed; release it in the app." in page
+        assert "Fred" not in page
         assert (await web.get("/healthz")).json() == {"ok": True}
 
 

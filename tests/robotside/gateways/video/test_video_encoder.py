@@ -152,7 +152,7 @@ def test_h264_is_what_every_browser_plays(encoder: VideoEncoder, codec: str) -> 
 
 def test_without_the_library_one_sentence_names_what_brings_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "av", None)
-    with pytest.raises(NoVideo, match=r"`video`.*pip install 'pilothouse\[video\]'"):
+    with pytest.raises(NoVideo, match="PyAV is not installed; make video brings it"):
         VideoEncoder("h264")
     root = Path(__file__).parents[4]
     extras = tomllib.loads((root / "pyproject.toml").read_text())["project"]["optional-dependencies"]
