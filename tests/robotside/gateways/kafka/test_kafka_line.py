@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import math
+from collections.abc import AsyncIterator
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -195,3 +197,20 @@ def test_a_user_and_tls_are_what_the_url_says() -> None:
     secured = _settings(read_url("kafkas://a:b@h", ADAPTER.schemes))
     assert (secured["security_protocol"], secured["sasl_plain_password"]) == ("SASL_SSL", "b")
     assert secured["ssl_context"].check_hostname
+
+
+async def test_of_a_flood_that_was_fetched_at_once_one_record_is_heard_in_each_step() -> None:
+    """Whatever else there is to do, a STOP by another protocol above all, waits for one record and not for all of them."""
+    heard: list[int] = []
+
+    async def fetched() -> AsyncIterator[Any]:
+        for number in range(100):
+            yield SimpleNamespace(topic="t", partition=0, offset=number)
+
+    made = KafkaLine(URL, ("t",), lambda record: heard.append(record.offset))
+    listening = asyncio.create_task(made._listen(fetched()))  # type: ignore[arg-type]
+    for step in range(100):
+        await asyncio.sleep(0)
+        assert len(heard) <= step + 1
+    await listening
+    assert heard == list(range(100))
