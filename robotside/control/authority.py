@@ -170,6 +170,16 @@ class Authority:
             self._give(client)
         return problem
 
+    def settled(self, now: float) -> Driver | None:
+        """Who has control at `now` [s], once what is due by then has lapsed or gone over; None when it is free."""
+        self._expire(now)
+        return self._driver
+
+    def give_back(self, client: Operator, before: Driver | None) -> None:
+        """What `client` took control for is refused: if it took it since, control is again with who had it `before`."""
+        if self.holds(client):
+            self._driver = before
+
     def release(self, client: Operator) -> Problem:
         """Take control from `client`, for who asked for it if anybody did; or take back that `client` asks for it."""
         if self._asker is not None and self._asker.client.id == client.id:

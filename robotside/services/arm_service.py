@@ -116,7 +116,7 @@ class _ArmOrders:
         """Answer at once, or with `wait` when it is known what became of it; a repeated command waits for the first one."""
         before = self._newest
         answer = service.call(client, asked)
-        if not asked.wait:
+        if not asked.wait or (isinstance(answer, CommandResponse) and not answer.success):
             return answer
         known = self._by_id.get((self._station.controls.id(client), asked.command_id))
         motion = known if self._newest is before else self._newest

@@ -24,9 +24,11 @@ def listener(station: Station) -> Callable[[Operator, str, Msg, float | None], N
     def on_message(client: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
         if isinstance(msg, PoseStamped):
             pose = Pose2.from_msg(msg.pose)
+            before = station.controls.settled(station.clock())
             try:
                 orders.go_to(client, Waypoint(pose.x, pose.y, pose.yaw))
             except (Refusal, NotRecorded) as problem:
+                station.controls.give_back(client, before)
                 station.events.say("command", problem.notice, "warn")
         station.on_message(client, topic, msg, stamp)
 

@@ -66,6 +66,7 @@ class CommandService:
             sender = sender_of(station, client)
             station.readiness.on_operator_time(asked.stamp)
             done: list[bool] = []
+            before = None if ageless else station.controls.settled(station.clock())
             with station.records.together() as job:
                 answer = self._commands.run(
                     name,
@@ -75,6 +76,8 @@ class CommandService:
                     ageless=ageless,
                     response=response,
                 )
+                if not (ageless or answer.success):
+                    station.controls.give_back(client, before)  # what is refused has no effect
                 station.publish_control()
                 if job.binding and asked.command_id and answer.success:
                     told = Answered(sender, name, asked.command_id, to_json(answer).decode())

@@ -45,8 +45,11 @@ class Placing:
         self._say("localisation", placed, at=(pose.x, pose.y))
 
     def _problem(self, client: Operator, pose: Pose2) -> Problem:
-        problem = self._controls.acquire(client, self._clock())
         if not all(map(math.isfinite, pose)):
             return Notice(Code.POSITION_INVALID, "The pose to place the robot at is not all numbers.")
         planner = self._autonomy.navigator.planner
-        return problem or self._fitness.mapless or planner.off_map("The place", pose.x, pose.y)
+        return (
+            self._fitness.mapless
+            or planner.off_map("The place", pose.x, pose.y)
+            or self._controls.acquire(client, self._clock())  # last: what is refused takes no control
+        )

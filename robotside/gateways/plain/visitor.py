@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import math
-from collections.abc import Awaitable, Callable, Collection, Coroutine
+from collections.abc import Awaitable, Callable, Collection, Coroutine, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import msgspec
@@ -15,7 +16,7 @@ from bridge.core.codes import Code
 from bridge.core.errors import BridgeError, ProtocolError, Refused
 from bridge.core.robot_catalogue import Operator
 from bridge.msgs import Msg
-from bridge.msgs.pilothouse_msgs import CommandRequest
+from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from bridge.msgs.rosapi_msgs import GetTimeResponse
 from bridge.msgs.std_msgs import Time
 from robotside.control.command_expiry import MAX_CLOCK_LEAD
@@ -52,27 +53,41 @@ class Visitor:
         # so that a command that is sent again after the broker was gone counts as the same one
         self._client_id = f"{operator.way}:{name}" if name else ""
         self._door, self._keys = door, keys
+        self._heard_before = operator.last_heard
         self.goals: dict[tuple[str, bytes], asyncio.Task[None]] = {}
         """What it has running, by action and id; cancelled when it is gone."""
         self.reads: dict[str, Callable[[], None]] = {}
         """What ends each topic that is made because it asked for it."""
 
     def heard(self) -> None:
-        """A message of it came."""
+        """A message of it came. If that is refused, it counts as not heard: control lapses of who says nothing else."""
+        self._heard_before = self.operator.last_heard
         self.operator.last_heard = self._door.now()
+
+    def _unheard(self) -> None:
+        self.operator.last_heard = min(self.operator.last_heard, self._heard_before)
+
+    @contextmanager
+    def _unheard_if_refused(self) -> Iterator[None]:
+        try:
+            yield
+        except BridgeError:
+            self._unheard()
+            raise
 
     def publish(self, topic: str, raw: bytes, stamp: float = math.nan, *, dated: bool = True) -> None:
         """Give a message to the robot, meant at `stamp` [s, operators' clock]; raises BridgeError for what it does not take.
 
         What is sent once, such as a goal, must be as fresh as a call; of a stream the robot judges each message by itself.
         """
-        self._check_carried(topic)
-        self._door.check_listens(topic)
-        known = self._door.topics[topic]
-        msg = read_message(decode(raw), known.type)
-        if not known.rate:
-            self._check_fresh(topic, stamp, dated=dated)
-        self._door.publish(self.operator, topic, msg, None if math.isnan(stamp) else stamp)
+        with self._unheard_if_refused():
+            self._check_carried(topic)
+            self._door.check_listens(topic)
+            known = self._door.topics[topic]
+            msg = read_message(decode(raw), known.type)
+            if not known.rate:
+                self._check_fresh(topic, stamp, dated=dated)
+            self._door.publish(self.operator, topic, msg, None if math.isnan(stamp) else stamp)
 
     def call(
         self, service: str, raw: bytes, stamp: float = math.nan, *, dated: bool = True
@@ -92,11 +107,15 @@ class Visitor:
         self, service: str, raw: bytes, stamp: float = math.nan, *, dated: bool = True
     ) -> Msg | Awaitable[Msg]:
         """As `call`, with the answer as a message; raises BridgeError where it is refused at the door, now or when awaited."""
-        if service == TIME:
-            return self._time()
-        self._check_carried(service)
-        request = self._request(service, self._door.service(service).request, raw, stamp, dated=dated)
-        return self._door.call(self.operator, service, request)
+        with self._unheard_if_refused():
+            if service == TIME:
+                return self._time()
+            self._check_carried(service)
+            request = self._request(service, self._door.service(service).request, raw, stamp, dated=dated)
+            answer = self._door.call(self.operator, service, request)
+        if service != STOP and isinstance(answer, CommandResponse) and not answer.success:
+            self._unheard()
+        return answer
 
     def run(
         self,
@@ -111,10 +130,11 @@ class Visitor:
 
         `on_feedback` takes how far it is, as JSON. Raises BridgeError for a goal that cannot be read or is too old.
         """
-        self._check_carried(action)
-        goal = self._request(action, self._door.action(action).goal, raw, stamp, dated=dated)
-        if not isinstance(goal, CommandRequest):  # which is judged by the stamp in itself
-            self._check_fresh(action, stamp, dated=dated)
+        with self._unheard_if_refused():
+            self._check_carried(action)
+            goal = self._request(action, self._door.action(action).goal, raw, stamp, dated=dated)
+            if not isinstance(goal, CommandRequest):  # which is judged by the stamp in itself
+                self._check_fresh(action, stamp, dated=dated)
         return self._run(action, goal, lambda msg: on_feedback(to_json(msg)))
 
     async def _run(self, action: str, goal: Msg, on_feedback: Callable[[Msg], None]) -> bytes:

@@ -267,3 +267,17 @@ async def test_who_gives_up_waiting_leaves_nothing_behind(run: Hand) -> None:
     other = Waiting(run, HOME)
     assert (await other.over(run)).success
     assert asyncio.all_tasks() == {asyncio.current_task()}
+
+
+# control
+
+
+@pytest.mark.parametrize("wait", [False, True])
+def test_an_order_that_is_refused_takes_no_control(run: Hand, wait: bool) -> None:
+    for order in (ArmOrder(pose="zzz"), ArmOrder(), roll(9.0)):
+        assert not run.ask("/arm/move", MoveArmRequest(order=order, wait=wait)).success
+        assert run.station.controls.driver is None
+    run.wait(0.2)
+    assert not any("has control" in said for said in run.events)
+    assert run.ask("/arm/move", MoveArmRequest(order=STRETCH)).success
+    assert run.station.controls.holds(run.anna)

@@ -71,6 +71,7 @@ async def test_a_goal_is_refused_with_the_words_of_the_service(scene: Scene) -> 
     assert (await Goal(scene, task="dance").refused()).startswith(
         "There is no task 'dance'; there are patrol, "
     )
+    assert scene.ask("/control/acquire").success
     assert "has control" in await Goal(scene, scene.client("ben")).refused()
     scene.ask("/stop")
     assert await Goal(scene).refused() == "STOP is pressed; hold Release to drive again."

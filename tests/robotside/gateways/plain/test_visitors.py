@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from bridge.core.codes import Code
-from bridge.core.errors import Refused
+from bridge.core.errors import BridgeError, Refused
 from bridge.core.identity import Role, public_id
+from bridge.core.link_state import CONTROL_TIMEOUT
 from robotside.gateways.payloads.table import KEYS
 from robotside.gateways.plain.visitor import TIME, VALID_TIME, Visitor
 from robotside.gateways.plain.visitors import IDLE_TIMEOUT, MAX_VISITORS, Visitors
@@ -144,3 +145,43 @@ def test_a_command_without_any_age_is_refused_and_stop_never(scene: Scene, visit
     assert isinstance(answer, bytes)
     assert json.loads(answer)["code"] == Code.GATEWAY_UNDATED
     assert not scene.control.driver
+
+
+BAD_ORDERS = [
+    ("/task/start", b'{"task": "dance"}'),
+    ("/task/start", b'{"tusk": 1}'),
+    ("/task/start", b"{"),
+    ("/x", b""),
+]
+
+
+@pytest.mark.parametrize(("service", "raw"), BAD_ORDERS)
+def test_orders_that_are_refused_renew_no_control(
+    scene: Scene, visitors: Visitors, service: str, raw: bytes
+) -> None:
+    visitors.visit("anna").call("/control/acquire", b"{}")
+    for _ in range(round(CONTROL_TIMEOUT) + 1):
+        scene.run(1.0)
+        answer = visitors.visit("anna").call(service, raw)
+        assert isinstance(answer, bytes)
+        assert json.loads(answer)["success"] is False
+    scene.run(0.1)
+    assert scene.station.controls.driver is None
+
+
+def test_messages_that_are_refused_renew_no_control(scene: Scene, visitors: Visitors) -> None:
+    visitors.visit("anna").call("/control/acquire", b"{}")
+    for _ in range(round(CONTROL_TIMEOUT) + 1):
+        scene.run(1.0)
+        with pytest.raises(BridgeError):
+            visitors.visit("anna").publish("/cmd_vel", b'{"surprise": 1}')
+    scene.run(0.1)
+    assert scene.station.controls.driver is None
+
+
+def test_orders_that_are_taken_renew_control(scene: Scene, visitors: Visitors) -> None:
+    visitors.visit("anna").call("/control/acquire", b"{}")
+    for _ in range(round(CONTROL_TIMEOUT) + 1):
+        scene.run(1.0)
+        visitors.visit("anna").call(TIME, b"")
+    assert scene.control.driver == "anna"
