@@ -26,6 +26,12 @@ MAX_SHOWN = 64
 State = tuple[str, str]
 """A sentence, and the role of its colour: `muted`, `text`, `accent`, `ok`, `warn` or `danger`."""
 _GATEWAY_COMMANDS = ("gateway_up", "gateway_down")
+SILENCE_SHOWN = 2.0
+"""A silence of the robot over a link that stands is told from here on [s]; shorter ones come and go."""
+MAX_WAIT = 60.0
+"""What has no answer by then gets none, as when its link was exchanged for another: it may be asked for again [s]."""
+_TURNING = {"coming_up": "Coming up", "going_down": "Going down"}
+_WISHES = {"gateway_up": ("come up", "coming_up"), "gateway_down": ("go down", "going_down")}
 
 
 class RobotSetup:
@@ -38,6 +44,12 @@ class RobotSetup:
         self._role: Role | None = None
         self._outcomes: dict[tuple[str, str], Outcome] = {}
         """What became of the newest wish for each protocol and payload, by its kind and name."""
+        self._ended: dict[tuple[str, str], float] = {}
+        """When that was heard, by our clock [s]."""
+        self._told = {GATEWAYS: -math.inf, PAYLOADS: -math.inf}
+        """When the robot last said how its protocols, and payloads, are [s]."""
+        self._heard = math.nan
+        """When the robot was last heard of before the link was lost [s]; NaN before that."""
 
     # who looks
 
@@ -57,21 +69,30 @@ class RobotSetup:
     def on_post(self, channel: str, post: Post) -> bool:
         """Take in what came; whether anything is otherwise now."""
         value = post.value
+        if channel in self._told:
+            self._told[channel] = post.received
         if channel == GATEWAYS:
             self._gateways = value
         elif channel == PAYLOADS:
             self._payloads = value
         elif channel == OUTCOME and value.name in (*_GATEWAY_COMMANDS, "payload"):
             kind = PAYLOADS if value.name == "payload" else GATEWAYS
-            self._outcomes[kind, value.fields["key" if kind == PAYLOADS else "name"]] = value
+            key = kind, value.fields["key" if kind == PAYLOADS else "name"]
+            self._outcomes[key], self._ended[key] = value, post.received
         elif channel == ANSWER and isinstance(value, Answer) and value.service == ME:
             found = value.message
             self._role = _role(found.role) if isinstance(found, GetMeResponse) else None
-        elif channel == LINK and self._session.connected:
-            self._ask_role()
+        elif channel == LINK:
+            self._on_link()
         else:
             return False
         return True
+
+    def _on_link(self) -> None:
+        if self._session.connected:
+            self._ask_role()
+        elif math.isfinite(self._session.link.silence):
+            self._heard = self._session.now() - self._session.link.silence
 
     def _ask_role(self) -> None:
         self._role = None
@@ -108,12 +129,21 @@ class RobotSetup:
         return ""
 
     @property
+    def age(self) -> float:
+        """Since when the robot has said nothing [s]: what is seen was so then. 0 while it is heard; NaN when not known."""
+        if self._session.connected:
+            silence = self._session.link.silence
+            return silence if silence >= SILENCE_SHOWN and math.isfinite(silence) else 0.0
+        return self._session.now() - self._heard
+
+    @property
     def sentence(self) -> State:
         """What is to be known of all of it: how old it is, or why it cannot be switched."""
         if not self._session.connected:
-            age = self._session.feeds.age(GATEWAYS)
-            since = f" It is {age:.0f} s old." if self.gateways and math.isfinite(age) else ""
+            since = f" It is {self.age:.0f} s old." if self.gateways and math.isfinite(self.age) else ""
             return f"{self.why_not}{since}", "warn"
+        if self.age > 0.0:
+            return f"The robot is silent; what can be seen is {self.age:.0f} s old.", "warn"
         if self.why_not:
             return self.why_not, "muted"
         if not self.gateways and not self.payloads:
@@ -122,24 +152,59 @@ class RobotSetup:
 
     def gateway_state(self, gateway: Gateway) -> State:
         """How a protocol is, in one sentence."""
-        asked = self._asked(GATEWAYS, gateway.name)
+        wish = self._open(GATEWAYS, gateway.name)
+        if wish is not None and not _fulfilled(wish, gateway):
+            return self._waiting(wish, gateway)
         if gateway.state == "up":
-            return gateway.endpoint or "up", "ok"
+            return self._up(gateway), "ok" if self.age == 0.0 else "muted"
         if gateway.state == "lost":
             return gateway.fault or "Its broker is not reached.", "warn"
-        if gateway.state == "going_down":
-            return "Going down …", "accent"
-        if gateway.state == "coming_up" or asked:
-            return f"Coming up … {asked}".strip(), "accent"
+        if gateway.state in _TURNING:
+            word = _TURNING[gateway.state]
+            return (f"{word} …", "accent") if self.age == 0.0 else (f"{word} {self.age:.0f} s ago", "warn")
         if gateway.package:
             return f"Needs {gateway.package}, which the robot lacks.", "warn"
         return (gateway.fault, "warn") if gateway.fault else (gateway.doc, "muted")
 
+    @staticmethod
+    def _up(gateway: Gateway) -> str:
+        words = [gateway.endpoint or "up", *(["always up"] if gateway.fixed else [])]
+        return " · ".join(words)
+
+    def _waiting(self, wish: Outcome, gateway: Gateway) -> State:
+        """What was asked for, and for how long; that the robot turns already, where it said so, is its last word."""
+        asked, turning = _WISHES[wish.name]
+        since = f"{max(0.0, self._session.now() - wish.sent):.0f} s"
+        if wish.phase == "sent" and self.age == 0.0:
+            return f"{_TURNING[turning]} … {since}", "accent"
+        if gateway.state == turning and math.isfinite(self.age):
+            return f"{_TURNING[turning]} {self.age:.0f} s ago", "warn"
+        return f"Asked to {asked}; not answered for {since}", "warn"
+
     def payload_state(self, payload: Payload) -> State:
         """How a payload is, in one sentence."""
-        if self._asked(PAYLOADS, payload.key):
-            return "Asked for …", "accent"
+        asked = self._asked_for(payload)
+        if asked is not None:
+            return asked
         return (payload.why, "muted") if payload.why else (payload.doc, "muted")
+
+    def on_or_off(self, payload: Payload) -> State:
+        """The same in a word, with its age where the robot is not heard."""
+        asked = self._asked_for(payload)
+        if asked is not None:
+            return asked
+        on, heard = "On" if payload.on else "Off", self.age == 0.0
+        ago = "" if heard or math.isnan(self.age) else f" {self.age:.0f} s ago"
+        return f"{on}{ago}", "ok" if payload.on and heard else "muted"
+
+    def _asked_for(self, payload: Payload) -> State | None:
+        wish = self._open(PAYLOADS, payload.key)
+        if wish is None or (wish.phase == "no_reply" and wish.fields["on"] == payload.on):
+            return None
+        if wish.phase == "sent" and self.age == 0.0:
+            return "Asked for …", "accent"
+        since = max(0.0, self._session.now() - wish.sent)
+        return f"Asked for {'on' if wish.fields['on'] else 'off'}; not answered for {since:.0f} s", "warn"
 
     def refusal(self, kind: str, name: str) -> str:
         """What the robot has against what was last asked of it, `kind` `GATEWAYS` or `PAYLOADS`; empty for nothing."""
@@ -150,14 +215,19 @@ class RobotSetup:
 
     def may(self, kind: str, name: str) -> bool:
         """It can be switched now: the robot told how it is, and nothing is on its way."""
-        return not self.why_not and not self._asked(kind, name)
-
-    def _asked(self, kind: str, name: str) -> str:
-        """For how long something has been asked for, as words; empty when nothing is."""
         outcome = self._outcomes.get((kind, name))
-        if outcome is None or outcome.phase != "sent" or not self._session.connected:
-            return ""
-        return f"{max(0.0, self._session.now() - outcome.sent):.0f} s"
+        if self.why_not or outcome is None or outcome.phase != "sent":
+            return not self.why_not
+        return self._session.now() - outcome.sent > MAX_WAIT
+
+    def _open(self, kind: str, name: str) -> Outcome | None:
+        """What was asked for and not answered, until the robot says how it is after it was given up; None for nothing."""
+        outcome = self._outcomes.get((kind, name))
+        if outcome is None or outcome.phase not in ("sent", "no_reply"):
+            return None
+        over = outcome.phase == "no_reply" or self._session.now() - outcome.sent > MAX_WAIT
+        given_up = self._ended[kind, name] if outcome.phase == "no_reply" else outcome.sent
+        return None if over and self._told[kind] > given_up else outcome
 
     # what is asked
 
@@ -172,6 +242,11 @@ class RobotSetup:
     def switch(self, key: str, on: bool) -> None:
         """Ask for a payload on or off."""
         self._session.command("payload", key=key, on=on)
+
+
+def _fulfilled(wish: Outcome, gateway: Gateway) -> bool:
+    """The robot says that it is as it was wished."""
+    return gateway.state in (("up", "lost") if wish.name == "gateway_up" else ("down",))
 
 
 def _role(word: str) -> Role | None:

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+from urllib.parse import urlsplit
+
+from kivy.metrics import dp, sp
 from kivy.properties import BooleanProperty
 from kivy.uix.widget import Widget
 
 from app.screens.setup.guide_text import GuideText
+from app.screens.setup.setup_row import broken
 from app.screens.setup.url_form import UrlForm
 from app.session.robot_setup import GATEWAYS, RobotSetup
+from bridge.discovery.hello import is_loopback
 from bridge.msgs.pilothouse_msgs import Gateway
 from widgets.parts.kit import Column, PrimaryButton, QuietButton, Remark, Roll, Text
 from widgets.parts.qr_code import QrCode
 
 __all__ = ["GatewayPane"]
 
-QR_SIDE = 190
-"""[dp]"""
+QR_SIDE, MIN_QR_SIDE = 190, 120
+"""Of the code where there is room, and where a phone is on its side [dp]."""
 
 
 class GatewayPane(Roll):
@@ -33,13 +38,14 @@ class GatewayPane(Roll):
         self.up = PrimaryButton(text="Bring up", icon="play_arrow", size_hint_y=None, height="52dp")
         self.down = QuietButton(text="Bring down", icon="stop", size_hint_y=None, height="52dp")
         self.more = QuietButton(text="How it is used", icon="terminal", size_hint_y=None, height="52dp")
+        self.own = Remark(text="Only the robot's own machine reaches it.", role="muted")
         self.qr = QrCode(size_hint=(1, None), height=f"{QR_SIDE}dp")
         self.guide = GuideText()
         self.up.bind(on_release=lambda _: self.bring_up())
         self.down.bind(on_release=lambda _: self._setup.bring_down(self.name))
         self.more.bind(on_release=lambda _: setattr(self, "reads", not self.reads))
         self.bind(reads=lambda *_: self.show(self._gateway))
-        self.column = Column(spacing="10dp", padding=("4dp", "2dp", "8dp", "12dp"))
+        self.column = Column(spacing="10dp", padding=(0, "2dp", "8dp", "12dp"))
         self.add_widget(self.column)
         self.show(gateway)
 
@@ -48,23 +54,27 @@ class GatewayPane(Roll):
         self._gateway = gateway
         self.doc.text = gateway.doc
         said, self.state.role = self._setup.gateway_state(gateway)
-        self.state.text = "Down" if said == gateway.doc else said
+        age = self._setup.age
+        down = f"Down {age:.0f} s ago" if age > 0.0 else "Down"
+        self.state.text = broken(down if said == gateway.doc else said, self.column.width - dp(8), sp(17))
         self.refusal.text = self._setup.refusal(GATEWAYS, self.name)
         runs = gateway.state in ("up", "lost")
-        self.options.text = " · ".join(
-            [*gateway.options, *([gateway.endpoint] if gateway.state == "lost" else [])]
-        )
+        options = [_words(option) for option in gateway.options]
+        self.options.text = " · ".join([*options, *([gateway.endpoint] if gateway.state == "lost" else [])])
         may = self._setup.may(GATEWAYS, self.name)
         self.up.disabled = not (may and gateway.state == "down" and not gateway.package)
         self.down.disabled = not (may and runs)
         self.more.text = "Close the guide" if self.reads else "How it is used"
-        self.qr.rows = gateway.qr_rows if runs else []
+        self.qr.rows = gateway.qr_rows if runs and not _stays_here(gateway.endpoint) else []
+        above = self.doc.height + self.state.height + dp(24)
+        self.qr.height = min(dp(QR_SIDE), max(dp(MIN_QR_SIDE), self.height - above))
         self.guide.show(gateway.guide if self.reads else "")
         wanted: list[Widget] = [self.doc, self.state, *self._parts(gateway, runs=runs)]
         if list(reversed(self.column.children)) != wanted:
             self.column.clear_widgets()
             for widget in wanted:
                 self.column.add_widget(widget)
+            self.scroll_y = 1  # else what is shorter hangs where the end of the other was
 
     def _parts(self, gateway: Gateway, *, runs: bool) -> list[Widget]:
         parts: list[Widget] = []
@@ -72,18 +82,34 @@ class GatewayPane(Roll):
             parts.append(self.refusal)
         if self.form is not None and not runs:
             return [*parts, self.form, self.up]
-        if gateway.options:
-            parts.append(self.options)
-        if gateway.qr_rows:
+        if _stays_here(gateway.endpoint):
+            parts.append(self.own)
+        elif gateway.qr_rows:
             parts.append(self.qr)
+        if self.options.text:
+            parts.append(self.options)
+        if not gateway.fixed:
+            parts.append(self.down)
         if gateway.guide:
             parts.append(self.more)
-        if self.reads:
-            parts.append(self.guide)
-        return parts if gateway.fixed else [*parts, self.down]
+        return [*parts, self.guide] if self.reads else parts
 
     def bring_up(self) -> None:
         """Ask for it as the form says; what is wrong with it is said there."""
         url = self.form.url() if self.form is not None else ""
         if url:
             self._setup.bring_up(self.name, url)
+
+
+def _words(option: str) -> str:
+    """An option of its URL as people read it."""
+    name, _, value = option.partition("=")
+    return f"{value} Hz per topic" if name == "rate" else option
+
+
+def _stays_here(endpoint: str) -> bool:
+    """It is an address of the robot's own machine, which means another one to whoever reads it from a code."""
+    try:
+        return is_loopback(urlsplit(endpoint).hostname or "")
+    except ValueError:
+        return False

@@ -22,7 +22,7 @@ class PayloadPane(Roll):
         self.topics, self.services = Remark(role="text"), Remark(role="text")
         self.switch = QuietButton(size_hint_y=None, height="52dp")
         self.switch.bind(on_release=lambda _: self._setup.switch(self.name, not self._on))
-        self.column = Column(spacing="10dp", padding=("4dp", "2dp", "8dp", "12dp"))
+        self.column = Column(spacing="10dp", padding=(0, "2dp", "8dp", "12dp"))
         self.add_widget(self.column)
         self.show(payload)
 
@@ -30,9 +30,7 @@ class PayloadPane(Roll):
         """Bring everything up to date with what the robot said last."""
         self._on = payload.on
         self.doc.text, self.why.text = payload.doc, payload.why
-        asked = not self._setup.may(PAYLOADS, self.name) and not self._setup.why_not
-        self.state.text = "Asked for …" if asked else "On" if payload.on else "Off"
-        self.state.role = "accent" if asked else "ok" if payload.on else "muted"
+        self.state.text, self.state.role = self._setup.on_or_off(payload)
         self.refusal.text = self._setup.refusal(PAYLOADS, self.name)
         self.topics.text = "Topics: " + ", ".join(payload.topics)
         self.services.text = "Services: " + ", ".join(payload.services)
@@ -47,3 +45,4 @@ class PayloadPane(Roll):
             self.column.clear_widgets()
             for widget in wanted:
                 self.column.add_widget(widget)
+            self.scroll_y = 1

@@ -75,7 +75,7 @@ class SetupScreen(RobotScreen):
         self.head, self.back_head = PaneHead(title="Setup"), PaneHead(closable=True)
         self.back_head.bind(on_close=lambda _: self.back())
         self.nothing = Remark(role="muted")
-        self.column = Column(spacing="6dp")
+        self.column = Column(spacing="6dp", padding=(0, 0, "8dp", 0))
         self.roll = Roll()
         self.roll.add_widget(self.column)
         self.ids.listed.add_widget(self.head)
@@ -195,7 +195,11 @@ class SetupScreen(RobotScreen):
         if shown is not None:
             pane = self.pane(shown, self._entries()[shown])
             self.back_head.title, self.back_head.closable = shown[1].replace("_", " "), tall
-            wanted = [pane] if self._form == "short" else [self.back_head, pane]
+            words, role = self.setup.sentence
+            warned = role == "warn" or bool(self.setup.why_not)  # beside a list, the list's head says it
+            self.back_head.sentence = words if tall and warned else ""
+            self.back_head.refused = role == "warn"
+            wanted = [self.back_head, pane]
         if list(reversed(detail.children)) != wanted:
             detail.clear_widgets()
             for widget in wanted:

@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
-from app.session.robot_setup import State
-from widgets.parts.kit import ListRow, Toggle
+from kivy.metrics import dp, sp
 
-__all__ = ["SetupRow"]
+from app.session.robot_setup import State
+from widgets.core.base import text_texture
+from widgets.core.theme import theme
+from widgets.parts.kit import ListRow, Toggle
+from widgets.parts.rows import TwoLines
+
+__all__ = ["SetupRow", "broken"]
+
+MIN_ROOM = 140
+"""What is narrower is not laid out yet [dp]."""
+DETAIL_SIZE = 13
+"""Of the second line's type [sp]."""
 
 
 class SetupRow(ListRow):
@@ -27,7 +38,25 @@ class SetupRow(ListRow):
         if self.switch.active != on:
             self.switch.active = on
         self.switch.disabled = not may
-        self.detail, self.role = state
+        said, self.role = state
+        line = next((child for child in self.children if isinstance(child, TwoLines)), None)
+        self.detail = said if line is None else broken(said, line.width, sp(DETAIL_SIZE))
 
     def on_turn(self, on: bool) -> None:
         """The switch was pressed."""
+
+
+def broken(text: str, room: float, size: float) -> str:
+    """`text` with an address that is wider than `room` [px] at type of `size` [px] broken before a slash, and not in a word."""
+    return " ".join(_lines(word, room, size) for word in text.split(" "))
+
+
+def _lines(word: str, room: float, size: float) -> str:
+    if "/" not in word or room < dp(MIN_ROOM) or text_texture(word, size, theme.font).width <= room:
+        return word
+    lines = [""]
+    for piece in re.split(r"(?<=[^/:])(?=/)", word):
+        if lines[-1] and text_texture(lines[-1] + piece, size, theme.font).width > room:
+            lines.append("")
+        lines[-1] += piece
+    return "\n".join(lines)

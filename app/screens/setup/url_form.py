@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from kivy.metrics import dp
 from kivy.uix.boxlayout import BoxLayout
 
 from app.screens.setup.gateway_form import OWN, ROLES, SITE, BadForm, GatewayForm
 from bridge.msgs.pilothouse_msgs import Gateway
+from widgets.core.theme import theme
 from widgets.parts.kit import Column, Remark, Segmented, TextField
 
 __all__ = ["UrlForm"]
@@ -34,17 +36,21 @@ class UrlForm(Column):
     def __init__(self, gateway: Gateway, **kwargs: Any) -> None:
         super().__init__(spacing="8dp", **kwargs)
         self._ports = dict(each.rsplit(":", 1) for each in gateway.schemes if ":" in each)
+        self._listens = gateway.listens
         usual = GatewayForm.of(gateway.usual)
         self.scheme = Segmented(options=list(self._ports), value=usual.scheme)
         self.scheme.bind(on_choose=lambda _, scheme: self._choose(scheme))
         self.role = Segmented(options=list(ROLES), value=usual.role)
+        for choice in (self.scheme, self.role):
+            choice.height = max(choice.height, theme.target)
         self.fields = {
             name: TextField(
                 text=getattr(usual, name), label=label, hint_text=label, password=name == "password"
             )
             for name, label in FIELDS.items()
         }
-        self.fields["port"].size_hint_x = 0.4
+        port = self.fields["port"]
+        port.size_hint_x, port.width = None, dp(132)  # five digits, and the sign of a wrong one
         for field in self.fields.values():
             field.write_tab = False
         for field in self.fields.values():
@@ -70,6 +76,11 @@ class UrlForm(Column):
             self.fields["port"].text = self._ports.get(scheme, "")
         self._lay()
 
+    def _usual_role(self) -> str:
+        """At a broker that is not the robot's own everybody watches; what the robot serves itself goes by its own rule."""
+        own = self.scheme.value == SITE or self.scheme.value in self._listens
+        return "as over rosbridge" if own else "watch"
+
     def _lay(self) -> None:
         hidden = HIDDEN.get(self.scheme.value, ())
         self.clear_widgets()
@@ -88,6 +99,8 @@ class UrlForm(Column):
             row.height = self.fields[shown[0]].height
             self.fields[shown[0]].bind(height=row.setter("height"))
             self.add_widget(row)
-        self.add_widget(Remark(text="Without a token everybody there may", role="muted"))
+        self.add_widget(
+            Remark(text=f"Without a token everybody there may; usual: {self._usual_role()}", role="muted")
+        )
         self.add_widget(self.role)
         self.add_widget(self.problem)

@@ -12,7 +12,7 @@ from app.link.capabilities import Capabilities
 from app.link.channels import ANSWER, LINK, OUTCOME, Answer
 from app.link.commands import Outcome
 from app.link.feeds import Post
-from app.session.robot_setup import GATEWAYS, PAYLOADS, RobotSetup
+from app.session.robot_setup import GATEWAYS, MAX_WAIT, PAYLOADS, RobotSetup
 from bridge.msgs.pilothouse_msgs import Gateway, GatewayArray, GetMeResponse, Payload, PayloadArray
 
 MQTT = Gateway("mqtt", "topics at a broker", state="down", usual="own://127.0.0.1:1883")
@@ -28,10 +28,10 @@ class Session:
         offer = Capabilities({}, services)
         self.robot = SimpleNamespace(capabilities=offer, offers=offer.serves)
         self.link = SimpleNamespace(
+            silence=0.0,
             want=lambda topic, wanted: self.asked.append((topic, wanted)),
             ask=lambda service, *_: self.asked.append(service),
         )
-        self.feeds = SimpleNamespace(age=lambda _: 12.4 if not self.connected else 0.0)
 
     def now(self) -> float:
         return self.clock
@@ -58,6 +58,11 @@ class Run:
 
     def outcome(self, what: str, phase: str, reason: str = "", **fields: Any) -> None:
         self.hear(OUTCOME, Outcome(what, "1", phase, reason, math.nan, fields, sent=self.session.clock))
+
+    def lose(self, silence: float) -> None:
+        """The link is lost, of which nothing was heard for so long [s] by then."""
+        self.session.link.silence, self.session.connected = silence, False
+        self.hear(LINK, object())
 
     def state(self) -> tuple[str, str]:
         return self.setup.gateway_state(self.setup.gateways[0])
@@ -149,13 +154,106 @@ def test_a_robot_that_cannot_be_switched_says_so() -> None:
 def test_without_a_link_nothing_can_be_switched_and_the_age_of_what_is_seen_is_said() -> None:
     run = Run()
     run.tell(MQTT)
-    run.session.connected = False
+    run.session.clock += 5.0
+    run.lose(5.0)
+    run.session.clock += 7.4
     assert run.setup.sentence == (
         "There is no link; what can be seen was so before. It is 12 s old.",
         "warn",
     )
+    run.session.link.silence = math.inf  # a new link has heard nothing yet
+    run.hear(LINK, object())
+    assert run.setup.age == pytest.approx(12.4)
     assert not run.setup.may(GATEWAYS, "mqtt")
     run.session.connected, run.session.asked = True, []
     run.hear(LINK, object())
     assert run.session.asked == ["/people/me"], "over a new link it may be somebody else"
     assert not run.setup.may(GATEWAYS, "mqtt")
+
+
+def test_a_silent_robot_is_told_before_its_link_is_lost() -> None:
+    run = Run()
+    run.tell(Gateway("mqtt", state="up", endpoint="mqtt://127.0.0.1:1/x"))
+    run.session.link.silence = 1.9
+    assert run.setup.age == 0.0
+    assert run.state()[1] == "ok"
+    run.session.link.silence = 3.0
+    assert run.setup.sentence == ("The robot is silent; what can be seen is 3 s old.", "warn")
+    assert run.state() == ("mqtt://127.0.0.1:1/x", "muted"), "nobody knows that it is still up"
+
+
+def test_what_was_asked_for_stays_asked_for_until_the_robot_says_how_it_is() -> None:
+    run = Run()
+    run.tell(MQTT)
+    run.session.clock += 1.0
+    run.outcome("gateway_up", "sent", name="mqtt")
+    run.session.clock += 5.0
+    run.session.link.silence = 5.0
+    asked = "Asked to come up; not answered for {} s"
+    assert run.state() == (asked.format(5), "warn")
+    run.lose(5.0)
+    run.session.clock += 3.0
+    assert run.state() == (asked.format(8), "warn")
+    sent = run.setup._outcomes[GATEWAYS, "mqtt"].sent
+    run.session.clock += 32.0
+    given_up = Outcome("gateway_up", "1", "no_reply", "No link.", math.nan, {"name": "mqtt"}, sent=sent)
+    run.hear(OUTCOME, given_up)
+    run.session.clock += 1.0
+    assert run.state() == (asked.format(41), "warn"), "that it was given up here says nothing of the robot"
+    run.session.connected, run.session.link.silence = True, 0.0
+    run.hear(LINK, object())
+    assert run.state() == (asked.format(41), "warn"), "a link says nothing of the protocol"
+    run.tell(MQTT)
+    assert run.state() == ("topics at a broker", "muted")
+
+
+def test_what_turned_when_it_was_last_heard_of_is_said_with_its_age() -> None:
+    run = Run()
+    run.tell(Gateway("mqtt", state="coming_up"))
+    run.outcome("gateway_up", "sent", name="mqtt")
+    run.lose(0.0)
+    run.session.clock += 4.0
+    assert run.state() == ("Coming up 4 s ago", "warn")
+
+
+def test_what_is_brought_down_is_going_down_until_the_robot_says_that_it_is() -> None:
+    run = Run()
+    run.tell(Gateway("mqtt", state="up", endpoint="mqtt://127.0.0.1:1/x"))
+    run.outcome("gateway_down", "sent", name="mqtt")
+    assert run.state() == ("Going down … 0 s", "accent")
+    run.lose(0.0)
+    run.session.clock += 6.0
+    assert run.state() == ("Asked to go down; not answered for 6 s", "warn")
+    run.tell(MQTT)
+    assert run.state() == ("topics at a broker", "muted")
+
+
+def test_a_payload_keeps_what_was_asked_of_it_and_the_age_of_what_it_was() -> None:
+    run = Run()
+    arm = Payload("arm", "an arm", on=True)
+    run.hear(PAYLOADS, PayloadArray(payloads=[arm]))
+    assert run.setup.on_or_off(arm) == ("On", "ok")
+    run.outcome("payload", "sent", key="arm", on=False)
+    assert run.setup.on_or_off(arm) == run.setup.payload_state(arm) == ("Asked for …", "accent")
+    run.lose(0.0)
+    run.session.clock += 6.0
+    waits = ("Asked for off; not answered for 6 s", "warn")
+    assert run.setup.on_or_off(arm) == run.setup.payload_state(arm) == waits
+    run.outcome("payload", "accepted", key="arm", on=False)
+    assert run.setup.on_or_off(arm) == ("On 6 s ago", "muted")
+
+
+def test_what_never_gets_an_answer_may_be_asked_for_again() -> None:
+    run = Run()
+    run.tell(MQTT)
+    run.outcome("gateway_up", "sent", name="mqtt")
+    run.session.clock += MAX_WAIT
+    assert not run.setup.may(GATEWAYS, "mqtt")
+    run.session.clock += 1.0
+    assert run.setup.may(GATEWAYS, "mqtt")
+
+
+def test_what_is_always_up_says_so_in_words() -> None:
+    run = Run()
+    run.tell(Gateway("rosbridge", fixed=True, state="up", endpoint="ws://192.0.2.7:9090"))
+    assert run.state() == ("ws://192.0.2.7:9090 · always up", "ok")

@@ -10,6 +10,7 @@ from kivy.core.window import Window
 
 from app.screens.setup.guide_text import LINES, pieces
 from app.screens.setup.screen import SetupScreen
+from app.screens.setup.setup_row import broken
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (
     BringDownGatewayRequest,
@@ -37,7 +38,7 @@ UP = Gateway(
     "mqtt",
     "topics at a broker",
     state="up",
-    endpoint="mqtt://127.0.0.1:1883/x",
+    endpoint="mqtt://192.0.2.7:1883/x",
     options=["rate=5"],
     qr_rows=["1"],
     guide="\n".join(f"line {number}" for number in range(50)),
@@ -100,7 +101,7 @@ def test_a_switch_asks_and_shows_what_the_robot_says(setup: Setup) -> None:
     assert not row.switch.active
     setup.tell(UP)
     assert row.switch.active
-    assert row.detail == "mqtt://127.0.0.1:1883/x"
+    assert row.detail == "mqtt://192.0.2.7:1883/x"
     setup.glass.tap(row.switch)
     setup.glass.until(lambda: setup.asked(BringDownGatewayRequest), "not asked")
     assert row.switch.active
@@ -159,7 +160,7 @@ def test_what_is_up_has_its_code_and_a_guide_in_pieces_that_can_be_drawn(setup: 
     setup.screen.chosen = MQTT
     setup.glass.stage.frames(3)
     pane = setup.pane()
-    assert (pane.state.text, pane.qr.rows, pane.form.parent) == ("mqtt://127.0.0.1:1883/x", ["1"], None)
+    assert (pane.state.text, pane.qr.rows, pane.form.parent) == ("mqtt://192.0.2.7:1883/x", ["1"], None)
     assert not pane.guide.children
     setup.glass.tap(pane.more)
     setup.glass.stage.frames(5)
@@ -167,6 +168,63 @@ def test_what_is_up_has_its_code_and_a_guide_in_pieces_that_can_be_drawn(setup: 
     assert "\n".join(shown) == UP.guide
     assert all(text.count("\n") < LINES for text in shown)
     assert list(pieces("")) == []
+
+
+def test_an_address_of_the_robots_own_machine_is_no_code_for_others(setup: Setup) -> None:
+    setup.tell(Gateway("mqtt", state="up", endpoint="mqtt://127.0.0.1:1883/x", qr_rows=["1"]))
+    setup.screen.chosen = MQTT
+    setup.glass.stage.frames(3)
+    pane = setup.pane()
+    assert (pane.qr.parent, pane.own.parent) == (None, pane.column)
+    assert pane.own.text == "Only the robot's own machine reaches it."
+    setup.tell(UP)
+    assert (pane.qr.parent, pane.own.parent) == (pane.column, None)
+
+
+def test_what_comes_in_place_of_a_long_guide_begins_at_the_top(setup: Setup) -> None:
+    setup.tell(UP)
+    setup.screen.chosen = MQTT
+    setup.glass.stage.frames(3)
+    pane = setup.pane()
+    setup.glass.tap(pane.more)
+    setup.glass.stage.frames(5)
+    shown = list(reversed(pane.column.children))
+    assert shown.index(pane.down) < shown.index(pane.guide), "it is reached without the whole guide"
+    pane.scroll_y = 0
+    setup.tell(DOWN)
+    assert pane.scroll_y == 1
+    setup.glass.stage.frames(3)
+    assert abs(pane.column.to_window(0, pane.column.top)[1] - pane.to_window(0, pane.top)[1]) < 1
+
+
+def test_an_option_has_its_unit(setup: Setup) -> None:
+    setup.tell(UP)
+    setup.screen.chosen = MQTT
+    setup.glass.stage.frames(3)
+    assert setup.pane().options.text == "5 Hz per topic"
+
+
+def test_the_usual_role_is_said(setup: Setup) -> None:
+    setup.tell(DOWN)
+    setup.screen.chosen = MQTT
+    form = setup.pane().form
+
+    def usual() -> str:
+        return next(child.text for child in form.children if getattr(child, "text", "").startswith("Without"))
+
+    assert usual() == "Without a token everybody there may; usual: as over rosbridge"
+    form.scheme.choose("mqtt")
+    assert usual() == "Without a token everybody there may; usual: watch"
+
+
+def test_an_address_breaks_at_a_slash_and_not_in_a_word(setup: Setup) -> None:
+    address = "kafka://127.0.0.1:38717/pilothouse/Patrol-1 · x"
+    assert broken(address, 900, 13) == address
+    lines = broken(address, 200, 13).split("\n")
+    assert len(lines) > 1
+    assert "".join(lines) == address
+    assert all(line.startswith("/") for line in lines[1:])
+    assert broken("one word", 200, 13) == "one word"
 
 
 def test_payloads_are_switched_and_what_is_fixed_has_no_switch_but_a_reason(setup: Setup) -> None:
@@ -234,6 +292,12 @@ def test_on_a_phone_a_pane_takes_the_place_of_the_list_and_back_leads_to_it(
         setup.glass.tap(setup.screen.rows[MQTT])
         setup.glass.stage.frames(3)
         assert (listed.parent, detail.parent) == (None, setup.screen)
+        assert setup.screen.back_head.sentence == ""
+        setup.robot.stop()
+        setup.glass.until(lambda: not setup.glass.app.session.connected, "still connected")
+        setup.glass.stage.run_for(0.3, 1 / 10)
+        assert setup.screen.back_head.sentence.startswith("There is no link; what can be seen was so before.")
+        setup.robot.start()
         assert setup.glass.app.shell.back()
         setup.glass.stage.frames(3)
         assert (listed.parent, detail.parent) == (setup.screen, None)
