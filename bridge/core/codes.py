@@ -104,6 +104,7 @@ class Code(StrEnum):
     GATEWAY_CANCELLED = "gateway_cancelled", "The goal was taken back, or its client is gone.", "operation"
     GATEWAY_FULL = "gateway_full", "Too many clients use the gateway.", "max"
     GATEWAY_BUSY = "gateway_busy", "Too many requests wait for their turn.", "max"
+    GATEWAY_STALE = "gateway_stale", "The request waited too long, or its client is gone."
     GATEWAY_LEFT_OUT = "gateway_left_out", "The gateway does not carry that.", "operation"
     GATEWAY_BROUGHT_UP = (
         "gateway_brought_up",

@@ -12,6 +12,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 from bridge.server.reception.places import Limits, Place, Standing
 from bridge.server.reception.tls import unsent
 from robotside.gateways.http.mounts import LONG
+from robotside.gateways.http.presence import GONE, READ
 
 __all__ = ["CLOSE_TIMEOUT", "LIMITS", "MAX_CONNECTION_TIME", "PLACE", "STUCK_TIMEOUT", "BrowserConnection"]
 
@@ -49,7 +50,7 @@ class BrowserConnection(H11Protocol):
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Its time begins."""
         super().connection_made(transport)
-        self.app_state = {**self.app_state, PLACE: self.place}
+        self.app_state = {**self.app_state, PLACE: self.place, GONE: self._is_gone}
         self.until = self.loop.time() + MAX_CONNECTION_TIME
         _keep_little(transport, self.below)
         self._look_later()
@@ -58,6 +59,7 @@ class BrowserConnection(H11Protocol):
         """Somebody asks, or goes on asking."""
         if self.place is not None:
             self.place.hear()
+        self.app_state[READ] = self.loop.time()
         super().data_received(data)
         self._note_asking()
 
@@ -76,6 +78,9 @@ class BrowserConnection(H11Protocol):
 
     def _unsupported_upgrade_warning(self) -> None:
         """Pass over that somebody asks for a WebSocket here: it is answered as any other request."""
+
+    def _is_gone(self) -> bool:
+        return self.transport.is_closing() or (self.below is not None and self.below.is_closing())
 
     def _note_asking(self) -> None:
         if self.place is not None:

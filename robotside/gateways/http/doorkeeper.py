@@ -19,6 +19,8 @@ from bridge.server.reception.reception import anyone, plain_host
 from robotside.door.station_door import StationDoor
 from robotside.gateways.http.browser_connection import PLACE
 from robotside.gateways.http.mounts import ONLY_STOP, OPERATOR, STAYS, Mount, Mounts
+from robotside.gateways.http.presence import Presence, note_presence
+from robotside.gateways.plain.standstills import Standstills
 
 __all__ = ["Doorkeeper"]
 
@@ -56,16 +58,20 @@ class Doorkeeper:
         *,
         stop_from_pages: bool = True,
         plain_from: Callable[[str], bool] = anyone,
+        standstills: Standstills | None = None,
     ) -> None:
         """It stands before `mounts` as before the `site`.
 
         `pages` may speak to the robot; STOP may be pressed by every page of the world while `stop_from_pages`: to stop
         without need is safe, and a page that was opened by another name of the robot must be able to stop it.
 
-        `plain_from(host)` says who may come without TLS; all others may press STOP without it and nothing else.
+        `plain_from(host)` says who may come without TLS; all others may press STOP without it and nothing else. What was asked
+        across one of the `standstills` is not done, but for STOP; what needs a mount is that one's to look at again, right
+        before it does it.
         """
         self._site, self._door, self._pages, self._mounts = site, door, pages, mounts
         self._stop_from_pages, self._plain_from = stop_from_pages, plain_from
+        self._standstills = standstills or Standstills()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer one request."""
@@ -94,6 +100,9 @@ class Doorkeeper:
             introduce(operator, place, self._door.now())
             refused = self._refusal(operator, asked, scope, place)
             state[OPERATOR], state[ONLY_STOP] = operator, asked.stops
+            presence = note_presence(scope, self._standstills)
+            if not asked.stops:
+                refused = refused or await _absence(presence, asked, scope)
             await (refused or asked.mount or self._site)(scope, receive, send)
         finally:
             if STAYS not in state:
@@ -135,6 +144,18 @@ class Doorkeeper:
             unknown = operator.role(self._door.now()) is Role.NONE
             return _answer(asked, scope, 401 if unknown else 403, refusal)
         return None
+
+
+async def _absence(presence: Presence, asked: _Asked, scope: Scope) -> ASGIApp | None:
+    """The answer to a request that does not count any more; None for one that does."""
+    try:
+        if asked.mount is None:
+            await presence.confirm()
+        else:
+            presence.check()  # the mount confirms it; a STOP may be in what it has not read yet
+    except Refused as refusal:
+        return _answer(asked, scope, 503, refusal)
+    return None
 
 
 def _read(scope: Scope, mount: Mount | None) -> _Asked:

@@ -26,6 +26,7 @@ from robotside.gateways.http.mounts import Mounts
 from robotside.gateways.http.sessions import Sessions
 from robotside.gateways.http.usage_pages import NOTHING_BESIDE, Usage
 from robotside.gateways.http.web_site import site
+from robotside.gateways.plain.standstills import Standstills
 from robotside.gateways.scaling.picture_scaling import PictureScaler
 from robotside.trust.pairing import Pairing
 
@@ -72,8 +73,15 @@ class HttpGateway:
         self.mounts = mounts or Mounts(lambda: self.endpoints()["http"])
         """The applications of others on the site."""
         self.mounts.reserve(route.path for route in own.routes if isinstance(route, Route))
+        self._standstills = Standstills()
         self.site = Doorkeeper(
-            own, door, allowed, self.mounts, stop_from_pages=stop_from_pages, plain_from=plain_from
+            own,
+            door,
+            allowed,
+            self.mounts,
+            stop_from_pages=stop_from_pages,
+            plain_from=plain_from,
+            standstills=self._standstills,
         )
         """The ASGI application."""
         self._reception = Reception(LIMITS, tls=tls)
@@ -104,10 +112,12 @@ class HttpGateway:
         self._server = _WebServer(config)
         self._serving = asyncio.create_task(self._server.serve([self._socket]))
         self._serving.add_done_callback(_log_fault)
+        self._standstills.start()
 
     async def stop(self) -> None:
         """End all connections and stop listening; nothing is left running."""
         self.mounts.close()
+        self._standstills.stop()
         if self._server is not None and self._serving is not None:
             self._server.should_exit = True
             await self._reception.close()

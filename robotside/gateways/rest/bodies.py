@@ -9,6 +9,7 @@ from starlette.requests import Request
 
 from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
+from robotside.gateways.http.presence import presence_of
 from robotside.gateways.plain.strict_json import MAX_INPUT, decode
 from robotside.gateways.rest.forms import JSON, XML
 from robotside.gateways.rest.statuses import Rejected
@@ -30,10 +31,12 @@ MAX_HEADER = 64
 async def body_of(request: Request, cls: type[Msg] | None) -> dict[str, Any]:
     """The object in a request's body, of a form that it names, `{}` for none.
 
+    Refused for a request that has not counted any more since it began, as of `Presence`; a command is done without a pause after.
     Rejected for what is too long (413) or of another form (415), ProtocolError for what cannot be read. XML is read with
     the types of `cls`, and not at all without it.
     """
     raw = await _raw(request)
+    presence_of(request.scope).check()
     if not raw.strip():
         return {}
     named = request.headers.get("content-type", "").partition(";")[0].strip().lower()

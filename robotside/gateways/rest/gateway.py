@@ -19,6 +19,7 @@ from robotside.core.text import plain
 from robotside.gateways.adapter import Surroundings
 from robotside.gateways.gateway_url import GatewayUrl
 from robotside.gateways.http.mounts import ONLY_STOP, OPERATOR, source
+from robotside.gateways.http.presence import presence_of
 from robotside.gateways.payloads.offered import offered
 from robotside.gateways.rest.application import application
 from robotside.gateways.rest.bodies import CLIENT_NAME
@@ -104,8 +105,9 @@ class RestGateway:
         if not scope["state"].get(ONLY_STOP):
             try:
                 await self._turns.take(source(scope))
-            except Refused as busy:
-                await refused(scope, status_of(busy), busy)(scope, receive, send)
+                await presence_of(scope).confirm()
+            except Refused as refusal:
+                await refused(scope, status_of(refusal), refusal)(scope, receive, send)
                 return
             await self._app(scope, receive, send)
             return

@@ -20,6 +20,7 @@ from robotside.core.notice import Notice
 from robotside.gateways.adapter import Surroundings
 from robotside.gateways.gateway_url import GatewayUrl
 from robotside.gateways.http.mounts import ONLY_STOP, OPERATOR, source
+from robotside.gateways.http.presence import presence_of
 from robotside.gateways.payloads.offered import offered
 from robotside.gateways.plain.strict_json import MAX_INPUT
 from robotside.gateways.soap.callbacks import Callbacks
@@ -166,6 +167,10 @@ class SoapGateway:
             await self._turns.take(source(request.scope))
         except Refused as busy:
             return _fault(busy, code=SERVER)
+        try:
+            await presence_of(request.scope).confirm()
+        except Refused as stale:
+            return _fault(stale, 503, {"Retry-After": "5"}, SERVER)
         return await self._in_turn(request, operator, raw)
 
     async def _in_turn(self, request: Request, operator: Operator, raw: bytes) -> Response:
