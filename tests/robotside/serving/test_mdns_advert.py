@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import random
+import uuid
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
@@ -17,6 +19,16 @@ from robotside.serving.mdns_advert import MdnsAdvert
 from tests.bridge.wires import Record
 
 pytestmark = pytest.mark.slow
+
+
+def own(name: str) -> str:
+    """A name that no other run on this network has."""
+    return f"{name} {uuid.uuid4().hex[:12]}"
+
+
+def own_port() -> int:
+    """A port to announce, at which nothing need listen."""
+    return random.randrange(1024, 65536)
 
 
 @asynccontextmanager
@@ -43,24 +55,25 @@ async def browsing(found: Record) -> AsyncIterator[None]:
 
 
 async def test_a_robot_is_found_with_its_address_and_port():
-    found = Record()
-    async with announced("Patrol 1 in the yard", 19090), browsing(found):
-        await found.until(lambda seen: "ws://127.0.0.1:19090" in seen)
+    found, port = Record(), own_port()
+    async with announced(own("Patrol 1 in the yard"), port), browsing(found):
+        await found.until(lambda seen: f"ws://127.0.0.1:{port}" in seen)
 
 
 async def test_two_robots_of_one_name_are_both_found():
-    found = Record()
-    async with announced("Twin-1", 19091), announced("Twin-1", 19092), browsing(found):
-        await found.until(lambda seen: {"ws://127.0.0.1:19091", "ws://127.0.0.1:19092"} <= set(seen))
+    found, twin, port, other = Record(), own("Twin"), own_port(), own_port()
+    async with announced(twin, port), announced(twin, other), browsing(found):
+        await found.until(lambda seen: {f"ws://127.0.0.1:{port}", f"ws://127.0.0.1:{other}"} <= set(seen))
 
 
 async def test_a_robot_that_ends_says_so():
+    gone = own("Gone")
     zone = AsyncZeroconf(interfaces=["127.0.0.1"], ip_version=IPVersion.V4Only)
     try:
-        async with announced("Gone-1", 19093):
-            info = AsyncServiceInfo(SERVICE_TYPE, f"Gone-1.{SERVICE_TYPE}")
+        async with announced(gone, own_port()):
+            info = AsyncServiceInfo(SERVICE_TYPE, f"{gone}.{SERVICE_TYPE}")
             assert await info.async_request(zone.zeroconf, 10_000)
-        again = AsyncServiceInfo(SERVICE_TYPE, f"Gone-1.{SERVICE_TYPE}")
+        again = AsyncServiceInfo(SERVICE_TYPE, f"{gone}.{SERVICE_TYPE}")
         assert not await again.async_request(zone.zeroconf, 300)
     finally:
         await zone.async_close()
@@ -68,7 +81,7 @@ async def test_a_robot_that_ends_says_so():
 
 async def test_without_a_network_the_robot_goes_on_and_nothing_is_left():
     before = asyncio.all_tasks()
-    advert = MdnsAdvert("Lonely-1", "192.0.2.1", lambda: 1)
+    advert = MdnsAdvert(own("Lonely"), "192.0.2.1", lambda: 1)
     await asyncio.wait_for(advert.run(), 60)
     await advert.close()
     assert asyncio.all_tasks() <= before

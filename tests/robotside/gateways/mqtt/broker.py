@@ -13,6 +13,8 @@ from pathlib import Path
 
 __all__ = ["MOSQUITTO", "Broker"]
 
+START_TIMEOUT = 60.0
+"""For a broker to have its old port again [s]."""
 _PLACES = os.pathsep.join((os.environ.get("PATH", ""), "/usr/sbin", "/usr/local/sbin"))
 MOSQUITTO = (
     "" if os.environ.get("TEST_BROKER") == "iotcore" else shutil.which("mosquitto", path=_PLACES) or ""
@@ -57,9 +59,13 @@ class Broker:
         return f"mqtt://127.0.0.1:{self.port}"
 
     def start(self) -> None:
-        """Start again, on the same port, with nothing kept."""
+        """Start again, on the same port, with nothing kept; where another program has it for a moment, once that is over."""
+        end = time.monotonic() + START_TIMEOUT
         self._process = self._begin()
-        assert self._listens(), "the broker does not come back"
+        while not self._listens():
+            assert time.monotonic() < end, "the broker does not come back"
+            time.sleep(0.1)
+            self._process = self._begin()
 
     def kill(self) -> None:
         self._process.kill()
