@@ -52,7 +52,7 @@ Builder.load_string("""
         id: name
         text: root.robot_name
         bold: True
-        font_size: theme.size_title if root.form != 'tall' else fitting_size([self.text], sp(16), self.width - dp(8), bold=True)
+        font_size: theme.size_title if root.form != 'tall' else max(sp(13), fitting_size([self.text], sp(16), self.width - dp(8), bold=True))  # smaller is not read; its end is left out instead
         shorten: root.form == 'tall' or root.name_room > 0
         shorten_from: 'right'
         pos_hint: {'center_y': .5}

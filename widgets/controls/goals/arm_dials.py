@@ -11,7 +11,7 @@ from kivy.properties import ListProperty, NumericProperty, OptionProperty
 from bridge.msgs.arrays import Float64Array
 from bridge.msgs.pilothouse_msgs import ArmOrder
 from widgets.controls.goals.arm_keys import ArmKeys
-from widgets.controls.goals.arm_picture import Side, draw_turn
+from widgets.controls.goals.arm_picture import Side, draw_turn, turn_words
 from widgets.core.canvas_ink import Word
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -115,3 +115,14 @@ class ArmDials(ArmKeys):
             bearing = self.bearing if self.held == name else math.nan
             angle = self.angles[_JOINTS[name]]
             yield draw_turn(shapes, dial, angle, bearing, roomy=roomy, rolls=name == "roll")
+        if self.dials and "roll" not in self.dials and len(self.angles) > BENDING:
+            yield self._hand_alone(roomy=roomy)
+
+    def _hand_alone(self, *, roomy: bool) -> Word:
+        """How the hand is rolled, where there is no room for its dial: below the deck, or between the foot's and the gripper's."""
+        left, low, _, height = self.view
+        words = turn_words(math.degrees(self.angles[BENDING]), roomy=roomy, rolls=True)
+        if roomy:
+            return Word(words, left, low + sp(23), sp(12.5), theme.muted, anchor=(0, 0.5))
+        middle = (low + sp(28) + low + height - dp(26)) / 2
+        return Word(words, left, middle, sp(11), theme.muted, anchor=(0, 0.5))

@@ -19,6 +19,8 @@ __all__ = ["CHOICE_TIMEOUT", "ArmKeys", "PoseKey", "pose_words"]
 
 CHOICE_TIMEOUT = 8.0
 """How long the poses stay open without a finger [s]."""
+HIGH = 76
+"""A key of this height has room for a tick above two lines [dp]."""
 WIDE = 1.25
 """From this share of its height on the buttons stand beside the picture."""
 
@@ -190,6 +192,7 @@ class ArmKeys(Grip, Gauge):
         key.meaning = name or "more"
         key.icon = "check" if here else "" if name else "more_horiz"
         key.ink, key.border = ("accent", "accent") if here else ("text", "line")
+        key.rim_width = dp(3) if here else theme.outline
         return key
 
     def _pressed(self, key: PoseKey) -> None:
@@ -201,8 +204,10 @@ class ArmKeys(Grip, Gauge):
     def _put(self, key: PoseKey, box: tuple[float, float, float, float]) -> None:
         key.pos, key.size = box[:2], box[2:]
         key.flow = "horizontal" if key.width >= dp(126) else "vertical"
-        if key.name and not key.icon and wide(key.text, sp(14), bold=True) > key.width - dp(20):
+        if key.name and " " in key.text and wide(key.text, sp(14), bold=True) > key.width - dp(20):
             key.text = key.text.replace(" ", "\n")
+            if key.height < dp(HIGH):
+                key.icon = ""  # a thick border marks it too, and its words are as large as the others'
         self.add_widget(key)
 
     def _label_gripper(self, *_: object) -> None:

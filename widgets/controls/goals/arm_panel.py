@@ -249,7 +249,7 @@ class ArmPanel(ArmDials):
             return ("touches something", "touches"), "warn"
         if self.moving:
             return ("moving",), "plan"
-        return (pose_words(self.pose),) if self.pose else ("at rest",), "text"
+        return (pose_words(self.pose),) if self.pose else ("still",), "text"
 
 
 def _whole(values: Float64Array) -> list[float]:

@@ -17,7 +17,17 @@ from widgets.core.geometry import Points, dial_point
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 
-__all__ = ["Links", "Side", "draw_aim", "draw_arm", "draw_deck", "draw_turn", "moved_tip", "side_points"]
+__all__ = [
+    "Links",
+    "Side",
+    "draw_aim",
+    "draw_arm",
+    "draw_deck",
+    "draw_turn",
+    "moved_tip",
+    "side_points",
+    "turn_words",
+]
 
 FINGER = 0.055
 """Length of a finger of the gripper [m]."""
@@ -163,9 +173,14 @@ def draw_turn(
         end = dial_point(clockwise * degrees, radius * 0.8)
         shapes.line(np.array([[x, y], [x + end[0], y + end[1]]]), dp(3), theme.plan)
     shapes.disc(x, y, dp(2.5), theme.text)
-    side = "" if abs(degrees) < 0.5 else " right" if clockwise * degrees > 0 else " left"
-    text = (
-        f"{'hand ' * rolls}{abs(degrees):.0f}°{side}" if roomy else f"{abs(degrees):.0f}°{side[:2].upper()}"
-    )
+    text = turn_words(degrees, roomy=roomy, rolls=rolls)
     role = theme.plan if turning else theme.muted
-    return Word(text, x + radius + dp(6), y, sp(12.5 if roomy else 12), role, anchor=(0, 0.5))
+    return Word(text, x + radius + dp(6), y, sp(12.5 if roomy else 11), role, anchor=(0, 0.5))
+
+
+def turn_words(degrees: float, *, roomy: bool, rolls: bool) -> str:
+    """How far the foot is turned, to the left positive, or with `rolls` the hand, clockwise from behind positive [°]."""
+    turned = degrees if rolls else -degrees
+    side = "" if abs(degrees) < 0.5 else "right" if turned > 0 else "left"
+    word, figure = ("hand" if rolls else "foot"), f"{abs(degrees):.0f}°"
+    return f"{word} {figure} {side}".rstrip() if roomy else f"{word} {figure}{side[:1].upper()}"

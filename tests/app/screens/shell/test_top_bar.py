@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from kivy.metrics import sp
 
 from app.screens.shell.top_bar import TopBar
 from bridge.msgs.sensor_msgs import BatteryState
@@ -40,6 +41,21 @@ def test_a_long_name_is_written_smaller_and_not_cut(stage: Any) -> None:
     stage.frames(4)
     name = bar.ids.name
     assert text_texture("Commander-1", name.font_size, bold=True).width <= name.width
+
+
+def test_beside_a_silent_link_the_name_is_cut_and_never_too_small_to_read(stage: Any) -> None:
+    bar = TopBar()
+    stage.show(bar, size=(412, 56))
+    bar.arrange("tall")
+    bar.robot_name, bar.mode_text = "The tractor of the orchard", "STOPPED"
+    bar.ids.battery.state = bar.ids.link.state = "live"
+    bar.ids.battery.show(BatteryState(percentage=0.62))
+    bar.ids.link.rtt, bar.ids.link.silence = 0.041, 12.0
+    stage.frames(4)
+    name = bar.ids.name
+    assert name.font_size >= sp(13)
+    assert name.is_shortened
+    assert name.right <= bar.ids.trust.x
 
 
 def test_what_has_no_satellites_to_tell_of_has_no_chip_for_them(stage: Any) -> None:

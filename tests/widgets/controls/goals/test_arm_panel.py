@@ -126,7 +126,7 @@ def test_the_buttons_are_as_large_as_a_finger_needs_and_do_not_overlap(stage, si
     ("figures", "word"),
     [
         ({}, "Home"),
-        ({"pose": ""}, "at rest"),
+        ({"pose": ""}, "still"),
         ({"wanted": (0.5, *HOME[1:])}, "moving"),
         ({"touching": True}, "touches something"),
     ],
@@ -242,9 +242,33 @@ def test_the_hand_of_the_lower_dial_rolls_the_hand_and_leaves_the_other_joints(s
     drag(stage, panel, (x, y - radius / 2), (60, radius / 2))
     (order,) = panel.orders
     assert list(order.angles) == pytest.approx([*HOME[:4], math.pi / 2], abs=0.02)
-    assert "hand 0°" in panel.texts
+    assert {"foot 0°", "hand 0°"} <= set(panel.texts)
     tell(panel, stage, angles=(*HOME[:4], -0.5), wanted=(*HOME[:4], -0.5))
     assert "hand 29° left" in panel.texts
+
+
+@pytest.mark.parametrize(
+    ("size", "words"), [((176, 176), ("foot 0°", "hand 29°L")), ((268, 176), ("foot 0°", "hand 29° left"))]
+)
+def test_where_there_is_no_room_for_its_dial_the_figure_of_the_hand_is_seen(stage, size, words):
+    panel = watched(stage.show(ArmPanel(), size=size), stage)
+    tell(panel, stage, angles=(*HOME[:4], -0.5), wanted=(*HOME[:4], -0.5))
+    assert [*panel.dials] == ["turn"]
+    assert set(words) <= set(panel.texts)
+    tell(panel, stage, angles=HOME[:4], wanted=HOME[:4])
+    assert not any(text.startswith("hand") for text in panel.texts)
+
+
+@pytest.mark.parametrize("size", [(326, 228), (176, 176), (520, 330)])
+def test_the_pose_that_it_is_in_is_outlined_and_written_as_large_as_the_others(stage, size):
+    panel = watched(stage.show(ArmPanel(choosing=True), size=size), stage)
+    before = key(panel, "Look down").words_size
+    tell(panel, stage, pose="look_down")
+    here, other = key(panel, "Look down"), key(panel, "Home")
+    assert here.words_size == before
+    assert here.rim_width > other.rim_width
+    tell(panel, stage, pose="home")
+    assert (here.rim_width, other.icon) == (theme.outline, "check")
 
 
 def test_an_arm_with_four_joints_is_drawn_and_led_without_a_dial_for_its_hand(stage, panel):
