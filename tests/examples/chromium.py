@@ -84,6 +84,16 @@ class Chromium:
         for kind in ("mousePressed", "mouseReleased"):
             self._ask("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
 
+    def resize(self, width: int, height: int) -> None:
+        """Show the page on a glass of that size [px]."""
+        self._ask(
+            "Emulation.setDeviceMetricsOverride",
+            width=width,
+            height=height,
+            deviceScaleFactor=1,
+            mobile=True,
+        )
+
     def picture(self) -> bytes:
         """What is seen of the page, as a PNG."""
         return base64.b64decode(self._ask("Page.captureScreenshot")["data"])

@@ -92,6 +92,43 @@ def test_the_page_shows_the_picture_touches_the_box_and_stops_the_arm(
     assert not held.touching
 
 
+def test_what_is_not_heard_any_more_is_not_claimed_and_comes_again_with_the_link(
+    page: tuple[Chromium, RobotProcess],
+) -> None:
+    chromium, _ = page
+    picture, pressed = (
+        "document.getElementById('picture')",
+        "document.querySelectorAll('[aria-pressed=true]').length",
+    )
+    chromium.until(f"{picture}.naturalWidth === 640")
+    chromium.until(READY)
+    chromium.click("[data-pose=home]")
+    chromium.until(f"{pressed} === 1")
+    box = "document.querySelector('.frame').getBoundingClientRect().height"
+    height = chromium.run(box)
+    chromium.run(
+        "window.setTimeout = again => window.again = again; show('touching', 'something'); socket.close()"
+    )
+    chromium.until(f"{SAID}.startsWith('No link')")
+    assert chromium.run(f"[{TOUCHING}, {pressed}, {picture}.naturalWidth, {box}]") == ["", 0, 0, height]
+    chromium.run("again()")
+    chromium.until(f"{picture}.naturalWidth === 640")
+    chromium.until(f"{pressed} === 1")
+
+
+def test_stop_is_on_the_glass_of_a_phone_however_it_is_held(page: tuple[Chromium, RobotProcess]) -> None:
+    chromium, _ = page
+    chromium.until(READY)
+    for width, height in ((892, 412), (412, 892), (640, 300)):
+        chromium.resize(width, height)
+        chromium.until(f"innerHeight === {height}")
+        chromium.run("scrollTo(0, 0)")
+        top, bottom = chromium.run(
+            "(box => [box.top, box.bottom])(document.getElementById('stop').getBoundingClientRect())"
+        )
+        assert 0 <= top < bottom <= height
+
+
 def test_while_another_client_has_control_the_page_says_who(page: tuple[Chromium, RobotProcess]) -> None:
     chromium, robot = page
     chromium.until(READY)
