@@ -60,17 +60,18 @@ def application(desk: Desk, streams: TopicStreams, hooks: Hooks, guide: Callable
     )
     paths = _Paths(desk, streams, guide, lambda: described(app, desk))
     for path, handler, what in paths.reading():
-        app.add_api_route(path, handler, methods=["GET"], name=what, response_model=None)
+        app.add_api_route(path, handler, methods=["GET"], name=what, summary=what, response_model=None)
     for path, handler, what in paths.doing():
-        app.add_api_route(path, handler, methods=["POST"], name=what, response_model=None)
+        app.add_api_route(path, handler, methods=["POST"], name=what, summary=what, response_model=None)
     for method, path, handler, what in WebhookPaths(desk, hooks).all():
-        app.add_api_route(path, handler, methods=[method], name=what, response_model=None)
+        app.add_api_route(path, handler, methods=[method], name=what, summary=what, response_model=None)
     for command in COMMANDS:
         app.add_api_route(
             command.path,
             _handler(desk, command),
             methods=[command.method],
             name=command.doc,
+            summary=command.doc,
             response_model=None,
             openapi_extra={"x-service": command.service},
         )
@@ -170,8 +171,8 @@ class _Paths:
         self._described = self._described or msgspec.json.encode(self._openapi())
         return Response(self._described, headers={"Cache-Control": "no-store"}, media_type="application/json")
 
-    async def docs(self, _: Request) -> Response:
-        page = docs_page(self._openapi())
+    async def docs(self, request: Request) -> Response:
+        page = docs_page(self._openapi(), request.scope.get("root_path", ""))
         policy = "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"
         return HTMLResponse(page, headers={"Cache-Control": "no-store", "Content-Security-Policy": policy})
 

@@ -12,6 +12,7 @@ from msgspec.structs import fields
 from bridge.msgs import TYPES, Msg
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from bridge.msgs.rosapi_msgs import GetTimeResponse
+from robotside.gateways.payloads.offered import PUBLISH, offered
 from robotside.gateways.rest.bodies import CLIENT_ID, CLIENT_NAME, KEY, MAX_HEADER, STAMP
 from robotside.gateways.rest.commands import COMMANDS, Command
 from robotside.gateways.rest.forms import EVENTS, JSON, TEXT, XML
@@ -139,6 +140,9 @@ class _Description:
             service is None
         ):  # this robot lacks it; what it would be asked is known nonetheless where its class is
             operation["responses"]["200"] = _answer("Done.", _ANY)
+            if command.example:
+                whole: Described = {"schema": {"type": "object"}, "example": json.loads(command.example)}
+                operation["requestBody"] = {"content": {JSON: whole, XML: {}}}
             return
         request: type[Msg] = service.request
         if command.field:
@@ -154,12 +158,24 @@ class _Description:
             operation["responses"]["200"] = _answer("STOP is pressed.", self.schemas.of(CommandResponse))
             return
         _add_headers(operation, *_HEADERS)
+        message: Described = {"schema": {"type": "object"}}
+        if path.startswith("/topics"):
+            message["examples"] = self._messages()
         operation["requestBody"] = {
-            "content": {JSON: {"schema": {"type": "object"}}, XML: {}},
+            "content": {JSON: message, XML: {}},
             "description": "A message of the topic, or the request of the service, in ROS's names.",
         }
         status = "202" if path.startswith("/topics") else "200"
         operation["responses"][status] = _answer("Taken.", _ANY)
+
+    def _messages(self) -> Described:
+        """A message of each topic that this robot listens to."""
+        lines = [line for each in offered(self._desk.door, self._desk.keys) for line in each.lines]
+        return {
+            line.name.strip("/"): {"value": json.loads(line.example)}
+            for line in lines
+            if line.verb == PUBLISH and line.example
+        }
 
     def _webhook(self, method: str, operation: Described) -> None:
         made, parts = msgspec.json.schema_components([Wish], ref_template="#/components/schemas/{name}")

@@ -13,7 +13,7 @@ from robotside.gateways.usage_sheet.sheet import Sheet, rosbridge_message
 if TYPE_CHECKING:
     from mako.template import Template
 
-__all__ = ["Parts", "as_page", "as_text", "strangers_page"]
+__all__ = ["Parts", "as_page", "as_text", "strangers_page", "style"]
 
 _HERE = Path(__file__).parent
 
@@ -44,6 +44,11 @@ def as_page(sheet: Sheet, parts: Parts) -> str:
 def strangers_page(name: str, said: str, stopped: str = "") -> str:
     """What a stranger sees: the robot's name, STOP, whether it is pressed, one sentence, and where to show a token."""
     return str(_template("stranger.mako").render(name=name, said=said, stopped=stopped))
+
+
+def style() -> str:
+    """The style of all pages of the site, in HTML."""
+    return str(_template("style.mako").render())
 
 
 def as_text(sheet: Sheet, cameras: str = "") -> str:

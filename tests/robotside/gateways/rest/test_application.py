@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import html
 from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
@@ -284,6 +285,19 @@ async def test_the_page_of_paths_loads_nothing_from_anywhere(served: Served) -> 
         assert not any(
             word in answer.text for word in ('href="http', "<script", "<link", "src=", "url(", "@import")
         )
-        assert "<code>/payloads/arm</code>" in answer.text
+        for method, path, what in (
+            ("GET", "/api/time", "The robot&#x27;s time, by which a client stamps its drive commands."),
+            ("PUT", "/api/payloads/arm", "Moves the arm to a pose, a point or angles."),
+        ):
+            assert (
+                f'{method}</span> <code class="name">{path}</code>\n<p class="quiet">{what}</p>'
+                in answer.text
+            )
+        shown = html.unescape(answer.text)
+        assert shown.count('<pre>{"order": {"pose": "home"}}</pre>') == 2
+        assert '<pre>{"brightness": 1.0}</pre>' in shown
+        assert "as for <code>/api/topics/cmd_vel</code>:</p><pre>{" in shown
+        assert 'name="viewport" content="width=device-width' in answer.text
+        assert "prefers-color-scheme:dark" in answer.text
         page = (await web.get("guide")).text
         assert served.url in page

@@ -69,6 +69,7 @@ async def test_the_description_has_each_path_that_runs_and_each_example_is_as_it
     for path, methods in told["paths"].items():
         for method, operation in methods.items():
             assert operation["summary"].endswith("."), (method, path)
+            assert "'S" not in operation["summary"], "as written, not in title case"
             assert {"401", "403", "503"} <= set(operation["responses"]) or path == "/stop"
             content = operation.get("requestBody", {}).get("content", {}).get("application/json", {})
             if "example" in content:
