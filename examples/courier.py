@@ -10,11 +10,12 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 import time
 from collections.abc import Callable
 
 from examples.poses import pose
-from examples.protocols.ways import PROTOCOLS, Answer, Way, way_to
+from examples.protocols.ways import FAULTS, PROTOCOLS, Answer, Way, sentence, way_to
 
 __all__ = ["NotDelivered", "deliver", "place"]
 
@@ -102,8 +103,11 @@ def main() -> int:
             if chosen.at is not None:
                 place(way, *chosen.at)
             run = deliver(way, chosen.what, (chosen.start, chosen.goal), confirm=chosen.confirm)
-    except (NotDelivered, OSError, ValueError) as problem:
+    except NotDelivered as problem:
         print(problem)
+        return 1
+    except FAULTS as problem:
+        print(sentence(chosen.by, problem), file=sys.stderr)
         return 1
     print(run["reason"])
     return 0

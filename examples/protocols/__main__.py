@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 
-from examples.protocols.ways import PROTOCOLS, way_to
+from examples.protocols.ways import FAULTS, PROTOCOLS, sentence, way_to
 
 
-def main() -> None:
-    """One call."""
+def main() -> int:
+    """One call; the exit code."""
     parser = argparse.ArgumentParser(
         prog="python -m examples.protocols",
         description=__doc__,
@@ -24,9 +25,14 @@ def main() -> None:
     parser.add_argument("service", help="as /arm/move")
     parser.add_argument("request", nargs="?", default="{}", type=json.loads, help="its fields as JSON")
     chosen = parser.parse_args()
-    with way_to(chosen.url) as way:
-        print(json.dumps(way.call(chosen.service, chosen.request), indent=2))
+    try:
+        with way_to(chosen.url) as way:
+            print(json.dumps(way.call(chosen.service, chosen.request), indent=2))
+    except FAULTS as problem:
+        print(sentence(chosen.url, problem), file=sys.stderr)
+        return 1
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    raise SystemExit(main())

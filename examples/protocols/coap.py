@@ -7,11 +7,15 @@ import json
 import time
 
 from aiocoap import POST, Context, Message
+from aiocoap.error import Error
 from aiocoap.numbers import ContentFormat
 
 from examples.protocols.ways import ANSWER_TIMEOUT, Answer, Way
 
-__all__ = ["open_way"]
+__all__ = ["OWN_FAULTS", "open_way"]
+
+OWN_FAULTS = (Error,)
+"""What its library raises, beside what all raise."""
 
 
 class _Coap:

@@ -8,11 +8,14 @@ import uuid
 from collections.abc import Iterator
 from urllib.parse import urlsplit
 
-from confluent_kafka import Consumer, Producer, TopicPartition
+from confluent_kafka import Consumer, KafkaException, Producer, TopicPartition
 
 from examples.protocols.ways import ANSWER_TIMEOUT, Answer, Way
 
-__all__ = ["open_way"]
+__all__ = ["OWN_FAULTS", "open_way"]
+
+OWN_FAULTS = (KafkaException,)
+"""What its library raises, beside what all raise."""
 
 
 class _Kafka:

@@ -15,7 +15,10 @@ from paho.mqtt.properties import Properties
 
 from examples.protocols.ways import ANSWER_TIMEOUT, Answer, Way
 
-__all__ = ["open_way"]
+__all__ = ["OWN_FAULTS", "open_way"]
+
+OWN_FAULTS: tuple[type[Exception], ...] = ()
+"""What its library raises, beside what all raise."""
 
 EXPIRY = 5
 """A command that the broker could not pass on for so long is not carried out [s]."""

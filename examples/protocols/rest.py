@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 from contextlib import closing
-from http.client import HTTPConnection, HTTPSConnection
+from http.client import HTTPConnection, HTTPException, HTTPSConnection
 from urllib.parse import urlsplit
 
 from examples.protocols.ways import ANSWER_TIMEOUT, Answer, Way
 
-__all__ = ["open_way"]
+__all__ = ["OWN_FAULTS", "open_way"]
+
+OWN_FAULTS = (HTTPException,)
+"""What its library raises, beside what all raise."""
 
 
 class _Rest:

@@ -7,11 +7,15 @@ from typing import Any
 
 import zeep
 from lxml import etree
+from zeep.exceptions import Error
 from zeep.transports import Transport
 
 from examples.protocols.ways import ANSWER_TIMEOUT, Answer, Way
 
-__all__ = ["open_way"]
+__all__ = ["OWN_FAULTS", "open_way"]
+
+OWN_FAULTS = (Error,)
+"""What its library raises, beside what all raise."""
 
 NS = "urn:pilothouse:robot:1"
 COMMAND = {"client_id": "clientId", "client_name": "clientName", "command_id": "commandId"}

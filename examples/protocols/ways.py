@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, Protocol
 
-__all__ = ["ANSWER_TIMEOUT", "PROTOCOLS", "Answer", "Way", "way_to"]
+__all__ = ["ANSWER_TIMEOUT", "FAULTS", "PROTOCOLS", "Answer", "Way", "sentence", "way_to"]
 
 ANSWER_TIMEOUT = 40.0
 """An answer that waits for an arm takes so long at most [s]."""
@@ -23,6 +23,10 @@ PROTOCOLS = ("coap", "kafka", "mqtt", "rest", "rosbridge", "soap", "websocket")
 """Modules beside this one."""
 SCHEMES = {"ws": "rosbridge", "mqtt": "mqtt", "kafka": "kafka", "coap": "coap"}
 """Scheme of a URL without a name to the protocol that it means."""
+FAULTS = (ValueError, OSError, ImportError)
+"""What a way fails with: a URL that is none, no connection or answer, a library that is not installed."""
+_PACKAGES = {"confluent_kafka": "confluent-kafka", "paho": "paho-mqtt"}
+"""What pip calls a library that Python calls otherwise."""
 
 Answer = dict[str, Any]
 """As of the service's response: what commands answer has `success`, `message` and `code`."""
@@ -55,13 +59,49 @@ def way_to(url: str, name: str = "") -> Iterator[Way]:
     if not protocol:
         known = ", ".join(f"{each}=URL" for each in PROTOCOLS)
         raise ValueError(f"A way to a robot is {known}, or begins with {' or '.join(SCHEMES)}, not {url!r}.")
-    opened: Callable[[str, str], Way] = importlib.import_module(f"examples.protocols.{protocol}").open_way
+    module = importlib.import_module(f"examples.protocols.{protocol}")
+    opened: Callable[[str, str], Way] = module.open_way
     client = uuid.uuid4().hex
-    way = opened(place, client)
+    with _as_faults(module.OWN_FAULTS):
+        way = opened(place, client)
+        try:
+            yield _Named(way, client, name or f"{protocol} program")
+        finally:
+            way.close()
+
+
+@contextmanager
+def _as_faults(own: tuple[type[Exception], ...]) -> Iterator[None]:
+    """Raise what a library calls its own as one of `FAULTS`."""
     try:
-        yield _Named(way, client, name or f"{protocol} program")
-    finally:
-        way.close()
+        yield
+    except FAULTS:
+        raise
+    except own as problem:
+        raise ConnectionError(_words(problem)) from problem
+
+
+def sentence(url: str, problem: Exception) -> str:
+    """One of `FAULTS` of the way to `url`, for people."""
+    if isinstance(problem, ImportError) and problem.name:
+        library = problem.name.partition(".")[0]
+        return f"{url} needs {library}, which is not installed: pip install {_PACKAGES.get(library, library)} brings it."
+    if isinstance(problem, OSError):
+        return f"{url} cannot be reached: {_words(problem).rstrip('.')}."
+    return str(problem)
+
+
+def _words(problem: Exception) -> str:
+    """What happened, without numbers of the system and names of classes."""
+    inner = problem.args[0] if problem.args else None
+    if isinstance(problem, TimeoutError) and not problem.args:
+        return "it gave no answer in time"
+    if "Connection refused" in str(problem):  # deep in what requests says
+        return "connection refused"
+    if isinstance(problem.__cause__, OSError) and problem.__cause__.strerror:
+        return problem.__cause__.strerror.lower()
+    found = getattr(problem, "strerror", None) or getattr(inner, "str", lambda: "")() or str(problem)
+    return str(found) or type(problem).__name__
 
 
 class _Named:

@@ -6,11 +6,15 @@ import itertools
 import json
 from contextlib import ExitStack
 
+from websockets.exceptions import WebSocketException
 from websockets.sync.client import connect
 
 from examples.protocols.ways import ANSWER_TIMEOUT, Answer, Way
 
-__all__ = ["open_way"]
+__all__ = ["OWN_FAULTS", "open_way"]
+
+OWN_FAULTS = (WebSocketException,)
+"""What its library raises, beside what all raise."""
 
 
 class _WebSocket:

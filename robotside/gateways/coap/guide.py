@@ -12,6 +12,7 @@ from robotside.gateways.plain.visitor import STOP, TIME
 
 __all__ = ["guide", "links"]
 
+ALIAS = "alias coap-client=coap-client-notls"
 _STAMP = "?stamp=$(date +%s.%N)"
 _PLAIN = f"<{STOP}>;if=call,</guide>;ct=0"
 _HEAD = """\
@@ -20,12 +21,15 @@ A command needs a stamp of less than 5 s ago, the robot's time in seconds, as th
 ago, from a client that has called rosapi/get_time. Further queries: token, client (a name of your own, where several come from
 one machine), rate [Hz]. What is in several blocks, as the map, is put together by the tool. POST to bye when you leave.
 The role that everybody has here: {role}.
+Debian has the tool as coap-client-notls, -openssl and -gnutls only; there paste the alias first.
+
+{alias}
 """
 
 
 def guide(url: str, payloads: Iterable[OfferedPayload], role: Role) -> str:
     """How to use the robot at `url` with that role; who has none is told of STOP alone."""
-    lines = [_HEAD.format(url=url, role=role.word), f"coap-client -m post {url}{STOP}"]
+    lines = [_HEAD.format(url=url, role=role.word, alias=ALIAS), f"coap-client -m post {url}{STOP}"]
     if role > Role.NONE:
         lines += [f"coap-client -m post {url}{TIME}", f"coap-client {url}/.well-known/core"]
         lines += [line for each in payloads for line in _payload(url, each)]

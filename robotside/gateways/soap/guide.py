@@ -25,6 +25,7 @@ def guide(url: str, door: StationDoor, payloads: Iterable[OfferedPayload]) -> st
         "A refusal is a Fault with the robot's sentence, and its code in the detail. To be called back, a client serves what",
         f"{url}?subscriber.wsdl says, at its own address.",
         "",
+        "pip install zeep",
         _zeep(url, "GetStatus()"),
         _node(url, "GetStatus"),
         "",

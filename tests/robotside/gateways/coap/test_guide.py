@@ -87,6 +87,18 @@ async def test_every_command_of_the_guide_can_be_pasted_and_is_understood(scene:
         assert scene.station.controls.stopped
 
 
+async def test_on_debian_the_first_line_lets_all_others_be_pasted(scene: Scene, tmp_path: Path) -> None:
+    tool = tmp_path / "coap-client-notls"
+    tool.write_text('#!/bin/sh\necho "asked $*"\n')
+    tool.chmod(0o755)
+    text = guide("coap://192.0.2.7", offered(scene.door), Role.DRIVE)
+    first = next(line for line in text.splitlines() if "coap-client=" in line)
+    lines = pasted(text)
+    assert text.index(first) < text.index(lines[0])
+    said = await shell(f"unalias -a; PATH={tmp_path}:/usr/bin:/bin\n" + "\n".join([first, *lines]))
+    assert [line.split()[0] for line in said.splitlines()] == ["asked"] * len(lines)
+
+
 async def test_all_that_there_is_is_listed_as_links(scene: Scene) -> None:
     async with serving(scene) as gateway, client(gateway) as me:
         found = (await me.get("/.well-known/core")).text
