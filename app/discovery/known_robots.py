@@ -114,6 +114,8 @@ class Entry:
     """It is connected, saved or, as it claims, paired: strangers never crowd it out."""
     known_for: float = 0.0
     """Since its first HELLO without a longer gap [s]; 0 when it never said one."""
+    reached: bool = True
+    """Who speaks for it hears the robot itself."""
     warning: str = ""
     """What is wrong with it, as a sentence; empty when nothing is known to be."""
     probe: tuple[str, int] | None = None
@@ -125,10 +127,10 @@ class Entry:
 
     @property
     def state(self) -> str:
-        """`live`, `lost` (it was heard and fell silent) or `unheard` (an address that never said HELLO)."""
+        """`live`, `lost` (it was heard and fell silent, or who speaks for it has lost it) or `unheard` (an address that never said HELLO)."""
         if math.isnan(self.silent):
             return "unheard"
-        return "lost" if self.silent > SILENCE_LIMIT else "live"
+        return "lost" if self.silent > SILENCE_LIMIT or not self.reached else "live"
 
     @property
     def address(self) -> str:
@@ -308,6 +310,7 @@ class KnownRobots:
             hello.key,
             self._is_kept(hello),
             one.at - one.first,
+            hello.reached,
             self._warning(hello),
             (one.source, port) if one.source and port else None,
         )

@@ -65,6 +65,8 @@ class Hello(Msg, frozen=True, gc=False):
     """Empty; a robot tells who has control to nobody but its clients."""
     boot: str = ""
     """Identity of this run of the robot side."""
+    reached: bool = True
+    """Whoever says this hears the robot itself: a surveillance centre may have lost it."""
     key: str = ""
     """The first 32 hex digits of its certificate's SHA-256; empty when it has none. Only TLS proves it."""
 

@@ -12,7 +12,16 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Pose, Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.core.notice import Notice, Problem
-from robotside.core.robot import Equipped, Levelled, Manoeuvrable, Prompt, Resettable, Robot, Stoppable
+from robotside.core.robot import (
+    Equipped,
+    Levelled,
+    Manoeuvrable,
+    Prompt,
+    Reachable,
+    Resettable,
+    Robot,
+    Stoppable,
+)
 from robotside.motion.manoeuvres import VERTICAL_KINDS, Order
 
 __all__ = ["GuardedRobot", "port_info"]
@@ -49,6 +58,11 @@ class GuardedRobot:
         self._robot, self._stopped, self._clamp = robot, stopped, clamp
         self._wanted: Order | None = None
         self._given: Order | None = None
+
+    @property
+    def reached(self) -> bool:
+        """It is heard; one without a line of its own always is."""
+        return not isinstance(self._robot, Reachable) or self._robot.reached
 
     @property
     def trouble(self) -> Problem:

@@ -14,6 +14,7 @@ __all__ = [
     "Levelled",
     "Manoeuvrable",
     "Prompt",
+    "Reachable",
     "Resettable",
     "Robot",
     "Stoppable",
@@ -107,6 +108,15 @@ class Prompt(Protocol):
 
     def pictures(self, now: float) -> Iterable[tuple[str, Msg]]:
         """Topic and picture of those that no `read` has given yet, up to `now` [s, robot clock]."""
+
+
+@runtime_checkable
+class Reachable(Protocol):
+    """A robot on a line of its own, which may be cut."""
+
+    @property
+    def reached(self) -> bool:
+        """It is heard; one in the hands of others is, too."""
 
 
 @runtime_checkable

@@ -43,6 +43,8 @@ class Health(NamedTuple):
     """The task that runs or ran last, one of `bridge.msgs.pilothouse_msgs.TASKS`; empty for none."""
     state: str
     """Of the task, as in TaskStatus."""
+    reached: bool
+    """The robot is heard; all else is as it was when it was heard last."""
     position_sure: bool
     """It is certain where it is."""
     stopped: bool
@@ -158,7 +160,8 @@ class StationDoor(Door):
             station.events.boot,
             status.task,
             status.state,
-            station.autonomy.pose_estimator.sure,
+            station.robot.reached,
+            station.robot.reached and station.autonomy.pose_estimator.sure,
             station.controls.stopped,
         )
 

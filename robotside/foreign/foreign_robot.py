@@ -117,6 +117,11 @@ class ForeignRobot:
         """Why it cannot be driven, as one sentence: not reached, or in others' hands; empty when all is well."""
         return self._unreached or (SILENT_SENTENCE if self._silent else self._held)
 
+    @property
+    def reached(self) -> bool:
+        """It is heard; one in the hands of others is, too."""
+        return not (self._unreached or self._silent)
+
     def drive(self, twist: Twist) -> None:
         """Move with `twist` until the next `drive` or `stop`; dropped while there is `trouble`."""
         with self._lock:

@@ -249,4 +249,5 @@ class StationServer:
             driver=driver.name if driver else "",
             boot=self.station.events.boot,
             key=self.keys.claim if self.keys else "",
+            reached=self.station.robot.reached,
         )

@@ -67,8 +67,12 @@ async def centre(robots: list[ForeignServer], state: Path) -> AsyncIterator[list
     )
     assert process.stdout is not None
     try:
-        ready = [(await process.stdout.readline()).decode() for _ in robots]
-        yield [line.partition("bridge=")[2].split()[0] for line in ready]
+        addresses: list[str] = []
+        async with asyncio.timeout(60):
+            while len(addresses) < len(robots):
+                line = (await process.stdout.readline()).decode()
+                addresses += line.partition("bridge=")[2].split()[:1]
+        yield addresses
     finally:
         if process.returncode is None:
             process.terminate()
@@ -99,16 +103,14 @@ async def test_all_watch_one_drives_anyone_stops_and_a_robot_that_is_gone_is_gon
         refused = await ben.ask("/control/acquire")
         assert not refused.success
         assert "Anna" in refused.message
-        anna.push()
-        await until(lambda: north.robot.speed == pytest.approx(0.2))
+        await until(lambda: anna.push() or north.robot.speed == pytest.approx(0.2))
         assert south.robot.speed == 0.0
         await until(lambda: ben.odom.twist.twist.linear.x > 0.0)
         await until(lambda: north.robot.speed == 0.0)  # nobody pushes any more
 
         # the third drives the other robot meanwhile
         assert (await carl.ask("/control/acquire")).success
-        carl.push()
-        await until(lambda: south.robot.speed == pytest.approx(0.2))
+        await until(lambda: carl.push() or south.robot.speed == pytest.approx(0.2))
 
         # anyone stops
         assert (await ben.ask("/stop")).success
@@ -122,6 +124,20 @@ async def test_all_watch_one_drives_anyone_stops_and_a_robot_that_is_gone_is_gon
         await south.close()
         await until(lambda: any("cannot be reached" in said for said in carl.said))
         assert not any("cannot be reached" in said for said in anna.said)
+
+
+async def test_a_robot_that_is_killed_is_lost_to_who_watches_over_many(tmp_path):
+    async with foreign() as north, foreign() as south, centre([north, south], tmp_path) as (first, _):
+        reached: dict[str, bool] = {}
+        calls = RollCalls(lambda hello, _: reached.update({hello.name: hello.reached}), lambda: 0.0)
+        await calls._ask(first)
+        assert reached == {"North": True, "South": True}
+        await south.close()
+        async with asyncio.timeout(60):
+            while reached["South"]:
+                await asyncio.sleep(0.2)  # as a handheld asks, only sooner
+                await calls._ask(first)
+        assert reached["North"]
 
 
 async def test_a_tablet_that_knows_one_address_of_the_centre_knows_all_its_robots(tmp_path):

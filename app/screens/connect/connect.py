@@ -279,7 +279,8 @@ class RobotCard(Card):
 
     def _show_link(self, entry: Entry) -> None:
         if entry.state == "lost":
-            self.link_text, self.link_role = f"no heartbeat for {entry.silent:.0f} s", "danger"
+            said = f"no heartbeat for {entry.silent:.0f} s" if entry.reached else "its robot is not reached"
+            self.link_text, self.link_role = said, "danger"
         elif not math.isnan(entry.latency):
             ms = entry.latency * 1000
             self.link_text, self.link_role = (f"{ms:.0f} ms" if ms >= 1 else "< 1 ms"), "ok"

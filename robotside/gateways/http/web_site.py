@@ -75,7 +75,9 @@ class _Pages:
 
     async def health(self, request: Request) -> Response:
         known = is_known(self._door, request)
-        return JSONResponse({"ok": True, **(self._door.health._asdict() if known else {})}, headers=_FRESH)
+        health = self._door.health
+        told = {"ok": health.reached, **(health._asdict() if known else {})}
+        return JSONResponse(told, headers=_FRESH)
 
     async def audit(self, request: Request) -> Response:
         self._door.trail.did(operator_of(request), "page /audit.csv")

@@ -251,3 +251,9 @@ def test_round_trips_to_robots_that_are_not_listed_are_not_kept(robots: KnownRob
     clock.now = 200.0
     robots.entries()
     assert not robots._latency
+
+
+def test_a_robot_that_its_centre_has_lost_is_lost_though_the_centre_says_hello() -> None:
+    robots = KnownRobots(lambda: 100.0)
+    robots.heard(Hello(name="North", url="ws://10.0.0.3:9090", reached=False), 100.0, "10.0.0.3")
+    assert robots.entries()[0].state == "lost"
