@@ -41,7 +41,9 @@ class CoapGateway:
         """Who shows no token has the role of the `url`; without one its address decides."""
         self._robot, self._door, self._url = robot, robot.door, url
         self._port = url.port
-        self._clients = Visitors(robot.door, "coap", url.address, url.keys, role=url.role, secure=False)
+        self._clients = Visitors(
+            robot.door, "coap", url.address, url.keys, role=url.role, secure=False, hosts=True
+        )
         self._site: CoapSite | None = None
         self._server: CoapServer | None = None
         self._tasks: set[asyncio.Task[None]] = set()

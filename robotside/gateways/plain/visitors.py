@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
+from functools import lru_cache
 
 from bridge.core.codes import Code
 from bridge.core.errors import Refused
@@ -11,11 +12,14 @@ from bridge.core.identity import Role
 from robotside.core.notice import Notice
 from robotside.door.station_door import StationDoor
 from robotside.gateways.plain.visitor import Visitor
+from robotside.trust.attempt_limit import host_of
 
-__all__ = ["IDLE_TIMEOUT", "MAX_VISITORS", "Visitors"]
+__all__ = ["IDLE_TIMEOUT", "MAX_VISITORS", "SHARE_OF_HOST", "Visitors"]
 
 MAX_VISITORS = 64
 """Clients of one gateway at a time."""
+SHARE_OF_HOST = 16
+"""Clients without a key of one host at a time, where hosts are known: names can be made up."""
 IDLE_TIMEOUT = 60.0
 """A client that is silent for this long is gone [s]; its control has lapsed long before."""
 SILENT_TIMEOUT = 5.0
@@ -34,12 +38,14 @@ class Visitors:
         *,
         role: Role | None,
         secure: bool,
+        hosts: bool = False,
     ) -> None:
         """They come by the gateway `way` from the broker at `address`, `HOST:PORT`, and reach the payloads `keys`.
 
         `role` is that of who shows no token, None where the address decides. Who does not come from the broker has an address
-        of its own.
+        of its own; where all do (`hosts`), those of one host without a key have a share of the places.
         """
+        self._hosts = hosts
         self._door, self._way, self._address, self._keys = door, way, address, keys
         self._role, self._secure = role, secure
         self._known: dict[tuple[str, str, str], Visitor] = {}
@@ -48,12 +54,20 @@ class Visitors:
         return len(self._known)
 
     def visit(self, name: str, token: str = "", address: str = "") -> Visitor:
-        """The client of that name and token, from whom a message came. Raises Refused for a wrong token, or without room."""
+        """The client of that name and token, from whom a message came. Raises Refused for a wrong token, or without room.
+
+        Who has a key, or else a higher role, takes the place of the quietest of the lowest where there is no room.
+        """
         key = (_host(address), name, token)
         visitor = self._known.get(key)
         if visitor is None:
-            self._make_room()
-            visitor = self._known[key] = self.newcomer(name, token, address)
+            visitor = self.newcomer(name, token, address)
+            try:
+                self._make_room(key[0], self._rank(visitor))
+            except Refused:
+                visitor.leave()
+                raise
+            self._known[key] = visitor
             visitor.operator.on_expelled = lambda: self._leave(key)
         visitor.heard()
         return visitor
@@ -98,16 +112,48 @@ class Visitors:
         if visitor is not None:
             visitor.leave()
 
-    def _make_room(self) -> None:
-        if len(self._known) < MAX_VISITORS:
-            return
-        key, quietest = min(self._known.items(), key=lambda each: each[1].operator.last_heard)
-        if self._door.now() - quietest.operator.last_heard < SILENT_TIMEOUT:
+    def _rank(self, visitor: Visitor) -> tuple[bool, Role]:
+        operator = visitor.operator
+        return operator.identity.proven, operator.role(self._door.now())
+
+    def _make_room(self, host: str, rank: tuple[bool, Role]) -> None:
+        """Have room for a newcomer from `host`; raises Refused without any."""
+        if self._hosts and not rank[0]:
+            source = _machine(host)
+            there = [
+                key
+                for key, each in self._known.items()
+                if _machine(key[0]) == source and not each.operator.identity.proven
+            ]
+            if len(there) >= SHARE_OF_HOST and not self._displace(there, rank):
+                said = f"{SHARE_OF_HOST} clients of your address use this gateway already; show a token, or use STOP only."
+                raise Refused(Notice(Code.GATEWAY_FULL, said, max=SHARE_OF_HOST))
+        if len(self._known) >= MAX_VISITORS and not self._displace(self._known, rank):
             said = f"{MAX_VISITORS} clients use this gateway already; only STOP is answered to others."
             raise Refused(Notice(Code.GATEWAY_FULL, said, max=MAX_VISITORS))
-        self._leave(key)
+
+    def _displace(self, keys: Iterable[tuple[str, str, str]], rank: tuple[bool, Role]) -> bool:
+        """Whether one of `keys` leaves for a newcomer of that `rank`: the quietest of the lowest rank.
+
+        One of its own rank does when it is silent, a higher one never.
+        """
+        ranks = {key: self._rank(self._known[key]) for key in keys}
+        lowest = min(ranks.values())
+        heard = {key: self._known[key].operator.last_heard for key in ranks if ranks[key] == lowest}
+        quietest = min(heard, key=lambda key: heard[key])
+        silent = self._door.now() - heard[quietest] >= SILENT_TIMEOUT
+        yields = lowest < rank or (lowest == rank and silent)
+        if yields:
+            self._leave(quietest)
+        return yields
 
 
 def _host(address: str) -> str:
     """The host of `HOST:PORT`: programs that send one message each have another port each time."""
     return address.rpartition(":")[0]
+
+
+@lru_cache(maxsize=256)
+def _machine(host: str) -> str:
+    """What has as many addresses as it likes is one, as a network of IPv6."""
+    return host_of(f"{host}:0")

@@ -10,11 +10,12 @@ import pytest
 
 from bridge.core.codes import Code
 from bridge.core.errors import BridgeError, Refused
-from bridge.core.identity import Role, public_id
+from bridge.core.identity import Identity, Role, public_id
 from bridge.core.link_state import CONTROL_TIMEOUT
+from robotside.door.station_door import StationDoor
 from robotside.gateways.payloads.table import KEYS
 from robotside.gateways.plain.visitor import TIME, VALID_TIME, Visitor
-from robotside.gateways.plain.visitors import IDLE_TIMEOUT, MAX_VISITORS, Visitors
+from robotside.gateways.plain.visitors import IDLE_TIMEOUT, MAX_VISITORS, SHARE_OF_HOST, Visitors
 from tests.fakes import FakeRobot
 from tests.looped import looped
 from tests.robotside.scene import Scene
@@ -134,7 +135,10 @@ def test_who_gives_no_name_in_a_call_has_that_of_the_client(scene: Scene, visito
 
 @looped("raw", [b"", b"{", b"\xff", b'{"surprise": 1}', b'{"stamp": "soon"}', b"[" * 70000])
 def test_stop_is_pressed_whatever_the_message_says(raw: bytes, tmp_path: Path) -> None:
-    scene = Scene(FakeRobot(), tmp_path)
+    state = tmp_path / f"at {raw[:9].hex()}"
+    state.mkdir()
+    scene = Scene(FakeRobot(), state)  # of its own: a STOP that is kept would be that of the case before
+    assert not scene.station.controls.stopped
     visitors = Visitors(scene.door, "broker", "192.0.2.7:1883", KEYS, role=Role.NONE, secure=False)
     visitors.newcomer("anna").call("/stop", raw, dated=False)
     assert scene.station.controls.stopped
@@ -185,3 +189,100 @@ def test_orders_that_are_taken_renew_control(scene: Scene, visitors: Visitors) -
         scene.run(1.0)
         visitors.visit("anna").call(TIME, b"")
     assert scene.control.driver == "anna"
+
+
+GUEST, DRIVER = Role.WATCH, Identity("d1", "Dora", Role.DRIVE, proven=True)
+
+
+class Keys:
+    """Knows one token: that of somebody who drives."""
+
+    def admit(self, address: str, *, trusted: bool) -> Identity:
+        return Identity("", "", GUEST)
+
+    def identify(self, token: str, address: str, client: str = "", *, forgeable: bool = False) -> Identity:
+        if token != "key":
+            raise Refused("wrong")
+        return DRIVER
+
+    def needed(self, verb: str, name: str) -> Role:
+        return Role.NONE
+
+
+@pytest.fixture
+def guests(scene: Scene) -> Visitors:
+    """Clients of whom those without a key may only watch."""
+    door = StationDoor(scene.station, Keys())
+    return Visitors(door, "coap", "192.0.2.7:5683", KEYS, role=GUEST, secure=False, hosts=True)
+
+
+def fill(visitors: Visitors, token: str = "") -> None:
+    for number in range(MAX_VISITORS):
+        visitors.visit(f"{token}{number}", token, f"192.0.2.{1 + number // SHARE_OF_HOST}:5000")
+    assert len(visitors) == MAX_VISITORS
+
+
+def test_one_host_has_a_share_of_the_places_for_those_without_a_key(guests: Visitors) -> None:
+    for number in range(SHARE_OF_HOST):
+        guests.visit(f"made up {number}", address=f"192.0.2.1:{5000 + number}")
+        guests.visit("bert", address=f"[2001:db8::{number}]:5000")
+    with pytest.raises(Refused, match="clients of your address"):
+        guests.visit("bert", address="[2001:db8::99]:5000")
+    for number in range(SHARE_OF_HOST):
+        guests.leave_name("bert", address=f"[2001:db8::{number}]:5000")
+    with pytest.raises(
+        Refused, match=f"{SHARE_OF_HOST} clients of your address use this gateway already"
+    ) as full:
+        guests.visit("one more", address="192.0.2.1:4000")
+    assert full.value.args[0].code == Code.GATEWAY_FULL
+    guests.visit("made up 1", address="192.0.2.1:4000")
+    guests.visit("bert", address="192.0.2.2:4000")
+    guests.visit("dora", "key", address="192.0.2.1:4000")
+    assert len(guests) == SHARE_OF_HOST + 2
+
+
+def test_a_silent_one_of_a_host_yields_to_another_there(scene: Scene, guests: Visitors) -> None:
+    for number in range(SHARE_OF_HOST):
+        guests.visit(f"made up {number}", address="192.0.2.1:5000")
+    scene.run(5.1)
+    guests.visit("one more", address="192.0.2.1:5000")
+    assert len(guests) == SHARE_OF_HOST
+
+
+def test_behind_a_broker_nobody_has_a_share_of_a_host(visitors: Visitors) -> None:
+    for number in range(MAX_VISITORS):
+        visitors.visit(f"client {number}")
+    assert len(visitors) == MAX_VISITORS
+
+
+def test_who_has_a_key_takes_the_place_of_the_quietest_guest(scene: Scene, guests: Visitors) -> None:
+    fill(guests)
+    scene.run(1.0)
+    for number in (0, *range(2, MAX_VISITORS)):
+        guests.visit(str(number), address=f"192.0.2.{1 + number // SHARE_OF_HOST}:5000")
+    dora = guests.visit("dora", "key", "192.0.2.1:5000")
+    assert len(guests) == MAX_VISITORS
+    with pytest.raises(Refused, match="clients use this gateway already"):
+        guests.visit("1", address="192.0.2.200:5000")
+    guests.visit("0", address="192.0.2.1:5000")
+    assert guests.visit("dora", "key", "192.0.2.1:5000") is dora
+
+
+def test_a_guest_takes_no_place_of_who_has_a_key(scene: Scene, guests: Visitors) -> None:
+    fill(guests, "key")
+    with pytest.raises(Refused, match="clients use this gateway already"):
+        guests.visit("one more", address="192.0.2.200:5000")
+    with pytest.raises(Refused, match="clients use this gateway already"):
+        guests.visit("one more", "key", address="192.0.2.200:5000")
+    scene.run(5.1)
+    with pytest.raises(Refused, match="clients use this gateway already"):
+        guests.visit("one more", address="192.0.2.200:5000")
+    guests.visit("one more", "key", address="192.0.2.200:5000")
+
+
+def test_a_wrong_token_takes_no_place_of_others(scene: Scene, guests: Visitors) -> None:
+    fill(guests)
+    scene.run(5.1)
+    with pytest.raises(Refused, match="wrong"):
+        guests.visit("one more", "guess", "192.0.2.200:5000")
+    assert len(guests) == MAX_VISITORS
