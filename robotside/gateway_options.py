@@ -110,7 +110,7 @@ def _of_file(file: str, name: str, settings: GatewaySettings) -> tuple[Adapter, 
         keys = chosen_keys(settings.payloads) if settings.payloads else url.keys
     except ValueError as problem:
         raise UserMistake(f"{where}.payloads: {problem}") from problem
-    return adapter, replace(
+    whole = replace(
         url,
         user=settings.user or url.user,
         password=settings.password or url.password,
@@ -118,6 +118,13 @@ def _of_file(file: str, name: str, settings: GatewaySettings) -> tuple[Adapter, 
         keys=keys,
         rate=url.rate if settings.rate is None else settings.rate,
     )
+    from robotside.gateways.discovery import check_parts
+
+    try:
+        check_parts(adapter, whole)
+    except ValueError as problem:
+        raise UserMistake(f"{where}: {problem}") from problem
+    return adapter, whole
 
 
 def _check_package(adapter: Adapter) -> None:

@@ -99,7 +99,7 @@ def _words(problem: Exception) -> str:
     if "Connection refused" in str(problem):  # deep in what requests says
         return "connection refused"
     if isinstance(problem.__cause__, OSError) and problem.__cause__.strerror:
-        return problem.__cause__.strerror.lower()
+        return problem.__cause__.strerror.partition(" (")[0].lower()
     found = getattr(problem, "strerror", None) or getattr(inner, "str", lambda: "")() or str(problem)
     return str(found) or type(problem).__name__
 

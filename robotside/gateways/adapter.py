@@ -84,3 +84,7 @@ class Adapter:
     """Makes the gateway, which imports its library."""
     listens: frozenset[str] = frozenset()
     """The schemes by which it listens at its URL; by others it goes there, to a broker."""
+    credentials: frozenset[str] = frozenset()
+    """The schemes whose URLs may have a user and a password, which something asks for."""
+    prefixes: frozenset[str] = frozenset()
+    """The schemes whose URLs may have a path, the beginning of its names."""

@@ -12,9 +12,9 @@ from importlib.util import find_spec
 
 import robotside.gateways
 from robotside.gateways.adapter import Adapter
-from robotside.gateways.gateway_url import GatewayUrl, read_url
+from robotside.gateways.gateway_url import SITE, GatewayUrl, read_url
 
-__all__ = ["adapters", "missing_package", "read_wish"]
+__all__ = ["adapters", "check_parts", "missing_package", "read_wish"]
 
 
 def adapters() -> dict[str, Adapter]:
@@ -38,7 +38,20 @@ def read_wish(text: str) -> tuple[Adapter, GatewayUrl]:
         raise ValueError(f"{name}= needs a URL, as {name}={adapter.default}.")
     if url.startswith("?"):
         url = adapter.default + url
-    return adapter, read_url(url or adapter.default, adapter.schemes)
+    read = read_url(url or adapter.default, adapter.schemes)
+    check_parts(adapter, read)
+    return adapter, read
+
+
+def check_parts(adapter: Adapter, url: GatewayUrl) -> None:
+    """ValueError with one sentence for a part of the URL that nothing would use: a password that nobody asks for protects nothing."""
+    if (url.user or url.password) and url.scheme not in adapter.credentials:
+        raise ValueError(
+            f"{adapter.name} at {url.shown} asks nobody for a user and a password: leave them out; "
+            "?role= says what may be done without a token."
+        )
+    if url.path and url.scheme not in (SITE, *adapter.prefixes):
+        raise ValueError(f"{adapter.name} at {url.address} has no path: leave out /{url.path[:60]}.")
 
 
 def missing_package(adapter: Adapter) -> str:

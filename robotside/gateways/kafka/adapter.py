@@ -22,4 +22,6 @@ ADAPTER = Adapter(
     "aiokafka",
     _make,
     listens=frozenset({OWN}),
+    credentials=frozenset({"kafka", "kafkas"}),
+    prefixes=frozenset({"kafka", "kafkas", OWN}),
 )

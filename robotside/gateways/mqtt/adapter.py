@@ -22,4 +22,6 @@ ADAPTER = Adapter(
     "aiomqtt",
     _make,
     listens=frozenset({OWN}),
+    credentials=frozenset({"mqtt", "mqtts"}),
+    prefixes=frozenset({"mqtt", "mqtts", OWN}),
 )

@@ -44,10 +44,14 @@ _LIMITS = {"width": (16, 4096), "quality": (1, 95), "rate": (0.1, 60)}
 
 
 def view_of(query: Mapping[str, str], kind: str = "mjpeg") -> View:
-    """The view that a URL's `width`, `quality`, `rate` and `codec` ask for; other words are left alone.
+    """The view that a URL's `width`, `quality`, `rate` and `codec` ask for; other words are refused.
 
     `kind` is one of `CODECS`. Raises BadViewError.
     """
+    unknown = sorted(set(query) - {*_LIMITS, "codec"})
+    if unknown:
+        known = ", ".join((*_LIMITS, "codec"))
+        raise BadViewError(f"A camera is asked for {known}, not {unknown[0][:20]!r}.")
     if kind == "png" and "quality" in query:
         raise BadViewError("A png picture loses nothing and has no quality.")
     asked = {name: _number(name, query[name]) for name in _LIMITS if name in query}

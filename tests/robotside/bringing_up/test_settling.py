@@ -148,6 +148,10 @@ def test_a_state_directory_has_a_file_of_its_own(kept: Path, tmp_path: Path) -> 
             "[gateways.mqtt]\nrole = 'manage'",
             "{file}: gateways.mqtt.role must be one of drive, none, watch, not 'manage'.",
         ),
+        (
+            "[gateways.coap]\nuser = 'rex'\npassword = 'p'",
+            "{file}: gateways.coap: coap at coap://127.0.0.1:5683 asks nobody for a user and a password",
+        ),
         ("[gateways]\nmqtt = 5", "{file}: gateways.mqtt must be a table, not 5."),
         ("[serve]\nport = 70000", "{file}: serve.port must be a whole number at most 65535, not 70000."),
         ("[serve]\npot = 1", "{file}: serve has no 'pot'; there are robot, world,"),

@@ -41,7 +41,8 @@ def test_a_robot_without_gateways_loads_none_and_a_look_at_them_loads_no_library
     bare, looked = (set(line.split()) for line in done.stdout.splitlines())
     libraries = {adapter.package for adapter in adapters().values()} - {""} | {"paho", "confluent_kafka"}
     rooms = {
-        f"robotside.gateways.{name}" for name in (*FOLDERS, "plain", "payloads", "discovery", "gateway_url")
+        f"robotside.gateways.{name}"
+        for name in (*FOLDERS, "plain.visitor", "plain.strict_json", "payloads", "discovery", "gateway_url")
     }
     assert not bare & (libraries | rooms)
     assert not looked & libraries
@@ -58,6 +59,42 @@ def test_what_is_not_there_is_named_with_what_is() -> None:
         read_wish("carrier pigeon=coop://roof")
     with pytest.raises(ValueError, match="mqtt= needs a URL, as mqtt=own://"):
         read_wish("mqtt=")
+
+
+@pytest.mark.parametrize(
+    "wish",
+    [
+        "coap=coap://u:secret@127.0.0.1:5683",
+        "websocket=ws://u:secret@127.0.0.1:9190",
+        "websocket=ws://:secret@127.0.0.1:9190",
+        "mqtt=own://u:secret@127.0.0.1:1883",
+        "kafka=own://u@127.0.0.1",
+    ],
+)
+def test_a_password_that_nobody_would_ask_for_is_refused(wish: str) -> None:
+    with pytest.raises(ValueError, match="asks nobody for a user and a password: leave them out") as fault:
+        read_wish(wish)
+    assert "secret" not in str(fault.value)
+
+
+def test_a_path_that_nothing_would_use_is_refused() -> None:
+    for wish in ("coap=coap://127.0.0.1:5683/pre", "websocket=ws://127.0.0.1:9190/pre"):
+        with pytest.raises(ValueError, match="has no path: leave out /pre"):
+            read_wish(wish)
+
+
+@pytest.mark.parametrize(
+    "wish",
+    [
+        "mqtt=mqtts://u:p@h/lab",
+        "mqtt=own://h:1/lab",
+        "kafka=kafkas://u:p@h/lab",
+        "rest=site:/api/v2",
+        "coap=coap://h/",
+    ],
+)
+def test_parts_that_are_used_are_taken(wish: str) -> None:
+    assert read_wish(wish)[0].name == wish.partition("=")[0]
 
 
 def test_a_library_that_is_not_installed_is_named() -> None:

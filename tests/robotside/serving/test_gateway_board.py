@@ -74,6 +74,8 @@ PIGEON = Adapter(
     "",
     Pigeon,
     listens=frozenset({"coop"}),
+    credentials=frozenset({"coop", "coops"}),
+    prefixes=frozenset({"coop", "coops"}),
 )
 EAGLE = replace(PIGEON, name="eagle", package="no_such_library")
 

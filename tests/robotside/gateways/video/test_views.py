@@ -14,8 +14,8 @@ def test_without_words_everything_is_as_it_comes() -> None:
     assert [view_of({}, kind).codec for kind in CODECS] == ["jpeg", "png", "jpeg", "h264", "vp8", "h264"]
 
 
-def test_words_are_read_and_others_left_alone() -> None:
-    asked = {"width": "320", "quality": "40", "rate": "7.5", "codec": "vp9", "other": "1"}
+def test_words_are_read() -> None:
+    asked = {"width": "320", "quality": "40", "rate": "7.5", "codec": "vp9"}
     assert view_of(asked, "webm") == View(320, 40, 7.5, codec="vp9")
 
 
@@ -29,6 +29,7 @@ def test_words_are_read_and_others_left_alone() -> None:
         ("mp4", {"width": "15"}, "The width must be a whole number from 16 to 4096, not '15'."),
         ("webm", {"quality": "96"}, "The quality must be a whole number from 1 to 95, not '96'."),
         ("mp4", {"rate": "61"}, "The rate must be a number from 0.1 to 60, not '61'."),
+        ("jpg", {"widht": "320"}, "A camera is asked for width, quality, rate, codec, not 'widht'."),
         ("png", {"quality": "50"}, "A png picture loses nothing and has no quality."),
     ],
 )
