@@ -23,6 +23,8 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
+from widgets.core.base import text_texture
+from widgets.core.theme import theme
 
 MQTT, ARM = ("/gateways", "mqtt"), ("/payloads", "arm")
 ROS = Gateway("rosbridge", "the app", fixed=True, state="up", endpoint="ws://192.0.2.7:9090")
@@ -141,6 +143,28 @@ def test_a_scheme_shows_the_fields_it_has_a_use_for_and_its_usual_port(setup: Se
     assert form.fields["password"].parent is not None
     assert form.fields["port"].text == "8883"
     assert form.fields["password"].password
+
+
+def test_a_port_of_five_digits_is_read_whole_beside_the_sign_that_it_is_wrong(
+    setup: Setup, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = Window.size
+    monkeypatch.setattr(Window, "create_window", lambda *_: None)
+    Window.size = setup.glass.app.root.size = (412, 892)
+    try:
+        setup.tell(DOWN)
+        setup.screen.chosen = MQTT
+        setup.glass.stage.run_for(0.3, 1 / 10)
+        form = setup.pane().form
+        port = form.fields["port"]
+        port.text, port.wrong = "70000", True
+        setup.glass.stage.frames(3)
+        room = port.width - port.padding[0] - port.padding[2]
+        assert text_texture("70000", port.font_size, theme.font).width <= room
+        assert form.role.height >= theme.target
+    finally:
+        Window.size = before
+        setup.glass.app.root.size = before
 
 
 def test_a_refusal_is_said_where_it_was_asked(setup: Setup) -> None:
