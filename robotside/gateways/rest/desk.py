@@ -23,11 +23,11 @@ from robotside.core.notice import Notice
 from robotside.core.text import number
 from robotside.door.station_door import StationDoor
 from robotside.gateways.http.asker import operator_of
-from robotside.gateways.http.mounts import LONG
+from robotside.gateways.http.mounts import LONG, STAYS
 from robotside.gateways.payloads.table import key_of
+from robotside.gateways.plain.callers import Callers
 from robotside.gateways.plain.visitor import TIME, Visitor
 from robotside.gateways.rest.bodies import CLIENT_ID, CLIENT_NAME, KEY, body_of, header, stamp_of
-from robotside.gateways.rest.clients import Clients
 from robotside.gateways.rest.commands import Command
 from robotside.gateways.rest.forms import chosen_form, written
 from robotside.gateways.rest.statuses import Rejected, status_of_code
@@ -45,7 +45,7 @@ class Desk:
     def __init__(self, door: StationDoor, keys: Collection[str]) -> None:
         """Clients reach the payloads `keys`."""
         self.door, self.keys = door, frozenset(keys)
-        self.clients = Clients(door, self.keys)
+        self.clients = Callers(door, self.keys)
         self._people = self.keys | {_NO_PAYLOAD}
 
     # commands
@@ -125,7 +125,15 @@ class Desk:
         """Who asks, by the header or by what the body says."""
         told = body.get("client_id")
         client = header(request, CLIENT_ID) or (told if isinstance(told, str) else "")
-        return self.clients.visit(request, client[:64], header(request, CLIENT_NAME))
+        client, name = client[:64], header(request, CLIENT_NAME)
+
+        def stay(operator: Operator) -> Operator:
+            setattr(request.state, STAYS, True)
+            return operator
+
+        visitor = self.clients.visit(operator_of(request), client, stay, client)
+        visitor.name = name or visitor.name
+        return visitor
 
     # topics
 

@@ -6,6 +6,7 @@ import asyncio
 import logging
 import re
 from collections.abc import Mapping
+from functools import partial
 
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import PlainTextResponse, Response
@@ -22,9 +23,10 @@ from robotside.gateways.gateway_url import GatewayUrl
 from robotside.gateways.http.mounts import ONLY_STOP, OPERATOR, source
 from robotside.gateways.http.presence import presence_of
 from robotside.gateways.payloads.offered import offered
+from robotside.gateways.plain.callers import Callers, stand_in
 from robotside.gateways.plain.strict_json import MAX_INPUT
+from robotside.gateways.plain.visitor import Visitor
 from robotside.gateways.soap.callbacks import Callbacks
-from robotside.gateways.soap.callers import Callers
 from robotside.gateways.soap.envelope import (
     CONTENT_TYPE,
     SERVER,
@@ -188,7 +190,7 @@ class SoapGateway:
         known = self._operations[asked.operation]
         caller = Caller() if asked.caller is None else read(asked.caller, Caller)
         try:
-            visitor = self._callers.visit(operator, caller.client_id or "")
+            visitor = self._visit(operator, caller.client_id or "")
             call = Call(operator, visitor, caller, read(asked.body, known.request))
             answer = await self._services.do(known.name, call)
         except BridgeError as error:
@@ -197,6 +199,12 @@ class SoapGateway:
             log.exception("%s by SOAP from %s failed", known.name, operator.address)
             return _fault(Refused(f"The robot failed at {known.name}; its log says why."), code=SERVER)
         return _xml(envelope(written(f"{known.name}Response", answer)))
+
+    def _visit(self, operator: Operator, client_id: str) -> Visitor:
+        """The client behind a request; who gives no id comes for one request, and is gone once that is answered."""
+        if not client_id:
+            return self._callers.newcomer(operator)
+        return self._callers.visit(operator, client_id, partial(stand_in, self._door))
 
     async def _stop(self, operator: Operator, raw: bytes) -> Response:
         """Press STOP, whatever the rest of the message says."""

@@ -26,10 +26,10 @@ from bridge.msgs.sensor_msgs import BatteryState
 from robotside.core.notice import Notice
 from robotside.core.pose2 import Pose2
 from robotside.door.station_door import StationDoor
+from robotside.gateways.plain.callers import Callers
 from robotside.gateways.plain.visitor import STOP, TIME, Visitor
 from robotside.gateways.soap import callbacks, messages
 from robotside.gateways.soap.callbacks import Callbacks, target_of
-from robotside.gateways.soap.callers import Callers
 from robotside.gateways.soap.messages import Caller, Done
 from robotside.gateways.soap.subscriptions import LIFETIME, Subscriptions, readable
 

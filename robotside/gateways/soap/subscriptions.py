@@ -20,8 +20,8 @@ from bridge.msgs import Msg
 from robotside.core.notice import Notice
 from robotside.door.station_door import StationDoor
 from robotside.gateways.payloads.table import key_of
+from robotside.gateways.plain.callers import stand_in
 from robotside.gateways.plain.outbox import Outbox
-from robotside.gateways.soap.callers import stand_in
 
 __all__ = ["LIFETIME", "MAX_PER_HOST", "MAX_SUBSCRIPTIONS", "Subscribed", "Subscriptions", "readable"]
 

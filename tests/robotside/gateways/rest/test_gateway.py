@@ -17,8 +17,9 @@ from bridge.core.identity import Identity, Role
 from bridge.core.link_state import CONTROL_TIMEOUT
 from robotside.gateways.adapter import Surroundings
 from robotside.gateways.gateway_url import read_url
+from robotside.gateways.plain import callers
 from robotside.gateways.plain.visitors import IDLE_TIMEOUT
-from robotside.gateways.rest import clients, gateway
+from robotside.gateways.rest import gateway
 from robotside.gateways.rest.adapter import ADAPTER
 from robotside.gateways.rest.application import application
 from robotside.gateways.rest.gateway import RestGateway
@@ -113,7 +114,7 @@ async def test_stop_is_pressed_under_the_name_that_is_given_and_without_tls(scen
 async def test_stop_is_pressed_while_the_gateway_is_full(
     served: Served, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(clients, "MAX_VISITORS", 3)
+    monkeypatch.setattr(callers, "MAX_VISITORS", 3)
     async with served.client() as web:
         for number in range(3):
             assert (await web.get("time", headers={"Client-Id": str(number)})).status_code == 200
