@@ -111,16 +111,19 @@ class Door:
         trusted: bool = True,
         role: Role | None = None,
         client: str = "",
+        forgeable: bool = False,
     ) -> Operator:
         """A client came from `address`, `HOST:PORT`; the operator that it is from now on, with an id that no other has.
 
         It came by the gateway `way`, over TLS when `secure`, and showed `token`, empty for none. One that is not `trusted` never
         counts as a program of this machine: a web page may have opened it. `role` is that of everybody who comes that way
         without a token, None where the address decides. `client` is its name where the address is that of a broker with many
-        behind it: wrong tokens count for each of them. Raises Refused for a wrong token.
+        behind it: wrong tokens count for each of them, and apart for `forgeable` addresses, as of UDP. Raises Refused for a wrong token.
         """
         try:
-            identity = who_comes(self._gate, address, token, trusted=trusted, role=role, client=client)
+            identity = who_comes(
+                self._gate, address, token, trusted=trusted, role=role, client=client, forgeable=forgeable
+            )
         except Refused as refusal:
             if self._trail:
                 self._trail.unknown(address, way, refusal)

@@ -71,6 +71,8 @@ class Trust:
         self._verified: dict[str, tuple[str, bytes]] = {}
         """By id, the kept hash and that of the token that has proven it: reconnecting costs no scrypt."""
         self._wrong = AttemptLimit(MAX_WRONG, WRONG_PERIOD)
+        self._wrong_forgeable = AttemptLimit(MAX_WRONG, WRONG_PERIOD)
+        """Of addresses that nothing proves, by UDP: they lock out nobody who connects."""
         self._wrong_behind = AttemptLimit(MAX_WRONG_BEHIND, WRONG_PERIOD)
         self._logged = AttemptLimit(MAX_LOGGED, LOG_PERIOD)
         self._seen: dict[str, float] = {}
@@ -102,22 +104,24 @@ class Trust:
         # by TLS nobody may less than without it: a handheld that is not paired comes by the address of the HELLO
         return STRANGER if self._plain is None else Identity("", "", self._plain)
 
-    def identify(self, token: str, address: str, client: str = "") -> Identity:
+    def identify(self, token: str, address: str, client: str = "", *, forgeable: bool = False) -> Identity:
         """Whose token it is; raises Refused, with one sentence for unknown, wrong and ended ones: the log has which.
 
         `client` is the name of who shows it where `address` is that of a broker with many behind it.
+        Wrong ones from a `forgeable` address, which nothing proves, are counted apart.
         """
         now, source = self._now(), (host_of(address), client)
         id, _, secret = token[: MAX_TOKEN + 1].partition(".")
         person = self._people.get(id)
         digest = hashlib.sha256(token.encode(errors="replace")).digest()
         if person is None or not self._has_proven(person, digest):
-            self._check_attempts(source, now)
+            wrong = self._wrong_forgeable if forgeable else self._wrong
+            self._check_attempts(source, now, wrong)
             if person is None:
-                self._note_wrong(source, now)
+                self._note_wrong(source, now, wrong)
                 self._refuse(address, "unknown", now)
             if not self._proves(person, token, secret, digest):
-                self._note_wrong(source, now)
+                self._note_wrong(source, now, wrong)
                 self._refuse(address, f"not the key of {person.name}", now)
         if self._has_ended(person, now):
             self._refuse(address, f"of {person.name}, whose role has ended", now)
@@ -245,16 +249,16 @@ class Trust:
         seen = max(each.last_seen or each.created for each in self._people.values())
         return max(now, seen) >= person.end
 
-    def _check_attempts(self, source: tuple[str, str], now: float) -> None:
+    def _check_attempts(self, source: tuple[str, str], now: float, wrong: AttemptLimit) -> None:
         host, client = source
-        if self._wrong.is_reached(source, now) or (client and self._wrong_behind.is_reached(host, now)):
+        if wrong.is_reached(source, now) or (client and self._wrong_behind.is_reached(host, now)):
             whose = "under your name or by your broker" if client else "from your address"
             said = f"Too many wrong keys came {whose}: try again in {WRONG_PERIOD:.0f} s."
             raise Refused(Notice(Code.TRUST_ATTEMPTS, said, seconds=WRONG_PERIOD))
 
-    def _note_wrong(self, source: tuple[str, str], now: float) -> None:
+    def _note_wrong(self, source: tuple[str, str], now: float, wrong: AttemptLimit) -> None:
         host, client = source
-        self._wrong.note(source, now)
+        wrong.note(source, now)
         if client:
             self._wrong_behind.note(host, now)
 

@@ -43,7 +43,8 @@ class Visitors:
         """They come by the gateway `way` from the broker at `address`, `HOST:PORT`, and reach the payloads `keys`.
 
         `role` is that of who shows no token, None where the address decides. Who does not come from the broker has an address
-        of its own; where all do (`hosts`), those of one host without a key have a share of the places.
+        of its own; where all do (`hosts`), those of one host without a key have a share of the places, and
+        nothing proves the address.
         """
         self._hosts = hosts
         self._door, self._way, self._address, self._keys = door, way, address, keys
@@ -82,6 +83,7 @@ class Visitors:
             trusted=True,
             role=self._role,
             client="" if address else name,  # who has an address of its own chooses its name
+            forgeable=self._hosts,
         )
         # how long a broker kept what comes next nobody knows: without a stamp it drives nothing
         operator.answered = -math.inf

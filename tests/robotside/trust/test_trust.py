@@ -15,9 +15,10 @@ from bridge.core.identity import STRANGER, Identity, Role
 from robotside.core.config import TrustSettings
 from robotside.core.refusal import Refusal
 from robotside.trust import people as keys
+from robotside.trust.attempt_limit import MAX_HOSTS
 from robotside.trust.people import HANDHELD, TOKEN, Person
 from robotside.trust.people_file import PeopleFile, Unkept
-from robotside.trust.trust import MAX_WRONG_BEHIND, Trust
+from robotside.trust.trust import MAX_WRONG, MAX_WRONG_BEHIND, Trust
 
 FAR, HERE = "192.0.2.9:1", "127.0.0.1:5"
 WRONG = "does not accept the key"
@@ -156,6 +157,28 @@ class TestAKey:
                 house.trust.identify(token, FAR, name)
         assert house.trust.identify(token, FAR).id == anna.id  # which did not come by the broker
         assert house.trust.identify(token, FAR, "anna").id == anna.id  # known by now, so it is no guess
+
+    async def test_wrong_ones_whose_address_may_be_forged_lock_out_nobody_who_connects(
+        self, house: House
+    ) -> None:
+        anna, token = await house.known()
+        for _ in range(MAX_WRONG):
+            with pytest.raises(Refused, match=WRONG):
+                house.trust.identify(f"{anna.id}.{'A' * 43}", FAR, forgeable=True)
+        with pytest.raises(Refused, match="Too many wrong keys came from your address"):
+            house.trust.identify(token, FAR, forgeable=True)
+        assert house.trust.identify(token, FAR).id == anna.id
+
+    async def test_wrong_ones_of_who_connects_are_counted_apart_from_those_that_may_be_forged(
+        self, house: House
+    ) -> None:
+        anna, token = await house.known()
+        for _ in range(MAX_WRONG):
+            assert WRONG in house.refused(f"{anna.id}.{'A' * 43}")
+        for number in range(MAX_HOSTS):
+            with pytest.raises(Refused, match=WRONG):
+                house.trust.identify("x", f"10.0.{number // 256}.{number % 256}:1", forgeable=True)
+        assert "Too many wrong keys" in house.refused(token)
 
     async def test_of_nobody_counts_as_a_wrong_one(self, house: House) -> None:
         for number in range(5):

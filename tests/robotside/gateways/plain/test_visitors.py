@@ -202,7 +202,7 @@ class Keys:
 
     def identify(self, token: str, address: str, client: str = "", *, forgeable: bool = False) -> Identity:
         if token != "key":
-            raise Refused("wrong")
+            raise Refused(f"wrong, {forgeable=}")
         return DRIVER
 
     def needed(self, verb: str, name: str) -> Role:
@@ -283,6 +283,6 @@ def test_a_guest_takes_no_place_of_who_has_a_key(scene: Scene, guests: Visitors)
 def test_a_wrong_token_takes_no_place_of_others(scene: Scene, guests: Visitors) -> None:
     fill(guests)
     scene.run(5.1)
-    with pytest.raises(Refused, match="wrong"):
+    with pytest.raises(Refused, match="wrong, forgeable=True"):
         guests.visit("one more", "guess", "192.0.2.200:5000")
     assert len(guests) == MAX_VISITORS
