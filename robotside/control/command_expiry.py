@@ -106,5 +106,7 @@ def _untold(age: float) -> Problem:
     if age <= MAX_UNSTAMPED_AGE:
         return ""
     may, allowed = f"it has no stamp and may be {number(age)} s old", f"{MAX_UNSTAMPED_AGE} s is allowed"
+    if math.isinf(age):
+        may = "it has no stamp, and nothing else says how old it is"
     said = f"A drive command was dropped: {may}; {allowed}."
     return Notice(Code.DRIVE_UNSTAMPED, said, age=age, allowed=MAX_UNSTAMPED_AGE)

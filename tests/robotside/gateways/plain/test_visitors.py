@@ -54,6 +54,10 @@ def test_without_a_stamp_nothing_moves_however_new_the_client_is(scene: Scene, v
     visitor.call(TIME, b"")
     visitor.publish("/cmd_vel", AHEAD)
     assert scene.robot.at_rest
+    said = (
+        "A drive command was dropped: it has no stamp, and nothing else says how old it is; 0.7 s is allowed."
+    )
+    assert said in scene.events()
 
 
 def test_clients_of_one_name_are_another_one_at_each_host(scene: Scene, visitors: Visitors) -> None:
