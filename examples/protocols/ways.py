@@ -42,7 +42,10 @@ class Way(Protocol):
         """
 
     def publish(self, topic: str, message: Answer) -> None:
-        """Send a message on a topic of the robot; nothing says whether it was taken."""
+        """Send a message on a topic of the robot; nothing says whether it was taken.
+
+        It has no stamp, so a command on `/cmd_vel` drives nothing by REST, SOAP, MQTT, Kafka and CoAP, where it may be of any age.
+        """
 
     def close(self) -> None:
         """End the connection."""
