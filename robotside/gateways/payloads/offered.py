@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
+from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from robotside.door.station_door import StationDoor
 from robotside.gateways.payloads.payload import Exchange, Payload
 from robotside.gateways.payloads.table import ALWAYS, KEYS, PAYLOADS
 
 __all__ = ["CALL", "PUBLISH", "READ", "RUN", "Line", "OfferedPayload", "chosen_keys", "offered"]
 
+_AT_POSE = ("/goal_pose", "/initialpose")
+"""Topics whose example is the robot's own pose: another one would move it, or what it believes of itself."""
 READ, PUBLISH, CALL, RUN = "read", "publish", "call", "run"
 """What a client does: it reads a topic, publishes on one, calls a service, or runs an action."""
 
@@ -71,14 +75,32 @@ def _lines(door: StationDoor, payload: Payload) -> Iterator[Line]:
             yield line
 
 
+def _example(door: StationDoor, each: Exchange) -> str:
+    """What can be sent to this robot without harm: a pose is the one that it has now, a payload one that it has."""
+    where = door.last("/pose")
+    if each.name in _AT_POSE and isinstance(where, PoseWithCovarianceStamped):
+        at = where.pose.pose
+        pose = {
+            "position": {"x": round(at.position.x, 3), "y": round(at.position.y, 3)},
+            "orientation": {"z": round(at.orientation.z, 4), "w": round(at.orientation.w, 4)},
+        }
+        whole = {"pose": pose} if each.name == "/initialpose" else pose
+        return json.dumps({"header": {"frame_id": "map"}, "pose": whole})
+    if each.name == "/payloads/set":
+        own = [payload.key for payload in PAYLOADS if payload.sign and door.offers(payload.sign)]
+        return json.dumps({"key": (["lights"] * ("lights" in own) + own + ["wheels"])[0], "on": True})
+    return each.example
+
+
 def _line(door: StationDoor, each: Exchange) -> Line | None:
     """The line of a topic, service or action; None when the robot has none of that name."""
     if door.is_off(each.name):
         return None
+    example = _example(door, each)
     if each.name in door.services:
-        return Line(CALL, each.name, door.services[each.name].type, 0, each.doc, each.units, each.example)
+        return Line(CALL, each.name, door.services[each.name].type, 0, each.doc, each.units, example)
     if each.name in door.actions:
-        return Line(RUN, each.name, door.actions[each.name].type, 0, each.doc, each.units, each.example)
+        return Line(RUN, each.name, door.actions[each.name].type, 0, each.doc, each.units, example)
     topic = door.topics.get(each.name)
     if topic is None or not door.offers(each.name):
         return None
@@ -91,7 +113,7 @@ def _line(door: StationDoor, each: Exchange) -> Line | None:
         rate,
         doc,
         each.units,
-        each.example,
+        example,
         latched=topic.latched,
         on_demand=topic.on_demand,
     )

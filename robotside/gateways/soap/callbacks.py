@@ -100,7 +100,8 @@ async def post(target: Target, body: bytes, action: str) -> None:
         async with asyncio.timeout(POST_TIMEOUT):
             status = await _status(target, body, action)
     except (OSError, TimeoutError, h11.ProtocolError) as error:
-        raise BridgeError(f"The callback was not taken: {str(error) or 'no answer in time'}.") from error
+        why = getattr(error, "strerror", None) or str(error) or "no answer in time"
+        raise BridgeError(f"The callback was not taken: {why}.") from error
     if not 200 <= status < 300:
         raise BridgeError(f"The callback was answered with HTTP status {status}.")
 

@@ -39,7 +39,9 @@ async def deliver(target: Target, asker: Asker, headers: Mapping[str, str], body
     except TimeoutError as error:
         raise Undelivered(f"no answer within {TIMEOUT:g} s") from error
     except (OSError, h11.ProtocolError, BridgeError, ValueError) as error:
-        raise Undelivered(str(error).rstrip(".") or type(error).__name__) from error
+        raise Undelivered(
+            (getattr(error, "strerror", None) or str(error)).rstrip(".") or type(error).__name__
+        ) from error
     if not 200 <= status < 300:
         raise Undelivered(f"its answer was {status}")
 

@@ -2,10 +2,22 @@
 
 from __future__ import annotations
 
+import json
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Pose,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Quaternion,
+)
+from bridge.msgs.std_msgs import Header
+from robotside.door.station_door import StationDoor
 from robotside.gateways.payloads.offered import CALL, PUBLISH, READ, chosen_keys, offered
 from robotside.gateways.payloads.table import ALWAYS, KEYS
 from tests.fakes import FakeRobot
@@ -44,6 +56,40 @@ def test_lines_have_type_rate_and_direction(tmp_path: Path) -> None:
     assert (lines["/stop"].verb, lines["/stop"].type) == (CALL, "pilothouse_msgs/Command")
     assert lines["/task/status"].latched
     assert not lines["/events"].latched
+
+
+def _examples(door: StationDoor) -> dict[str, Any]:
+    lines = [line for each in offered(door) for line in each.lines]
+    return {line.name: json.loads(line.example) for line in lines if line.example}
+
+
+def test_a_pose_to_send_is_the_one_that_the_robot_has(tmp_path: Path) -> None:
+    scene = Scene(EquippedRobot(), tmp_path)
+    scene.run(1.0)
+    at = Pose(Point(3.25, -1.5), Quaternion(0.0, 0.0, 0.6, 0.8))
+    scene.station.bus.publish(
+        "/pose", PoseWithCovarianceStamped(Header(frame_id="map"), PoseWithCovariance(at))
+    )
+    found, pose = (
+        _examples(scene.door),
+        {"position": {"x": 3.25, "y": -1.5}, "orientation": {"z": 0.6, "w": 0.8}},
+    )
+    assert found["/goal_pose"] == {"header": {"frame_id": "map"}, "pose": pose}
+    assert found["/initialpose"] == {"header": {"frame_id": "map"}, "pose": {"pose": pose}}
+
+
+@pytest.mark.parametrize("has_lights", [True, False])
+def test_the_payload_to_switch_is_one_that_the_robot_has(tmp_path: Path, has_lights: bool) -> None:
+    scene = Scene(EquippedRobot() if has_lights else FakeRobot(), tmp_path)
+    switch = replace(scene.door.services["/mode/set"], name="/payloads/set")
+    door = StationDoor(scene.station, services=[switch])
+    scene.run(1.0)
+    if has_lights:
+        scene.station.bus.publish("/lights", door.topics["/lights"].type())
+    found = _examples(door)["/payloads/set"]
+    assert found["on"] is True
+    assert found["key"] in _keys(scene)
+    assert (found["key"] == "lights") is has_lights
 
 
 def test_a_key_that_is_unknown_is_one_sentence() -> None:
