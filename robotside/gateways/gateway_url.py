@@ -23,7 +23,7 @@ SITE = "site"
 MAX_RATE = 50.0
 """Most messages a second of one topic that a gateway sends [Hz]."""
 _OPTIONS = ("role", "payloads", "rate")
-_PATH = re.compile(r"(/[\w.~-]+)+", re.ASCII)
+_PATH = re.compile(r"(/(?!\.\.?(/|$))[\w.~-]+)+", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,7 +32,7 @@ LONG = "pilothouse.long"
 Written = Callable[[Scope, int, BridgeError], Response]
 """Writes the answer to a request that is refused with a status, in the application's own form."""
 
-_PATH = re.compile(r"(/[\w.~-]+)+", re.ASCII)
+_PATH = re.compile(r"(/(?!\.\.?(/|$))[\w.~-]+)+", re.ASCII)
 
 
 def _never(_: Scope) -> bool:

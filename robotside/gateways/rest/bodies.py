@@ -41,6 +41,10 @@ async def body_of(request: Request, cls: type[Msg] | None) -> dict[str, Any]:
         return {}
     named = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     form = _TYPES.get(named)
+    packed = request.headers.get("content-encoding", "").strip()
+    if packed.lower() not in ("", "identity"):
+        said = f"A body comes as it is, not {packed[:60]!r}."
+        raise Rejected(415, said, {"Accept-Encoding": "identity"})
     if form == JSON:
         return decode(raw)
     if form is None or cls is None:

@@ -62,7 +62,18 @@ def from_xml(raw: bytes, cls: type[Msg]) -> dict[str, Any]:
         raise ProtocolError(f"The message is not XML: {str(error)[:200]}.") from error
     if root.getroottree().docinfo.internalDTD is not None:
         raise ProtocolError("The message has a document type, which is not taken: no DOCTYPE, no entities.")
+    _check_whole(root)
     return _object(root, cls, 1)
+
+
+def _check_whole(root: Any) -> None:
+    """Raises ProtocolError for what a message has no place for: attributes, and text beside elements."""
+    for element in root.iter():
+        if element.attrib:
+            raise ProtocolError(f"{element.tag} has no attributes, not {next(iter(element.attrib))[:60]!r}.")
+        if (element.tail or "").strip():
+            said = f"not the text {element.tail.strip()[:60]!r}"
+            raise ProtocolError(f"Beside {element.tag} there are elements, {said}.")
 
 
 def _object(element: Any, cls: type[Msg] | None, depth: int) -> dict[str, Any]:

@@ -40,6 +40,7 @@ STOP = "Stop"
 
 _NAMESPACE = re.compile(r"\{[^{}]*\}")
 _DOCTYPE = re.compile(rb"<!\s*(DOCTYPE|ENTITY)", re.IGNORECASE)
+_ENCODING = re.compile(rb"""(?:\xef\xbb\xbf)?\s*<\?xml[^>]*?\sencoding\s*=\s*["']([^"']*)["']""")
 _MAX_SAID = 400
 """Characters kept of what the schema says."""
 
@@ -66,6 +67,9 @@ class Asked:
 def read_envelope(raw: bytes, judge: etree.XMLSchema, operations: Collection[str]) -> Asked:
     """What an envelope asks, one of the `operations`. Raises ProtocolError with one sentence that says what is wrong."""
     top = _parsed(raw)
+    declared = _ENCODING.match(raw)
+    if declared and declared[1].lower() not in (b"utf-8", b"utf8", b"us-ascii"):
+        raise EnvelopeError(f"A message is written in UTF-8, not {declared[1].decode()[:30]!r}.")
     if top.tag != named("Envelope", SOAP):
         if etree.QName(top).localname == "Envelope":
             raise EnvelopeError(f"Envelopes are those of SOAP 1.1, {SOAP}.", VERSION)

@@ -178,8 +178,11 @@ class SoapGateway:
     async def _in_turn(self, request: Request, operator: Operator, raw: bytes) -> Response:
         """Answer what is no STOP."""
         problem = _wrong_type(request.headers.get("content-type", ""))
+        packed = request.headers.get("content-encoding", "").strip()
+        if not problem and packed.lower() not in ("", "identity"):
+            problem = f"A message comes as it is, not {packed[:60]!r}."
         if problem:
-            return _fault(Refused(problem), 415)
+            return _fault(Refused(problem), 415, {"Accept-Encoding": "identity"})
         try:
             asked = read_envelope(raw, self._judge, self._operations)
         except BridgeError as error:

@@ -318,3 +318,11 @@ async def test_the_application_is_built_beside_the_loop(
         assert (await web.get("time")).status_code == 200
     assert len(threads) == 1
     assert threads[0] is not threading.current_thread()
+
+
+async def test_a_body_that_is_packed_is_refused(served: Served) -> None:
+    async with served.client() as web:
+        packed = await web.post("places", json={"name": "A"}, headers={"Content-Encoding": "gzip"})
+        assert (packed.status_code, packed.headers["Accept-Encoding"]) == (415, "identity")
+        plain = await web.post("places", json={"name": "A"}, headers={"Content-Encoding": "Identity"})
+        assert plain.status_code == 200

@@ -87,6 +87,16 @@ def test_no_other_encoding_hides_one(encoding: str) -> None:
         asked(raw)
 
 
+@looped("encoding", ["iso-8859-1", "utf-16", "windows-1252"])
+def test_a_message_that_names_another_encoding_is_refused_and_a_stop_is_heard(encoding: str) -> None:
+    declared = f"<?xml version='1.0' encoding=\"{encoding}\"?>"
+    with pytest.raises(ProtocolError, match=f"written in UTF-8, not '{encoding}'"):
+        asked(declared + message(body("GetInfo")))
+    assert stops((declared + message(body("Stop"))).encode())
+    for known in ("UTF-8", "utf-8", "us-ascii"):
+        asked(declared.replace(encoding, known) + message(body("GetInfo")))
+
+
 @looped("depth", [300, 5000])
 def test_a_deep_message_is_refused(depth: int) -> None:
     with pytest.raises(ProtocolError):

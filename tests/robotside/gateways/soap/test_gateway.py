@@ -377,3 +377,11 @@ async def test_it_comes_and_goes_with_nothing_left(scene: Scene) -> None:
     adapter, url = read_wish("soap")
     with pytest.raises(BridgeError, match="web site"):
         adapter.make(Surroundings(scene.door, scene.station.events.say), url)
+
+
+async def test_a_message_that_is_packed_is_refused_and_a_stop_is_heard(served: Served) -> None:
+    answer = await served.post(message(body("GetInfo")), **{"Content-Encoding": "gzip"})
+    assert (answer.status, "as it is, not 'gzip'" in answer.fault[1]) == (415, True)
+    assert (await served.post(message(body("GetInfo")), **{"Content-Encoding": "identity"})).status == 200
+    assert (await served.post(STOP, **{"Content-Encoding": "gzip"})).status == 200
+    assert served.stopped
