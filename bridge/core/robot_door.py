@@ -70,8 +70,11 @@ class RobotDoor(Protocol):
     def check_listens(self, topic: str) -> None:
         """Raises Refused when no message of a client is taken on `topic`."""
 
-    def publish(self, operator: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
+    def publish(self, operator: Operator, topic: str, msg: Msg, stamp: float | None) -> str | None:
         """Give a message of `operator` to the robot and to the subscribers of `topic`.
+
+        Returns why the robot does not obey it, as one sentence, where that is known at once; empty or None where nothing
+        is against it.
 
         `stamp` is when the operator meant it [s, operators' clock], None when that is not known. Raises Refused as
         `check_listens` does.

@@ -50,13 +50,13 @@ class Door:
         gate: Gate = OPEN,
         trail: AuditTrail | None = None,
         now: Callable[[], float] = float,
-        on_message: Callable[[Any, str, Any, float | None], None] = _ignore,
+        on_message: Callable[[Any, str, Any, float | None], str | None] = _ignore,
         on_demand: Callable[[str, bool], None] = _ignore,
         on_gone: Callable[[Any], None] = _ignore,
     ) -> None:
         """The robot publishes on `bus`, also the topics of its `pictures`; `now` is the operators' clock [s].
 
-        `on_message(operator, topic, msg, stamp)` takes what operators publish, `on_demand(topic, wanted)` is called when
+        `on_message(operator, topic, msg, stamp)` takes what operators publish and gives why it is not obeyed, `on_demand(topic, wanted)` is called when
         the first asker comes who wants a topic and when the last one left, `on_gone(operator)` when an operator left.
         `gate` knows who may do what; without one everybody may do everything. What is refused at the door is recorded in `trail`.
         """
@@ -228,8 +228,8 @@ class Door:
             why = ", it speaks there" if topic in self.topics else ""
             raise Refused(f"This robot does not listen to {shown(topic)}{why}.")
 
-    def publish(self, operator: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
-        """Give a message of `operator` to the robot and to the subscribers of `topic`.
+    def publish(self, operator: Operator, topic: str, msg: Msg, stamp: float | None) -> str | None:
+        """Give a message of `operator` to the robot and to the subscribers of `topic`; why it is not obeyed, where that is known.
 
         `stamp` is when the operator meant it [s, operators' clock], None when that is not known. Raises Refused as
         `check_listens` does, and when its role is too small.
@@ -237,16 +237,18 @@ class Door:
         listeners = self._listeners.get(topic)
         if listeners is None:
             self.check_listens(topic)
-            return
+            return None
         self.check(operator, "publish", topic)
         if self._trail:
             self._trail.published(operator, topic)
         try:
-            self._on_message(operator, topic, msg, stamp)
+            problem = self._on_message(operator, topic, msg, stamp)
         except Exception:
             log.exception("%s from %s failed", topic, operator.address)
+            problem = f"The robot failed at {topic}; its log says why."
         for callback in tuple(listeners.values()):
             callback(topic, msg)
+        return problem
 
     def is_urgent(self, service: str) -> bool:
         """Calls of `service` are always taken and their answers go before everything else: STOP and control."""

@@ -8,6 +8,7 @@ from bridge.core.robot_catalogue import Operator
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseStamped
 from bridge.msgs.pilothouse_msgs import Waypoint
+from robotside.core.notice import Problem
 from robotside.core.pose2 import Pose2
 from robotside.core.refusal import Refusal
 from robotside.records import NotRecorded
@@ -17,11 +18,15 @@ from robotside.station.station import Station
 __all__ = ["listener"]
 
 
-def listener(station: Station) -> Callable[[Operator, str, Msg, float | None], None]:
-    """The one that takes in all that clients publish. A goal is an order as those of the services; its refusal is an event."""
+def listener(station: Station) -> Callable[[Operator, str, Msg, float | None], Problem]:
+    """The one that takes in all that clients publish, and gives why it is not obeyed.
+
+    A goal is an order as those of the services; its refusal is an event.
+    """
     orders = TaskOrders(station)
 
-    def on_message(client: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
+    def on_message(client: Operator, topic: str, msg: Msg, stamp: float | None) -> Problem:
+        refused: Problem = ""
         if isinstance(msg, PoseStamped):
             pose = Pose2.from_msg(msg.pose)
             before = station.controls.settled(station.clock())
@@ -29,7 +34,8 @@ def listener(station: Station) -> Callable[[Operator, str, Msg, float | None], N
                 orders.go_to(client, Waypoint(pose.x, pose.y, pose.yaw))
             except (Refusal, NotRecorded) as problem:
                 station.controls.give_back(client, before)
-                station.events.say("command", problem.notice, "warn")
-        station.on_message(client, topic, msg, stamp)
+                refused = problem.notice
+                station.events.say("command", refused, "warn")
+        return station.on_message(client, topic, msg, stamp) or refused
 
     return on_message

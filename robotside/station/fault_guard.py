@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable
 
 from bridge.core.codes import Code
-from robotside.core.notice import Notice
+from robotside.core.notice import Notice, Problem
 from robotside.records.events import Say
 from robotside.tasks.engine import Engine
 
@@ -27,18 +27,19 @@ class FaultGuard:
         self._engine, self._brake, self._say, self._now = engine, brake, say, now
         self._next_report = -math.inf
 
-    def run(self, think: Callable[[], None]) -> None:
-        """Run `think`; if it fails, the task fails with the robot at rest."""
+    def run(self, think: Callable[[], Problem | None]) -> Problem:
+        """Run `think` and give what it says is not done; if it fails, the task fails with the robot at rest."""
         try:
-            think()
+            return think() or ""
         except Exception as fault:
             if self._engine.active:
                 self._brake()
             kind = type(fault).__name__
+            told = Notice(Code.ROBOT_FAULT, f"The robot's program has a fault: {fault!r}.", fault=kind)
             if self._now() >= self._next_report:
                 self._next_report = self._now() + FAULT_PERIOD
                 log.exception("The robot's own mind failed")
-                told = f"The robot's program has a fault: {fault!r}."
-                self._say("task", Notice(Code.ROBOT_FAULT, told, fault=kind), "alarm")
+                self._say("task", told, "alarm")
             said = f"The task ended: the robot's program has a fault ({kind})."
             self._engine.fail(Notice(Code.TASK_FAULT, said, fault=kind))
+            return told

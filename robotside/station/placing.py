@@ -32,17 +32,18 @@ class Placing:
         self._controls, self._autonomy, self._fitness = controls, autonomy, fitness
         self._say, self._clock = say, clock
 
-    def place(self, client: Operator, pose: Pose2) -> None:
-        """Take `pose` in `map` for where the robot is; an event says so, or why not."""
+    def place(self, client: Operator, pose: Pose2) -> Problem:
+        """Take `pose` in `map` for where the robot is; an event says so, or why not, which is returned too."""
         problem = self._problem(client, pose)
         if problem:
             self._say("command", problem, "warn")
-            return
+            return problem
         self._autonomy.place(pose)
         name, who = self._controls.name(client), self._controls.id(client)
         text = f"{name} placed the robot at ({pose.x:.1f}, {pose.y:.1f})."
         placed = Notice(Code.POSITION_PLACED, text, actor_id=who, name=name, x=pose.x, y=pose.y)
         self._say("localisation", placed, at=(pose.x, pose.y))
+        return ""
 
     def _problem(self, client: Operator, pose: Pose2) -> Problem:
         if not all(map(math.isfinite, pose)):

@@ -135,8 +135,8 @@ class Station:
             self.bus.publish("/diagnostics", diagnostics(self.autonomy, self.controls, now))
             self.readiness.update(self.autonomy, self.robot.trouble, now)
 
-    def on_message(self, client: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
-        """Do what `client` published, a drive command or a pose of the robot.
+    def on_message(self, client: Operator, topic: str, msg: Msg, stamp: float | None) -> Problem:
+        """Do what `client` published, a drive command or a pose of the robot; why that is not done, empty when it is.
 
         `stamp` is when the client meant it [s, operators' clock], None when that is not known.
         """
@@ -144,11 +144,18 @@ class Station:
             self.readiness.on_operator_time(stamp)
         if isinstance(msg, Manoeuvre) and stamp is None and msg.header.stamp.seconds > 0:
             stamp = msg.header.stamp.seconds
+        problem: Problem = ""
         if isinstance(msg, Twist | Manoeuvre):
-            self._guard.run(lambda: self._remarks.make(client.id, self.teleop.drive(client, msg, stamp)))
+            problem = self._guard.run(lambda: self._obey(client, msg, stamp))
         elif isinstance(msg, PoseWithCovarianceStamped):
-            self._placing.place(client, Pose2.from_msg(msg.pose.pose))
+            problem = self._placing.place(client, Pose2.from_msg(msg.pose.pose))
         self.publish_control()
+        return problem
+
+    def _obey(self, client: Operator, order: Twist | Manoeuvre, stamp: float | None) -> Problem:
+        problem = self.teleop.drive(client, order, stamp)
+        self._remarks.make(client.id, problem)
+        return problem
 
     def on_gone(self, client: Operator) -> None:
         """A client left; if it was driving, the robot stops at once."""

@@ -76,7 +76,7 @@ class Visitor:
             raise
 
     def publish(self, topic: str, raw: bytes, stamp: float = math.nan, *, dated: bool = True) -> None:
-        """Give a message to the robot, meant at `stamp` [s, operators' clock]; raises BridgeError for what it does not take.
+        """Give a message to the robot, meant at `stamp` [s, operators' clock]; raises BridgeError for what it does not take or obey.
 
         What is sent once, such as a goal, must be as fresh as a call; of a stream the robot judges each message by itself.
         """
@@ -87,7 +87,9 @@ class Visitor:
             msg = read_message(decode(raw), known.type)
             if not known.rate:
                 self._check_fresh(topic, stamp, dated=dated)
-            self._door.publish(self.operator, topic, msg, None if math.isnan(stamp) else stamp)
+            problem = self._door.publish(self.operator, topic, msg, None if math.isnan(stamp) else stamp)
+        if problem:  # it was heard, as every message is that the robot judges
+            raise Refused(problem)
 
     def call(
         self, service: str, raw: bytes, stamp: float = math.nan, *, dated: bool = True

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import math
 from collections.abc import Collection
 from typing import Any
 
@@ -12,15 +11,11 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from bridge.codec import to_json
-from bridge.core.codes import Code
-from bridge.core.errors import ProtocolError, Refused
+from bridge.core.errors import ProtocolError
 from bridge.core.robot_catalogue import Operator
 from bridge.core.topics import Topic
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import CommandRequest
-from robotside.control.command_expiry import HOLD_TIME, MAX_CLOCK_LEAD
-from robotside.core.notice import Notice
-from robotside.core.text import number
 from robotside.door.station_door import StationDoor
 from robotside.gateways.http.asker import operator_of
 from robotside.gateways.http.mounts import LONG, STAYS
@@ -138,7 +133,7 @@ class Desk:
     # topics
 
     async def publish(self, request: Request, name: str) -> Response:
-        """Give a message to the robot."""
+        """Give a message to the robot; Refused where it does not obey."""
         form = self.form(request)
         if key_of(name) not in self.keys or name not in self.door.topics:
             raise Rejected(404, _none("topic", name))
@@ -146,10 +141,7 @@ class Desk:
         if topic.to != "robot":
             raise Rejected(405, f"The robot speaks on {name} and listens to others.", {"Allow": "GET, HEAD"})
         body, stamp = await body_of(request, topic.type), stamp_of(request)
-        visitor = self._visit(request, {})
-        visitor.publish(name, _encoded(body), stamp)
-        if topic.rate:
-            _check_heeded(visitor, name, stamp, self.door.now())
+        self._visit(request, {}).publish(name, _encoded(body), stamp)
         return written(form, b'{"success":true,"message":"Taken.","code":""}', 202)
 
     def topic(self, request: Request, name: str) -> Topic:
@@ -238,27 +230,6 @@ class Desk:
     def form(self, request: Request) -> str:
         """The form that a request wants its answer in; Rejected (406) for none that there is."""
         return chosen_form(", ".join(request.headers.getlist("accept")))
-
-
-def _check_heeded(visitor: Visitor, name: str, stamp: float, now: float) -> None:
-    """Raises Refused when the robot cannot have heeded a drive command, which was given to it all the same: to rest it takes any."""
-    if math.isnan(stamp):
-        said = (
-            f"A message on {name} needs the header Stamp: the robot's time in seconds, less than 0.25 s ago."
-        )
-        raise Refused(Notice(Code.GATEWAY_UNDATED, said, operation=name))
-    if not visitor.operator.asked_time:
-        said = "A drive command was dropped: its clock was never compared with the robot's; GET time first."
-        raise Refused(Notice(Code.DRIVE_CLOCK_UNKNOWN, said))
-    age = now - stamp
-    if age > HOLD_TIME:
-        said = (
-            f"A drive command was dropped: it came {number(age)} s late and has to come within {HOLD_TIME} s."
-        )
-        raise Refused(Notice(Code.DRIVE_LATE, said, age=age, allowed=HOLD_TIME))
-    if -age > MAX_CLOCK_LEAD:
-        said = f"A drive command was dropped: its clock is {number(-age)} s ahead of the robot's."
-        raise Refused(Notice(Code.DRIVE_CLOCK_AHEAD, said, seconds=-age))
 
 
 def _encoded(body: dict[str, Any]) -> bytes:

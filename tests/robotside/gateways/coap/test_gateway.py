@@ -283,6 +283,16 @@ async def test_drive_commands_count_in_the_order_in_which_they_were_given(scene:
         assert scene.robot.at_rest
 
 
+async def test_what_the_robot_does_not_obey_is_refused(scene: Scene) -> None:
+    async with serving(scene) as gateway, client(gateway) as me:
+        await driving(scene, me)
+        await me.post("/stop")
+        scene.run(0.05)
+        answer = await me.post(f"/cmd_vel?stamp={scene.clock}", AHEAD, accept=50)
+        assert answer.code == "4.09"
+        assert (answer.json["success"], answer.json["code"]) == (False, Code.STOP_IS_PRESSED)
+
+
 async def test_a_call_needs_a_stamp(scene: Scene) -> None:
     async with serving(scene) as gateway, client(gateway) as me:
         for query, code in (("", Code.GATEWAY_UNDATED), (f"?stamp={scene.clock - 60}", Code.COMMAND_LATE)):

@@ -52,7 +52,8 @@ def test_a_driver_whose_broker_is_gone_leaves_a_robot_at_rest(scene: Scene, visi
 def test_without_a_stamp_nothing_moves_however_new_the_client_is(scene: Scene, visitors: Visitors) -> None:
     visitor = visitors.visit("anna")
     visitor.call(TIME, b"")
-    visitor.publish("/cmd_vel", AHEAD)
+    with pytest.raises(Refused, match="it has no stamp, and nothing else says"):
+        visitor.publish("/cmd_vel", AHEAD)
     assert scene.robot.at_rest
     said = (
         "A drive command was dropped: it has no stamp, and nothing else says how old it is; 0.7 s is allowed."
@@ -70,7 +71,9 @@ def test_clients_of_one_name_are_another_one_at_each_host(scene: Scene, visitors
 
 
 def test_a_stamp_counts_only_of_a_clock_that_was_compared(scene: Scene, visitors: Visitors) -> None:
-    visitors.visit("anna").publish("/cmd_vel", AHEAD, scene.clock)
+    with pytest.raises(Refused) as refused:
+        visitors.visit("anna").publish("/cmd_vel", AHEAD, scene.clock)
+    assert refused.value.args[0].code == Code.DRIVE_CLOCK_UNKNOWN
     assert scene.robot.at_rest
 
 

@@ -146,10 +146,11 @@ async def test_a_drive_command_needs_a_stamp_of_the_robots_time_that_is_fresh(se
         answer = await push(served, web)
         assert (answer.status_code, answer.json()["code"]) == (409, "drive_clock_unknown")
         await web.get("time")
-        await web.post("topics/cmd_vel", json={})  # released before it is pushed
+        answer = await web.post("topics/cmd_vel", json={})  # released before it is pushed
+        assert answer.status_code == 202, "to rest needs no stamp"
         served.scene.run(0.05)
         answer = await web.post("topics/cmd_vel", json=AHEAD)
-        assert (answer.status_code, answer.json()["code"]) == (422, "gateway_undated")
+        assert (answer.status_code, answer.json()["code"]) == (422, "drive_unstamped")
         served.scene.run(0.1)
         assert served.scene.robot.at_rest
         now = served.scene.clock
@@ -162,6 +163,24 @@ async def test_a_drive_command_needs_a_stamp_of_the_robots_time_that_is_fresh(se
             assert answer.status_code == 409
             assert answer.json()["code"] in ("drive_late", "drive_clock_ahead")
         served.scene.run(0.1)
+        assert served.scene.robot.at_rest
+
+
+async def test_what_the_robot_does_not_obey_is_refused_with_the_reason_of_its_own_judge(
+    served: Served,
+) -> None:
+    goal = {"header": {"frame_id": "map"}, "pose": {"position": {"x": 1.0}, "orientation": {"w": 1.0}}}
+    async with served.client(Client_Id="me") as me, served.client(Client_Id="other") as other:
+        await drive(served, me)
+        await other.get("time")
+        served.scene.run(0.05)
+        for answer in (await push(served, other), await other.post("topics/goal_pose", json=goal)):
+            assert (answer.status_code, answer.json()["code"]) == (409, "control_held")
+        await other.post("stop")
+        served.scene.run(0.05)
+        for answer in (await push(served, me), await me.post("topics/goal_pose", json=goal)):
+            assert (answer.status_code, answer.json()["code"]) == (409, "stop_is_pressed")
+            assert not answer.json()["success"]
         assert served.scene.robot.at_rest
 
 
@@ -244,7 +263,8 @@ async def test_a_command_that_is_too_old_is_refused(served: Served) -> None:
         goal = {"header": {"frame_id": "map"}, "pose": {"position": {"x": 1.0}, "orientation": {"w": 1.0}}}
         answer = await web.post("topics/goal_pose", json=goal, headers=old)
         assert (answer.status_code, answer.json()["code"]) == (409, "command_late")
-        assert (await web.post("topics/goal_pose", json=goal)).status_code == 202
+        answer = await web.post("topics/goal_pose", json=goal)
+        assert (answer.status_code, answer.json()["code"]) == (409, "position_unknown"), "fresh enough"
 
 
 # up and down

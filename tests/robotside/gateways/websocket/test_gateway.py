@@ -199,7 +199,7 @@ async def test_a_drive_command_with_a_stamp_counts_when_it_is_fresh_by_a_clock_t
     scene: Scene,
 ) -> None:
     async with serving(scene) as gateway, client(gateway) as me:
-        await me.say(DRIVE | {"stamp": scene.clock})
+        assert (await me.ask(DRIVE | {"stamp": scene.clock}))["code"] == Code.DRIVE_CLOCK_UNKNOWN
         await me.ask(TIME)
         assert scene.robot.at_rest, "its clock was not compared"
         await me.say({"publish": "/cmd_vel"})
@@ -207,9 +207,11 @@ async def test_a_drive_command_with_a_stamp_counts_when_it_is_fresh_by_a_clock_t
         await until(lambda: not scene.robot.at_rest)
         scene.run(1.0)
         assert scene.robot.at_rest
-        await me.say(DRIVE | {"stamp": scene.clock - 0.3})
-        await me.say(DRIVE | {"stamp": scene.clock + 60})
-        await me.ask(TIME)
+        assert (await me.ask(DRIVE | {"stamp": scene.clock - 0.3}))["code"] == Code.DRIVE_LATE
+        assert (await me.ask(DRIVE | {"stamp": scene.clock + 60}))["code"] == Code.DRIVE_CLOCK_AHEAD
+        await me.ask({"call": "/stop"})
+        refused = await me.ask(DRIVE | {"stamp": scene.clock})
+        assert (refused["success"], refused["code"]) == (False, Code.STOP_IS_PRESSED)
         assert scene.robot.at_rest
 
 
@@ -218,8 +220,7 @@ async def test_without_a_stamp_the_answered_pings_say_how_old_a_command_may_be(s
         (session,) = gateway._sessions.values()
         session.on_pong = lambda _: None  # its link stands still
         session.operator.answered = scene.clock - 0.8
-        await me.say(DRIVE)
-        assert "time" in await me.ask(TIME)
+        assert (await me.ask(DRIVE))["code"] == Code.DRIVE_UNSTAMPED
         assert scene.robot.at_rest
         session._round_trip.answered = scene.clock - 6
         session.measure_round_trip()
