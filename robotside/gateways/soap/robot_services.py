@@ -26,6 +26,7 @@ from bridge.msgs.sensor_msgs import BatteryState
 from robotside.core.notice import Notice
 from robotside.core.pose2 import Pose2
 from robotside.door.station_door import StationDoor
+from robotside.gateways.payloads.table import key_of
 from robotside.gateways.plain.callers import Callers
 from robotside.gateways.plain.visitor import STOP, TIME, Visitor
 from robotside.gateways.soap import callbacks, messages
@@ -202,7 +203,7 @@ class RobotServices:
 
     async def _info(self, call: Call) -> messages.Info:
         self._may_read(call, "/robot/info")
-        info, arm = self._door.info, _last(self._door, "/arm", msgs.ArmState)
+        info, arm = self._door.info, self._carried(call, "/arm", msgs.ArmState)
         return messages.Info(
             info.name,
             info.kind,
@@ -220,9 +221,9 @@ class RobotServices:
 
     async def _status(self, call: Call) -> messages.Status:
         self._may_read(call, "/control/status")
-        control = _last(self._door, "/control/status", msgs.ControlStatus) or msgs.ControlStatus()
-        task = _last(self._door, "/task/status", msgs.TaskStatus) or msgs.TaskStatus()
-        battery = _last(self._door, "/battery_state", BatteryState)
+        control = self._carried(call, "/control/status", msgs.ControlStatus) or msgs.ControlStatus()
+        task = self._carried(call, "/task/status", msgs.TaskStatus) or msgs.TaskStatus()
+        battery = self._carried(call, "/battery_state", BatteryState)
         return messages.Status(
             control.mode,
             control.driver,
@@ -235,7 +236,7 @@ class RobotServices:
             task.place,
             task.asks,
             battery.percentage if battery else None,
-            self._door.health.position_sure,
+            key_of("/pose") in self._keys and self._door.health.position_sure,
         )
 
     async def _pose(self, call: Call) -> messages.Pose:
@@ -325,6 +326,13 @@ class RobotServices:
 
     def _may_read(self, call: Call, topic: str) -> Topic:
         return readable(self._door, self._keys, call.operator, topic)
+
+    def _carried(self, call: Call, topic: str, cls: type[M]) -> M | None:
+        """The newest message of a topic as part of an answer; None where there is none or this gateway does not carry it."""
+        if key_of(topic) not in self._keys:
+            return None
+        self._door.check(call.operator, "subscribe", topic)
+        return _last(self._door, topic, cls)
 
 
 def _last(door: StationDoor, topic: str, cls: type[M]) -> M | None:

@@ -11,7 +11,7 @@ import pytest
 from bridge.core.codes import Code
 from bridge.core.errors import BridgeError
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import Event, TagRead
+from bridge.msgs.pilothouse_msgs import ArmState, Event, TagRead
 from robotside.gateways.adapter import Surroundings
 from robotside.gateways.discovery import read_wish
 from robotside.gateways.plain.strict_json import MAX_INPUT
@@ -268,6 +268,19 @@ async def test_a_client_with_an_id_keeps_control_between_its_calls_and_gives_it_
     assert not served.scene.control.driver  # who has no id is gone once it is answered
 
 
+async def test_of_payloads_that_the_url_leaves_out_no_answer_tells(scene: Scene) -> None:
+    scene.station.bus.publish("/arm", ArmState(joints=["a"], angles=[0.0], poses=["home"]))
+    for wish, told in (("soap", True), ("soap=site:/soap?payloads=camera", False)):
+        async with serving(scene, wish) as served:
+            if told:
+                assert (await served.ask("GoTo", {"clientId": "a"}, place="Lab")).status == 200
+            status = await served.ask("GetStatus", {"clientId": "a"})
+            info = await served.ask("GetInfo", {"clientId": "a"})
+            assert bool(status.value("task")) == told
+            assert (status.value("positionSure") == "true") == told
+            assert bool(info.value("armPose")) == told
+
+
 async def drive(served: Served, caller: dict[str, object], host: str = "192.0.2.7") -> Answer:
     asked = message(body("PublishMessage", topic="/cmd_vel", message=AHEAD), **caller)
     return await served.post(asked, host=host)
@@ -284,6 +297,16 @@ async def test_a_drive_command_of_nobody_or_of_unknown_or_too_great_age_moves_no
         served.scene.run(0.05)
     assert served.scene.robot.at_rest
     assert not any(served.scene.robot.commands)
+
+
+async def test_what_the_robot_does_not_obey_is_a_fault(served: Served) -> None:
+    scene, me = served.scene, {"clientId": "a"}
+    await served.ask("GetTime", me)
+    await drive(served, me | {"stamp": scene.clock})
+    await served.ask("Stop")
+    scene.run(0.05)
+    assert (await drive(served, me | {"stamp": scene.clock})).fault[2] == Code.STOP_IS_PRESSED
+    assert scene.robot.at_rest
 
 
 @pytest.mark.parametrize("ending", ["Leave", "time", "the gateway's end"])
