@@ -13,6 +13,7 @@ from bridge.server.reception.pages import PagePolicy
 from robotside.door.station_door import StationDoor
 from robotside.gateways.gateway import Gateway
 from robotside.gateways.plain.turns import Turns
+from robotside.gateways.usage_sheet.pasted import PLAIN, RobotKey
 from robotside.records.events import Say
 
 if TYPE_CHECKING:  # a robot that nobody asked a gateway of does not load it
@@ -60,6 +61,8 @@ class Surroundings:
     """Whether a client from a host may come without TLS."""
     pages: PagePolicy | None = None
     """The web pages that may connect; None for none."""
+    key: RobotKey = PLAIN
+    """By what clients know it behind TLS."""
     site: Site | None = None
     """The robot's web site, for what is served there; None where it has none."""
     turns: Turns = field(default_factory=Turns)

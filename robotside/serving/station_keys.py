@@ -15,6 +15,7 @@ from bridge.core.robot_catalogue import Service
 from robotside.core.config import TrustSettings
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
+from robotside.gateways.usage_sheet.pasted import RobotKey
 from robotside.services.people_services import people_services
 from robotside.station.station import Station
 from robotside.trust.certificate import Certificate
@@ -57,7 +58,9 @@ class StationKeys:
         """By which browsers may call the robot."""
         self.stop_from_pages = settings.stop_from_pages
         """Every web page of the world may press STOP."""
-        self.pin = certificate.pin
+        self.key = RobotKey(certificate.pin, certificate.fingerprint)
+        """By what clients know it."""
+        self.pin = self.key.pin
         """Hash of its public key, for curl."""
         self.claim = certificate.fingerprint[:CLAIM_LENGTH]
         """What its HELLO says of its certificate."""

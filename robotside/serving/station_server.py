@@ -22,6 +22,7 @@ from robotside.gateways.http.mounts import Mounts
 from robotside.gateways.http.usage_pages import Usage
 from robotside.gateways.rosbridge.gateway import RosbridgeGateway
 from robotside.gateways.scaling.picture_scaling import PictureScaler
+from robotside.gateways.usage_sheet.pasted import PLAIN
 from robotside.gateways.usage_sheet.running import Running
 from robotside.serving.fleet_server import FleetServer, RunningServer
 from robotside.serving.gateway_board import GatewayBoard, Keep
@@ -120,7 +121,13 @@ class StationServer:
         """The rosbridge server."""
         mounts = Mounts(lambda: addresses.http)
         around = Surroundings(
-            self.door, station.events.say, tls=tls, plain_from=plain_from, pages=pages, site=mounts
+            self.door,
+            station.events.say,
+            tls=tls,
+            plain_from=plain_from,
+            pages=pages,
+            key=keys.key if keys else PLAIN,
+            site=mounts,
         )
         self._http = self._web_site(around, mounts)
         self._gateways: tuple[Gateway, ...] = (self._http, self._rosbridge)

@@ -44,7 +44,7 @@ class RestGateway:
         if robot.site is None:
             raise BridgeError("REST needs the robot's web site, which this one has not.")
         self._door, self._say, self._url, self._site = robot.door, robot.say, url, robot.site
-        self._turns = robot.turns
+        self._turns, self._key = robot.turns, robot.key
         self._path = f"/{url.path}"
         self._desk = Desk(robot.door, url.keys)
         self._streams = TopicStreams(robot.door, url.rate)
@@ -94,7 +94,8 @@ class RestGateway:
 
     def guide(self) -> str:
         """How a client uses it now."""
-        return guide(self._site.url(self._path), offered(self._door, self._url.keys), self._url.role)
+        where = self._site.url(self._path)
+        return guide(where, offered(self._door, self._url.keys), self._url.role, self._key)
 
     def _presses_stop(self, scope: Scope) -> bool:
         path = scope["path"].rstrip("/")

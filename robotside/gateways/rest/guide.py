@@ -8,6 +8,9 @@ from collections.abc import Iterable, Iterator
 from bridge.core.identity import Role
 from robotside.gateways.payloads import offered
 from robotside.gateways.payloads.offered import Line, OfferedPayload
+from robotside.gateways.plain.visitor import STOP
+from robotside.gateways.usage_sheet.pasted import PLAIN, SHOWN, RobotKey, without_tls
+from robotside.gateways.usage_sheet.pasted import curl as options
 
 __all__ = ["guide"]
 
@@ -15,19 +18,19 @@ _CLIENT = "-H 'Client-Id: me'"
 _STAMP = '-H "Stamp: $(date +%s.%N)"'
 
 
-def guide(base: str, payloads: Iterable[OfferedPayload], role: Role | None) -> str:
-    """How to use the robot by curl. `role` is that of who shows no key, None where the address decides."""
+def guide(base: str, payloads: Iterable[OfferedPayload], role: Role | None, key: RobotKey = PLAIN) -> str:
+    """How to use the robot by curl. `role` is that of who shows no key, None where the address decides; `key` is the robot's."""
     said = "by the address that it comes from" if role is None else role.word
-    curl = "curl -sS" if not base.startswith("https:") else "curl -sS --cacert robot.pem"
+    curl = f"curl -sS{options(base, key)}"
     return "\n".join(
         [
             f"REST at {base}; {base}/docs lists all paths, {base}/openapi.json has the schemas.",
-            "Answers are JSON, or text or XML by Accept. A key goes into -H 'Authorization: Bearer KEY'; without one the role is",
+            f"Answers are JSON, or text or XML by Accept. A token goes into -H '{SHOWN}'; without one the role is",
             f"{said}. Client-Id tells programs of one machine apart: control belongs to one of them.",
             "To drive takes the header Stamp, the robot's time in seconds, of less than 0.25 s ago, from who has asked for /time.",
             "",
             f"{curl} {_CLIENT} {base}/time",
-            f"{curl} -X POST {base}/stop",
+            f"curl -sS -X POST {without_tls(base)}/stop",
             f"{curl} -H 'Accept: text/plain' {base}/robot",
             f"{curl} {base}/events?since=0",
             f"{curl} {_CLIENT} -X POST {base}/control",
@@ -55,4 +58,6 @@ def _command(curl: str, base: str, line: Line) -> str:
     kind = "services" if line.verb == offered.CALL else "topics"
     stamp = f" {_STAMP}" if line.verb == offered.PUBLISH else ""
     body = f"-H 'Content-Type: application/json' -d {shlex.quote(line.example or '{}')}"
+    if line.name == STOP:
+        curl, base = "curl -sS", without_tls(base)
     return f"{curl} {_CLIENT}{stamp} {body} {base}/{kind}{line.name}"

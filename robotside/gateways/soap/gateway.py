@@ -66,7 +66,7 @@ class SoapGateway:
         if robot.site is None:
             raise BridgeError("SOAP is served on the robot's web site, which this robot has not.")
         self._site, self._door, self._say, self._url = robot.site, robot.door, robot.say, url
-        self._turns = robot.turns
+        self._turns, self._key = robot.turns, robot.key
         self._path = f"/{url.path}"
         self._contract, self._subscriber = robot_contract(), subscriber_contract()
         self._judge = self._contract.judge()
@@ -114,7 +114,8 @@ class SoapGateway:
 
     def guide(self) -> str:
         """How a client uses it now."""
-        return guide(self._site.url(self._path), self._door, offered(self._door, self._url.keys))
+        where = self._site.url(self._path)
+        return guide(where, self._door, offered(self._door, self._url.keys), self._key)
 
     async def _check(self) -> None:
         while True:

@@ -12,6 +12,7 @@ from bridge.core.address import at_port
 from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
 from robotside.door.station_door import StationDoor
 from robotside.gateways.payloads.offered import CALL, PUBLISH, READ, Line, OfferedPayload, offered
+from robotside.gateways.usage_sheet.pasted import RobotKey, curl, without_tls
 from robotside.gateways.usage_sheet.running import Running
 
 __all__ = ["Command", "Sheet", "make_sheet", "rosbridge_message", "stop_words"]
@@ -110,20 +111,15 @@ def _reached(bridge: str, site: str) -> str:
 
 
 def _commands(site: str, cameras: Sequence[str], pin: str) -> list[Command]:
-    parts = urlsplit(site)
-    secure = parts.scheme == "https"
-    known = f" -k --pinnedpubkey {shlex.quote(f'sha256//{pin}')}" if secure and pin else ""
-    token = " -H 'Authorization: Bearer TOKEN'" if secure else ""
+    known = curl(site, RobotKey(pin))
     found = [
-        Command("STOP, from anyone and at any time", f"curl -X POST http://{parts.netloc}/stop"),
-        Command("health, for who watches over many", f"curl{known}{token} {site}/healthz"),
-        Command("this sheet as text", f"curl{known}{token} {site}/usage.txt"),
+        Command("STOP, from anyone and at any time", f"curl -X POST {without_tls(site)}/stop"),
+        Command("health, for who watches over many", f"curl{known} {site}/healthz"),
+        Command("this sheet as text", f"curl{known} {site}/usage.txt"),
     ]
     for name in cameras:
         picture = shlex.quote(f"{site}/snapshot/{name}.jpg?width=320")
-        found.append(
-            Command(f"a picture of the camera {name}", f"curl{known}{token} -o {name}.jpg {picture}")
-        )
+        found.append(Command(f"a picture of the camera {name}", f"curl{known} -o {name}.jpg {picture}"))
     return found
 
 

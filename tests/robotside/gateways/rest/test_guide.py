@@ -8,11 +8,15 @@ import shutil
 import time
 from pathlib import Path
 
+import pytest
+
 from bridge.core.identity import Role
 from bridge.msgs.pilothouse_msgs import ArmState
 from robotside.gateways.payloads.offered import offered
 from robotside.gateways.rest.guide import guide
+from robotside.gateways.usage_sheet.pasted import RobotKey
 from tests.lacking import lacking
+from tests.robotside.gateways.guided import serving_securely
 from tests.robotside.gateways.payloads.test_table import EquippedRobot
 from tests.robotside.gateways.rest.served import serving
 from tests.robotside.scene import Scene
@@ -53,10 +57,35 @@ async def test_every_line_of_the_guide_can_be_pasted_and_is_understood(tmp_path:
             assert (await web.get("guide")).text == served.rest.guide() + "\n"
 
 
+@pytest.mark.slow
+async def test_with_tls_its_lines_can_be_pasted_too_and_stop_needs_no_token(tmp_path: Path) -> None:
+    if shutil.which("curl") is None:
+        lacking("curl", "the guide is pasted into a shell with it")
+    async with asyncio.timeout(120), serving_securely(tmp_path, "rest") as (serves, guide, token):
+        lines = [line.strip() for line in guide.splitlines() if line.strip().startswith("curl")]
+        reads = [line for line in lines if " https://" in line and not line.endswith("since=0")][:4]
+        stops = [line for line in lines if line.endswith("/stop")]
+        assert len(reads) == 4
+        assert stops
+        few = asyncio.Semaphore(1)
+        for line in reads:
+            code, said = await run(line.replace("TOKEN", token), few)
+            assert (code, "trust_" in said) == (0, False), (line, said)
+        assert "trust_key" in (await run(reads[0], few))[1], "TOKEN itself is none"
+        assert not serves.station.controls.stopped
+        for line in stops:
+            code, said = await run(line, few)
+            assert (code, json.loads(said)["success"]) == (0, True), (line, said)
+        assert serves.station.controls.stopped
+
+
 def test_it_says_who_may_do_what_and_leaves_out_what_the_robot_has_not(tmp_path: Path) -> None:
     scene = Scene(EquippedRobot(), tmp_path)
-    text = guide("https://192.0.2.7:8080/api", offered(scene.door), Role.WATCH)
+    text = guide("https://192.0.2.7:8080/api", offered(scene.door), Role.WATCH, RobotKey("pin="))
     assert "the role is\nwatch." in text
-    assert "curl -sS --cacert robot.pem -X POST https://192.0.2.7:8080/api/stop" in text
+    assert "curl -sS -X POST http://192.0.2.7:8080/api/stop" in text
+    secure = [line for line in text.splitlines() if line.strip().startswith("curl") and "/stop" not in line]
+    known = "curl -sS -k --pinnedpubkey sha256//pin= -H 'Authorization: Bearer TOKEN' "
+    assert all(line.strip().startswith(known) and "https://" in line for line in secure)
     assert "\narm: an arm with a gripper" not in text, "this robot has told of none"
     assert "by the address that it comes from" in guide("http://127.0.0.1:8080/api", (), None)
