@@ -67,7 +67,7 @@ _HERE = ("127.0.0.1", "localhost", "::1")
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line; returns 0 when done, 2 for the user's mistake, 1 for a fault."""
-    parent = os.getppid()
+    parent, options = os.getppid(), argparse.Namespace()
     try:
         options = said.read(argv, _ask)
         if options.command == "offer":
@@ -77,7 +77,8 @@ def main(argv: Sequence[str] | None = None) -> int:
             return int(options.run(options))
         return _serve(options, lambda: not options.with_parent or os.getppid() == parent)
     except (UserMistake, BadConfig, BadCertificate, BridgeError, FileFault) as problem:
-        print(f"robotside: {problem}", file=sys.stderr)
+        again = " `serve --ask` asks again." if getattr(options, "from_kept", False) else ""
+        print(f"robotside: {problem}{again}", file=sys.stderr)
         return 2
     except NotAnswered:
         print("robotside: Nothing is served, and nothing was kept.", file=sys.stderr)

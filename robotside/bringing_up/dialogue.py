@@ -74,14 +74,16 @@ def chosen(simulated: Simulated, known: Config) -> Choice:
     world = _world(simulated, offered, serve) if offered else ""
     payloads, without = _payloads(offered, serve) if offered else ((), serve.without)
     host, pair = _reach(serve)
+    port = _port("Port of rosbridge, for the app and ROS tools", serve.port, 9090)
+    http_port = _port("Port of the web site, with STOP, cameras and usage", serve.http_port, 8080, given=port)
     return Choice(
         robot,
         world,
         payloads,
         without,
         host,
-        _port("Port of rosbridge, for the app and ROS tools", serve.port, 9090),
-        _port("Port of the web site, with STOP, cameras and usage", serve.http_port, 8080),
+        port,
+        http_port,
         pair,
         _gateways(known.gateways),
     )
@@ -159,8 +161,14 @@ def _reach(serve: ServeSettings) -> tuple[str, bool]:
     return host, serve.pair if host == old and serve.host else not is_here(host)
 
 
-def _port(message: str, old: int | None, usual: int) -> int:
-    return int(_text(f"{message}:", str(usual if old is None else old), _port_problem))
+def _port(message: str, old: int | None, usual: int, *, given: int = 0) -> int:
+    """A port other than the one that is `given` to rosbridge, 0 for a free one each."""
+
+    def problem(text: str) -> str:
+        taken = given and not _port_problem(text) and int(text) == given
+        return f"Port {given} is that of rosbridge; take another." if taken else _port_problem(text)
+
+    return int(_text(f"{message}:", str(usual if old is None else old), problem))
 
 
 def _gateways(known: Mapping[str, GatewaySettings]) -> dict[str, GatewaySettings]:

@@ -59,6 +59,7 @@ def settle(options: argparse.Namespace, environment: Mapping[str, str], ask: Ask
         ask(kept)
     if not options.config and options.robot is None and kept.is_file():
         options.config = [kept]
+        options.from_kept = True
     options.settings = load(options.config[0]) if options.config else DEFAULT_CONFIG
     options.blame = _from_file(options, options.settings)
     for name, value in _DEFAULTS.items():

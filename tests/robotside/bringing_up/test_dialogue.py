@@ -122,6 +122,16 @@ def test_a_wrong_port_or_url_is_not_taken(simulated: Simulated) -> None:
     assert (choice.port, choice.gateways["mqtt"].url) == (7000, "own://127.0.0.1:0")
 
 
+def test_the_port_of_rosbridge_is_not_taken_again_for_the_web_site(simulated: Simulated) -> None:
+    ports = (CLEAR + "7000" + ENTER, CLEAR + "7000" + ENTER, CLEAR + "7001" + ENTER, ENTER)
+    with keys(*ENTER * 4, *ports):
+        choice = chosen(simulated, Config())
+    assert (choice.port, choice.http_port) == (7000, 7001)
+    with keys(*ENTER * 4, CLEAR + "0" + ENTER, CLEAR + "0" + ENTER, ENTER):
+        choice = chosen(simulated, Config())
+    assert (choice.port, choice.http_port) == (0, 0), "each a free one"
+
+
 def test_a_protocol_whose_library_is_missing_cannot_be_chosen(
     simulated: Simulated, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from robotside.__main__ import main
 from robotside.bringing_up.robot_file import kept_at
 from robotside.bringing_up.settling import VARIABLES, settle
 from robotside.commands.user_mistake import UserMistake
@@ -278,3 +279,18 @@ def test_gateways_in_the_environment_that_are_given_count_alone(kept: Path) -> N
     options = read(["serve"])
     found = wishes(options, {"PILOTHOUSE_GATEWAYS": "mqtt=mqtt://given"})
     assert [url.shown for _, url in found] == ["mqtt://given:1883"]
+
+
+@pytest.mark.parametrize("option", ["--state", "--config"])
+def test_a_start_that_a_kept_file_makes_fail_says_what_asks_again(
+    option: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = kept_at(tmp_path)
+    file.write_text("[serve]\nrobot = 'sim:nobody'\n")
+    where = tmp_path if option == "--state" else file
+    assert main(["serve", "--state", str(tmp_path / "other"), option, str(where)]) == 2
+    said = capsys.readouterr().err
+    assert "nobody" in said
+    assert said.endswith(" `serve --ask` asks again.\n") is (option == "--state"), (
+        "a file of the user's own is theirs to mend"
+    )
