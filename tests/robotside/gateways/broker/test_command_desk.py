@@ -17,6 +17,7 @@ from bridge.core.identity import Role
 from bridge.core.topics import CAMERA
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.sensor_msgs import CompressedImage
+from robotside.gateways.broker import command_desk
 from robotside.gateways.broker.command_desk import (
     BYE,
     CALL,
@@ -184,6 +185,17 @@ async def test_a_client_has_a_bounded_number_of_goals(desk: Desk) -> None:
         desk.obey(RUN, RUN_TASK, HOLD, id=b"%d" % number)
     with pytest.raises(Refused, match=f"{MAX_GOALS} goals of this client"):
         desk.obey(RUN, RUN_TASK, HOLD, id=b"more")
+
+
+async def test_calls_that_wait_for_their_answer_are_bounded_and_stop_is_pressed_all_the_same(
+    desk: Desk, scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(command_desk, "MAX_CALLS", 1)
+    desk.obey(RUN, RUN_TASK, HOLD, id=b"1")
+    with pytest.raises(Refused, match="1 calls by this gateway wait"):
+        desk.obey(CALL, "/control/acquire", b"{}")
+    desk.desk.press_stop(desk.command(CALL, "/stop"))
+    assert scene.station.controls.stopped
 
 
 async def test_a_topic_is_made_while_somebody_there_asks_for_it(desk: Desk, scene: Scene) -> None:

@@ -24,6 +24,7 @@ from robotside.gateways.kafka import kafka_line
 from robotside.gateways.kafka.adapter import ADAPTER
 from robotside.gateways.kafka.kafka_line import (
     MAX_BEHIND,
+    MAX_REPLIES,
     MAX_UNCONFIRMED,
     KafkaLine,
     NotHeard,
@@ -214,3 +215,12 @@ async def test_of_a_flood_that_was_fetched_at_once_one_record_is_heard_in_each_s
         assert len(heard) <= step + 1
     await listening
     assert heard == list(range(100))
+
+
+async def test_answers_that_wait_to_be_sent_are_bounded_and_the_oldest_go() -> None:
+    made = line()
+    made._came_up()
+    for number in range(MAX_REPLIES + 10):
+        made.reply(Record("t", b"%d" % number))
+    assert len(made._replies) == MAX_REPLIES
+    assert made._replies[0].value == b"10"

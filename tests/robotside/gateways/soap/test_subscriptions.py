@@ -6,6 +6,7 @@ import asyncio
 
 import pytest
 
+from bridge.core.codes import Code
 from bridge.core.errors import Refused
 from bridge.core.identity import STRANGER, Role
 from bridge.core.robot_catalogue import Operator
@@ -13,7 +14,13 @@ from bridge.msgs.pilothouse_msgs import Event, TagRead
 from robotside.gateways.payloads.table import KEYS
 from robotside.gateways.plain.outbox import MAX_EVENTS
 from robotside.gateways.soap import subscriptions as module
-from robotside.gateways.soap.subscriptions import MAX_PER_HOST, MAX_SUBSCRIPTIONS, Subscribed, Subscriptions
+from robotside.gateways.soap.subscriptions import (
+    MAX_PER_HOST,
+    MAX_SUBSCRIPTIONS,
+    Subscribed,
+    Subscriptions,
+    readable,
+)
 from tests.robotside.gateways.soap.served import Gate, Served, serving
 from tests.robotside.scene import Scene
 
@@ -126,3 +133,10 @@ async def _by_its_id(served: Served) -> None:
     for name, said in (("/nowhere", "no topic"), ("/cmd_vel", "no topic"), ("", "topic")):
         assert said in (await served.ask("Subscribe", topic=name)).fault[1]
     assert "one topic" in (await served.ask("Subscribe")).fault[1]
+
+
+def test_who_has_no_role_reads_and_subscribes_to_nothing(scene: Scene) -> None:
+    nobody = scene.door.join("192.0.2.9:1", role=Role.NONE)
+    with pytest.raises(Refused) as refused:
+        readable(scene.door, KEYS, nobody, "/odom")
+    assert refused.value.args[0].code == Code.TRUST_UNKNOWN
