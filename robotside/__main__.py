@@ -156,6 +156,25 @@ class _Fleet:
         ports: tuple[int, int],
         kept: ExitStack,
     ) -> StationServer:
+        station = self._station(number, one, robot, config, state, kept)
+        addresses = Addresses(self._options.host, *ports)
+        return StationServer(
+            station,
+            self._clock,
+            self._wall,
+            addresses,
+            keys=self._keys(state, station, config),
+            origins=self._options.allow_origin,
+            gateways=for_robot(self._options.gateways, number),
+            required=required(self._options),
+            mdns=self._options.mdns,
+            without=self._options.without,
+            keep=self._keep,
+        )
+
+    def _station(
+        self, number: int, one: One, robot: Robot, config: Config, state: Path, kept: ExitStack
+    ) -> Station:
         call_soon = asyncio.get_running_loop().call_soon_threadsafe
         records = open_records(state, config.database.url, call_soon, backups=config.database.backups)
         kept.callback(records.close)
@@ -174,20 +193,7 @@ class _Fleet:
         )
         take_over(robot, records, station.events.say)
         station.bus.subscribe("/events", partial(_tell_news, station), replay=False)
-        addresses = Addresses(self._options.host, *ports)
-        return StationServer(
-            station,
-            self._clock,
-            self._wall,
-            addresses,
-            keys=self._keys(state, station, config),
-            origins=self._options.allow_origin,
-            gateways=for_robot(self._options.gateways, number),
-            required=required(self._options),
-            mdns=self._options.mdns,
-            without=self._options.without,
-            keep=self._keep,
-        )
+        return station
 
     def _keys(self, state: Path, station: Station, config: Config) -> StationKeys:
         plain = Role.read(self._options.plain) if self._options.plain else None

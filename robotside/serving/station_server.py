@@ -104,31 +104,23 @@ class StationServer:
         self._now = lambda: clock.at(wall())
         self._alone = FleetServer([self], clock, wall, wanted=wanted)
         self._pictures = PictureScaler()
-        tls, plain_from = (keys.context, keys.plain_from) if keys else (None, anyone)
-        pages = PagePolicy(origins, keys.names if keys else (), web_port=lambda: self._http.port)
+        mounts = Mounts(lambda: addresses.http)
+        around = self._around(
+            PagePolicy(origins, keys.names if keys else (), web_port=lambda: self._http.port), mounts
+        )
         self._rosbridge = RosbridgeGateway(
             self.door,
             addresses.host,
             addresses.port,
             self._pictures,
             clock.real,
-            tls=tls,
-            plain_from=plain_from,
-            pages=pages,
+            tls=around.tls,
+            plain_from=around.plain_from,
+            pages=around.pages,
             roll=lambda: [each.hello() for each in self._together],
         )
         self.server = self._rosbridge.server
         """The rosbridge server."""
-        mounts = Mounts(lambda: addresses.http)
-        around = Surroundings(
-            self.door,
-            station.events.say,
-            tls=tls,
-            plain_from=plain_from,
-            pages=pages,
-            key=keys.key if keys else PLAIN,
-            site=mounts,
-        )
         self._http = self._web_site(around, mounts)
         self._gateways: tuple[Gateway, ...] = (self._http, self._rosbridge)
         """In the order in which they start."""
@@ -139,6 +131,19 @@ class StationServer:
         self.payloads = PayloadSwitches(self.door, station, self._board.update)
         """Which payloads are on."""
         self._left_out = PayloadsLeftOut(self.payloads, station, without)
+
+    def _around(self, pages: PagePolicy, mounts: Mounts) -> Surroundings:
+        """What gateways are given of the robot."""
+        keys = self.keys
+        return Surroundings(
+            self.door,
+            self.station.events.say,
+            tls=keys.context if keys else None,
+            plain_from=keys.plain_from if keys else anyone,
+            pages=pages,
+            key=keys.key if keys else PLAIN,
+            site=mounts,
+        )
 
     def _web_site(self, around: Surroundings, mounts: Mounts) -> HttpGateway:
         keys, addresses = self.keys, self.addresses

@@ -22,12 +22,13 @@ class Remarks:
         self._say, self._clock = say, clock
         self._next: dict[str, float] = {}
 
-    def make(self, key: str, remark: Problem) -> None:
-        """Make a remark unless one of the same `key` was made lately; an empty one is none."""
+    def make(self, key: str, remark: Problem) -> Problem:
+        """Make a remark unless one of the same `key` was made lately; an empty one is none. Returns it in any case."""
         now = self._clock()
         if remark and now >= self._next.get(key, -math.inf):
             self._next[key] = now + REMARK_PERIOD
             self._say("command", remark, "warn")
+        return remark
 
     def forget(self, key: str) -> None:
         """No more remarks of `key` are to come."""

@@ -146,15 +146,11 @@ class Station:
             stamp = msg.header.stamp.seconds
         problem: Problem = ""
         if isinstance(msg, Twist | Manoeuvre):
-            problem = self._guard.run(lambda: self._obey(client, msg, stamp))
+            tell = partial(self._remarks.make, client.id)
+            problem = self._guard.run(lambda: tell(self.teleop.drive(client, msg, stamp)))
         elif isinstance(msg, PoseWithCovarianceStamped):
             problem = self._placing.place(client, Pose2.from_msg(msg.pose.pose))
         self.publish_control()
-        return problem
-
-    def _obey(self, client: Operator, order: Twist | Manoeuvre, stamp: float | None) -> Problem:
-        problem = self.teleop.drive(client, order, stamp)
-        self._remarks.make(client.id, problem)
         return problem
 
     def on_gone(self, client: Operator) -> None:

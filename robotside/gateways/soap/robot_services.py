@@ -203,7 +203,7 @@ class RobotServices:
 
     async def _info(self, call: Call) -> messages.Info:
         self._may_read(call, "/robot/info")
-        info, arm = self._door.info, self._carried(call, "/arm", msgs.ArmState)
+        info, arm = self._door.info, _carried(self._door, self._keys, call, "/arm", msgs.ArmState)
         return messages.Info(
             info.name,
             info.kind,
@@ -221,9 +221,12 @@ class RobotServices:
 
     async def _status(self, call: Call) -> messages.Status:
         self._may_read(call, "/control/status")
-        control = self._carried(call, "/control/status", msgs.ControlStatus) or msgs.ControlStatus()
-        task = self._carried(call, "/task/status", msgs.TaskStatus) or msgs.TaskStatus()
-        battery = self._carried(call, "/battery_state", BatteryState)
+        control = (
+            _carried(self._door, self._keys, call, "/control/status", msgs.ControlStatus)
+            or msgs.ControlStatus()
+        )
+        task = _carried(self._door, self._keys, call, "/task/status", msgs.TaskStatus) or msgs.TaskStatus()
+        battery = _carried(self._door, self._keys, call, "/battery_state", BatteryState)
         return messages.Status(
             control.mode,
             control.driver,
@@ -327,12 +330,13 @@ class RobotServices:
     def _may_read(self, call: Call, topic: str) -> Topic:
         return readable(self._door, self._keys, call.operator, topic)
 
-    def _carried(self, call: Call, topic: str, cls: type[M]) -> M | None:
-        """The newest message of a topic as part of an answer; None where there is none or this gateway does not carry it."""
-        if key_of(topic) not in self._keys:
-            return None
-        self._door.check(call.operator, "subscribe", topic)
-        return _last(self._door, topic, cls)
+
+def _carried(door: StationDoor, keys: Collection[str], call: Call, topic: str, cls: type[M]) -> M | None:
+    """The newest message of a topic as part of an answer; None where there is none or this gateway does not carry it."""
+    if key_of(topic) not in keys:
+        return None
+    door.check(call.operator, "subscribe", topic)
+    return _last(door, topic, cls)
 
 
 def _last(door: StationDoor, topic: str, cls: type[M]) -> M | None:

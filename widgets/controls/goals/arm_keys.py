@@ -204,7 +204,7 @@ class ArmKeys(Grip, Gauge):
     def _put(self, key: PoseKey, box: tuple[float, float, float, float]) -> None:
         key.pos, key.size = box[:2], box[2:]
         key.flow = "horizontal" if key.width >= dp(126) else "vertical"
-        if key.name and " " in key.text and wide(key.text, sp(14), bold=True) > key.width - dp(20):
+        if "_" in key.name and wide(key.text, sp(14), bold=True) > key.width - dp(20):
             key.text = key.text.replace(" ", "\n")
             if key.height < dp(HIGH):
                 key.icon = ""  # a thick border marks it too, and its words are as large as the others'

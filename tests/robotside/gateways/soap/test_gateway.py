@@ -153,9 +153,9 @@ async def test_what_is_wrong_is_a_fault_that_says_so_and_moves_nothing(served: S
     assert served.scene.robot.at_rest
 
 
-async def test_a_message_is_utf_8_whatever_it_says_itself(served: Served) -> None:
+async def test_a_message_that_says_that_it_is_not_utf_8_is_refused(served: Served) -> None:
     raw = '<?xml version="1.0" encoding="ISO-8859-1"?>' + message(body("GoTo", place="Café"))
-    assert "'Café'" in (await served.post(raw.encode())).fault[1]
+    assert "UTF-8" in (await served.post(raw.encode())).fault[1]
 
 
 async def test_a_comment_in_a_value_hides_no_part_of_it(served: Served) -> None:
