@@ -39,15 +39,20 @@ class Terminal:
             "PILOTHOUSE_NO_ASK": "",
         }
         command = [sys.executable, "-m", "robotside", *words]
-        self.process = subprocess.Popen(
-            command,
-            stdin=theirs,
-            stdout=theirs,
-            stderr=theirs,
-            cwd=home,
-            env={**os.environ, **own},
-            start_new_session=True,
-        )
+        # who runs the tests by nohup has it ignored, and what is ignored stays so in a child
+        before = signal.signal(signal.SIGHUP, signal.SIG_DFL)
+        try:
+            self.process = subprocess.Popen(
+                command,
+                stdin=theirs,
+                stdout=theirs,
+                stderr=theirs,
+                cwd=home,
+                env={**os.environ, **own},
+                start_new_session=True,
+            )
+        finally:
+            signal.signal(signal.SIGHUP, before)
         os.close(theirs)
         self.seen = b""
         self.told = False
