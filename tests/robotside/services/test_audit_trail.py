@@ -175,7 +175,7 @@ async def test_stop_without_a_session_is_recorded(scene: Scene) -> None:
     stranger, known = Operator("1", "192.0.2.9:1", 0.0, way="http"), anna(scene)
     known.way = "http"
     await scene.door.stop(stranger, "Ben")
-    await scene.door.stop(known, "Somebody else")
+    await scene.door.stop(known, "Another person")
     assert scene.station.controls.stopped_by == "Ben at 192.0.2.9 (not proven)"
     assert [
         (row.operation, row.outcome, row.person_id, row.name, row.role, row.way, row.address)

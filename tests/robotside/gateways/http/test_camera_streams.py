@@ -104,7 +104,7 @@ async def test_a_stream_shows_each_picture_at_once_and_lets_the_camera_rest_afte
 
 async def test_two_viewers_see_the_same_camera_each_in_its_own_way(tmp_path: Path) -> None:
     async with filming(tmp_path) as (robot, serves, web):
-        async with looking(web) as whole, looking(web, f"{STREAM}?width=160&quality=30&other=1") as small:
+        async with looking(web) as whole, looking(web, f"{STREAM}?width=160&quality=30") as small:
             shoot(serves, PHOTO)
             assert await whole.picture() == PHOTO
             assert size(await small.picture()) == (160, 120)
