@@ -11,6 +11,7 @@ import pytest
 from examples import courier
 from examples.protocols import __main__ as protocols
 from examples.protocols.ways import PROTOCOLS
+from tests.lacking import package
 
 
 @pytest.fixture
@@ -45,7 +46,7 @@ def test_where_nobody_listens_it_says_so(
     protocol: str, nobody: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     if protocol == "soap":
-        pytest.importorskip("zeep")
+        package("zeep")
     url = WAYS[protocol].format(nobody)
     assert said(monkeypatch, capsys, url).lower() == f"{url} cannot be reached: connection refused."
 
@@ -95,6 +96,6 @@ def test_the_courier_says_it_too(
 def test_every_protocol_says_what_its_library_raises() -> None:
     for name in PROTOCOLS:
         if name == "soap":
-            pytest.importorskip("zeep")
+            package("zeep")
         module = __import__(f"examples.protocols.{name}", fromlist=["OWN_FAULTS"])
         assert all(issubclass(each, Exception) for each in module.OWN_FAULTS)
