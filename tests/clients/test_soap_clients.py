@@ -115,7 +115,9 @@ async def test_a_program_on_zeep(robot: Robot) -> None:
         told["points"] = ask.StartTask(
             task="go_to", goal=[{"x": 1.0, "y": 0.5}], instead=True, _soapheaders=caller
         )
-        told["published"] = ask.PublishMessage(topic="/goal_pose", message='{"header": {"frame_id": "map"}}')
+        told["published"] = ask.PublishMessage(
+            topic="/goal_pose", message='{"header": {"frame_id": "map"}}', _soapheaders=caller
+        )
         told["answer"] = json.loads(ask.CallService(service="/history/get"))
         told["stop"] = ask.Stop()
         told["status"] = ask.GetStatus()
@@ -138,7 +140,7 @@ async def test_a_program_on_zeep(robot: Robot) -> None:
     assert {each.topic for each in told["messages"]} == {"/task/status", "/control/status"}
     assert told["message"]["places"] == ["Office 12", "Lab"]
     assert (told["tour"], told["points"]) == ("Guided tour started.", "Way to the goal started.")
-    assert [run["order"]["task"] for run in told["answer"]["runs"]] == ["go_to", "guide", "deliver"]
+    assert [run["order"]["task"] for run in told["answer"]["runs"]] == ["go_to", "go_to", "guide", "deliver"]
     assert told["stop"] == "Stopped."
     assert (told["status"].stopped, told["status"].mode) == (True, "STOPPED")
     assert told["guide"] == robot.guide

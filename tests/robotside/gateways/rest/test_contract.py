@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from bridge.msgs.pilothouse_msgs import ArmState
+from robotside.gateways.plain import callers
 from tests.robotside.gateways.payloads.test_table import EquippedRobot
 from tests.robotside.gateways.rest.served import serving
 from tests.robotside.scene import Scene
@@ -36,7 +37,9 @@ RUNS = {
 
 
 @pytest.mark.parametrize("how", RUNS)
-async def test_it_answers_as_it_says(tmp_path: Path, how: str) -> None:
+async def test_it_answers_as_it_says(tmp_path: Path, how: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    for most in ("MAX_OF_HOST", "MAX_VISITORS"):  # each of its requests names another client
+        monkeypatch.setattr(callers, most, 1_000_000)
     scene = Scene(EquippedRobot(), tmp_path / "state")
     scene.run(1.0)
     scene.station.bus.publish("/arm", ArmState())
