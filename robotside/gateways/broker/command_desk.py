@@ -28,7 +28,6 @@ __all__ = [
     "VERBS",
     "Command",
     "CommandDesk",
-    "read_stamp",
 ]
 
 PUBLISH, CALL, RUN, CANCEL, READ, LEAVE, BYE = "publish", "call", "run", "cancel", "read", "leave", "bye"
@@ -185,19 +184,3 @@ async def _send(command: Command, answer: Awaitable[bytes]) -> None:
 
 def _confirm(command: Command, text: str) -> None:
     command.answer(msgspec.json.encode({"success": True, "message": text}))
-
-
-def read_stamp(text: str | None, where: str) -> float:
-    """When a command was meant [s, operators' clock], NaN where that was not said; raises Refused for what is no time.
-
-    `where` is what holds it, as in `header`.
-    """
-    if text is None:
-        return math.nan
-    try:
-        stamp = float(text)
-    except ValueError:
-        stamp = math.nan
-    if not math.isfinite(stamp):
-        raise Refused(f"The {where} stamp is a time in seconds, not {text[:60]!r}.")
-    return stamp

@@ -6,9 +6,10 @@ import asyncio
 import logging
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
+from typing import Any
 
-from bridge.core.async_tasks import is_cancelled_from_outside
+from bridge.core.async_tasks import cancel_all, is_cancelled_from_outside
 
 __all__ = ["Line"]
 
@@ -94,6 +95,16 @@ class Line(ABC):
         """To be called by `_connect` when all that is wanted can be heard."""
         self._up_since = asyncio.get_running_loop().time()
         self._fault = ""
+
+    async def _until_one_ends(self, *works: Coroutine[Any, Any, None]) -> None:
+        """Do these side by side until one of them ends, and end the others; raises what that one raised."""
+        ends = [asyncio.create_task(work) for work in works]
+        try:
+            done, _ = await asyncio.wait(ends, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            await cancel_all(ends)
+        for ended in done:
+            ended.result()
 
     def _look_alive(self) -> None:
         """To be called by `_connect` when it begins to listen: from now on it counts how long the program stands still."""

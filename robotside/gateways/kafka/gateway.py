@@ -18,7 +18,7 @@ from bridge.core.errors import BridgeError
 from bridge.core.identity import Role
 from robotside.core.notice import Notice
 from robotside.gateways.adapter import Surroundings
-from robotside.gateways.broker.command_desk import CALL, Command, CommandDesk, read_stamp
+from robotside.gateways.broker.command_desk import CALL, Command, CommandDesk
 from robotside.gateways.broker.losses import Losses, say_open
 from robotside.gateways.broker.namesakes import OFFLINE, ONLINE, Namesakes
 from robotside.gateways.broker.topic_feed import Sent, TopicFeed
@@ -28,6 +28,7 @@ from robotside.gateways.kafka.kafka_line import KafkaLine, Record
 from robotside.gateways.kafka.own_cluster import OwnCluster
 from robotside.gateways.kafka.topic_names import MAX_HEADER, Asked, TopicNames, client_of, read_headers
 from robotside.gateways.payloads.offered import offered
+from robotside.gateways.plain.stamps import read_stamp
 from robotside.gateways.plain.visitor import STOP, refusal
 from robotside.gateways.plain.visitors import Visitors
 
@@ -193,7 +194,7 @@ class KafkaGateway:
             command = self._command(self._commands, client, asked, record)
             answer = command.answer
             self._namesakes.check()
-            self._desk.obey(command._replace(stamp=read_stamp(asked.stamp, "header")))
+            self._desk.obey(command._replace(stamp=read_stamp(asked.stamp, "header stamp")))
         except BridgeError as error:
             answer(refusal(error))
 

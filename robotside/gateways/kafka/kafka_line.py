@@ -180,19 +180,12 @@ class KafkaLine(Line):
             if self._on_up is not None:
                 await self._on_up()
             self._look_alive()
-            works = (
+            await self._until_one_ends(
                 self._listen(consumer),
                 self._watch_loop(),
                 self._send_replies(producer),
                 self._look(consumer),
             )
-            ends = [asyncio.create_task(work) for work in works]
-            try:
-                done, _ = await asyncio.wait(ends, return_when=asyncio.FIRST_COMPLETED)
-            finally:
-                await cancel_all(ends)
-            for ended in done:
-                ended.result()
 
     def _forget(self) -> None:
         self._producer = None

@@ -20,7 +20,7 @@ from paho.mqtt.properties import Properties
 from paho.mqtt.reasoncodes import ReasonCode
 from paho.mqtt.subscribeoptions import SubscribeOptions
 
-from bridge.core.async_tasks import cancel_all, is_cancelled_from_outside
+from bridge.core.async_tasks import is_cancelled_from_outside
 from robotside.gateways.broker.line import Line
 from robotside.gateways.gateway_url import GatewayUrl
 from robotside.gateways.mqtt.library_client import LibraryClient
@@ -163,14 +163,7 @@ class BrokerLine(Line):
             if self._on_up is not None:
                 await self._on_up()
             self._look_alive()
-            works = (self._listen(client), self._watch_loop(), self._send_replies(client))
-            ends = [asyncio.create_task(work) for work in works]
-            try:
-                done, _ = await asyncio.wait(ends, return_when=asyncio.FIRST_COMPLETED)
-            finally:
-                await cancel_all(ends)
-            for ended in done:
-                ended.result()
+            await self._until_one_ends(self._listen(client), self._watch_loop(), self._send_replies(client))
 
     def _forget(self) -> None:
         self._client = None

@@ -17,7 +17,7 @@ from bridge.core.errors import BridgeError, Refused
 from bridge.core.identity import Role
 from robotside.core.notice import Notice
 from robotside.gateways.adapter import Surroundings
-from robotside.gateways.broker.command_desk import CALL, Command, CommandDesk, read_stamp
+from robotside.gateways.broker.command_desk import CALL, Command, CommandDesk
 from robotside.gateways.broker.losses import Losses, say_open
 from robotside.gateways.broker.namesakes import LOST, OFFLINE, ONLINE, Namesakes
 from robotside.gateways.broker.topic_feed import Sent, TopicFeed
@@ -27,6 +27,7 @@ from robotside.gateways.mqtt.guide import guide
 from robotside.gateways.mqtt.own_broker import OwnBroker
 from robotside.gateways.mqtt.topic_names import PROBE, Asked, TopicNames
 from robotside.gateways.payloads.offered import offered
+from robotside.gateways.plain.stamps import read_stamp
 from robotside.gateways.plain.visitor import STOP, refusal
 from robotside.gateways.plain.visitors import Visitors
 
@@ -214,7 +215,9 @@ class MqttGateway:
             what = command.name or command.verb
             said = f"{what} is not done: a command must not be retained by the broker."
             raise Refused(Notice(Code.GATEWAY_RETAINED, said, operation=what))
-        self._desk.obey(command._replace(stamp=read_stamp(heard.properties.get("stamp"), "user property")))
+        self._desk.obey(
+            command._replace(stamp=read_stamp(heard.properties.get("stamp"), "user property stamp"))
+        )
 
     def _command(self, line: BrokerLine, asked: Asked, heard: Heard) -> Command:
         """What was asked for by a line, by which it is answered; without a stamp."""

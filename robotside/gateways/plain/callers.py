@@ -12,8 +12,8 @@ from bridge.core.robot_catalogue import Operator
 from bridge.server.reception.reception import neighbourhood
 from robotside.core.notice import Notice
 from robotside.door.station_door import StationDoor
+from robotside.gateways.plain.known_clients import MAX_VISITORS, SILENT_TIMEOUT, KnownClients
 from robotside.gateways.plain.visitor import Visitor
-from robotside.gateways.plain.visitors import IDLE_TIMEOUT, MAX_VISITORS, SILENT_TIMEOUT
 
 __all__ = ["MAX_OF_HOST", "Callers", "stand_in"]
 
@@ -39,16 +39,13 @@ def stand_in(door: StationDoor, operator: Operator) -> Operator:
     return other
 
 
-class Callers:
+class Callers(KnownClients[_Key]):
     """Those that asked lately."""
 
     def __init__(self, door: StationDoor, keys: Collection[str]) -> None:
         """They reach the payloads `keys`."""
-        self._door, self._keys = door, keys
-        self._known: dict[_Key, Visitor] = {}
-
-    def __len__(self) -> int:
-        return len(self._known)
+        super().__init__(door)
+        self._keys = keys
 
     def visit(
         self, operator: Operator, client_id: str, stay: Callable[[Operator], Operator], name: str = ""
@@ -65,8 +62,8 @@ class Callers:
             visitor = None
         if visitor is None:
             self._make_room(key.host, operator)
-            visitor = self._known[key] = self.newcomer(stay(operator), name)
-            visitor.operator.on_expelled = lambda: self._leave(key)
+            visitor = self.newcomer(stay(operator), name)
+            self._keep(key, visitor)
         visitor.heard()
         return visitor
 
@@ -79,23 +76,6 @@ class Callers:
     def leave(self, operator: Operator, client_id: str) -> None:
         """That client is gone, if it was there."""
         self._leave(_key(operator, client_id))
-
-    def leave_silent(self) -> None:
-        """Who was silent for too long is gone."""
-        now = self._door.now()
-        for key, visitor in list(self._known.items()):
-            if now - visitor.operator.last_heard > IDLE_TIMEOUT:
-                self._leave(key)
-
-    def leave_all(self) -> None:
-        """All of them are gone: a robot that one of them drives stops."""
-        for key in list(self._known):
-            self._leave(key)
-
-    def _leave(self, key: _Key) -> None:
-        visitor = self._known.pop(key, None)
-        if visitor is not None:
-            visitor.leave()
 
     def _make_room(self, host: str, newcomer: Operator) -> None:
         if not newcomer.identity.proven:

@@ -11,22 +11,17 @@ from bridge.core.errors import Refused
 from bridge.core.identity import Role
 from robotside.core.notice import Notice
 from robotside.door.station_door import StationDoor
+from robotside.gateways.plain.known_clients import MAX_VISITORS, SILENT_TIMEOUT, KnownClients
 from robotside.gateways.plain.visitor import Visitor
 from robotside.trust.attempt_limit import host_of
 
-__all__ = ["IDLE_TIMEOUT", "MAX_VISITORS", "SHARE_OF_HOST", "Visitors"]
+__all__ = ["SHARE_OF_HOST", "Visitors"]
 
-MAX_VISITORS = 64
-"""Clients of one gateway at a time."""
 SHARE_OF_HOST = 16
 """Clients without a key of one host at a time, where hosts are known: names can be made up."""
-IDLE_TIMEOUT = 60.0
-"""A client that is silent for this long is gone [s]; its control has lapsed long before."""
-SILENT_TIMEOUT = 5.0
-"""One that is silent for this long yields to a newcomer where all places are taken [s]."""
 
 
-class Visitors:
+class Visitors(KnownClients[tuple[str, str, str]]):
     """The clients that a broker passes on."""
 
     def __init__(
@@ -46,13 +41,9 @@ class Visitors:
         of its own; where all do (`hosts`), those of one host without a key have a share of the places, and
         nothing proves the address.
         """
-        self._hosts = hosts
-        self._door, self._way, self._address, self._keys = door, way, address, keys
-        self._role, self._secure = role, secure
-        self._known: dict[tuple[str, str, str], Visitor] = {}
-
-    def __len__(self) -> int:
-        return len(self._known)
+        super().__init__(door)
+        self._way, self._address, self._keys = way, address, keys
+        self._role, self._secure, self._hosts = role, secure, hosts
 
     def visit(self, name: str, token: str = "", address: str = "") -> Visitor:
         """The client of that name and token, from whom a message came. Raises Refused for a wrong token, or without room.
@@ -68,8 +59,7 @@ class Visitors:
             except Refused:
                 visitor.leave()
                 raise
-            self._known[key] = visitor
-            visitor.operator.on_expelled = lambda: self._leave(key)
+            self._keep(key, visitor)
         visitor.heard()
         return visitor
 
@@ -96,23 +86,6 @@ class Visitors:
     def leave_name(self, name: str, token: str = "", address: str = "") -> None:
         """The client of that name and token is gone, if it was there."""
         self._leave((_host(address), name, token))
-
-    def leave_silent(self) -> None:
-        """Clients that are silent for `IDLE_TIMEOUT` are gone; to be called every second or so."""
-        now = self._door.now()
-        for key, visitor in list(self._known.items()):
-            if now - visitor.operator.last_heard > IDLE_TIMEOUT:
-                self._leave(key)
-
-    def leave_all(self) -> None:
-        """The broker is gone, and all of them with it: a robot that one of them drives stops."""
-        for key in list(self._known):
-            self._leave(key)
-
-    def _leave(self, key: tuple[str, str, str]) -> None:
-        visitor = self._known.pop(key, None)
-        if visitor is not None:
-            visitor.leave()
 
     def _rank(self, visitor: Visitor) -> tuple[bool, Role]:
         operator = visitor.operator

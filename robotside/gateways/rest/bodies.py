@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from starlette.requests import Request
@@ -10,6 +9,7 @@ from starlette.requests import Request
 from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
 from robotside.gateways.http.presence import presence_of
+from robotside.gateways.plain.stamps import read_stamp
 from robotside.gateways.plain.strict_json import MAX_INPUT, decode
 from robotside.gateways.rest.forms import JSON, XML
 from robotside.gateways.rest.statuses import Rejected
@@ -79,13 +79,4 @@ def header(request: Request, name: str) -> str:
 
 def stamp_of(request: Request) -> float:
     """When a command was meant [s, operators' clock]; NaN where that is not said. ProtocolError for what is no time."""
-    text = request.headers.get(STAMP)
-    if text is None:
-        return math.nan
-    try:
-        stamp = float(text)
-    except ValueError:
-        stamp = math.nan
-    if not math.isfinite(stamp):
-        raise ProtocolError(f"The header {STAMP} is a time in seconds, not {text[:60]!r}.")
-    return stamp
+    return read_stamp(request.headers.get(STAMP), f"header {STAMP}")

@@ -11,6 +11,7 @@ from lxml import etree
 from bridge.codec.fields import Field, fields_of
 from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
+from robotside.gateways.plain.strict_xml import strict_parser
 
 __all__ = ["from_xml", "to_xml"]
 
@@ -48,16 +49,8 @@ def from_xml(raw: bytes, cls: type[Msg]) -> dict[str, Any]:
 
     Fields that `cls` has not, and values that are not of their types, are left as they are, for who reads them strictly.
     """
-    parser = etree.XMLParser(
-        resolve_entities=False,
-        no_network=True,
-        load_dtd=False,
-        huge_tree=False,
-        remove_comments=True,
-        remove_pis=True,
-    )
     try:
-        root = etree.fromstring(raw, parser)
+        root = etree.fromstring(raw, strict_parser())
     except (etree.XMLSyntaxError, ValueError) as error:
         raise ProtocolError(f"The message is not XML: {str(error)[:200]}.") from error
     if root.getroottree().docinfo.internalDTD is not None:

@@ -14,6 +14,7 @@ from lxml import etree
 from bridge.core.errors import BridgeError, ProtocolError
 from robotside.core.notice import Notice
 from robotside.gateways.plain.strict_json import MAX_INPUT
+from robotside.gateways.plain.strict_xml import strict_parser
 from robotside.gateways.soap.fields import NS, SOAP, Element, named, written
 from robotside.gateways.soap.messages import Refusal
 from robotside.gateways.soap.wsdl import CALLER, REFUSAL
@@ -96,15 +97,8 @@ def _parsed(raw: bytes) -> Element:
         raw.decode()
     except UnicodeDecodeError as error:
         raise EnvelopeError("A message is written in UTF-8.") from error
-    parser = etree.XMLParser(
-        encoding="utf-8",  # whatever it says itself: a document type cannot hide in another one
-        resolve_entities=False,
-        no_network=True,
-        load_dtd=False,
-        huge_tree=False,
-        remove_comments=True,
-        remove_pis=True,
-    )
+    # in UTF-8 whatever it says itself: a document type cannot hide in another encoding
+    parser = strict_parser("utf-8")
     try:
         top = etree.fromstring(raw, parser)
     except etree.XMLSyntaxError as error:

@@ -28,11 +28,11 @@ from robotside.gateways.broker.command_desk import (
     RUN,
     Command,
     CommandDesk,
-    read_stamp,
 )
 from robotside.gateways.broker.topic_feed import TopicFeed
 from robotside.gateways.gateway_url import read_url
-from robotside.gateways.plain.visitors import IDLE_TIMEOUT, Visitors
+from robotside.gateways.plain.known_clients import IDLE_TIMEOUT
+from robotside.gateways.plain.visitors import Visitors
 from tests.fakes import FakeRobot
 from tests.looped import looped
 from tests.robotside.scene import Scene
@@ -251,11 +251,3 @@ async def test_what_cannot_be_asked_for_is_refused_and_what_comes_anyway_is_said
         desk.obey("fly", "/odom")
     with pytest.raises(Refused):
         Desk(scene, Role.NONE).obey(READ, ON_DEMAND)
-
-
-def test_a_stamp_is_a_time_or_none() -> None:
-    assert read_stamp("12.5", "header") == 12.5
-    assert read_stamp(None, "header") != read_stamp(None, "header")
-    for text in ("soon", "nan", "inf"):
-        with pytest.raises(Refused, match=f"The header stamp is a time in seconds, not '{text}'"):
-            read_stamp(text, "header")

@@ -14,8 +14,8 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import CommandRequest
 from robotside.gateways.payloads.table import KEYS
 from robotside.gateways.plain.callers import MAX_OF_HOST, Callers, stand_in
+from robotside.gateways.plain.known_clients import IDLE_TIMEOUT, MAX_VISITORS, SILENT_TIMEOUT
 from robotside.gateways.plain.visitor import Visitor
-from robotside.gateways.plain.visitors import IDLE_TIMEOUT, MAX_VISITORS, SILENT_TIMEOUT
 from tests.robotside.scene import Scene
 
 DRIVER = Identity("", "", Role.DRIVE)

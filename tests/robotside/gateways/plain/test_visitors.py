@@ -14,8 +14,9 @@ from bridge.core.identity import Identity, Role, public_id
 from bridge.core.link_state import CONTROL_TIMEOUT
 from robotside.door.station_door import StationDoor
 from robotside.gateways.payloads.table import KEYS
+from robotside.gateways.plain.known_clients import IDLE_TIMEOUT, MAX_VISITORS
 from robotside.gateways.plain.visitor import TIME, VALID_TIME, Visitor
-from robotside.gateways.plain.visitors import IDLE_TIMEOUT, MAX_VISITORS, SHARE_OF_HOST, Visitors
+from robotside.gateways.plain.visitors import SHARE_OF_HOST, Visitors
 from tests.fakes import FakeRobot
 from tests.looped import looped
 from tests.robotside.scene import Scene

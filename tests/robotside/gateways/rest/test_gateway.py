@@ -18,7 +18,7 @@ from bridge.core.link_state import CONTROL_TIMEOUT
 from robotside.gateways.adapter import Surroundings
 from robotside.gateways.gateway_url import read_url
 from robotside.gateways.plain import callers
-from robotside.gateways.plain.visitors import IDLE_TIMEOUT
+from robotside.gateways.plain.known_clients import IDLE_TIMEOUT
 from robotside.gateways.rest import gateway
 from robotside.gateways.rest.adapter import ADAPTER
 from robotside.gateways.rest.application import application
