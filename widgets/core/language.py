@@ -1,0 +1,137 @@
+"""The language of the glass: sentences from gettext catalogues, plurals, and figures as the language writes them.
+
+`tr("Start")` gives the words of the chosen language where they are needed; `mark("Start")` says of a constant that it is
+translated where it is shown. `scripts/languages.py` finds both in the sources. English is what stands in the sources, so
+that it needs no catalogue, and what a catalogue lacks stays English.
+
+    label.text = tr("{age} s old").format(age=3)
+    label.text = trn("{count} robot", "{count} robots", count)
+"""
+
+from __future__ import annotations
+
+import gettext
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from kivy.event import EventDispatcher
+from kivy.properties import OptionProperty
+
+__all__ = ["FOLDER", "LANGUAGES", "PSEUDO", "Language", "Tongue", "figure", "language", "mark", "tr", "trn"]
+
+FOLDER = Path(__file__).parents[1] / "languages"
+"""One `NAME.mo` for each language but English, made of `NAME.po`."""
+PSEUDO = "en_XA"
+"""No language of people: English with accents, 40 % longer and in brackets, by which one sees what is not translated or cut."""
+DASH = "—"
+"""What is shown in the place of a figure that there is not."""
+LONGER = 0.4
+"""How much longer a pseudo-translation is than its English."""
+
+
+@dataclass(frozen=True)
+class Tongue:
+    """What is particular about a language."""
+
+    own_name: str
+    """What those who speak it call it."""
+    point: str = "."
+    """Between the whole of a figure and its decimals."""
+    font: str = "B612"
+    """The typeface that has its letters."""
+
+
+LANGUAGES: dict[str, Tongue] = {
+    "en": Tongue("English"),
+    "fr": Tongue("français", ","),
+    "de": Tongue("Deutsch", ","),
+    "es": Tongue("español", ","),
+    "zh_CN": Tongue("简体中文", ".", "Noto Sans SC"),
+    PSEUDO: Tongue("[!! Pseudo !!]", ","),
+}
+"""Name of each, as in POSIX, in the order in which it is offered; `PSEUDO` is for the makers of the app."""
+_ACCENTS = str.maketrans("AaCcEeIiNnOoSsUuYyZz", "ÅåÇçÈèÍíÑñÖöŠšÛûÝýŽž")
+_KEPT = re.compile(r"(\{[^}]*\}|\[/?[a-z]+(?:=[^\]]*)?\])")
+"""Places for values and marks of type, which no translation changes."""
+
+
+class Language(EventDispatcher):
+    """The language that is chosen; what is on the glass already follows when it is made anew."""
+
+    name = OptionProperty("en", options=list(LANGUAGES))
+    """One of `LANGUAGES`."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._words: gettext.NullTranslations = gettext.NullTranslations()
+
+    @property
+    def tongue(self) -> Tongue:
+        """What is particular about it."""
+        return LANGUAGES[self.name]
+
+    def on_name(self, *_: object) -> None:
+        """Read its catalogue."""
+        self._words = _catalogue(self.name)
+
+    def words(self, text: str, context: str = "") -> str:
+        """`text` in this language; `context` tells two meanings of one English word apart. English where it is not translated."""
+        if self.name == PSEUDO:
+            return _pseudo(text)
+        return self._words.pgettext(context, text) if context else self._words.gettext(text)
+
+    def counted(self, one: str, many: str, count: int) -> str:
+        """The form of `one` or `many` that goes with `count`, which is written at `{count}`."""
+        if self.name == PSEUDO:
+            text = _pseudo(one if count == 1 else many)
+        else:
+            text = self._words.ngettext(one, many, count)
+        return text.replace("{count}", f"{count:d}")
+
+
+def _catalogue(name: str) -> gettext.NullTranslations:
+    """The catalogue of a language; an empty one for English, and where there is none yet."""
+    try:
+        with (FOLDER / f"{name}.mo").open("rb") as file:
+            return gettext.GNUTranslations(file)
+    except FileNotFoundError:
+        return gettext.NullTranslations()
+
+
+def _pseudo(text: str) -> str:
+    """A sentence that is seen to be translated: accents, brackets, and as much longer as German and French may be."""
+    parts = _KEPT.split(text)
+    dressed = "".join(part if at % 2 else part.translate(_ACCENTS) for at, part in enumerate(parts))
+    letters = sum(len(part) for part in parts[::2])
+    return f"[{dressed}{'~' * math.ceil(LONGER * letters)}]" if letters else text
+
+
+language = Language()
+"""The one language of this process."""
+
+
+def tr(text: str, context: str = "") -> str:
+    """`text`, a sentence or word in English, in the language of the glass; `context` tells two meanings of one word apart."""
+    return language.words(text, context)
+
+
+def trn(one: str, many: str, count: int) -> str:
+    """What is said of `count` things, which is written at `{count}`: `one` or `many`, or as many forms as the language has."""
+    return language.counted(one, many, count)
+
+
+def mark(text: str) -> str:
+    """`text` as it is: a constant that `tr` translates where it is shown, for which the catalogues are told of it here."""
+    return text
+
+
+def figure(value: float, digits: int = 0) -> str:
+    """`value` with so many decimals as the language writes it, with a true minus; a dash for NaN and infinity."""
+    if not math.isfinite(value):
+        return DASH
+    text = f"{value:.{digits}f}"
+    if float(text) == 0.0:
+        text = text.lstrip("-")
+    return text.replace("-", "−").replace(".", language.tongue.point)
