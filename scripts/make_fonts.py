@@ -3,6 +3,7 @@
 Fetch them first, with the machine's own package tools, into one folder:
 
     apt-get download fonts-b612 && dpkg-deb -x fonts-b612_*.deb b612
+    apt-get download fonts-noto-cjk && dpkg-deb -x fonts-noto-cjk_*.deb noto
     npm pack @material-symbols/font-500 && tar xzf material-symbols-font-500-*.tgz
 
 Then `python scripts/make_fonts.py FOLDER`. Needs fonttools and brotli.
@@ -20,7 +21,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from fontTools.pens.cu2quPen import Cu2QuPen
 from fontTools.pens.ttGlyphPen import TTGlyphPen
 from fontTools.subset import Options, Subsetter
-from fontTools.ttLib import TTFont, newTable
+from fontTools.ttLib import TTCollection, TTFont, newTable
 from fontTools.varLib.instancer import instantiateVariableFont
 
 from widgets.core.icons import FILLED, OUTLINED, filled_code
@@ -31,6 +32,8 @@ TEXT = [*range(0x20, 0x180), *range(0x2010, 0x2030), *map(ord, "′″←↑→�
 HAIR_SPACE = 170
 """Width of a hair space [1/2000 of the letter height]."""
 FACES = ("B612-Regular", "B612-Bold")
+CHINESE, CHINESE_FACES = "Noto Sans CJK SC", ("Regular", "Bold")
+CHINESE_SIGNS = "，。、；：？！（）《》「」【】“”‘’…—·￥"
 
 
 def subset(font: TTFont, codes: list[int]) -> TTFont:
@@ -80,6 +83,23 @@ def quadratic(glyph: object) -> object:
     return pen.glyph()
 
 
+def make_chinese(source: Path) -> TTFont:
+    """The characters of GB 2312, which is what a newspaper needs, out of the collection; kept as cubic outlines, at half the size."""
+    font = next(one for one in TTCollection(source).fonts if one["name"].getDebugName(1) == CHINESE)
+    options = Options(layout_features=["kern"], hinting=False, name_IDs=[0, 1, 2, 3, 4, 5, 6, 13, 14])
+    subsetter = Subsetter(options)
+    subsetter.populate(unicodes=[*TEXT, *map(ord, CHINESE_SIGNS), *gb2312()])
+    subsetter.subset(font)
+    return font
+
+
+def gb2312() -> list[int]:
+    """Code points of the 6763 characters of GB 2312."""
+    rows, columns = range(0xB0, 0xF8), range(0xA1, 0xFF)
+    pairs = (bytes([row, column]).decode("gb2312", "ignore") for row in rows for column in columns)
+    return [ord(character) for character in pairs if character]
+
+
 def make_icons(source: Path) -> TTFont:
     """Outlined icons and filled ones, each at its code point in `widgets.core.icons`."""
     outlined = instance(source, 0, list(OUTLINED.values()))
@@ -111,8 +131,12 @@ def main(folder: Path) -> None:
     for face in FACES:
         whole = TTFont(folder / f"b612/usr/share/fonts/opentype/b612/{face}.otf")
         with_hair_space(to_truetype(subset(whole, TEXT))).save(FONTS / f"{face}.ttf")
+    for face in CHINESE_FACES:
+        collection = folder / f"noto/usr/share/fonts/opentype/noto/NotoSansCJK-{face}.ttc"
+        make_chinese(collection).save(FONTS / f"NotoSansSC-{face}.otf")
     make_icons(folder / "package/material-symbols-rounded.woff2").save(FONTS / "Icons.ttf")
     copy_licence(folder / "b612/usr/share/doc/fonts-b612/copyright", FONTS / "B612-LICENSE.txt")
+    copy_licence(folder / "noto/usr/share/doc/fonts-noto-cjk/copyright", FONTS / "NotoSansSC-LICENSE.txt")
     copy_licence(folder / "package/LICENSE", FONTS / "Icons-LICENSE.txt")
     for path in sorted(FONTS.iterdir()):
         print(f"{path.name}: {path.stat().st_size / 1000:.1f} kB")

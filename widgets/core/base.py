@@ -79,8 +79,9 @@ def age_text(age: float) -> str:
 _textures: dict[tuple[str, str, float, bool], Texture] = {}
 
 
-def text_texture(text: str, size: float, font: str = "B612", *, bold: bool = False) -> Texture:
-    """`text` in white at `size` [px], to be tinted by a Color before it; drawn once and kept."""
+def text_texture(text: str, size: float, font: str = "", *, bold: bool = False) -> Texture:
+    """`text` in white at `size` [px], to be tinted by a Color before it; drawn once and kept. `font` is the theme's where it is empty."""
+    font = font or theme.font
     key = (text, font, size, bold)
     if key not in _textures:
         if len(_textures) > 2000:

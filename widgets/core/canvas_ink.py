@@ -141,8 +141,8 @@ class Word:
     """Height of the type [px]."""
     colour: Sequence[float]
     bold: bool = False
-    font: str = "B612"
-    """Registered name; `Icons` shows a symbol."""
+    font: str = ""
+    """Registered name; `Icons` shows a symbol, an empty one is the theme's."""
     anchor: tuple[float, float] = (0.5, 0.5)
     """Which point of the text (x, y) is: 0 left or bottom, 1 right or top."""
 

@@ -52,7 +52,7 @@ LANGUAGES: dict[str, Tongue] = {
     PSEUDO: Tongue("[!! Pseudo !!]", ","),
 }
 """Name of each, as in POSIX, in the order in which it is offered; `PSEUDO` is for the makers of the app."""
-_ACCENTS = str.maketrans("AaCcEeIiNnOoSsUuYyZz", "ÅåÇçÈèÍíÑñÖöŠšÛûÝýŽž")
+_ACCENTS = str.maketrans("AaCcEeIiNnOoSsUuYy", "ÅåÇçÈèÍíÑñÖöŠšÛûÝý")
 _KEPT = re.compile(r"(\{[^}]*\}|\[/?[a-z]+(?:=[^\]]*)?\])")
 """Places for values and marks of type, which no translation changes."""
 

@@ -24,6 +24,7 @@ from kivy.properties import (
 from kivy.utils import get_color_from_hex
 
 from widgets.core.icons import ICONS
+from widgets.core.language import language
 
 __all__ = ["PALETTES", "Theme", "contrast", "theme"]
 
@@ -151,7 +152,7 @@ class Theme(EventDispatcher):
     shade = ColorProperty(PALETTES["dark"]["shade"])
 
     font = StringProperty("B612")
-    """For everything; its figures are all of one width."""
+    """For everything, by the language of the glass; its figures are all of one width."""
     icons = StringProperty("Icons")
 
     roles = DictProperty(_colours("dark"))
@@ -221,17 +222,24 @@ def _luminance(colour: str) -> float:
     return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
 
 
-def _register_fonts() -> None:
-    regular, bold = str(FONTS / "B612-Regular.ttf"), str(FONTS / "B612-Bold.ttf")
+FACES = {"B612": "B612-{}.ttf", "Noto Sans SC": "NotoSansSC-{}.otf"}
+"""Typefaces for text, to their files."""
+
+
+def _take_font(name: str) -> None:
+    """Have text drawn in the typeface of that name; it is loaded when it is first drawn."""
+    regular, bold = (str(FONTS / FACES[name].format(weight)) for weight in ("Regular", "Bold"))
     # Kivy's own widgets, such as TextInput, ask for its default font
-    for name in ("B612", DEFAULT_FONT):
-        LabelBase.register(name, regular, fn_italic=regular, fn_bold=bold, fn_bolditalic=bold)
-    LabelBase.register("Icons", str(FONTS / "Icons.ttf"))
+    for one in (name, DEFAULT_FONT):
+        LabelBase.register(one, regular, fn_italic=regular, fn_bold=bold, fn_bolditalic=bold)
+    theme.font = name
 
 
-_register_fonts()
+LabelBase.register("Icons", str(FONTS / "Icons.ttf"))
 theme = Theme()
 """The one theme of this process; kv knows it under the same name."""
+language.bind(name=lambda *_: _take_font(language.tongue.font))
+_take_font(language.tongue.font)
 global_idmap.update(theme=theme, icons=ICONS)
 for name, module in {"Rounded": "rounded", "Outline": "visible", "Tinted": "visible"}.items():
     Factory.register(name, module=f"widgets.core.{module}")

@@ -6,13 +6,16 @@ import re
 from pathlib import Path
 
 import pytest
+from fontTools.ttLib import TTFont
 from kivy.lang import Builder
 from kivy.metrics import mm
 
 from tests.looped import looped
 from tests.thrown import automatic, throw_away
+from widgets.core.base import text_texture
 from widgets.core.icons import FILLED, ICONS, OUTLINED, icon
-from widgets.core.theme import FONTS, PALETTES, Theme, contrast, theme
+from widgets.core.language import LANGUAGES, PSEUDO, language
+from widgets.core.theme import FACES, FONTS, PALETTES, Theme, contrast, theme
 
 WIDGETS = Path(__file__).parents[3] / "widgets"
 GROUNDS = ("bg", "surface", "raised")
@@ -25,6 +28,7 @@ PAIRS = [*itertools.product(WORDS, GROUNDS), *INKS.items()]
 def dark_afterwards():
     yield
     theme.name, theme.gloves = "dark", False
+    language.name = "en"
 
 
 def test_black_on_white_has_the_contrast_of_the_standard():
@@ -154,3 +158,32 @@ def test_a_name_that_is_none_leaves_the_collector_as_it_was():
         gc.disable()
         theme.name = "night"
         assert not gc.isenabled()
+
+
+def codes(path: Path) -> set[int]:
+    return set(TTFont(path).getBestCmap())
+
+
+@looped("weight", ["Regular", "Bold"])
+@looped("name", LANGUAGES)
+def test_the_typeface_of_a_language_has_its_letters(name, weight):
+    own = LANGUAGES[name].own_name
+    letters = {
+        "fr": "àâçéèêëîïôœùûüÿ«»",
+        "de": "äöüßÄÖÜ„“",
+        "es": "áéíóúñü¿¡",
+        "zh_CN": "停止机器人控制权限，。",
+    }
+    wanted = (
+        set(map(ord, own + letters.get(name, ""))) if name != PSEUDO else set(map(ord, "ÅåÇçÈèÍíÑñÖöŠšÛûÝý"))
+    )
+    assert wanted <= codes(FONTS / FACES[LANGUAGES[name].font].format(weight))
+
+
+def test_the_typeface_follows_the_language():
+    wide = text_texture("停止", 20).size
+    language.name = "zh_CN"
+    assert theme.font == "Noto Sans SC"
+    assert text_texture("停止", 20).size != wide
+    language.name = "de"
+    assert theme.font == "B612"
