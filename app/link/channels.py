@@ -27,6 +27,7 @@ __all__ = [
     "SEEN",
     "Answer",
     "LinkPosts",
+    "watched",
 ]
 
 EVENT, MISSED, LINK, OUTCOME = "event", "missed", "link", "outcome"
@@ -39,6 +40,14 @@ ANSWER_TIMEOUT = 5.0
 """Longest time for the answer of a service that is no command [s]."""
 CAPABILITIES, SEEN = "offer", "seen"
 """The robot's `Capabilities` when it is known and when it changed, and what is `Seen` of the topic looked at."""
+
+
+_WATCHED = "watched "
+
+
+def watched(topic: str) -> str:
+    """Channel of what is `Seen` of a topic that somebody watches by `Link.look_at`; newest wins."""
+    return _WATCHED + topic
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +91,13 @@ class LinkPosts:
             self._mailbox.queue(SEEN, seen, self._now())
         else:
             self._mailbox.post(SEEN, seen, received)
+
+    def post_watched(self, seen: Seen, received: float) -> None:
+        """Something came of a topic that is watched."""
+        if seen.message is None:
+            self._mailbox.queue(watched(seen.topic), seen, self._now())
+        else:
+            self._mailbox.post(watched(seen.topic), seen, received)
 
     def post_known(self, known: KnownEvents) -> None:
         """More of the robot's log is known."""

@@ -25,6 +25,7 @@ from app.link.feeds import Mailbox
 from app.link.link_health import LinkHealth
 from app.link.subscriptions import Peek, Sources
 from app.link.task_set import TaskSet
+from app.link.watches import Watches
 from bridge.client.ask_as_stranger import even_as_stranger
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.client.credentials import Credentials
@@ -61,11 +62,10 @@ class Link:
 
         With `credentials` it speaks to the robot with that key only. `known` and `marks` are how far its events are known, as `EventStream` takes them. `on_picture` is called in the network thread with each camera frame and when it came [s].
         """
-        self.url, self.credentials = url, credentials
-        self._network, self._now = network, now
+        self.url, self.credentials, self._network, self._now = url, credentials, network, now
         self._posts = posts = LinkPosts(mailbox, now)
         self._client = client = BridgeClient(url, on_state=self._on_state, now=now, credentials=credentials)
-        self._tasks = TaskSet()
+        self._tasks, self._advertiser = TaskSet(), Advertiser(client)
         self.commands = Commands(
             even_as_stranger(client, credentials, "/stop"),
             posts.queue(OUTCOME),
@@ -93,10 +93,10 @@ class Link:
             marks=marks,
         )
         self._sources = Sources(client, self._on_message, self._on_event)
-        self._advertiser = Advertiser(client)
         self._peek = Peek(client, posts.post_seen)
-        show = on_picture or (lambda _frame, _received: None)
-        self._camera = CameraWatch(url, self._sources, self._tasks, show, credentials)
+        self.watches = Watches(client, posts.post_watched, self._tasks.start, network.call)
+        """The topics that anybody looks at beside those that every screen shows."""
+        self._camera = CameraWatch(url, self._sources, self._tasks, on_picture or _no_picture, credentials)
         self._running: concurrent.futures.Future[None] | None = None
 
     @property
@@ -248,6 +248,7 @@ class Link:
             self._sender.on_connected()
             self._events.on_connected()
             self._robot.on_connected()
+            self.watches.renew()
         else:
             self._sender.on_lost()
             self._robot.on_lost()
@@ -289,3 +290,7 @@ class Link:
         self._peek.close()
         await self._client.close()
         await self._tasks.cancel()
+
+
+def _no_picture(_frame: Frame, _received: float) -> None:
+    """Nobody looks at the camera."""
