@@ -19,6 +19,8 @@ from kivy.uix.widget import Widget
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from widgets.core.base import RobotWidget, age_text, fitting_size, text_texture
+from widgets.core.language import language
+from widgets.core.quantities import SI_KINDS, digits_for, quantities, to_shown, unit_of
 from widgets.core.theme import theme
 from widgets.parts.labels import spaced
 
@@ -75,13 +77,13 @@ Builder.load_string("""
 
 
 def figure(value: float, decimals: int = 1, *, signed: bool = False) -> str:
-    """`value` with so many decimals and a real minus sign; a dash for NaN and infinity."""
+    """`value` with so many decimals as the language writes them and a real minus sign; a dash for NaN and infinity."""
     if not math.isfinite(value):
         return DASH
     text = f"{value:+.{decimals}f}" if signed else f"{value:.{decimals}f}"
     if not any(digit in text for digit in "123456789"):
         text = text.lstrip("+-")
-    return text.replace("-", MINUS)
+    return text.replace("-", MINUS).replace(".", language.tongue.point)
 
 
 def clock_figure(seconds: float) -> str:
@@ -102,6 +104,7 @@ class Readout(RobotWidget, BoxLayout):
     value = NumericProperty(math.nan)
     """In `unit` after `scale`; NaN is drawn as a dash."""
     unit = StringProperty("")
+    """What `value` is in. What is in m, m/s or another unit of `SI_KINDS` is shown in the unit that the operator chose."""
     decimals = NumericProperty(1)
     signed = BooleanProperty(False)
     """A plus before what is above 0."""
@@ -122,6 +125,13 @@ class Readout(RobotWidget, BoxLayout):
     """Of the value [px]."""
     fitted = BooleanProperty(True)
     """As wide as its words; else the width is given, and the name is cut short where it must be."""
+    system = StringProperty("metric")
+    """The operator's units, as in `quantities.system`, which it follows."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        quantities.bind(system=self._follow_units)
+        self._follow_units()
 
     def _text(self) -> str:
         if self.state == "never":
@@ -130,27 +140,38 @@ class Readout(RobotWidget, BoxLayout):
             return self.words
         if self.kind == "clock":
             return clock_figure(self.value)
-        told = abs(self.value) if self.plus and self.minus else self.value
-        text = figure(told, int(self.decimals), signed=self.signed)
+        value, decimals = self._told()
+        text = figure(abs(value) if self.plus and self.minus else value, decimals, signed=self.signed)
         return text + DEGREE if self.unit == DEGREE and text != DASH else text
 
     text = AliasProperty(
         _text,
-        bind=["state", "value", "words", "kind", "decimals", "signed", "unit", "plus", "minus"],
+        bind=["state", "value", "words", "kind", "decimals", "signed", "unit", "plus", "minus", "system"],
         cache=True,
     )
     """The figure as written."""
 
+    def _told(self) -> tuple[float, int]:
+        """The value in the unit that is shown, and with how many decimals."""
+        kind = SI_KINDS.get(self.unit, "")
+        if not kind:
+            return self.value, int(self.decimals)
+        return to_shown(self.value, kind), digits_for(kind, int(self.decimals))
+
+    def _follow_units(self, *_: object) -> None:
+        self.system = quantities.system
+
     def _unit_after(self) -> str:
         unit = "" if self.unit == DEGREE else self.unit
+        unit = unit_of(SI_KINDS[unit]) if unit in SI_KINDS else unit
         if not (self.plus and self.minus):
             return unit
-        told = figure(self.value, int(self.decimals)) if self.state != "never" else DASH
+        told = figure(*self._told()) if self.state != "never" else DASH
         some = any(digit in told for digit in "123456789")
         return f"{unit} {self.plus if self.value > 0 else self.minus}".strip() if some else unit
 
     unit_after = AliasProperty(
-        _unit_after, bind=["unit", "plus", "minus", "value", "decimals", "state"], cache=True
+        _unit_after, bind=["unit", "plus", "minus", "value", "decimals", "state", "system"], cache=True
     )
     """The unit where it stands apart from the figure, and to which side; a degree sign belongs to the figure."""
 

@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import JointState
+from widgets.core.language import language
+from widgets.core.quantities import quantities
 from widgets.instruments.readout import Readout, clock_figure, figure
 
 
@@ -135,3 +137,28 @@ def test_value_and_unit_stay_within_the_room_that_they_are_given(stage):
     for speed.state, speed.age in (("stale", 3.2), ("alarm", 0.0)):
         stage.frames(4)
         assert speed.ids.row.width <= 71  # letters are whole pixels wide
+
+
+@pytest.fixture
+def metric_afterwards():
+    yield
+    quantities.system, language.name = "metric", "en"
+
+
+@pytest.mark.usefixtures("metric_afterwards")
+def test_a_speed_and_a_height_follow_the_operators_units_at_once():
+    speed = Readout(unit="m/s", decimals=2, value=0.5144444, state="live")
+    height = Readout(unit="m", decimals=1, value=-3.048, plus="up", minus="down", state="live")
+    turn = Readout(unit="°/s", value=9.0, decimals=0, state="live")
+    quantities.system = "nautical"
+    assert (speed.text, speed.unit_after, height.text, height.unit_after) == ("1.00", "kn", "3.0", "m down")
+    quantities.system = "imperial"
+    assert (speed.text, speed.unit_after, height.text, height.unit_after) == ("1.15", "mph", "10", "ft down")
+    assert (turn.text, turn.unit_after) == ("9", "°/s")
+
+
+@pytest.mark.usefixtures("metric_afterwards")
+def test_a_new_readout_begins_with_the_operators_units_and_the_languages_point():
+    quantities.system, language.name = "imperial", "de"
+    speed = Readout(unit="m/s", decimals=2, value=0.44704, state="live")
+    assert (speed.text, speed.unit_after, speed.value) == ("1,00", "mph", 0.44704)
