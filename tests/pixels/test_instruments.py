@@ -6,6 +6,7 @@ import io
 import math
 import sqlite3
 from contextlib import closing
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -153,13 +154,60 @@ def test_a_coarse_tile_stands_in_for_finer_ones_the_right_way_round(stage, tmp_p
     made.set_view(View.centred(*middle, at=(200, 200), scale=scale * 1.01))
     stage.frames(6)
     made.finish_pictures()
-    assert made._pictures.zoom == zoom
+    assert made.ground.pictures.zoom == zoom
     picture = stage.pixels(made)
     light = {name: int(at(picture, x, y)[0]) for name, x, y in (
         ("north-west", 170, 250), ("north-east", 250, 250), ("south-west", 150, 150), ("south-east", 250, 150),
     )}  # fmt: skip
     assert light.pop("north-west") > 150
     assert max(light.values()) < 40
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.5, 2.0])
+def test_pictures_beneath_a_map_turn_with_it(stage, tmp_path, turn):
+    from scripts.make_mbtiles import Mercator
+    from widgets.map.ground import TileGround
+    from widgets.map.mbtiles import MBTiles
+
+    grid = Mercator(DATUM, 19)
+    column, row, west, north = next(grid.tiles(0.1))
+    path = colours_file(tmp_path / "q.mbtiles", {(19, column, 2**19 - 1 - row): quarters()})
+    made = stage.show(GridMap(state="live"), size=(400, 400))
+    made.ground = ground = TileGround(MBTiles(Path(path)), DATUM)
+    x, y = west + grid.metres / 2, north - grid.metres / 2
+    made.set_view(View.centred(x, y, at=(200, 200), scale=256 / grid.metres * 1.01, turn=turn))
+    stage.frames(6)
+    ground.finish()
+    picture = stage.pixels(made)
+    light = {}
+    for east in (-1, 1):
+        for up in (-1, 1):
+            px, py = made.view.to_screen(x + east * grid.metres / 5, y + up * grid.metres / 5)
+            light[east, up] = int(at(picture, round(px), round(py))[0])
+    ground.close()
+    assert light.pop((-1, 1)) > 150
+    assert max(light.values()) < 60
+
+
+def test_a_picture_beneath_a_map_lies_between_its_corners(stage):
+    from kivy.graphics.texture import Texture
+
+    from widgets.map.ground import PictureGround
+
+    texture = Texture.create(size=(2, 2), colorfmt="rgba")
+    white, black = bytes([255] * 4), bytes([0, 0, 0, 255])
+    texture.blit_buffer(white + black + black + black, colorfmt="rgba", bufferfmt="ubyte")
+    texture.mag_filter = "nearest"
+    made = stage.show(GridMap(state="live"), size=(400, 400))
+    made.ground = PictureGround(texture, [(0, 0), (0, 10), (-10, 10), (-10, 0)])
+    made.set_view(View.centred(-5, 5, at=(200, 200), scale=20))
+    stage.frames(2)
+    picture = stage.pixels(made)
+    light = {place: int(at(picture, *place)[0]) for place in ((130, 130), (270, 130), (130, 270), (270, 270))}
+    assert light.pop((270, 130)) > 150, (
+        "its lower left corner lies in the south-east, as it is turned by a quarter"
+    )
+    assert max(light.values()) < 60
 
 
 def test_two_files_at_once_show_each_their_own_pictures(stage, tmp_path):

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, ClassVar
 
 import numpy as np
 from kivy.graphics import Color, PopMatrix, PushMatrix, Rectangle, Rotate, Scale, Translate
 from kivy.graphics.texture import Texture
 from kivy.metrics import dp
-from kivy.properties import ObjectProperty
+from kivy.properties import NumericProperty, ObjectProperty
 from kivy.uix.widget import Widget
 from numpy.typing import NDArray
 
@@ -33,11 +33,12 @@ from bridge.msgs.geometry_msgs import (
 )
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
 from bridge.msgs.pilothouse_msgs import Limits
-from widgets.core.canvas_ink import Ink, tint
+from widgets.core.canvas_ink import Ink, Word, tint
 from widgets.core.geometry import Points, occupancy_pixels, screen_angle, spread, tween
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.map.map_marks import grid_lines
+from widgets.map.beneath import Beneath, Ground, attribution_word
+from widgets.map.map_marks import grid_lines, outlined
 from widgets.map.map_overlay import MapOverlay
 
 __all__ = ["GridMap", "fenced", "patrol", "samples"]
@@ -45,16 +46,25 @@ __all__ = ["GridMap", "fenced", "patrol", "samples"]
 log = logging.getLogger(__name__)
 
 
+FREE_OVER_GROUND = 0.25
+"""Opacity of what is free where pictures lie beneath the grid."""
+
+
 class GridMap(MapOverlay):
     """The local map. Two fingers move, enlarge and turn it."""
 
     accepts: ClassVar[tuple[type[Msg], ...]] = (OccupancyGrid, *MapOverlay.accepts)
-    drawn_from: ClassVar[tuple[str, ...]] = (*MapOverlay.drawn_from, "grid")
+    drawn_from: ClassVar[tuple[str, ...]] = (*MapOverlay.drawn_from, "grid", "ground", "ground_opacity")
 
     grid: ObjectProperty[OccupancyGrid | None] = ObjectProperty(None, allownone=True, force_dispatch=True)
     """The newest OccupancyGrid; None before the first."""
+    ground: ObjectProperty[Ground | None] = ObjectProperty(None, allownone=True)
+    """Tiles or a picture beneath the grid, of `widgets.map.ground`; whoever sets it closes it."""
+    ground_opacity = NumericProperty(1.0)
+    """How plainly that is seen, 0 to 1."""
 
     def __init__(self, **kwargs: Any) -> None:
+        self._beneath = Beneath()
         self._squares = Ink()
         self._ground = Rectangle()
         self._ground_colour, self._grid_colour = Color(), Color(0, 0, 0, 0)
@@ -74,7 +84,13 @@ class GridMap(MapOverlay):
             self._cells,
             PopMatrix(),
         )
-        for part in (self._ground_colour, self._ground, *placing, self._squares):
+        for part in (
+            self._ground_colour,
+            self._ground,
+            self._beneath.canvas,
+            *placing,
+            self._squares,
+        ):
             self.canvas.before.add(part)
 
     def show(self, msg: Msg) -> None:
@@ -98,6 +114,16 @@ class GridMap(MapOverlay):
         self.grid = msg if len(msg.data) == wide * high > 0 else None
         self._fit_until_touched()
 
+    def on_ground(self, *_: object) -> None:
+        """Have it drawn."""
+        self._beneath.lay(self.ground)
+
+    def _fill_robot(self, shapes: Shapes) -> Iterator[Word]:
+        yield from super()._fill_robot(shapes)
+        if self._beneath.shown and self.ground is not None and self.ground.attribution:
+            words = self.ground.attribution
+            yield from outlined(attribution_word(words, self.free_box, self.foot, above=bool(self.fence)))
+
     def extent(self) -> Points:
         """The marks and what the grid knows."""
         return np.concatenate([super().extent(), self._corners()])
@@ -120,6 +146,7 @@ class GridMap(MapOverlay):
         """Bring the ground, the grid and the squares up to date."""
         self._ground.pos, self._ground.size = self.pos, self.size
         self._ground_colour.rgba = tween(theme.bg, theme.surface, 0.6)
+        self._beneath.draw(self.view, (*self.pos, *self.size), self.ground_opacity)
         shapes = Shapes()
         grid_lines(shapes, self.view, (*self.pos, *self.size), tint(theme.muted, 0.13))
         self._squares.fill(shapes)
@@ -138,12 +165,13 @@ class GridMap(MapOverlay):
         self._cells.size = info.width, info.height
 
     def _colour_grid(self, grid: OccupancyGrid) -> None:
-        look = (id(grid), theme.name)
+        look = (id(grid), theme.name, self._beneath.shown)
         if look == self._texture_look:
             return
         self._texture_look = look
         numbers = _numbers(grid)
-        free, unknown = theme.surface, tint(theme.bg, 0.0)
+        free = tint(theme.surface, FREE_OVER_GROUND if self._beneath.shown else 1.0)
+        unknown = tint(theme.bg, 0.0)
         pixels = occupancy_pixels(numbers, free, tween(theme.line, theme.muted, 0.45), unknown)
         size = (numbers.shape[1], numbers.shape[0])
         if self._texture is None or self._texture.size != size:

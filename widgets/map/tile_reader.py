@@ -15,7 +15,7 @@ from kivy.core.image import ImageData, ImageLoader
 from bridge.core.camera_frames import picture_size
 from bridge.core.errors import ProtocolError
 
-__all__ = ["MAX_AHEAD", "MAX_TILE_SIDE", "Key", "TileReader", "decoded"]
+__all__ = ["MAX_AHEAD", "MAX_TILE_SIDE", "Key", "TileReader", "decoded", "tile_size"]
 
 log = logging.getLogger(__name__)
 
@@ -23,6 +23,8 @@ MAX_TILE_SIDE = 1024
 """Columns or rows of a tile that is decoded [px]; tiles have 256 or 512."""
 MAX_AHEAD = 12
 """Decoded tiles that wait for the UI thread; at the largest size they take 48 MB."""
+WEBP_HEAD = 30
+"""Bytes of a WebP file that tell its size."""
 CLOSE_TIMEOUT = 5.0
 """Longest time that closing waits for the tile at work [s]."""
 
@@ -111,15 +113,29 @@ class TileReader:
             return None
 
 
+def tile_size(data: bytes) -> tuple[str, int, int]:
+    """Kind (`jpeg`, `png` or `webp`), columns and rows of a picture, by its head alone; ProtocolError for anything else."""
+    if not (data[:4] == b"RIFF" and data[8:12] == b"WEBP" and len(data) >= WEBP_HEAD):
+        return picture_size(data)
+    form = data[12:16]
+    if form == b"VP8X":
+        return "webp", 1 + int.from_bytes(data[24:27], "little"), 1 + int.from_bytes(data[27:30], "little")
+    if form == b"VP8L":
+        packed = int.from_bytes(data[21:25], "little")
+        return "webp", 1 + (packed & 0x3FFF), 1 + (packed >> 14 & 0x3FFF)
+    columns, rows = (int.from_bytes(data[at : at + 2], "little") & 0x3FFF for at in (26, 28))
+    return "webp", columns, rows
+
+
 def decoded(data: object) -> ImageData:
     """Pixels of a tile, by Kivy's own decoder and without a texture, in any thread; ProtocolError, or what the decoder
-    raises, for what is no small JPEG or PNG picture."""
+    raises, for what is no small JPEG, PNG or WebP picture."""
     if not isinstance(data, bytes):
         raise ProtocolError("A tile is a picture, not text.")
-    kind, columns, rows = picture_size(data)
+    kind, columns, rows = tile_size(data)
     if max(columns, rows) > MAX_TILE_SIDE:
         raise ProtocolError(f"A tile has at most {MAX_TILE_SIDE} px a side, not {columns} x {rows}.")
-    ext = "png" if kind == "png" else "jpg"
+    ext = {"png": "png", "webp": "webp"}.get(kind, "jpg")
     able = next(each for each in ImageLoader.loaders if each.can_load_memory() and ext in each.extensions())
     loaded = able(f"tile.{ext}", ext=ext, rawdata=io.BytesIO(data), inline=True, nocache=True, keep_data=True)
     pixels: ImageData = loaded._data[0]  # noqa: SLF001 - the public way makes a texture, which only the UI thread may

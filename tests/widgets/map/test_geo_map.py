@@ -24,7 +24,7 @@ def map_(stage):
 def on_pictures(map_: GeoMap, x: float, y: float) -> tuple[float, float]:
     """Where the pictures have a place of the map [px]."""
     latitude, longitude = map_.datum.to_geographic(x, y)
-    pictures = map_._pictures
+    pictures = map_.ground.pictures
     return pictures.get_window_xy_from(latitude, longitude, pictures.zoom)
 
 
@@ -80,7 +80,7 @@ def test_the_zoom_level_is_the_one_whose_pictures_are_enlarged_least(map_, stage
     for scale, zoom in ((2.0, 17), (10.0, 20), (30.0, 21), (50.0, 22), (200.0, 22)):
         map_.set_view(View.centred(0, 0, at=(300, 200), scale=scale))
         stage.frames(1)
-        assert map_._pictures.zoom == zoom
+        assert map_.ground.pictures.zoom == zoom
 
 
 def test_nothing_goes_on_when_the_map_stands_still(map_, stage):
@@ -93,13 +93,13 @@ def test_nothing_goes_on_when_the_map_stands_still(map_, stage):
 
 def test_without_a_datum_or_a_file_it_is_a_plain_map(stage):
     made = stage.show(GeoMap(tiles=TILES), size=(300, 200))
-    assert made._pictures is None
+    assert made.ground is None
     made.datum = DATUM
     stage.frames()
-    assert made._pictures is not None
+    assert made.ground is not None
     made.tiles = ""
     stage.frames()
-    assert made._pictures is None
+    assert made.ground is None
 
 
 def test_a_file_that_cannot_be_read_is_said_at_once(tmp_path):

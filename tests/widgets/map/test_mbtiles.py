@@ -11,8 +11,9 @@ import pytest
 from kivy.core.image import ImageData
 from PIL import Image
 
-from widgets.map.mbtiles import MAX_TILES_PER_FRAME, MBTiles
-from widgets.map.tile_reader import MAX_AHEAD, MAX_TILE_SIDE, decoded
+from widgets.map.mbtiles import MBTiles
+from widgets.map.tile_pictures import MAX_TILES_PER_FRAME
+from widgets.map.tile_reader import MAX_AHEAD, MAX_TILE_SIDE, decoded, tile_size
 
 SHIPPED = Path(__file__).parents[3] / "widgets/data/parking_lot.mbtiles"
 PLAIN = {"format": "png", "minzoom": "3", "maxzoom": "5"}
@@ -100,6 +101,33 @@ def test_where_there_is_no_sharp_tile_a_part_of_a_coarser_one_is_shown(tmp_path,
     asked = tile(5, 7, 4)
     filled(source, asked)
     assert asked.texture.size == (64, 64)
+
+
+def test_until_a_sharp_tile_is_read_a_part_of_a_coarser_one_stands_in_for_it(tmp_path, stage):
+    tiles = {(3, 1, 1): picture("red"), (5, 7, 4): picture("blue")}
+    slow = Slow()
+    source = MBTiles(write(tmp_path / "a.mbtiles", PLAIN, tiles), slow)
+    slow.may.release()
+    filled(source, tile(3, 1, 1))
+    sharp = tile(5, 7, 4)
+    ask(source, sharp)
+    stage.frames(1)
+    assert sharp.texture.size == (64, 64)
+    assert sharp.state == "loading"
+    slow.may.release()
+    source.finish()
+    assert (sharp.texture.size, sharp.state) == ((256, 256), "animated")
+
+
+@pytest.mark.parametrize("how", [{}, {"lossless": True}, {"exif": b"Exif\0\0more"}])
+def test_webp_tiles_are_shown_and_their_size_is_known_before_they_are_decoded(tmp_path, stage, how):
+    raw = io.BytesIO()
+    Image.new("RGB", (200, 130), "red").save(raw, "WEBP", **how)
+    assert tile_size(raw.getvalue()) == ("webp", 200, 130)
+    file = write(tmp_path / "a.mbtiles", {**PLAIN, "format": "webp"}, {(4, 1, 2): raw.getvalue()})
+    source, asked = MBTiles(file), tile(4, 1, 2)
+    filled(source, asked)
+    assert asked.texture.size == (200, 130)
 
 
 def test_a_gap_stays_a_gap(tmp_path, stage):
@@ -212,7 +240,11 @@ def test_a_file_that_goes_away_shows_gaps_and_is_said_once(tmp_path, stage, capl
     ("about", "sentence"),
     [
         ({"format": "png", "minzoom": "3"}, "does not say its maxzoom"),
-        ({**PLAIN, "format": "pbf"}, "holds pbf tiles; only png and jpg"),
+        ({**PLAIN, "minzoom": "9"}, "the zoom levels 9 to 5; 0 to 24 can be shown"),
+        ({**PLAIN, "maxzoom": "many"}, "the zoom levels 3 to many"),
+        ({**PLAIN, "bounds": "1,2,3"}, "reaches to 1,2,3, which are no four angles"),
+        ({**PLAIN, "bounds": "1,nan,3,4"}, "no four angles"),
+        ({**PLAIN, "format": "pbf"}, "holds pbf tiles; only png, jpg and webp"),
     ],
 )
 def test_a_file_that_cannot_be_shown_says_why(tmp_path, about, sentence):

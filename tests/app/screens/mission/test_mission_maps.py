@@ -34,7 +34,7 @@ def test_leaving_the_robot_ends_the_reading_of_aerial_pictures(driving: Glass, r
     mission = driving.app.screens["mission"]
     driving.until(lambda: driving.app.session.robot.info.world == "parking_lot", "no world")
     driving.tap(mission.ids["layers"])
-    pictures = mission.map._pictures.map_source
+    pictures = mission.map.ground.source
     driving.tap(mission.ids["layers"])
     driving.app.leave()
     assert pictures._reader._closed
