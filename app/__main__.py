@@ -15,12 +15,12 @@ from app.discovery.known_robots import check_address
 from app.garbage_collector import spare_the_start
 from app.layout import layout as layouts
 from app.lean_kivy import be_lean
+from app.screens.parts.screen_table import names
 from bridge.trust.pairing import SCHEME, PairLink
 from bridge.trust.robot_link import RobotLink, read_link
 
 __all__ = ["main", "prepare", "quieten"]
 
-SCREENS = ("mission", "drive", "tasks", "topics", "setup", "inputs")
 THEMES = ("dark", "sunlight", "night")
 SIZE = re.compile(r"(\d{3,5})x(\d{3,5})")
 
@@ -44,7 +44,7 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
         "--layout",
         help=f"layout of the drive screen for any robot: a .toml file, {', '.join(layouts.names())}",
     )
-    parser.add_argument("--screen", default="mission", choices=SCREENS, help="first screen after connecting")
+    parser.add_argument("--screen", default="mission", choices=names(), help="first screen after connecting")
     parser.add_argument("--theme", choices=THEMES, help="colours; default: the last choice")
     parser.add_argument("--size", help="size of the window [px], as in 412x892")
     arguments = parser.parse_args(argv)

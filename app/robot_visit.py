@@ -155,5 +155,4 @@ class RobotVisit:
         self._records.check()
         shell = self._pages.shell
         if shell is not None:
-            shell.recording = self._records.recorder is not None
-            shell.ids.record.text = self._records.clock
+            shell.recorded = self._records.clock if self._records.recorder is not None else ""

@@ -21,6 +21,7 @@ __all__ = [
     "inputs",
     "inputs_alone",
     "mission",
+    "more",
     "shell",
     "stop_list",
     "talk_row",
@@ -196,6 +197,16 @@ def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     strip = Rect(x, stop.y, stop.left - gap - x, stop.height)
     notice = Rect(detail.x, low, detail.width, 110 * dp)
     return {"list": listed, "detail": detail, "strip": strip, "stop": stop, "notice": notice}
+
+
+def more(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+    """Of a page of tiles: `list` above STOP, and `notice` over its lower end."""
+    gap = 12 * dp
+    stop = stop_tall(body, gap, dp)[0] if shape == "tall" else _stop_of_lists(body, shape, dp)
+    low = stop.head + gap
+    whole = Rect(body.x + gap, low, body.width - 2 * gap, body.top - gap - low)
+    left = Rect(body.x + gap, body.y + gap, stop.left - body.x - 2 * gap, stop.height)
+    return {"list": whole, "stop": stop, "notice": left if left.width >= STRIP * dp else whole}
 
 
 def _stop_of_lists(body: Rect, shape: str, dp: float) -> StopPlace:

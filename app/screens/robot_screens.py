@@ -10,6 +10,7 @@ from app.layout.layout import Layout
 from app.layout.layout_choice import LayoutChoice
 from app.link.feeds import Post
 from app.screens.parts.robot_screen import RobotScreen
+from app.screens.parts.screen_table import SCREENS, Entry
 from app.screens.shell.screen_host import ScreenHost
 from app.screens.shell.screen_set import ScreenSet
 from app.screens.shell.shell import Shell, ShellHost
@@ -74,17 +75,12 @@ def robot_shell(app: Host, session: Session, layouts: LayoutChoice, **kwargs: An
     """The frame with every screen in it; `layouts` give the drive screen of a robot's model and kind."""
     profile = Profile(app, session, layouts)
 
-    def maker(where: str, **needed: object) -> Callable[[], RobotScreen]:
-        return lambda: bring(where)(**needed)
+    given: dict[str, object] = {"app": app, "session": session}
 
-    makers: dict[str, Callable[[], RobotScreen]] = {
-        "mission": maker("app.screens.mission.mission:MissionScreen", app=app, session=session),
-        "drive": profile.screen,
-        "tasks": maker("app.screens.tasks.tasks:TasksScreen", app=app, session=session),
-        "topics": maker("app.screens.topics.topics:TopicsScreen", app=app, session=session),
-        "setup": maker("app.screens.setup.screen:SetupScreen", app=app, session=session),
-        "inputs": maker("app.screens.inputs.screen:InputsScreen", app=app),
-    }
+    def maker(entry: Entry) -> Callable[[], RobotScreen]:
+        return lambda: bring(entry.maker)(**{name: given[name] for name in entry.needs})
+
+    makers = {entry.name: maker(entry) if entry.maker else profile.screen for entry in SCREENS}
     shell = Shell(ScreenSet(makers, session.now), app=app, session=session, **kwargs)
     profile.follow(shell)
     return shell

@@ -11,45 +11,27 @@ from kivy.uix.floatlayout import FloatLayout
 
 from app.layout.arrange import Rect
 from app.screens.parts.placing import put
-from app.screens.parts.themes import THEMES
+from app.screens.parts.screen_table import MORE, SCREENS, beyond, tabs
 from bridge.msgs.pilothouse_msgs import Event
+from widgets.core.language import tr
 from widgets.core.surfaces import Edged
-from widgets.core.theme import theme
 from widgets.parts.kit import NavButton, PushButton
 
 __all__ = ["Rail"]
 
-ENTRIES = {
-    "drive": ("sports_esports", "Drive"),
-    "mission": ("map", "Mission"),
-    "tasks": ("list", "Tasks"),
-    "topics": ("data_object", "Topics"),
-    "setup": ("tune", "Setup"),
-    "talk": ("mic", "Talk"),
-    "control_nav": ("person", "Control"),
-    "record": ("fiber_manual_record", "Record"),
-    "theme": ("light_mode", "Sunlight"),
-}
-"""Name of each button to its icon and text; elsewhere than on a phone the third from the end is in the bar on top. The one to
-talk is there while voice is on."""
 TALKS = {
     "ready": ("Hold to talk", "accent"),
     "listening": ("Listens", "ink_accent"),
     "loud": ("Too loud", "warn"),
     "wrong": ("Hold to talk", "warn"),
 }
-"""How voice stands, to the words of the button to talk and the role of its icon."""
+"""How voice stands, to the words of the button to talk and the role of its icon. The button is there while voice is on."""
 BAR_HEIGHT = 60
 """Height of the bar of a phone without the button to talk [dp]."""
 MIN_TALK_HEIGHT = 66
 """Height of the button to talk on a phone's side [dp]."""
 MAX_TALK_HEIGHT = 120
 """Height of the button to talk where there is room [dp]."""
-MIN_STEP = 54
-"""Along the lower edge, for a count beside an icon [dp]."""
-UPPER_COUNT = 5
-"""As many stand at the upper end of the edge, the others at the lower."""
-
 Builder.load_string("""
 <Rail>:
     size_hint: None, None
@@ -95,27 +77,22 @@ class Rail(Edged, FloatLayout):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._rect, self._dp = Rect(0, 0, 1, 1), 1.0
-        for name, (icon, text) in ENTRIES.items():
-            button: PushButton | NavButton
-            if name == "talk":
-                button = talk = TalkButton(size_hint=(None, None))
-                talk.on_sign()
-                talk.bind(state=lambda _, state: self.dispatch("on_talk", state == "down"))
-            else:
-                button = NavButton(icon=icon, text=text)
-                button.bind(on_release=lambda _, name=name: self.dispatch("on_press", name))
-            self.ids[name] = button
-            self.buttons.append(button)
+        for entry in SCREENS:
+            if entry.edge or entry.name == MORE:
+                button = NavButton(icon=entry.icon, text=tr(entry.words))
+                button.bind(on_release=lambda _, name=entry.name: self.dispatch("on_press", name))
+                self.ids[entry.name] = button
+                self.buttons.append(button)
+        self.ids["talk"] = talk = TalkButton(size_hint=(None, None))
+        talk.on_sign()
+        talk.bind(state=lambda _, state: self.dispatch("on_talk", state == "down"))
 
     def arrange(self, rect: Rect, form: str, dp: float) -> None:
         """Put the buttons into `rect`; `dp` is one dp [px]."""
         self.form, tall = form, form == "tall"
         self._rect, self._dp = rect, dp
         put(self, rect)
-        # where there is no room for it, the robot's settings lead there
-        cramped = rect.width < MIN_STEP * (len(ENTRIES) - 1) * dp if tall else form == "short" and self.talks
-        absent = ("control_nav" if not tall else "", "setup" if cramped else "", "talk")
-        buttons = [self.ids[name] for name in ENTRIES if name not in absent]
+        buttons = [self.ids[entry.name] for entry in tabs(form)]
         self.clear_widgets()
         for button in [*buttons, *([self.ids.talk] if self.talks else [])]:
             self.add_widget(button)
@@ -130,7 +107,7 @@ class Rail(Edged, FloatLayout):
         step = rect.width / len(buttons)
         for index, button in enumerate(buttons):
             button.framed, button.padding = False, (0, 10 * dp, 0, 9 * dp)
-            button.size = min(step, 82 * dp), BAR_HEIGHT * dp
+            button.size = min(step, 96 * dp), BAR_HEIGHT * dp
             button.pos = rect.x + step * index + (step - button.width) / 2, rect.y
         talk, low = self.ids.talk, rect.y + BAR_HEIGHT * dp
         talk.flow = "horizontal"
@@ -138,39 +115,26 @@ class Rail(Edged, FloatLayout):
         talk.pos = rect.x + (rect.width - talk.width) / 2, low + 2 * dp
 
     def _below_each_other(self, buttons: Sequence[Any], rect: Rect, dp: float) -> None:
-        """Along the left edge, the button to talk between the upper and the lower ones."""
+        """Along the left edge from its upper end, the button to talk at the lower."""
         talk, gap = self.ids.talk, 8 * dp
-        room = rect.height - 24 * dp - ((MIN_TALK_HEIGHT * dp + 2 * gap) if self.talks else 0)
+        room = rect.height - 24 * dp - ((MIN_TALK_HEIGHT * dp + gap) if self.talks else 0)
         step = min(72 * dp, room / len(buttons))
-        upper = UPPER_COUNT - (self.ids.setup not in buttons)
-        high, lower = min(64 * dp, step), len(buttons) - upper
+        high = min(64 * dp, step)
         for index, button in enumerate(buttons):
             # what is lower than its icon and its word need gives up its edges first
             edge = max(0.0, min(10 * dp, (high - 43 * dp) / 2))
             button.framed, button.padding = True, (0, edge, 0, max(0.0, edge - dp))
             button.size = rect.width - 12 * dp, high
-            if index >= upper:
-                button.pos = rect.x + 6 * dp, rect.y + 12 * dp + (len(buttons) - 1 - index) * step
-            else:
-                button.pos = rect.x + 6 * dp, rect.top - 12 * dp - high - index * step
-        low = rect.y + 12 * dp + (lower - 1) * step + high + gap
-        top = rect.top - 12 * dp - high - (upper - 1) * step - gap
+            button.pos = rect.x + 6 * dp, rect.top - 12 * dp - high - index * step
+        low = rect.y + 12 * dp
+        top = rect.top - 12 * dp - high - (len(buttons) - 1) * step - gap
         talk.flow = "vertical"
         talk.size = rect.width - 6 * dp, max(MIN_TALK_HEIGHT * dp, min(MAX_TALK_HEIGHT * dp, top - low))
-        talk.pos = rect.x + 3 * dp, low + (top - low - talk.height) / 2
+        talk.pos = rect.x + 3 * dp, low
 
-    def show(
-        self,
-        screen: str,
-        *,
-        recording: bool,
-        control: tuple[str, str, str],
-        waiting: Sequence[Event] = (),
-        talk: str = "",
-    ) -> None:
+    def show(self, screen: str, *, waiting: Sequence[Event] = (), talk: str = "") -> None:
         """Bring the looks up to date: which `screen` is on the glass, and what goes on.
 
-        `control` is text, icon and role of the button for control; without a role it looks as the others.
         `waiting` for somebody to see to them are warnings and alarms; they are counted where they are listed.
         `talk` is how voice stands, of `TALKS`, empty while it is off.
         """
@@ -182,15 +146,10 @@ class Rail(Edged, FloatLayout):
         tasks = self.ids.tasks
         tasks.count = len(waiting)
         tasks.urgent = any(event.level == "alarm" for event in waiting)
-        for name in ENTRIES:
-            if name != "talk":
-                self.ids[name].active = name == screen
-        icon, text, _ = THEMES[theme.name]
-        self.ids.theme.icon, self.ids.theme.text = icon, text
-        self.ids.record.tint = "danger" if recording else ""
-        self.ids.record.icon = "fiber_manual_record_fill" if recording else "fiber_manual_record"
-        nav = self.ids.control_nav
-        nav.text, nav.icon, nav.tint = control
+        lit = MORE if screen in {entry.name for entry in beyond(self.form)} else screen
+        for entry in SCREENS:
+            if entry.name in self.ids:
+                self.ids[entry.name].active = entry.name == lit
 
     def on_talk(self, down: bool) -> None:
         """The button to talk was pressed, or let go."""

@@ -18,12 +18,14 @@ from app.link.channels import CAPABILITIES, LINK, OUTCOME
 from app.link.feeds import Post
 from app.screens.parts.placing import put
 from app.screens.parts.robot_screen import RobotScreen
+from app.screens.parts.screen_table import MORE
 from app.screens.parts.themes import Themes
 from app.screens.shell import status_text as standing
 from app.screens.shell.announcements import Announcements
 from app.screens.shell.control_cards import ControlCards
 from app.screens.shell.control_toggle import ControlToggle
 from app.screens.shell.intent_prompts import IntentPrompts
+from app.screens.shell.key_help import toggle_help
 from app.screens.shell.notices import BRIEF_DURATION, Notices
 from app.screens.shell.rail import Rail
 from app.screens.shell.reset_card import ResetPrompt
@@ -98,7 +100,8 @@ class Shell(FloatLayout):
     """Shape of the window, as in `app.layout.arrange.form`."""
     screen = StringProperty("")
     """Name of the screen on the glass, as in `screens`."""
-    recording = BooleanProperty(False)
+    recorded = StringProperty("")
+    """How long a recording runs, as in `04:31`; empty while none does."""
     shares_stop = BooleanProperty(False)
     """STOP ALL is in STOP's corner as well."""
 
@@ -134,13 +137,18 @@ class Shell(FloatLayout):
         theme.bind(target=self._arrange)
         self._arrange()
 
+    def on_recorded(self, *_: object) -> None:
+        """Say it in the bar."""
+        self.bar.recorded = f"REC {self.recorded}" if self.recorded else ""
+
     def _build_frame(self) -> None:
         """Bar, navigation, STOP and what is said over them; the ids of their parts are found here too."""
         self.bar, self.nav, self.notices = TopBar(), Rail(), Notices()
         self.bar.bind(on_back=lambda _: self.app.leave(), on_control=lambda _: self.toggle_control())
-        self.bar.bind(on_people=lambda _: self.parent.add_widget(PeopleDialog(self.session)))
+        self.bar.bind(on_people=lambda _: self.act("people"), on_record=lambda _: self.act("record"))
+        self.bar.bind(on_more=lambda _: self.app.show(MORE))
         self.bar.bind(on_mode=lambda _: self.cards.ask_mode(), on_inputs=lambda _: self.app.show_inputs())
-        self.nav.bind(on_press=lambda _, name: self._press(name), on_talk=lambda _, down: self._talk(down))
+        self.nav.bind(on_press=lambda _, name: self.app.show(name), on_talk=lambda _, down: self._talk(down))
         self._stop = StopDisplay(self.session, self.notices, self.rest)
         self.stop = self._stop.button
         for widget in (self.bar, self.nav, self.stop, self.notices):
@@ -168,13 +176,17 @@ class Shell(FloatLayout):
 
     # navigation
 
-    def _press(self, name: str) -> None:
+    def act(self, name: str) -> None:
+        """Do what no screen does: `control`, `record`, `theme`, `people`, `help` or `leave`; KeyError for another."""
         acts: dict[str, Callable[[], object]] = {
-            "control_nav": self.toggle_control,
+            "control": self.toggle_control,
             "record": self.app.visit.toggle_recording,
             "theme": self.app.themes.choose_next,
+            "people": lambda: self.parent.add_widget(PeopleDialog(self.session)),
+            "help": lambda: toggle_help(self.app),
+            "leave": self.app.leave,
         }
-        acts.get(name, lambda: self.app.show(name))()
+        acts[name]()
 
     def _talk(self, down: bool) -> None:
         voice = self.app.methods.get("voice")
@@ -215,8 +227,6 @@ class Shell(FloatLayout):
     def _show_rail(self) -> None:
         self.nav.show(
             self.screen,
-            recording=self.recording,
-            control=standing.control_nav(self.session),
             waiting=self.session.logbook.open,
             talk=getattr(self.app.methods.made("voice"), "sign", ""),
         )

@@ -84,10 +84,7 @@ def control(session: Session, *, brief: bool) -> tuple[str, str, str]:
 
 
 def control_nav(session: Session) -> tuple[str, str, str]:
-    """Words, icon and role of the button for control; without a role it looks as its neighbours.
-
-    It says who drives: on a phone nothing else does.
-    """
+    """Words, icon and role of what a phone has room for of control; without a role it is as it should be, or free."""
     authority = session.authority
     if authority.status.requested_by and session.control in ("mine", "other"):
         return f"Ask{_countdown(authority.left)}", "hourglass_top", "warn"

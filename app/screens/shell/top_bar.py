@@ -23,9 +23,12 @@ from widgets.core.theme import theme
 
 __all__ = ["TopBar"]
 
-PARTS = ("back", "name", "trust", "mode", "battery", "link", "satellites", "gap", "inputs", "control")
+PARTS = (
+    *("back", "name", "trust", "mode", "battery", "link", "satellites", "gap"),
+    *("inputs", "record", "control", "more"),
+)
 """What it holds, from left to right."""
-NARROW = ("back", "name", "trust", "mode", "stack", "inputs")
+NARROW = ("back", "name", "trust", "mode", "stack", "record", "control", "inputs")
 """What a narrow one holds: battery and link are above each other there."""
 STACKED = ("link", "battery")
 """From the upper one down."""
@@ -105,20 +108,43 @@ Builder.load_string("""
         pos_hint: {'center_y': .5}
         on_release: root.dispatch('on_inputs')
     Chip:
+        id: record
+        icon: 'fiber_manual_record_fill'
+        role: 'danger'
+        text: root.recorded if root.form != 'tall' else ''
+        spacing: dp(8) if self.text else 0
+        edge: dp(13) if self.text else dp(7)
+        pressable: True
+        scan_words: 'Stop recording'
+        pos_hint: {'center_y': .5}
+        on_release: root.dispatch('on_record')
+    Chip:
         id: control
         icon: root.control_icon
         role: root.control_role
-        text: root.control_text
+        text: root.control_text if root.form != 'tall' else root.named
+        spacing: dp(8) if self.text and root.form != 'tall' else dp(4) if self.text else 0
+        edge: dp(13) if root.form != 'tall' else dp(7)
         pressable: True
+        scan_words: root.control_text
         pos_hint: {'center_y': .5}
         on_release: root.dispatch('on_control')
+    IconButton:
+        id: more
+        icon: 'more_vert'
+        role: 'muted'
+        bare: True
+        width: dp(40)
+        pos_hint: {'center_y': .5}
+        scan_words: 'More'
+        on_release: root.dispatch('on_more')
 """)
 
 
 class TopBar(EdgedBox):
-    """Dispatches `on_back`, `on_people`, `on_mode`, `on_inputs` and `on_control` as they are tapped."""
+    """Dispatches `on_back`, `on_people`, `on_mode`, `on_inputs`, `on_record`, `on_control` and `on_more` as they are tapped."""
 
-    __events__ = ("on_back", "on_control", "on_inputs", "on_mode", "on_people")
+    __events__ = ("on_back", "on_control", "on_inputs", "on_mode", "on_more", "on_people", "on_record")
 
     form = OptionProperty("wide", options=["wide", "short", "tall"])
     """Shape of the window, as in `app.layout.arrange.form`."""
@@ -126,6 +152,8 @@ class TopBar(EdgedBox):
     """What is left for the name of the robot where all of it would push the last chip off the glass [px]; 0 where it has room."""
     crowded = BooleanProperty(False)
     """There is no room for the satellites."""
+    tight = BooleanProperty(False)
+    """A narrow one has no room for the ways in beside the name: More leads there."""
     robot_name = StringProperty("")
     mode_text = StringProperty("—")
     mode_icon = StringProperty("help")
@@ -138,7 +166,11 @@ class TopBar(EdgedBox):
     fix_role = StringProperty("muted")
     protected = BooleanProperty(True)
     """Nobody on the way reads or changes what is said: as of `Session.protected`."""
+    recorded = StringProperty("")
+    """How long a recording runs; empty while none does, and then nothing is said of it."""
     control_text = StringProperty("")
+    named = StringProperty("")
+    """On a phone, who else has control or asks for it; empty while it is as it should be, which the icon says."""
     control_icon = StringProperty("help")
     control_role = StringProperty("muted")
 
@@ -149,39 +181,56 @@ class TopBar(EdgedBox):
         )
         for name in PARTS:  # kv holds ids weakly, and the narrow bar takes some of them out
             self.ids[name] = self.ids[name].__self__
-        for name in ("located", "crowded"):
+        for name in ("located", "crowded", "protected", "recorded", "tight"):
             self.fbind(name, lambda *_: self.arrange(self.form))
         self._fit = Clock.create_trigger(lambda _: self._fitted(), -1)
-        for name in ("trust", "mode", "battery", "link", "satellites", "inputs", "control"):
+        for name in ("trust", "mode", "battery", "link", "satellites", "inputs", "record", "control"):
             self.ids[name].bind(width=self._fit)
-        for name in ("width", "form", "robot_name", "located"):
+        for name in ("width", "form", "robot_name", "located", "protected", "recorded"):
             self.fbind(name, self._fit)
 
     def arrange(self, form: str) -> None:
         """Take the shape of the window; the narrow bar leaves out what is said elsewhere."""
         self.form = form
         self._stack_up(stacked=form == "tall")
-        wanted = list(NARROW if form == "tall" else PARTS)
-        if self.crowded or not self.located:
-            wanted = [name for name in wanted if name != "satellites"]
-        shown = [self.ids[name] for name in wanted]
+        shown = [self.ids[name] for name in self._wanted()]
         if list(reversed(self.children)) != shown:
             self.clear_widgets()
             for widget in shown:
                 self.add_widget(widget)
 
+    def _wanted(self) -> list[str]:
+        """What there is room for and something to say of."""
+        tall = self.form == "tall"
+        absent = {
+            "satellites": self.crowded or not self.located,
+            "record": not self.recorded,
+            "trust": tall and self.protected,  # what is as it should be is said under More
+            "inputs": tall and self.tight,
+            "more": self.form != "wide",  # a phone's navigation leads there
+        }
+        return [name for name in (NARROW if tall else PARTS) if not absent.get(name)]
+
     def _fitted(self) -> None:
         """Leave out the satellites, and then the end of the name, so that who has control is always read whole."""
         if self.form == "tall":
             self.crowded, self.name_room = False, 0
+            self._fit_narrow()
             return
-        chips = [self.ids[name] for name in PARTS if name not in ("name", "gap", "satellites")]
+        chips = [self.ids[name] for name in self._wanted() if name not in ("name", "gap", "satellites")]
         around = self.padding[0] + self.padding[2] + self.spacing * (len(chips) + 1)
         left = self.width - around - sum(chip.width for chip in chips)
         name = text_texture(self.robot_name, self.ids.name.font_size, theme.font, bold=True).width
         fix = self.ids.satellites.width + self.spacing
         self.crowded = name + fix > left
         self.name_room = max(left, dp(LEAST_NAME)) if name > left else 0
+
+    def _fit_narrow(self) -> None:
+        """Leave out the ways in where they would leave next to nothing of the name."""
+        others = [self.ids[name] for name in self._wanted() if name not in ("name", "inputs")]
+        around = self.padding[0] + self.padding[2] + self.spacing * (len(others) + 1)
+        left = self.width - around - sum(chip.width for chip in others) - self.ids.inputs.width
+        self.tight = left < dp(LEAST_NAME)
 
     def _stack_up(self, *, stacked: bool) -> None:
         """Battery and link come into the stack, or out of it."""
@@ -218,6 +267,8 @@ class TopBar(EdgedBox):
         self.control_text, self.control_icon, self.control_role = standing.control(
             session, brief=self.form != "wide"
         )
+        words, _, other = standing.control_nav(session)
+        self.named = words if other else ""
         chip = self.ids.link
         chip.state = "live"
         chip.rtt, chip.lost = session.link.health.rtt, session.link.health.lost
@@ -240,5 +291,11 @@ class TopBar(EdgedBox):
     def on_mode(self) -> None:
         """The mode was tapped."""
 
+    def on_record(self) -> None:
+        """The recording that runs was tapped."""
+
     def on_control(self) -> None:
         """Who has control was tapped."""
+
+    def on_more(self) -> None:
+        """What leads to all other screens was tapped."""

@@ -16,6 +16,7 @@ from app.layout.arrange import (
     inputs,
     inputs_alone,
     mission,
+    more,
     shell,
     topics,
     two_sticks,
@@ -38,11 +39,12 @@ def screens(width: int, height: int) -> dict[str, dict[str, Rect]]:
         "two_switch": two_sticks(body, shape, switch=True),
         "topics": topics(body, shape),
         "inputs": inputs(body, shape),
+        "more": more(body, shape),
     }
 
 
 DRIVES = ("drive", "switch", "two", "two_switch")
-CASES = [(size, name) for size in SIZES for name in ("mission", *DRIVES)]
+CASES = [(size, name) for size in SIZES for name in ("mission", "more", *DRIVES)]
 NOTICES = [(size, name) for size in SIZES for name in ("mission", "sheet", *DRIVES, "topics")]
 INPUTS = [(412, 892), (892, 412), (1280, 800), (1920, 1200), (800, 1280)]
 """In smaller windows there is no room beside STOP for a sentence."""

@@ -233,7 +233,7 @@ def test_a_long_name_is_cut_in_the_bar(watch: Watch) -> None:
     assert standing.control(watch.session, brief=True)[0] == "the tablet of…"
 
 
-def test_the_button_of_a_phone_says_who_drives_by_name_and_sign(watch: Watch) -> None:
+def test_a_phone_says_who_drives_by_name_and_sign(watch: Watch) -> None:
     watch.told(FREE)
     assert standing.control_nav(watch.session) == ("Control", "lock_open", "")
     watch.told(MINE)

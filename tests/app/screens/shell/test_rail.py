@@ -11,13 +11,13 @@ from app.screens.shell.rail import Rail
 from tests.headless import Stage
 from widgets.core.theme import theme
 
-FORMS = {"tall": Rect(0, 0, 412, 137), "short": Rect(0, 0, 68, 344), "wide": Rect(0, 0, 76, 744)}
+FORMS = {"tall": Rect(0, 0, 412, 137), "short": Rect(0, 0, 68, 312), "wide": Rect(0, 0, 76, 744)}
 
 
 def rail(stage: Stage, form: str, talk: str) -> Rail:
     made = stage.show(Rail())
     made.arrange(FORMS[form], form, 1.0)
-    made.show("drive", recording=False, control=("You", "person", ""), talk=talk)
+    made.show("drive", talk=talk)
     stage.frames(2)
     return made
 
@@ -26,7 +26,7 @@ def rail(stage: Stage, form: str, talk: str) -> Rail:
 def test_it_is_there_only_while_voice_is_on(stage: Stage, form: str) -> None:
     made = rail(stage, form, "")
     assert made.ids.talk.parent is None
-    made.show("drive", recording=False, control=("You", "person", ""), talk="ready")
+    made.show("drive", talk="ready")
     assert made.ids.talk.parent is made
 
 
@@ -39,7 +39,7 @@ def test_no_button_lies_on_another(stage: Stage, form: str) -> None:
 
 def test_on_a_wide_glass_it_is_larger_than_the_others(stage: Stage) -> None:
     made = rail(stage, "wide", "ready")
-    assert made.ids.talk.height > 1.5 * made.ids.topics.height
+    assert made.ids.talk.height > 1.5 * made.ids.tasks.height
 
 
 def test_it_tells_when_it_is_held_and_when_it_is_let_go(stage: Stage) -> None:
@@ -103,3 +103,24 @@ def test_a_count_of_two_figures_leaves_most_of_its_icon_to_be_seen(stage: Stage,
     button.count = 16
     assert button.badge_pos[0] >= button.center_x + 6
     assert button.badge_pos[0] + button.badge_size[0] <= button.right
+
+
+@pytest.mark.parametrize("form", ["tall", "short"])
+def test_a_phone_has_five_tabs_at_most_and_the_last_leads_to_all_others(stage: Stage, form: str) -> None:
+    made = rail(stage, form, "")
+    told: list[str] = []
+    made.bind(on_press=lambda _, name: told.append(name))
+    order = sorted(made.children, key=lambda one: (one.x, -one.y))
+    for button in order:
+        stage.tap(*button.center)
+    assert told == ["drive", "mission", "tasks", "topics", "more"]
+    assert {made.ids[name] for name in told} == set(order)
+
+
+@pytest.mark.parametrize(("form", "lit"), [("tall", "more"), ("short", "more"), ("wide", "setup")])
+def test_a_screen_without_a_tab_of_its_own_lights_the_one_that_leads_to_it(
+    stage: Stage, form: str, lit: str
+) -> None:
+    made = rail(stage, form, "")
+    made.show("setup")
+    assert [name for name, button in made.ids.items() if getattr(button, "active", False)] == [lit]

@@ -1,0 +1,1 @@
+"""Everything that the navigation has no room for, as large tiles."""
