@@ -17,6 +17,7 @@ from app.screens.parts.robot_screen import RobotScreen
 from app.screens.parts.screen_table import Entry, beyond
 from app.screens.parts.themes import THEMES
 from app.screens.shell import status_text as standing
+from app.screens.shell.key_help import toggle_help
 from app.session.session import Session
 from widgets.core.language import mark, tr
 from widgets.core.theme import theme
@@ -40,7 +41,7 @@ ACTS = {
     "help": ("keyboard", mark("Keys and gamepad")),
     "leave": ("arrow_back", mark("Leave the robot")),
 }
-"""What no screen does, by the names of `Shell.act`, to its icon and words."""
+"""What no screen does, by its name, to its icon and words."""
 NEXT_THEME = {"dark": mark("Sunlight"), "sunlight": mark("Night"), "night": mark("Dark")}
 """Theme to the words for the one that comes next."""
 
@@ -97,7 +98,19 @@ class MoreScreen(RobotScreen):
         return lambda: self.app.show(screen)
 
     def _does(self, name: str) -> Callable[[], object]:
-        return lambda: self.app.shell.act(name)
+        return lambda: self._do(name)
+
+    def _do(self, name: str) -> None:
+        app = self.app
+        acts: dict[str, Callable[[], object]] = {
+            "control": app.shell.toggle_control,
+            "record": app.visit.toggle_recording,
+            "theme": app.themes.choose_next,
+            "people": app.shell.show_people,
+            "help": lambda: toggle_help(app),
+            "leave": app.leave,
+        }
+        acts[name]()
 
     def clear(self, cover: Rect | None) -> None:
         """End above what is said over the screen."""

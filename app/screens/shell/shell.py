@@ -25,7 +25,6 @@ from app.screens.shell.announcements import Announcements
 from app.screens.shell.control_cards import ControlCards
 from app.screens.shell.control_toggle import ControlToggle
 from app.screens.shell.intent_prompts import IntentPrompts
-from app.screens.shell.key_help import toggle_help
 from app.screens.shell.notices import BRIEF_DURATION, Notices
 from app.screens.shell.rail import Rail
 from app.screens.shell.reset_card import ResetPrompt
@@ -145,8 +144,8 @@ class Shell(FloatLayout):
         """Bar, navigation, STOP and what is said over them; the ids of their parts are found here too."""
         self.bar, self.nav, self.notices = TopBar(), Rail(), Notices()
         self.bar.bind(on_back=lambda _: self.app.leave(), on_control=lambda _: self.toggle_control())
-        self.bar.bind(on_people=lambda _: self.act("people"), on_record=lambda _: self.act("record"))
-        self.bar.bind(on_more=lambda _: self.app.show(MORE))
+        self.bar.bind(on_people=lambda _: self.show_people(), on_more=lambda _: self.app.show(MORE))
+        self.bar.bind(on_record=lambda _: self.app.visit.toggle_recording())
         self.bar.bind(on_mode=lambda _: self.cards.ask_mode(), on_inputs=lambda _: self.app.show_inputs())
         self.nav.bind(on_press=lambda _, name: self.app.show(name), on_talk=lambda _, down: self._talk(down))
         self._stop = StopDisplay(self.session, self.notices, self.rest)
@@ -175,18 +174,6 @@ class Shell(FloatLayout):
             screen.end()
 
     # navigation
-
-    def act(self, name: str) -> None:
-        """Do what no screen does: `control`, `record`, `theme`, `people`, `help` or `leave`; KeyError for another."""
-        acts: dict[str, Callable[[], object]] = {
-            "control": self.toggle_control,
-            "record": self.app.visit.toggle_recording,
-            "theme": self.app.themes.choose_next,
-            "people": lambda: self.parent.add_widget(PeopleDialog(self.session)),
-            "help": lambda: toggle_help(self.app),
-            "leave": self.app.leave,
-        }
-        acts[name]()
 
     def _talk(self, down: bool) -> None:
         voice = self.app.methods.get("voice")
@@ -329,6 +316,10 @@ class Shell(FloatLayout):
     def toggle_control(self) -> None:
         """A tap on control, as `ControlToggle.toggle` has it."""
         self.control.toggle(self.parent)
+
+    def show_people(self) -> None:
+        """Who has a key of the robot, over the page."""
+        self.parent.add_widget(PeopleDialog(self.session))
 
     def back(self) -> bool:
         """Back within the screen that is on the glass; False when it has nowhere to go back to."""
