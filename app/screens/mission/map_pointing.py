@@ -6,14 +6,14 @@ import math
 from dataclasses import replace
 from typing import Any, Protocol
 
-import msgspec
 from kivy.metrics import dp
+from kivy.uix.widget import Widget
 
 from app.missions.mission_editor import Draft
+from app.screens.mission.map_places import MapPlaces
 from app.screens.mission.selection_bar import SelectionBar
 from app.screens.shell.screen_host import ScreenHost
 from app.session.session import Session
-from bridge.msgs.pilothouse_msgs import Place, PlaceArray
 from widgets.map.map_overlay import MapOverlay
 from widgets.parts.kit import IconButton, PrimaryButton, QuietButton
 
@@ -58,6 +58,9 @@ class EditedMap(Protocol):
     def show_selection(self, shown: bool) -> None:
         """Have the bar that says what is selected on the glass, or away."""
 
+    def show_card(self, card: Widget | None) -> None:
+        """Have a card over the map, beside which what it asks of is seen; None takes it away."""
+
 
 class MapPointing:
     """The fingers on the map of one mission screen, and the bar that says what they hold."""
@@ -66,9 +69,7 @@ class MapPointing:
         """`screen` is the MissionScreen: its map, its mode, the app behind it."""
         self._screen, self._session = screen, session
         self.bar = SelectionBar()
-        self._named: list[Place] = []
-        self._moving: Place | None = None
-        """The place whose position the next tap says; None for a new one."""
+        self.places = MapPlaces(screen, session, self.show)
         self._ids: dict[str, Any] = {}
         self._build()
 
@@ -101,8 +102,8 @@ class MapPointing:
             on_move=lambda _, index, x, y: mission.move(index, x, y),
             on_select=lambda *_: self.show(),
             on_set_home=lambda _, x, y: mission.set_home(x, y),
-            on_new_place=lambda _, x, y: self._new_place(x, y),
-            on_open_place=lambda _, index: self._open_place(index),
+            on_new_place=lambda _, x, y: self.places.point(x, y),
+            on_open_place=lambda _, index: self.places.open_at(index),
             grip=self._say,
             fence=self._say,
             robot_radius=self._say,
@@ -125,7 +126,7 @@ class MapPointing:
     def mode_changed(self) -> None:
         """Another mode was chosen."""
         if self._screen.mode != "place":
-            self._moving = None
+            self.places.stay()
         self.show()
 
     def set_going(self, name: str) -> None:
@@ -135,6 +136,7 @@ class MapPointing:
 
     def tick(self) -> None:
         """Bring up to date what time changes."""
+        self.places.tick()
         self._ids["place_here"].disabled = not self._session.connected or not self.can_place
 
     # the bar
@@ -160,8 +162,8 @@ class MapPointing:
             self._ids["earlier"].disabled = index == 0
             self._ids["later"].disabled = index == count - 1
             return f"Point {index + 1} of {count}", ("earlier", "later", "delete")
-        if screen.mode == "place" and self._moving is not None:
-            return f"Tap where {self._moving.name} is.", ()
+        if self.places.asks:
+            return self.places.asks, ()
         return HINTS.get(screen.mode, ""), ()
 
     def _trouble(self) -> str:
@@ -209,36 +211,7 @@ class MapPointing:
             area.selected = -1
             self._session.mission.remove(index)
 
-    # places and the robot's own
-
-    def show_places(self, one: MapOverlay, msg: PlaceArray) -> None:
-        """Show the places that have names on a map."""
-        self._named = list(msg.places)
-        one.places = [(place.x, place.y, place.name, place.kind) for place in msg.places]
-
-    def move_place(self, place: Place) -> None:
-        """Let the next tap say where a place is."""
-        self._moving, self._screen.mode = place, "place"
-        self.show()
-
-    def _new_place(self, x: float, y: float) -> None:
-        """A finger pointed at where a place is; what it is called is asked on another screen."""
-        if not self._session.robot.offers("/places/set"):
-            return
-        place, self._moving = self._moving or Place(), None
-        self._edit_place(msgspec.structs.replace(place, x=x, y=y))
-
-    def _open_place(self, index: int) -> None:
-        if self._moving is not None:  # a place may come to lie on another one's mark
-            self._new_place(self._named[index].x, self._named[index].y)
-        elif index < len(self._named):
-            self._edit_place(self._named[index])
-
-    def _edit_place(self, place: Place) -> None:
-        self._screen.mode = "view"
-        app = self._screen.app
-        app.show("tasks")
-        app.screens["tasks"].edit_place(place, returns=True)
+    # the robot's own place
 
     def _place_robot(self) -> None:
         placed = self._screen.map.placed

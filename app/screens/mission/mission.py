@@ -7,6 +7,7 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import ListProperty, NumericProperty, ObjectProperty, StringProperty
+from kivy.uix.widget import Widget
 
 from app.layout import arrange
 from app.layout.arrange import Rect
@@ -14,6 +15,7 @@ from app.link.camera_decoder import Picture
 from app.link.channels import CAPABILITIES, EVENT, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
+from app.screens.mission.map_card import MapCard, map_insets
 from app.screens.mission.map_corner import MapCorner
 from app.screens.mission.map_pointing import MODES, MapPointing
 from app.screens.mission.map_tools import MapTools, float_over
@@ -92,6 +94,7 @@ class MissionScreen(RobotScreen):
         self._corner = MapCorner(self.selection, self.checks)
         self.corner = self._corner.box
         """Over the map: what is selected and the check list, one above the other."""
+        self.card = MapCard(self)
         self._tools = MapTools(self.session, self._look, self.change_map)
         self._form, self._body, self._dp = "wide", Rect(0, 0, 1, 1), 1.0
         self._build()
@@ -141,6 +144,7 @@ class MissionScreen(RobotScreen):
         bind(self.map, "/task/status", self._drawing.show_task, fresh=False)
         bind(self.map, "/limits", lambda _: self._drawing.show_draft(), fresh=False)
         bind(self.compass, "/pose")
+        bind(self, "/pose", self._pointing.places.on_pose, fresh=False)
         bind(
             self.video,
             "/detections",
@@ -196,24 +200,23 @@ class MissionScreen(RobotScreen):
 
     def _place_floats(self, places: dict[str, Rect]) -> None:
         """With the sheet up, what would lie on it is away; the map fits into what is left free."""
-        area, up = places["map"], bool(self.sheet) and self._form == "tall"
-        self.ids.modes.disabled = up or len(self.modes) < 2
+        up = bool(self.sheet) and self._form == "tall"
+        covered = up or (self.card.open and self._form == "short")
+        self.ids.modes.disabled = covered or len(self.modes) < 2
         self.ids.modes.opacity = 0 if self.ids.modes.disabled else 1
-        top = area.top - places["modes"].y if self._form != "tall" else 0
-        low = places["modes"].top - area.y if self._form == "tall" else 0
-        left, video, bar = 0.0, places["video"], places["selection"]
-        if "compass" in places:
-            low = max(places["compass"].top, video.top) - area.y
-        elif self._form == "short":
-            beside = bar.x > video.right
-            left = bar.x - area.x if beside else 0.0
-            low = (bar if beside else video).top - area.y
-        self.map.insets = [left, low, area.right - places["tools"].x, top]
-        self.map.badge_span = [video.right, places["tools"].x] if self._form == "tall" else [0, 0]
+        self.card.arrange(places, self._body, self._form, self._dp)
+        self.map.insets = map_insets(places, self._form, self.card.place)
+        self.map.badge_span = [places["video"].right, places["tools"].x] if self._form == "tall" else [0, 0]
 
     def show_selection(self, shown: bool) -> None:
         """Have the bar that says what is selected on the glass, or away; the map that is edited is not covered by more."""
-        self._corner.show(selection=shown, checks=self.mode == "view")
+        covered = self.card.open
+        self._corner.show(selection=shown and not covered, checks=self.mode == "view" and not covered)
+
+    def show_card(self, card: Widget | None) -> None:
+        """Have a card over the map, beside which what it asks of is seen; None takes it away."""
+        self.card.show(card)
+        self._rearrange()
 
     @property
     def picture(self) -> Video:
@@ -254,6 +257,7 @@ class MissionScreen(RobotScreen):
         if channel == EVENT:
             self.panel.events.show(post.value)
         elif channel == OUTCOME:
+            self._pointing.places.on_outcome(post.value)
             self._show_outcome(post.value)
         elif channel == CAPABILITIES:
             self._take_offer()
@@ -283,8 +287,9 @@ class MissionScreen(RobotScreen):
         self._maps.end()
 
     def rest(self) -> None:
-        """Fingers on the map let go of what they hold."""
+        """Fingers on the map and on what lies over it let go of what they hold."""
         self.map.let_go()
+        self._pointing.places.rest()
 
     def tick(self) -> None:
         """Bring up to date what time changes."""
@@ -315,4 +320,4 @@ class MissionScreen(RobotScreen):
 
     def move_place(self, place: Place) -> None:
         """Let the next tap say where a place is."""
-        self._pointing.move_place(place)
+        self._pointing.places.move(place)

@@ -37,7 +37,7 @@ class MissionMaps:
     def _bind(self, one: MapOverlay, pointing: MapPointing) -> None:
         bind = self._dashboard.bind
         pointing.follow(one)
-        bind(one, "/places", lambda msg: pointing.show_places(one, msg), fresh=False)
+        bind(one, "/places", lambda msg: pointing.places.show(one, msg), fresh=False)
         bind(one, "/pose", always=True)
         for topic in (
             "/plan",

@@ -7,11 +7,11 @@ from typing import Any, Protocol
 
 from app.layout.arrange import Rect
 from app.screens.mission.mission_pane import MissionPane
+from app.screens.mission.place_pane import PlacePane
 from app.screens.parts.list_buttons import ListButtons
 from app.screens.shell.screen_host import ScreenHost
 from app.screens.tasks.event_list import EventList
 from app.screens.tasks.order_pane import OrderPane
-from app.screens.tasks.place_pane import PlacePane
 from app.screens.tasks.task_panes import TaskPanes
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Place, ScheduledTask
@@ -59,16 +59,13 @@ class TasksView(Protocol):
         """Change a scheduled task; None for a new one."""
 
     def close(self) -> None:
-        """Back to the lists, or to the map where a place was pointed at."""
-
-    def stay(self) -> None:
-        """What is opened next is not left for the map."""
+        """Back to the lists."""
 
     def begin(self, task: str, places: tuple[str, ...] = ()) -> None:
         """Open the form of a task, with places known already."""
 
-    def edit_place(self, place: Place, *, returns: bool = False) -> None:
-        """Make a place (id 0) or change one; `returns` to the map afterwards."""
+    def edit_place(self, place: Place) -> None:
+        """Make a place (id 0) or change one."""
 
 
 class TaskActions(ListButtons):
@@ -208,12 +205,10 @@ class TaskActions(ListButtons):
 
     def _go_there(self) -> None:
         name = self._screen.form.shown.name
-        self._screen.stay()
         self._screen.begin("go_to", (name,))
 
     def _move_place(self) -> None:
         screen = self._screen
-        screen.stay()
         place = screen.form.place
         screen.detail = ""
         screen.app.show("mission")

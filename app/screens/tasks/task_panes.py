@@ -9,8 +9,8 @@ from kivy.uix.widget import Widget
 
 from app.link.commands import Outcome
 from app.screens.mission.mission_pane import MissionPane
+from app.screens.mission.place_pane import PlacePane
 from app.screens.tasks.order_pane import OrderPane
-from app.screens.tasks.place_pane import PlacePane
 from app.screens.tasks.settings_pane import SettingsPane
 from app.session.dashboard import Dashboard
 from app.session.session import Session

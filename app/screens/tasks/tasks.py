@@ -12,10 +12,10 @@ from app.layout import arrange
 from app.layout.arrange import Rect
 from app.link.channels import OUTCOME
 from app.link.feeds import Post
+from app.screens.mission.place_pane import PlacePane
 from app.screens.parts.placing import Area, above, put  # noqa: F401 - a rule names the area
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.shell.screen_host import ScreenHost
-from app.screens.tasks.place_pane import PlacePane
 from app.screens.tasks.settings_pane import SettingsPane
 from app.screens.tasks.task_actions import TaskActions
 from app.screens.tasks.task_lists import TaskLists
@@ -87,7 +87,6 @@ class TasksScreen(RobotScreen):
         self._body, self._form, self._dp = Rect(0, 0, 1, 1), "", 1.0
         self._places: dict[str, Rect] = {}
         self._cover: Rect | None = None
-        self._returns = False
         self.notice = Rect(0, 0, 1, 1)
         self.acts = TaskActions(self)
         self.ids.update({**self.acts.by_name, "tabs": self.tabs})
@@ -162,7 +161,6 @@ class TasksScreen(RobotScreen):
     def leave(self) -> None:
         """Leave the glass."""
         self.rest()
-        self._returns = False
         self.events.leave()
         self.dashboard.leave()
 
@@ -223,7 +221,7 @@ class TasksScreen(RobotScreen):
             self.acts.lay_for(self.tab, shown, form=self._form, stop=self._places["stop"])
 
     def _tab_changed(self, *_: object) -> None:
-        self.detail, self._returns = "", False
+        self.detail = ""
         self.tabs.tab = self.tab
         if self.tab == "missions":
             self.mission_pane.begin()
@@ -236,16 +234,9 @@ class TasksScreen(RobotScreen):
         self._lay()
 
     def close(self) -> None:
-        """Back to the lists, or to the map where a place was pointed at."""
+        """Back to the lists."""
         self.rest()
         self.detail = ""
-        if self._returns:
-            self._returns = False
-            self.app.show("mission")
-
-    def stay(self) -> None:
-        """What is opened next is not left for the map."""
-        self._returns = False
 
     # orders
 
@@ -264,12 +255,11 @@ class TasksScreen(RobotScreen):
 
     # places
 
-    def edit_place(self, place: Place, *, returns: bool = False) -> None:
-        """Make a place (id 0) or change one; `returns` to the map afterwards."""
+    def edit_place(self, place: Place) -> None:
+        """Make a place (id 0) or change one."""
         if self.tab != "places":
             self.tab = "places"
         self.place_pane.edit(place)
-        self._returns = returns
         self.open("place")
 
     # missions

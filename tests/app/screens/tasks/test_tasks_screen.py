@@ -292,61 +292,6 @@ def test_the_history_is_read_when_it_is_looked_at_and_older_ones_on_demand(
 # places
 
 
-def test_a_long_tap_on_the_map_makes_a_place_without_any_number_typed(
-    glass: Glass, robot: FakeRobot, tasks: Any
-) -> None:
-    glass.app.show("mission")
-    mission = glass.app.screens["mission"]
-    glass.stage.frames(3)
-    x, y = mission.map.to_window(*mission.map.center)
-    touch = glass.stage.touch(x, y)
-    touch.touch_down()
-    glass.stage.run_for(0.8)
-    touch.touch_up()
-    wanted = mission.map.view.to_world(*mission.map.center)
-    assert glass.app.shell.screen == "tasks"
-    tasks.form.set(name="Office 13", kind="office")
-    glass.stage.run_for(0.2)
-    press(glass, tasks, "keep")
-    assert robot.until(lambda: asked(robot, "/places/set"))
-    place = asked(robot, "/places/set")[0].place
-    assert (place.id, place.name, place.kind) == (0, "Office 13", "office")
-    assert (place.x, place.y) == pytest.approx(wanted)
-    assert glass.app.shell.screen == "mission"
-    glass.until(lambda: any(one[2] == "Office 13" for one in mission.map.places), "not on the map")
-
-
-def test_a_short_tap_and_a_drag_make_no_place(glass: Glass, robot: FakeRobot, tasks: Any) -> None:
-    glass.app.show("mission")
-    area = glass.app.screens["mission"].map
-    glass.stage.frames(3)
-    x, y = area.to_window(*area.center)
-    glass.stage.tap(x, y)
-    glass.stage.run_for(0.8)
-    touch = glass.stage.touch(x, y)
-    touch.touch_down()
-    touch.touch_move(x + 40, y)
-    glass.stage.run_for(0.8)
-    touch.touch_up()
-    assert glass.app.shell.screen == "mission"
-
-
-def test_a_place_is_opened_on_the_map_changed_and_moved(glass: Glass, robot: FakeRobot, tasks: Any) -> None:
-    glass.app.show("mission")
-    mission = glass.app.screens["mission"]
-    mission.mode = "place"
-    index = next(at for at, one in enumerate(mission.map.places) if one[2] == "Lab")
-    mission.map.dispatch("on_open_place", index)
-    assert tasks.form.place == LAB
-    press(glass, tasks, "move")
-    assert mission.selection.text == "Tap where Lab is."
-    mission.map.dispatch("on_new_place", 4.0, 5.0)
-    press(glass, tasks, "keep")
-    assert robot.until(lambda: asked(robot, "/places/set"))
-    place = asked(robot, "/places/set")[0].place
-    assert (place.id, place.name, place.x, place.y, place.note) == (LAB.id, "Lab", 4.0, 5.0, LAB.note)
-
-
 def test_a_deleted_place_comes_back_as_a_new_one(glass: Glass, robot: FakeRobot, tasks: Any) -> None:
     tasks.edit_place(OFFICE)
     press(glass, tasks, "forget")
@@ -407,6 +352,20 @@ def test_where_the_robot_stands_becomes_a_place(glass: Glass, robot: FakeRobot, 
     robot.publish("/pose", PoseWithCovarianceStamped(pose=pose))
     press(glass, tasks, "here")
     assert (tasks.form.place.x, tasks.form.place.y) == (2.0, 3.0)
+
+
+def test_a_place_of_the_list_is_moved_by_a_tap_on_the_map(glass: Glass, robot: FakeRobot, tasks: Any) -> None:
+    tasks.edit_place(LAB)
+    press(glass, tasks, "move")
+    mission = glass.app.screens["mission"]
+    assert (glass.app.shell.screen, mission.selection.text) == ("mission", "Tap where Lab is.")
+    mission.map.dispatch("on_new_place", 4.0, 5.0)
+    glass.stage.run_for(0.2)
+    glass.tap(mission.card.shown.save)
+    assert robot.until(lambda: asked(robot, "/places/set"))
+    place = asked(robot, "/places/set")[0].place
+    assert (place.id, place.name, place.x, place.y, place.note) == (LAB.id, "Lab", 4.0, 5.0, LAB.note)
+    assert mission.mode == "view"
 
 
 def test_going_to_a_place_begins_with_its_name(glass: Glass, tasks: Any) -> None:
