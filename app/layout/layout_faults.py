@@ -2,27 +2,95 @@
 
 from __future__ import annotations
 
+import re
 import typing
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import reduce
 from typing import Any
 
 import msgspec
 
-from bridge.core.toml_files import shown
+from bridge.core.toml_files import MAX_FAULTS, shown
+from bridge.core.toml_lines import line_of
 from bridge.msgs import Msg
 
 __all__ = [
+    "FaultList",
     "LayoutError",
+    "LayoutFault",
     "check_apart",
     "check_field",
     "check_room",
     "one_of",
+    "place_in",
 ]
 
 
+@dataclass(frozen=True)
+class LayoutFault:
+    """One thing that is wrong with a layout file."""
+
+    sentence: str
+    """What is wrong and what is allowed."""
+    line: int = 0
+    """Of the file, from 1 on; 0 for the whole file."""
+
+
 class LayoutError(ValueError):
-    """A layout that cannot be shown; the text is one sentence that says what is wrong and what is allowed."""
+    """A layout that cannot be shown; the text says what is wrong and what is allowed, a line for each of the `faults`."""
+
+    def __init__(self, sentence: str, faults: Sequence[LayoutFault] = ()) -> None:
+        """`faults` are all that is wrong, in the order of the file; without any the sentence is the only one."""
+        super().__init__(sentence)
+        self.faults = tuple(faults) or (LayoutFault(sentence),)
+
+
+class FaultList:
+    """Everything that is wrong with one file."""
+
+    def __init__(self, text: str) -> None:
+        """`text` is the file's, in which the lines are found."""
+        self._text = text
+        self._faults: list[LayoutFault] = []
+        self._keys: set[str] = set()
+
+    def add(self, key: str, sentence: str, line: int = 0) -> None:
+        """Note a fault of the key that is written as in `instrument[0].slot`; beyond 50 no more are noted."""
+        self._keys.add(key)
+        if len(self._faults) < MAX_FAULTS:
+            self._faults.append(LayoutFault(sentence, line or (line_of(self._text, key) if key else 0)))
+
+    def check(self, key: str, act: Callable[..., object], *args: object) -> bool:
+        """Note the fault that a check finds; whether nothing is wrong with the key. One that has a fault is not checked again."""
+        if key in self._keys:
+            return False
+        try:
+            act(*args)
+        except LayoutError as error:
+            self.add(key, str(error))
+            return False
+        return True
+
+    def check_key(self, table: str, key: str, act: Callable[..., object], *args: object) -> bool:
+        """The same for a key of a table."""
+        return self.check(f"{table}.{key}", act, *args)
+
+    @property
+    def error(self) -> LayoutError:
+        """All of them, in the order of the file."""
+        faults = sorted(self._faults, key=lambda one: one.line)
+        return LayoutError("\n".join(one.sentence for one in faults), faults)
+
+    def raise_any(self) -> None:
+        """Raise LayoutError where there is any."""
+        if self._faults:
+            raise self.error
+
+
+def place_in(where: str) -> str:
+    """Tables counted as people count them: `view[0].panel[2]` is `, view 1, panel 3`."""
+    return "".join(f", {name} {int(number) + 1}" for name, number in re.findall(r"(\w+)\[(\d+)\]", where))
 
 
 def one_of(where: str, what: str, value: object, allowed: Iterable[str]) -> None:

@@ -16,7 +16,16 @@ from widgets.controls.sticks.stick import Stick
 from widgets.core.base import Control
 from widgets.core.icons import ICONS
 
-__all__ = ["check_control", "check_icon", "check_instrument", "confirms", "drives"]
+__all__ = [
+    "check_control",
+    "check_icon",
+    "check_instrument",
+    "check_shows",
+    "confirms",
+    "drives",
+    "is_hand",
+    "only_shows",
+]
 
 FIGURES, SENSES = "readouts", "senses"
 """Places for figures only, and for small sensors that look after themselves."""
@@ -31,18 +40,18 @@ def check_instrument(where: str, slot: str, name: str, topics: Iterable[str], kn
         kind = getattr(widgets, one)
         if slot == FIGURES or one == FIGURE:
             return slot == FIGURES and one == FIGURE
-        return _only_shows(kind) and (slot != SENSES or hasattr(kind, "card"))
+        return only_shows(one) and (slot != SENSES or hasattr(kind, "card"))
 
     if not goes(name):
         raise LayoutError(f"{where}: an instrument in {slot} is one of {_listed(known, goes)}, not {name}.")
-    _check_shows(where, getattr(widgets, name), topics)
+    check_shows(where, name, topics)
 
 
 def check_control(where: str, name: str, topics: Iterable[str], known: Iterable[str]) -> None:
     """The widget of that name drives or asks for something by a finger, and shows those topics; `known`: all names."""
-    if not _is_hand(name):
-        raise LayoutError(f"{where}: a control is one of {_listed(known, _is_hand)}, not {name}.")
-    _check_shows(where, getattr(widgets, name), topics)
+    if not is_hand(name):
+        raise LayoutError(f"{where}: a control is one of {_listed(known, is_hand)}, not {name}.")
+    check_shows(where, name, topics)
 
 
 def confirms(name: str) -> bool:
@@ -63,11 +72,13 @@ def check_icon(where: str, name: str) -> None:
         raise LayoutError(f"{where}: icon is a name in widgets/core/icons.py{hint}, not {shown(name)}.")
 
 
-def _only_shows(kind: Any) -> bool:
+def only_shows(name: str) -> bool:
+    """The widget of that name shows messages, and commands nothing."""
+    kind = getattr(widgets, name)
     return bool(kind.accepts) and not issubclass(kind, Control)
 
 
-def _is_hand(name: str) -> bool:
+def is_hand(name: str) -> bool:
     """A screen knows what to do with it: it drives, is slid, or gives a course or a goal."""
     kind = getattr(widgets, name)
     asks = (
@@ -80,7 +91,9 @@ def _listed(known: Iterable[str], able: Callable[[str], bool]) -> str:
     return ", ".join(sorted(name for name in known if able(name))) or "none"
 
 
-def _check_shows(where: str, kind: Any, topics: Iterable[str]) -> None:
+def check_shows(where: str, widget: str, topics: Iterable[str]) -> None:
+    """The widget of that name shows these topics of the table."""
+    kind: Any = getattr(widgets, widget)
     for name in topics:
         wanted = topic(name).type
         if not issubclass(wanted, kind.accepts):

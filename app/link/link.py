@@ -23,9 +23,8 @@ from app.link.event_fetch import EventFetch
 from app.link.event_order import KnownEvents
 from app.link.feeds import Mailbox
 from app.link.link_health import LinkHealth
-from app.link.subscriptions import Peek, Sources
+from app.link.subscriptions import Peek, Sources, Watches
 from app.link.task_set import TaskSet
-from app.link.watches import Watches
 from bridge.client.ask_as_stranger import even_as_stranger
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.client.credentials import Credentials

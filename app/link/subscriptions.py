@@ -1,4 +1,4 @@
-"""Which of the robot's topics the link listens to, and the one that somebody looks at field by field.
+"""Which of the robot's topics the link listens to, the one that somebody looks at field by field, and those that are watched.
 
 Everything here lives in the network thread.
 """
@@ -6,7 +6,7 @@ Everything here lives in the network thread.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,7 +20,7 @@ from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import CompressedImage
 
-__all__ = ["Peek", "Seen", "Sources"]
+__all__ = ["MAX_WATCHED", "Peek", "Seen", "Sources", "Watches"]
 
 UNUSED = ("/tf", "/diagnostics", "/bumper")
 """Topics that no screen shows."""
@@ -38,6 +38,9 @@ CBOR_TYPES = (
 """Types whose numbers travel as CBOR; the real servers lose others in it."""
 INFINITE_TYPES = ("sensor_msgs/Range",)
 """Types with an infinity that means something, which JSON cannot say: as CBOR, from a robot of ours."""
+
+MAX_WATCHED = 64
+"""Topics that are listened to at once, beside those that every screen shows."""
 
 Deliver = Callable[[str, Msg, float], object]
 """Takes our name of a topic, the message, and when it came [s], our clock."""
@@ -181,3 +184,70 @@ class Peek:
         if self._end is not None:
             end, self._end = self._end, None
             end()
+
+
+class Watches:
+    """Who looks at what, and one `Peek` for each topic that anybody looks at."""
+
+    def __init__(
+        self,
+        client: BridgeClient,
+        tell: Callable[[Seen, float], object],
+        spawn: Callable[[Coroutine[Any, Any, None]], object],
+        hop: Callable[..., object],
+    ) -> None:
+        """`tell` takes what came and when [s], as that of `Peek`; `spawn` runs a coroutine in the network thread, `hop` calls there."""
+        self._client, self._tell, self._spawn, self._hop = client, tell, spawn, hop
+        self._wanted: dict[str, dict[str, str]] = {}
+        """Who looks, to the topics and their types."""
+        self._peeks: dict[str, tuple[str, Peek]] = {}
+        self._failed: set[str] = set()
+
+    # in any thread
+
+    def look(self, who: str, topics: Mapping[str, str]) -> None:
+        """`who` looks at these topics from now on, each with the name of its type, and at no others; nothing, to look away.
+
+        What is seen comes by the channel `watched(topic)`. What anybody else looks at is listened to on; beyond
+        `MAX_WATCHED` a topic is told as a problem.
+        """
+        self._hop(self._want, who, dict(topics))
+
+    # in the network thread
+
+    def _want(self, who: str, topics: dict[str, str]) -> None:
+        if topics:
+            self._wanted[who] = topics
+        else:
+            self._wanted.pop(who, None)
+        self._follow()
+
+    def renew(self) -> None:
+        """Begin anew what failed: the robot may know by now what it did not before."""
+        for topic in self._failed & set(self._peeks):
+            self._peeks.pop(topic)[1].close()
+        self._failed.clear()
+        self._follow()
+
+    def _follow(self) -> None:
+        wanted: dict[str, str] = {}
+        for topics in self._wanted.values():
+            wanted.update(topics)
+        for topic in [one for one, (kind, _) in self._peeks.items() if wanted.get(one) != kind]:
+            self._peeks.pop(topic)[1].close()
+            self._failed.discard(topic)
+        for topic, kind in wanted.items():
+            if topic in self._peeks:
+                continue
+            if len(self._peeks) >= MAX_WATCHED:
+                sentence = f"{MAX_WATCHED} topics are shown already; take one away to see {topic}."
+                self._tell(Seen(topic, problem=sentence), float("nan"))
+                continue
+            peek = Peek(self._client, self._take)
+            self._peeks[topic] = kind, peek
+            self._spawn(peek.open(topic, kind))
+
+    def _take(self, seen: Seen, received: float) -> None:
+        if seen.problem:
+            self._failed.add(seen.topic)
+        self._tell(seen, received)

@@ -16,7 +16,7 @@ import msgspec
 
 from bridge.core.toml_lines import Keys, line_of, path_of
 
-__all__ = ["MAX_BYTES", "FileFault", "fault", "read", "shown", "text_of"]
+__all__ = ["MAX_BYTES", "MAX_FAULTS", "FileFault", "fault", "read", "read_all", "shown", "text_of"]
 
 T = TypeVar("T")
 
@@ -24,6 +24,8 @@ MAX_BYTES = 1_000_000
 """Of a file [bytes]; a longer one is a mistake."""
 MAX_NUMBER = 1e9
 """Greatest amount of a number, unless the reader allows more; beyond it, sums and products overflow."""
+MAX_FAULTS = 50
+"""Of one file; more of them tell nothing more."""
 MAX_LETTERS = 60
 """Of a wrong value in a sentence; the rest is cut off."""
 
@@ -37,6 +39,8 @@ class FileFault(ValueError):
     """What is wrong with it, without a full stop."""
     known: tuple[str, ...] = ()
     """The keys that are allowed, where `where` is an unknown one; empty for every other fault."""
+    line = 0
+    """Where it is, from 1 on; 0 when the fault is the whole file's."""
 
 
 def fault(
@@ -46,7 +50,7 @@ def fault(
     line = line or (line_of(text, where) if where else 0)
     place = f"{source}, line {line}" if line else source
     found = FileFault(" ".join(f"{place}: {f'{where}: ' if where else ''}{reason}.".splitlines()))
-    found.where, found.reason, found.known = where, reason, known
+    found.where, found.reason, found.known, found.line = where, reason, known, line
     return found
 
 
@@ -68,21 +72,91 @@ def read(text: str, kind: type[T], source: str, *, largest: float = MAX_NUMBER) 
 
     No number is NaN or infinite, or has an amount above `largest`.
     """
-    try:
-        content = tomllib.loads(text)
-    except RecursionError as error:
-        raise fault("", source, "", "is not TOML: it is nested too deep") from error
-    except ValueError as error:  # also of a number with more digits than Python reads
-        raise _no_toml(str(error), text, source) from error
+    content = _parsed(text, source)
     try:
         found = msgspec.convert(content, kind)
     except msgspec.ValidationError as error:
         raise _mismatch(str(error), text, source, content, kind) from error
+    for found_fault in _too_large(content, text, source, largest):
+        raise found_fault
+    return found
+
+
+def read_all(
+    text: str, kind: type[T], source: str, *, largest: float = MAX_NUMBER
+) -> tuple[T | None, list[FileFault]]:
+    """As `read`, with all faults of the text at once, at most `MAX_FAULTS`, in the order of their lines.
+
+    What is at fault is left out of the struct, or empty where it must be there; the struct is None where that cannot be done.
+    """
+    try:
+        content = _parsed(text, source)
+    except FileFault as error:
+        return None, [error]
+    faults: list[FileFault] = []
+    while len(faults) < MAX_FAULTS:
+        try:
+            found = msgspec.convert(content, kind)
+        except msgspec.ValidationError as error:
+            faults.append(_mismatch(str(error), text, source, content, kind))
+            if not _leave_out(content, kind, _keys_of(str(error))):
+                break
+            continue
+        large = list(_too_large(content, text, source, largest))
+        faults += large[: MAX_FAULTS - len(faults)]
+        if all(_leave_out(content, kind, path_of(one.where)) for one in large):
+            found = msgspec.convert(content, kind) if large else found
+            return found, sorted(faults, key=lambda one: one.line)
+        break
+    return None, sorted(faults, key=lambda one: one.line)
+
+
+def _parsed(text: str, source: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except RecursionError as error:
+        raise fault("", source, "", "is not TOML: it is nested too deep") from error
+    except ValueError as error:  # also of a number with more digits than Python reads
+        raise _no_toml(str(error), text, source) from error
+
+
+def _too_large(content: Any, text: str, source: str, largest: float) -> Iterator[FileFault]:
+    """A fault of each number that is NaN, infinite, or has an amount above `largest`."""
     for where, value in _numbers(content):
         if not abs(value) <= min(largest, sys.float_info.max):
             bounds = f" from -{largest:.0e} to {largest:.0e}" if largest <= sys.float_info.max else ""
-            raise fault(text, source, where, f"must be a number{bounds}, not {shown(value)}")
-    return found
+            yield fault(text, source, where, f"must be a number{bounds}, not {shown(value)}")
+
+
+def _leave_out(content: Any, kind: Any, keys: Keys) -> bool:
+    """Take away from a file's `content` what is at fault at `keys`, so that the rest can be read; False where that cannot be."""
+    if not keys:
+        return False
+    *way, last = keys
+    try:
+        holder = content
+        for step in way:
+            holder = holder[step]
+    except (LookupError, TypeError):
+        return False
+    if not isinstance(holder, dict) or not isinstance(last, str):
+        return _leave_out(content, kind, tuple(way))
+    structs = _types(msgspec.inspect.type_info(kind), tuple(way))
+    fields = [field for one in structs for field in getattr(one, "fields", ()) if field.encode_name == last]
+    if any(field.required for field in fields):
+        if holder.get(last) == "" or not any(isinstance(one.type, msgspec.inspect.StrType) for one in fields):
+            return False
+        holder[last] = ""
+    else:
+        holder.pop(last, None)
+    return True
+
+
+def _keys_of(error: str) -> Keys:
+    """The way to what msgspec's `error` is about."""
+    what, _, where = error.partition(" - at `$")
+    named = _NAMED.fullmatch(what)
+    return (*path_of(where.rstrip("`").lstrip(".")), *((named[2],) if named else ()))
 
 
 def shown(value: object) -> str:
@@ -115,6 +189,7 @@ def _no_toml(error: str, text: str, source: str) -> FileFault:
     return fault(text, source, "", f"is not TOML: {what[:1].lower()}{what[1:]}{place}", line=line)
 
 
+_NAMED = re.compile(r"Object (missing required|contains unknown) field `(.*)`", re.DOTALL)
 _KINDS = {
     "float": "a number",
     "int": "a whole number",
@@ -135,7 +210,7 @@ def _mismatch(error: str, text: str, source: str, content: Any, kind: Any) -> Fi
     what, _, where = error.partition(" - at `$")
     where = where.rstrip("`").lstrip(".")
     types = list(_types(msgspec.inspect.type_info(kind), path_of(where)))
-    named = re.fullmatch(r"Object (missing required|contains unknown) field `(.*)`", what, re.DOTALL)
+    named = _NAMED.fullmatch(what)
     if named:
         key = f"{where}.{named[2]}".lstrip(".")
         if named[1] == "missing required":

@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 import msgspec
 import pytest
 
-from bridge.core.toml_files import FileFault, read, text_of
+from bridge.core.toml_files import MAX_FAULTS, FileFault, read, read_all, text_of
 
 
 class Leg(msgspec.Struct, forbid_unknown_fields=True):
@@ -113,3 +113,33 @@ def test_a_file_that_nobody_wrote_on_purpose_is_not_read(tmp_path: Path) -> None
     (tmp_path / "long.toml").write_bytes(b"#" * 1_000_001)
     with pytest.raises(FileFault, match="has more than 1,000,000 bytes"):
         text_of(tmp_path / "long.toml")
+
+
+def test_every_fault_of_a_file_is_found_at_once_each_with_its_line() -> None:
+    text = 'colour = "red"\nname = 3\n[[legs]]\nlength = 2.0\nmade_of = "tin"\n[[legs]]\nlength = 1e12\nshade = 1'
+    found, faults = read_all(text, Table, "t.toml")
+    assert found is None, "a length cannot be left out"
+    assert [(one.line, one.where) for one in faults] == [
+        (1, "colour"),
+        (2, "name"),
+        (5, "legs[0].made_of"),
+        (7, "legs[1].length"),
+        (8, "legs[1].shade"),
+    ]
+
+
+def test_what_is_right_of_a_file_is_read_beside_its_faults() -> None:
+    found, faults = read_all("at = [1.0]\n[[legs]]\nlength = 2.0", Table, "t.toml")
+    assert found == Table("", (Leg(2.0),))
+    assert [one.where for one in faults] == ["name", "at"]
+
+
+def test_a_file_that_is_no_toml_has_that_one_fault() -> None:
+    found, faults = read_all("name = ", Table, "t.toml")
+    assert (found, len(faults), faults[0].line) == (None, 1, 1)
+
+
+def test_of_very_many_faults_the_first_are_told() -> None:
+    text = 'name = "a"\n' + "\n".join(f"k{number} = 1" for number in range(500))
+    _, faults = read_all(text, Table, "t.toml")
+    assert len(faults) == MAX_FAULTS

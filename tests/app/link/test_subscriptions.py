@@ -10,8 +10,7 @@ import pytest
 
 from app.link.channels import LinkPosts, watched
 from app.link.feeds import Mailbox
-from app.link.subscriptions import Seen
-from app.link.watches import MAX_WATCHED, Watches
+from app.link.subscriptions import MAX_WATCHED, Seen, Watches
 from bridge.core.errors import NotConnected
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import Imu
