@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from widgets.map.geo_map import GeoMap as GeoMap
     from widgets.map.grid_map import GridMap as GridMap
     from widgets.parts.option_list import OptionList as OptionList
+    from widgets.plots.plot import Plot as Plot
     from widgets.sensors.encoders import EncodersView as EncodersView
     from widgets.sensors.intruder_badge import IntruderBadge as IntruderBadge
     from widgets.sensors.laser_scan import LaserScanView as LaserScanView
@@ -115,6 +116,7 @@ CATALOGUE: dict[str, str] = {
     "PausedCard": "widgets.status.paused_card",
     "PlaceForm": "widgets.tasks.place_form",
     "PlaceList": "widgets.tasks.place_list",
+    "Plot": "widgets.plots.plot",
     "QuestionCard": "widgets.status.question_card",
     "Readout": "widgets.instruments.readout",
     "RollPitch": "widgets.instruments.roll_pitch",

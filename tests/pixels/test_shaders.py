@@ -11,6 +11,7 @@ import pytest
 
 from widgets.core import canvas_ink as ink
 from widgets.instruments import horizon
+from widgets.plots import trace_ink
 from widgets.sensors import video
 
 GLSL = Path(kivy.__file__).parent / "data/glsl"
@@ -45,6 +46,7 @@ KIVYS = (GLSL / "default.vs").read_text()
 PAIRS = {
     "ink": (ink.VERTEX, ink.FRAGMENT),
     "horizon": (KIVYS, horizon.FRAGMENT),
+    "traces": (trace_ink.VERTEX, trace_ink.FRAGMENT),
     "video": (KIVYS, video.FRAGMENT),
 }
 

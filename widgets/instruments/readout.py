@@ -19,6 +19,7 @@ from kivy.uix.widget import Widget
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from widgets.core.base import RobotWidget, age_text, fitting_size, text_texture
+from widgets.core.field_paths import number_at
 from widgets.core.language import language
 from widgets.core.quantities import SI_KINDS, digits_for, quantities, to_shown, unit_of
 from widgets.core.theme import theme
@@ -117,7 +118,7 @@ class Readout(RobotWidget, BoxLayout):
     words = StringProperty("")
     """Shown instead of `value` when not empty."""
     path = StringProperty("")
-    """Field of the message, as in `twist.twist.linear.x`; a number picks from a list, and several of a vector's letters, as in
+    """Field of the message, as in `twist.twist.linear.x` or `ranges[3]`; a number picks from a list, and several of a vector's letters, as in
     `twist.twist.linear.xy`, are how long it is in those directions."""
     scale = NumericProperty(1.0)
     """What the field is multiplied by, as in 57.2958 from radian to degree."""
@@ -217,19 +218,7 @@ class Readout(RobotWidget, BoxLayout):
 
     def show(self, msg: Msg) -> None:
         """Take the field at `path`; AttributeError or IndexError when the message has no such field."""
-        found: Any = msg
-        for part in self.path.split("."):
-            found = _member(found, part)
-        self.value = float(found) * self.scale
-
-
-def _member(found: Any, part: str) -> Any:
-    """What is at one step of a path."""
-    if part.lstrip("-").isdigit():
-        return found[int(part)]
-    if len(part) > 1 and set(part) <= set("xyz"):
-        return math.hypot(*(getattr(found, letter) for letter in part))
-    return getattr(found, part)
+        self.value = number_at(msg, self.path) * self.scale
 
 
 def samples() -> dict[str, Callable[[], Widget]]:
