@@ -14,7 +14,6 @@ from collections.abc import Callable, Iterator
 from typing import Any, ClassVar
 
 import numpy as np
-from kivy.clock import Clock
 from kivy.metrics import dp, sp
 from kivy.properties import BooleanProperty, NumericProperty, OptionProperty
 from kivy.uix.widget import Widget
@@ -25,6 +24,7 @@ from widgets.controls.course_picture import KNOB, draw_arc, draw_boat, draw_knob
 from widgets.controls.finger_grip import Grip
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word
+from widgets.core.finger_stay import FingerStay
 from widgets.core.geometry import DASH, dial_point, dial_text, heading_text, shortest_turn
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -81,7 +81,7 @@ class CourseDial(Grip, Gauge):
     def __init__(self, **kwargs: Any) -> None:
         self._came: tuple[float, float] | None = None
         self._followed = False
-        self._catch = Clock.create_trigger(lambda _: self._caught(), HOLD_DURATION)
+        self._catch = FingerStay(self._caught, HOLD_DURATION)
         super().__init__(**{"title": "Course", **kwargs})
         self.veil_radius = theme.radius
 
@@ -158,7 +158,7 @@ class CourseDial(Grip, Gauge):
             if self.dragged:
                 self.aim = self.asked if math.isfinite(self.asked) else self.wanted
             else:
-                self._catch()
+                self._catch.begin()
         elif self.resting:
             if math.dist(touch.pos, self._came) > dp(MAX_SLIP):
                 self.rest()
@@ -188,7 +188,7 @@ class CourseDial(Grip, Gauge):
 
     def spring(self) -> None:
         """Leave the course as it was."""
-        self._catch.cancel()
+        self._catch.end()
         self._came = None
         self.aim, self.dragged, self.resting = math.nan, False, False
 

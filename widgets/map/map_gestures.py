@@ -14,9 +14,9 @@ from kivy.metrics import dp
 from kivy.properties import ListProperty, NumericProperty, ObjectProperty, OptionProperty
 from kivy.uix.widget import Widget
 
+from widgets.core.finger_stay import FingerStay
 from widgets.core.geometry import View, nearest
 from widgets.core.theme import theme
-from widgets.map.finger_stay import FingerStay
 from widgets.map.map_marks import handle_reach
 
 __all__ = ["Grip", "MapGestures"]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from kivy.clock import Clock
 from kivy.graphics.texture import Texture
 from kivy.lang import Builder
 from kivy.metrics import dp, sp
@@ -17,6 +16,7 @@ from kivy.uix.widget import Widget
 
 import widgets.parts.labels  # noqa: F401 - its rules draw the icons
 from widgets.core.base import fitting_size, text_texture
+from widgets.core.finger_stay import FingerStay
 from widgets.core.surfaces import Pressable
 from widgets.core.theme import theme
 
@@ -147,7 +147,7 @@ class PushButton(Pressable, AnchorLayout):
 
     def __init__(self, **kwargs: Any) -> None:
         self._meant = ""
-        self._settling = Clock.create_trigger(lambda _: None, SETTLE_DURATION)
+        self._settling = FingerStay(lambda: None, SETTLE_DURATION)
         super().__init__(**kwargs)
 
     def on_meaning(self, *_: object) -> None:
@@ -156,14 +156,14 @@ class PushButton(Pressable, AnchorLayout):
             if self.state == "down" and self.last_touch is not None:
                 self.last_touch.ungrab(self)
                 self.state = "normal"
-            self._settling.cancel()
-            self._settling()
+            self._settling.end()
+            self._settling.begin()
         self._meant = self.meaning
 
     def on_touch_down(self, touch: Any) -> bool:
         """Take the finger, if only to keep it from what lies below."""
         return bool(
-            (self._settling.is_triggered and self.collide_point(*touch.pos)) or super().on_touch_down(touch)
+            (self._settling.waiting and self.collide_point(*touch.pos)) or super().on_touch_down(touch)
         )
 
     def _words_size(self) -> float:

@@ -16,6 +16,7 @@ from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
+from widgets.core.finger_stay import FingerStay
 from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
 from widgets.parts.labels import Icon
@@ -72,7 +73,7 @@ class StepperEnd(ButtonBehavior, Icon):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._repeat = Clock.create_trigger(self._again, REPEAT_EVERY, interval=True)
-        self._held = Clock.create_trigger(lambda _: self._repeat(), REPEAT_AFTER)
+        self._held = FingerStay(self._repeat, REPEAT_AFTER)
 
     def collide_point(self, x: float, y: float) -> bool:
         """It is hit within a whole target round it, though it looks smaller."""
@@ -85,12 +86,12 @@ class StepperEnd(ButtonBehavior, Icon):
     def on_press(self) -> None:
         """Count once, and wait whether the finger stays."""
         self.dispatch("on_count")
-        self._held()
+        self._held.begin()
 
     def on_state(self, _: object, state: str) -> None:
         """Stop counting when the finger has left."""
         if state == "normal":
-            self._held.cancel()
+            self._held.end()
             self._repeat.cancel()
 
     def on_count(self) -> None:

@@ -28,6 +28,7 @@ from widgets.controls.goals.goal_choice import BUTTONS, STEP, TURN, UNDER_WAY, G
 from widgets.controls.goals.goal_picture import Box, draw, ground
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, tint
+from widgets.core.finger_stay import FingerStay
 from widgets.core.geometry import DASH
 from widgets.core.icons import icon
 from widgets.core.shapes import Shapes
@@ -64,12 +65,12 @@ class GoalPad(GoalChoice, Grip, Gauge):
         super().__init__(**{"title": "Goal", **kwargs})
         self.veil_radius = theme.radius
         self._repeat = Clock.create_trigger(lambda _: self.press(self.pressed), REPEAT_EVERY, interval=True)
-        self._held = Clock.create_trigger(lambda _: self._repeat(), REPEAT_AFTER)
+        self._held = FingerStay(self._repeat, REPEAT_AFTER)
 
     def spring(self) -> None:
         """Count no further; the goal stays."""
         self.pressed = ""
-        self._held.cancel()
+        self._held.end()
         self._repeat.cancel()
 
     def holds(self, x: float, y: float) -> bool:
@@ -85,7 +86,7 @@ class GoalPad(GoalChoice, Grip, Gauge):
             self.pressed = name
             if name not in ("go", "here"):
                 self.press(name)
-                self._held()
+                self._held.begin()
 
     def on_touch_up(self, touch: Any) -> bool:
         """Go, where the finger is still on it."""

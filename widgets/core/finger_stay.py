@@ -22,6 +22,11 @@ class FingerStay:
         self._reading = Clock.create_trigger(lambda _: self._read(), 0, interval=True)
         self._looks = 0
 
+    @property
+    def waiting(self) -> bool:
+        """It has begun, and neither is its time over nor was it ended."""
+        return bool(self._waiting.is_triggered or self._reading.is_triggered)
+
     def begin(self) -> None:
         """A finger came down."""
         self._waiting()
