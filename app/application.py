@@ -13,6 +13,7 @@ from kivy.core.window import Window
 
 from app.core.client_identity import client_identity
 from app.core.notifications import notify
+from app.core.preferences import Preferences
 from app.core.settings_store import Settings
 from app.device import device_name, is_android, own_folder
 from app.discovery.known_robots import KnownRobots
@@ -27,7 +28,7 @@ from app.intents.method_permits import MethodPermits
 from app.layout.layout_choice import LayoutChoice
 from app.link.feeds import Post
 from app.network_side import NetworkSide
-from app.pages import Pages, inputs_page, toggle_help
+from app.pages import LONE, Pages, lone_page, toggle_help
 from app.robot_directory import RobotDirectory
 from app.robot_visit import RobotVisit
 from app.root import Root
@@ -115,15 +116,16 @@ class PilothouseApp(App):
         folder = Path(self._settings_dir or own_folder(lambda: self.user_data_dir))
         self.settings = Settings(folder)
         self.records = Recordings(folder, self.say)
+        self.preferences = Preferences(self.settings)
         self.themes = Themes(self.settings, self._theme)
         self.client_id = client_identity(self.settings)
         self.client_name = str(self.settings.get("client_name") or device_name())
         self.connect = ConnectScreen(app=self, can_simulate=self.simulating.possible)
         self.robot_list = RobotDirectory(self, self.settings, self.client_name, self.now)
         root = Root()
-        self.pages = Pages(root, self.connect, lambda: inputs_page(self), self._first_screen)
+        self.pages = Pages(root, self.connect, lambda name: lone_page(self, name), self._first_screen)
         self.acting = IntentExecutor(self)
-        self.acting.on_help = lambda: toggle_help(self)
+        self.acting.on_help = self.toggle_help
         self.intents = Intents(self.acting, MethodPermits(self.settings), self.now)
         self.methods = Methods(self)
         self.fleet = self.robot_list.fleet(self.client_id)
@@ -174,8 +176,8 @@ class PilothouseApp(App):
         self.robot_list.trust.begin(self._pair)
         if self._url:
             self.open(self._url)
-        elif self._first_screen == "inputs":
-            self.show_inputs()
+        elif self._first_screen in LONE:
+            self._show_anywhere(self._first_screen)
 
     def on_stop(self) -> None:
         """Leave the robot at rest, end every thread and the simulator."""
@@ -189,6 +191,7 @@ class PilothouseApp(App):
         self._network.close()
         self.simulating.close()
         self.settings.close()
+        self.preferences.close()
         self.collector.close()
 
     def on_pause(self) -> bool:
@@ -241,10 +244,16 @@ class PilothouseApp(App):
 
     def _tick(self) -> None:
         self.corner.tick()
-        self.pages.tick_inputs()
-        if (self.session is None or self.shell is not None) and (problem := self.settings.news()):
-            self.say(problem, "warn")
+        self.pages.tick_lone()
+        if self.session is None or self.shell is not None:
+            self._say_problems()
         self.visit.tick()
+
+    def _say_problems(self) -> None:
+        """What is wrong with the settings, once each."""
+        for problem in filter(None, (self.settings.news(), self.preferences.sentence, self.themes.sentence)):
+            self.say(problem, "warn")
+        self.preferences.sentence = self.themes.sentence = ""
 
     # the list of robots
 
@@ -291,10 +300,33 @@ class PilothouseApp(App):
 
     def show_inputs(self) -> None:
         """Put on the glass where the ways in are set up, with a robot or without one."""
+        self._show_anywhere("inputs")
+
+    def show_setup(self, pane: str = "") -> None:
+        """Put on the glass what is chosen for this handheld, with a robot or without one; `pane` is open where there is one of that name."""
+        self._show_anywhere("setup")
+        page = self.pages.lone("setup") if self.shell is None else None
+        screen = (
+            self.screens["setup"] if self.shell is not None else page.screen if page is not None else None
+        )
+        if pane and screen is not None:
+            screen.open(pane)
+
+    def _show_anywhere(self, name: str) -> None:
         if self.shell is not None:
-            self.show("inputs")
+            self.show(name)
         elif self.session is None:
-            self.pages.show_inputs()
+            self.pages.show_lone(name)
+
+    def toggle_help(self) -> None:
+        """Show what keys and buttons mean over the page, or hide it."""
+        toggle_help(self)
+
+    def rename(self, name: str) -> None:
+        """Call this handheld `name`, for robots from the next connection on."""
+        self.client_name = self.robot_list.client_name = name
+        self._network.connector.client_name = self._network.pairing.client_name = name
+        self.settings.set("client_name", name)
 
     def say(self, text: str, level: str) -> None:
         """Show one sentence, wherever the operator looks."""

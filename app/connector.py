@@ -40,7 +40,9 @@ class Connector:
         """
         self._key_for = key_for
         self._settings, self._mailbox, self._network = settings, mailbox, network
-        self._client_id, self._client_name = client_id, client_name
+        self._client_id = client_id
+        self.client_name = client_name
+        """What this handheld is called for the next robot."""
         self._on_frame, self._now = on_frame, now
 
     def link(self, url: str, known: KnownEvents | None = None) -> Link:
@@ -54,7 +56,7 @@ class Connector:
             self._mailbox,
             self._network,
             client_id=self._client_id,
-            client_name=self._client_name,
+            client_name=self.client_name,
             credentials=key.credentials if key else None,
             known=known,
             marks=marks(self._settings),

@@ -1,4 +1,4 @@
-"""Pages on the glass: the connect page, the inputs page, or the screens of one robot in their frame."""
+"""Pages on the glass: the connect page, the inputs or the setup page, or the screens of one robot in their frame."""
 
 from __future__ import annotations
 
@@ -6,23 +6,32 @@ from collections import ChainMap
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, cast
 
+from app.core.optional_parts import bring
 from app.link.channels import EVENT
 from app.root import Root
 from app.screens.connect.connect import ConnectScreen
+from widgets.core.language import mark, tr
 
 if TYPE_CHECKING:
-    from app.screens.inputs.page import InputsPage  # all these when they are shown, for a quick start
+    from app.screens.parts.lone_page import LonePage  # all these when they are shown, for a quick start
     from app.screens.shell.shell import Shell
     from app.session.session import Session
 
-__all__ = ["Pages", "inputs_page", "toggle_help"]
+__all__ = ["LONE", "Pages", "lone_page", "toggle_help"]
+
+LONE = {
+    "inputs": (mark("Inputs"), "app.screens.inputs.screen:InputsScreen"),
+    "setup": (mark("Setup"), "app.screens.setup.screen:SetupScreen"),
+}
+"""Screens that are there without a robot too, by name: the title of their page, and what makes them."""
 
 
-def inputs_page(app: Any) -> InputsPage:
-    """The inputs page of `app`, which is imported when it is first shown."""
-    from app.screens.inputs.page import InputsPage
+def lone_page(app: Any, name: str) -> LonePage:
+    """The page of `app` that is called so in `LONE`, which is imported when it is first shown."""
+    from app.screens.parts.lone_page import LonePage
 
-    return InputsPage(app=app)
+    title, where = LONE[name]
+    return LonePage(tr(title), lambda: bring(where)(app=app), app=app)
 
 
 def toggle_help(app: Any) -> None:
@@ -36,11 +45,11 @@ class Pages:
     """One page at a time."""
 
     def __init__(
-        self, root: Root, connect: ConnectScreen, make_inputs: Callable[[], InputsPage], first_screen: str
+        self, root: Root, connect: ConnectScreen, make_lone: Callable[[str], LonePage], first_screen: str
     ) -> None:
-        """`make_inputs` is called when the inputs page is first shown; `first_screen` is the screen that is shown of the first robot."""
-        self.root, self._connect, self._make_inputs = root, connect, make_inputs
-        self._inputs: InputsPage | None = None
+        """`make_lone` is called when a page of `LONE` is first shown; `first_screen` is the screen that is shown of the first robot."""
+        self.root, self._connect, self._make_lone = root, connect, make_lone
+        self._lone: dict[str, LonePage] = {}
         self.shell: Shell | None = None
         """The frame round the robot's screens; None while no robot is on the glass."""
         self.screen = first_screen
@@ -66,12 +75,16 @@ class Pages:
         self.screen = screen
         self.on_show()
 
-    def show_inputs(self) -> None:
-        """Put the inputs page on the glass, where there is no robot."""
-        if self._inputs is None:
-            self._inputs = self._make_inputs()
-        self.root.show_page(self._inputs)
-        self._inputs.enter()
+    def show_lone(self, name: str) -> None:
+        """Put the page of that name in `LONE` on the glass, where there is no robot; KeyError for another."""
+        if name not in self._lone:
+            self._lone[name] = self._make_lone(name)
+        self.root.show_page(self._lone[name])
+        self._lone[name].enter()
+
+    def lone(self, name: str) -> LonePage | None:
+        """The page of that name; None where it was not needed yet."""
+        return self._lone.get(name)
 
     @property
     def screens(self) -> Mapping[str, Any]:
@@ -81,10 +94,10 @@ class Pages:
             return connect
         return ChainMap(connect, cast("dict[str, Any]", self.shell.screens))
 
-    def tick_inputs(self) -> None:
-        """Bring the inputs page up to date."""
-        if self._inputs is not None:
-            self._inputs.tick()
+    def tick_lone(self) -> None:
+        """Bring the pages up to date that are there without a robot."""
+        for page in list(self._lone.values()):
+            page.tick()
 
     def close_shell(self) -> Shell | None:
         """Let go of the robot's screens; returns their frame, None where there was none."""
@@ -110,4 +123,4 @@ class Pages:
         """Back within the page; False where it has nowhere to go back to."""
         if self.shell is not None:
             return self.shell.back()
-        return self._inputs is not None and self._inputs.back()
+        return any(page.back() for page in list(self._lone.values()))

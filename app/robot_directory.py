@@ -47,7 +47,9 @@ class RobotDirectory:
 
     def __init__(self, app: Host, settings: Settings, client_name: str, now: Callable[[], float]) -> None:
         """`client_name` is what this handheld is called; `now` is our clock [s]."""
-        self._app, self._settings, self._client_name, self._now = app, settings, client_name, now
+        self._app, self._settings, self._now = app, settings, now
+        self.client_name = client_name
+        """What this handheld is called."""
         self.trust = RobotTrust(app, settings.path.parent)
         """The robots that this handheld is paired with."""
         self.trust.on_address = self.ask_address
@@ -65,7 +67,7 @@ class RobotDirectory:
         """STOP ALL, which takes paired robots by their keys; `client_id` is who this handheld is to robots."""
         return Fleet(
             client_id=client_id,
-            client_name=self._client_name,
+            client_name=self.client_name,
             now=self._now,
             credentials=self.trust.credentials,
         )
@@ -89,7 +91,7 @@ class RobotDirectory:
     def show(self, nearby: BeaconListener) -> None:
         """Bring the cards up to date, and have `nearby` measure the robots on them."""
         entries = self._entries()
-        self._app.connect.show_entries(entries, self._client_name)
+        self._app.connect.show_entries(entries, self.client_name)
         nearby.measure(entries)
 
     def _entries(self) -> list[Entry]:
@@ -124,13 +126,13 @@ class RobotDirectory:
         kept = self.robots.remove(url)
         self._save()
         self.trust.forget(url, lambda: self._restore(url, kept))
-        self._app.connect.show_entries(self._entries(), self._client_name)
+        self._app.connect.show_entries(self._entries(), self.client_name)
 
     def _restore(self, url: str, kept: dict[str, str] | None) -> None:
         if kept is not None:
             self.robots.restore(url, kept)
             self._save()
-        self._app.connect.show_entries(self._entries(), self._client_name)
+        self._app.connect.show_entries(self._entries(), self.client_name)
 
     def _connected(self) -> tuple[str, ...]:
         session = self._app.session

@@ -42,7 +42,9 @@ class PairingAttempts:
         self, mailbox: Mailbox, network: NetworkThread, client_name: str, now: Callable[[], float]
     ) -> None:
         """`client_name` is what this handheld is called; `now` is our clock [s]."""
-        self._mailbox, self._network, self._name, self._now = mailbox, network, client_name, now
+        self._mailbox, self._network, self._now = mailbox, network, now
+        self.client_name = client_name
+        """What this handheld is called for the next robot."""
         self._number = 0
         self._running: concurrent.futures.Future[None] | None = None
 
@@ -50,13 +52,13 @@ class PairingAttempts:
         """Pair with the robot of a link; returns the number of the attempt. One that goes on ends."""
         from bridge.client.pairing import pair_by_link
 
-        return self._start(pair_by_link(link, self._name))
+        return self._start(pair_by_link(link, self.client_name))
 
     def by_code(self, url: str, code: str) -> int:
         """Pair with the robot at `url` by the code that it shows; returns the number of the attempt."""
         from bridge.client.pairing import pair_by_code
 
-        return self._start(pair_by_code(url, code, self._name))
+        return self._start(pair_by_code(url, code, self.client_name))
 
     def cancel(self) -> None:
         """End the attempt that goes on; nothing more is told of it."""

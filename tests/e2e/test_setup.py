@@ -89,7 +89,7 @@ def listens(port: int) -> bool:
 
 
 def of(screen: Any, name: str) -> Any:
-    return next((each for each in screen.setup.gateways if each.name == name), None)
+    return next((each for each in screen.robot.setup.gateways if each.name == name), None)
 
 
 async def press_stop(port: int) -> bool:
@@ -137,7 +137,7 @@ def settled(glass: Handheld, served: Served) -> Counter[str]:
 def bring_up(glass: Handheld, screen: Any) -> int:
     """Choose MQTT, take a free port, and press the button; the port, once the robot says that it is up."""
     screen.chosen = ("/gateways", "mqtt")
-    pane = glass.until(lambda: screen._panes.get(("/gateways", "mqtt")), "its pane")
+    pane = glass.until(lambda: screen.robot.panes.get(("/gateways", "mqtt")), "its pane")
     pane.form.fields["port"].text = "0"
     glass.tap("Bring up", "PrimaryButton")
     glass.until(lambda: of(screen, "mqtt").state == "up", "MQTT", PATIENCE)

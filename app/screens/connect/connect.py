@@ -41,6 +41,7 @@ LOW, MIDDLE = 0.20, 0.40
 """Below these a battery is empty or getting low, 0 to 1."""
 
 Builder.load_string("""
+#:import tr widgets.core.language.tr
 <RobotCard>:
     size_hint: None, None
     height: self.minimum_height
@@ -160,11 +161,23 @@ Builder.load_string("""
                 pos_hint: {'center_y': .5}
                 on_release: root.app.show_inputs()
             Chip:
+                id: setup
+                icon: 'tune'
+                role: 'text'
+                text: tr('Setup') if root.columns > 1 else ''
+                spacing: dp(8) if self.text else 0
+                edge: dp(13) if self.text else dp(8)
+                pressable: True
+                scan_words: 'Setup'
+                pos_hint: {'center_y': .5}
+                on_release: root.app.show_setup()
+            Chip:
                 id: theme
                 icon: root.theme_icon
                 role: 'text'
                 text: root.theme_text if root.columns > 1 else ''
                 spacing: dp(8) if self.text else 0
+                edge: dp(13) if self.text else dp(8)
                 pressable: True
                 pos_hint: {'center_y': .5}
                 on_release: root.app.themes.choose_next()

@@ -63,7 +63,7 @@ SCREENS = (
         "tune",
         mark("Setup"),
         "app.screens.setup.screen:SetupScreen",
-        about=mark("Protocols and payloads"),
+        about=mark("This handheld, this robot"),
     ),
     Entry(
         "inputs",

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from app.core.checked_settings import known
+from app.core.checked_settings import CheckedSettings
 from app.core.settings_store import Settings
+from widgets.core.language import mark
 from widgets.core.theme import theme
 
-__all__ = ["THEMES", "Themes"]
+__all__ = ["THEMES", "TITLES", "Themes"]
 
 THEMES = {
     "dark": ("light_mode", "Sunlight", "sunlight"),
@@ -14,6 +15,8 @@ THEMES = {
     "night": ("dark_mode", "Dark", "dark"),
 }
 """Name of each to the icon and the text of the button that leads on from it, and to the theme that comes next."""
+TITLES = {"dark": mark("Dark"), "sunlight": mark("Sunlight"), "night": mark("Night")}
+"""Name of each to what it is called."""
 
 
 class Themes:
@@ -22,10 +25,19 @@ class Themes:
     def __init__(self, settings: Settings, override: str | None = None) -> None:
         """Begin with the remembered theme, or with `override`, which is not remembered."""
         self._settings = settings
-        remembered = settings.get("theme")
-        theme.name = override or (str(remembered) if known(remembered, THEMES) else "dark")
+        kept = CheckedSettings(
+            {"theme": settings.get("theme")} if settings.get("theme") else None, "the glass"
+        )
+        remembered = kept.word("theme", THEMES, usual="dark")
+        self.sentence = kept.sentence
+        """Why the remembered one is no good, as one sentence; empty when all is well."""
+        theme.name = override or remembered
 
     def choose_next(self) -> None:
         """Go on to the next theme and remember it."""
-        theme.name = THEMES[theme.name][2]
-        self._settings.set("theme", theme.name)
+        self.choose(THEMES[theme.name][2])
+
+    def choose(self, name: str) -> None:
+        """Take that of `THEMES` and remember it."""
+        theme.name = name
+        self._settings.set("theme", name)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from app.intents.intents import CANCEL_TIME, Heard
 from app.screens.inputs.pane_table import PANES, panes
+from app.screens.inputs.screen import InputsScreen
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 
@@ -32,8 +33,9 @@ class Fake:
 
 def test_every_pane_that_there_is_opens_and_leaves_without_a_robot(glass: Glass) -> None:
     glass.tap(glass.app.connect.ids.inputs)
-    page = glass.app.pages._inputs
+    page = glass.app.pages.lone("inputs")
     glass.until(lambda: page.parent is not None, "the inputs are not on the glass")
+    assert isinstance(page.screen, InputsScreen)
     assert set(panes()) <= set(PANES)
     for name in panes():
         page.screen.open(name)

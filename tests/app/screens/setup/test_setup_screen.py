@@ -67,7 +67,7 @@ class Setup:
         def heard() -> bool:
             for topic, message in told:
                 self.robot.publish(topic, message)
-            setup = self.screen.setup
+            setup = self.screen.robot.setup
             return setup.gateways == [ROS, *gateways] and setup.payloads == list(payloads)
 
         self.glass.until(heard, "the robot is not heard")
@@ -79,7 +79,7 @@ class Setup:
     def pane(self) -> Any:
         shown = self.screen._shown()
         assert shown is not None
-        return self.screen._panes[shown]
+        return self.screen.robot.panes[shown]
 
 
 @pytest.fixture
@@ -286,7 +286,7 @@ def test_without_a_link_nothing_can_be_switched(setup: Setup) -> None:
 def test_the_robot_need_not_tell_who_does_not_look(setup: Setup) -> None:
     setup.tell(DOWN)
     setup.glass.app.show("drive")
-    assert setup.screen.setup.gateways == []
+    assert setup.screen.robot.setup.gateways == []
     sources = setup.glass.app.session.link._sources
     setup.glass.until(lambda: "/gateways" not in sources._ends, "still listens")
 

@@ -156,10 +156,12 @@ def of_setup(walk: Walk) -> Iterator[tuple[str, Callable[[], object]]]:
     down = Gateway("mqtt", "a broker", state="down", usual="mqtt://h:1", schemes=["mqtt:1", "own:1"])
     up = Gateway("mqtt", "a broker", state="up", endpoint="mqtt://h:1", guide="Say hello.", qr_rows=["1"])
     yield "setup", lambda: app.show("setup")
+    for pane in screen.panes:
+        yield f"setup {pane}", lambda pane=pane: screen.open(pane)
     yield "setup told", lambda: told(down)
     yield "a protocol", lambda: setattr(screen, "chosen", ("/gateways", "mqtt"))
     yield "a protocol that is up", lambda: told(up)
-    yield "its guide", lambda: setattr(screen._panes["/gateways", "mqtt"], "reads", True)
+    yield "its guide", lambda: setattr(screen.robot.panes["/gateways", "mqtt"], "reads", True)
     yield "a payload", lambda: setattr(screen, "chosen", ("/payloads", "lights"))
 
 

@@ -1,7 +1,8 @@
-"""The inputs screen where there is no robot: reached from the connect screen, and left to it."""
+"""A screen where there is no robot: reached from the connect screen, and left to it."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from kivy.lang import Builder
@@ -11,17 +12,16 @@ from kivy.uix.floatlayout import FloatLayout
 
 from app.layout import arrange
 from app.layout.arrange import Body
-from app.screens.inputs.screen import InputsScreen
 from widgets.core.surfaces import EdgedBox  # noqa: F401 - its rule draws the bar
 from widgets.parts.kit import IconButton, Text
 
-__all__ = ["InputsPage"]
+__all__ = ["LonePage"]
 
 BAR = 56.0
 """Height of the bar [dp], as on the connect screen."""
 
 Builder.load_string("""
-<InputsPage>:
+<LonePage>:
     EdgedBox:
         size_hint: None, None
         pos: root.x, root.top - dp(56)
@@ -29,26 +29,27 @@ Builder.load_string("""
 """)
 
 
-class InputsPage(FloatLayout):
+class LonePage(FloatLayout):
     """A bar with a way back, and the screen below it."""
 
     app = ObjectProperty()
 
-    def __init__(self, **kwargs: Any) -> None:
+    def __init__(self, title: str, make: Callable[[], Any], **kwargs: Any) -> None:
+        """`make` gives the screen, which has `spread`, `enter`, `leave`, `tick` and `back`."""
         super().__init__(**kwargs)
-        self._screen: InputsScreen | None = None
+        self._make, self._screen = make, None
         self.leave_button = IconButton(icon="arrow_back", role="muted", bare=True, size_hint=(None, None))
         self.leave_button.bind(on_release=lambda _: self.back())
-        self._title = Text(text="Inputs", bold=True, size_hint=(None, None))
+        self._title = Text(text=title, bold=True, size_hint=(None, None))
         self.add_widget(self.leave_button)
         self.add_widget(self._title)
         self.bind(size=self._arrange, pos=self._arrange)
 
     @property
-    def screen(self) -> InputsScreen:
+    def screen(self) -> Any:
         """What is below the bar, made when it is first looked at."""
         if self._screen is None:
-            self._screen = InputsScreen(app=self.app)
+            self._screen = self._make()
             self.add_widget(self._screen)
         return self._screen
 
