@@ -12,6 +12,8 @@ from __future__ import annotations
 from collections.abc import Container, Mapping
 from typing import Any, TypeGuard
 
+from widgets.core.language import tr
+
 __all__ = ["CheckedSettings", "known", "number", "shown"]
 
 LETTERS = 40
@@ -45,21 +47,23 @@ class CheckedSettings:
         self.values: Mapping[str, Any] = value if isinstance(value, Mapping) else {}
         """What was kept, unchecked."""
         if value is not None and not isinstance(value, Mapping):
-            self._wrong.append(f"the stored value is no table but {shown(value)}")
+            self._wrong.append(tr("the stored value is no table but {value}").format(value=shown(value)))
 
     @property
     def sentence(self) -> str:
         """What was no good, in one sentence; empty when all is well."""
         if not self._wrong:
             return ""
-        return f"In the settings of {self._about} {', '.join(self._wrong)}: reset to default."
+        return tr("In the settings of {about} {wrong}: reset to default.").format(
+            about=self._about, wrong=", ".join(self._wrong)
+        )
 
     def flag(self, name: str, *, usual: bool) -> bool:
         """True or false."""
         value = self.values.get(name, usual)
         if isinstance(value, bool):
             return value
-        self.mistaken(name, "true or false")
+        self.mistaken(name, tr("true or false"))
         return usual
 
     def number(self, name: str, low: float, high: float, usual: float) -> float:
@@ -74,7 +78,7 @@ class CheckedSettings:
         value = self.values.get(name, usual)
         if known(value, allowed):
             return value
-        self.mistaken(name, "one of the known")
+        self.mistaken(name, tr("one of the known"))
         return usual
 
     def mistaken(self, name: str, allowed: str) -> None:

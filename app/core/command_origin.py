@@ -13,6 +13,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from widgets.core.language import mark, tr
+
 __all__ = ["ITSELF", "NOBODY", "Origin", "Origins", "gave_stop", "origins"]
 
 ITSELF = ""
@@ -41,7 +43,7 @@ class Origin:
     """Key in `app.intents.intents.INTENTS`; empty where a control was used that has none."""
 
 
-GUESSED = {"voice": "Your voice", "shake": "A shake"}
+GUESSED = {"voice": mark("Your voice"), "shake": "A shake"}
 """Methods that guess what a hand or a voice meant, and so may be wrong."""
 
 
@@ -52,7 +54,7 @@ def gave_stop(origin: Origin) -> str:
     said = f"“{origin.said}”" if origin.said else ""
     sure = "" if math.isnan(origin.confidence) else f"{origin.confidence * 100:.0f} % sure"
     about = ", ".join(filter(None, (said, sure)))
-    return f"{GUESSED[origin.method]} gave STOP{f': {about}' if about else ''}."
+    return f"{tr(GUESSED[origin.method])} gave STOP{f': {about}' if about else ''}."
 
 
 LASTS = 1.0

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from app.core.newest_worker import NewestWorker
+from widgets.core.language import tr
 
 __all__ = ["Settings"]
 
@@ -56,11 +57,13 @@ class Settings:
             return {}
         except (OSError, ValueError) as error:
             return self._put_aside(error)
-        return values if isinstance(values, dict) else self._put_aside("it is not a table of values")
+        return values if isinstance(values, dict) else self._put_aside(tr("it is not a table of values"))
 
     def _put_aside(self, why: object) -> dict[str, Any]:
         aside = self.path.with_suffix(".unreadable.json")
-        self.problem = f"The settings could not be read and were put aside as {aside.name}: {why}."
+        self.problem = tr("The settings could not be read and were put aside as {name}: {why}.").format(
+            name=aside.name, why=why
+        )
         log.warning("%s", self.problem)
         try:
             self.path.replace(aside)
@@ -78,7 +81,9 @@ class Settings:
                 os.fsync(file.fileno())
             fresh.replace(self.path)
         except OSError as error:
-            self.problem = f"The settings could not be saved: {error.strerror or error}."
+            self.problem = tr("The settings could not be saved: {strerror}.").format(
+                strerror=error.strerror or error
+            )
             log.warning("%s", self.problem)
             with contextlib.suppress(OSError):
                 fresh.unlink()

@@ -13,6 +13,7 @@ from collections.abc import Callable, Collection
 from typing import Any, Final, Literal, Protocol
 
 from app.device import is_android
+from widgets.core.language import tr
 
 __all__ = [
     "GRAVITY",
@@ -223,7 +224,7 @@ class AndroidMotion:
     @property
     def sentence(self) -> str:
         """That it has none."""
-        return "" if self._sensors else "This device has no motion sensor."
+        return "" if self._sensors else tr("This device has no motion sensor.")
 
     def start(self, kinds: Collection[Kind], hear: Hear) -> None:
         """One listener each; MotionError where the system takes one of them not."""
@@ -238,7 +239,7 @@ class AndroidMotion:
             listener = _listener(self._heard(kind, turned, hear))
             if not self._service.registerListener(listener, sensor, SENSOR_DELAY_GAME):
                 self.stop()
-                raise MotionError(f"Android does not hand out its {kind} sensor.")
+                raise MotionError(tr("Android does not hand out its {kind} sensor.").format(kind=kind))
             self._listeners.append(listener)
 
     def _heard(self, kind: Kind, turned: bool, hear: Hear) -> Callable[[Any], None]:
@@ -290,4 +291,4 @@ def motion_source(now: Callable[[], float] = time.monotonic) -> MotionSource:
         return AndroidMotion(now)
     except JavaException as problem:
         log.warning("The motion sensors cannot be reached: %s", problem)
-        return NoMotion(f"The motion sensors cannot be reached: {problem}.")
+        return NoMotion(tr("The motion sensors cannot be reached: {problem}.").format(problem=problem))

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from app.device import is_android
+from widgets.core.language import mark, tr
 
 __all__ = ["AndroidSharing", "Sharing", "sharing"]
 
@@ -20,7 +21,7 @@ FOLDER = "Download/Pilothouse"
 SEEN_SINCE = 29
 """Android's version that lets an app put files into Download without a permission (10)."""
 ZIP = "application/zip"
-REFUSES = "Android does not share it: {}"
+REFUSES = mark("Android does not share it: {}")
 
 
 class Sharing(Protocol):
@@ -44,7 +45,7 @@ class AndroidSharing:
 
         self._activity = autoclass("org.kivy.android.PythonActivity").mActivity
         self._seen = autoclass("android.os.Build$VERSION").SDK_INT >= SEEN_SINCE
-        self.where = FOLDER if self._seen else "Android/data, in the app's folder"
+        self.where = FOLDER if self._seen else tr("Android/data, in the app's folder")
 
     def share(self, path: Path) -> None:
         """OSError in words of Android's where it refuses, of the system's where the copy cannot be written."""
@@ -53,7 +54,7 @@ class AndroidSharing:
         try:
             self._send(self._put(path) if self._seen else self._copy(path), path.name)
         except JavaException as problem:
-            raise OSError(REFUSES.format(problem)) from problem
+            raise OSError(tr(REFUSES).format(problem)) from problem
 
     def forget(self) -> None:
         """Only what this app put there is found."""
@@ -68,7 +69,9 @@ class AndroidSharing:
                 for copy in self._outside().glob("*.zip"):
                     copy.unlink(missing_ok=True)
         except JavaException as problem:
-            raise OSError(f"Android does not delete the copies: {problem}") from problem
+            raise OSError(
+                tr("Android does not delete the copies: {problem}").format(problem=problem)
+            ) from problem
 
     def _put(self, path: Path) -> Any:
         """The address of a copy in Download."""
@@ -81,7 +84,7 @@ class AndroidSharing:
             autoclass("android.provider.MediaStore$Downloads").EXTERNAL_CONTENT_URI, values
         )
         if address is None:
-            raise OSError(REFUSES.format("its list of files takes no more."))
+            raise OSError(tr(REFUSES).format(tr("its list of files takes no more.")))
         opened = resolver.openFileDescriptor(address, "w")
         with os.fdopen(opened.detachFd(), "wb") as copy, path.open("rb") as zip_:
             shutil.copyfileobj(zip_, copy)
@@ -101,7 +104,7 @@ class AndroidSharing:
     def _outside(self) -> Path:
         folder = self._activity.getExternalFilesDir(None)
         if folder is None:
-            raise OSError(REFUSES.format("its shared storage is not there."))
+            raise OSError(tr(REFUSES).format(tr("its shared storage is not there.")))
         return Path(str(folder.getAbsolutePath()))
 
     def _send(self, address: Any, name: str) -> None:

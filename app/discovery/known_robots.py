@@ -16,6 +16,7 @@ from urllib.parse import urlsplit
 from bridge.discovery.hello import Hello, is_loopback, port_of
 from bridge.trust.pairing import SCHEME
 from bridge.trust.robot_link import RobotLink, read_link
+from widgets.core.language import tr
 
 __all__ = [
     "MAX_HEARD",
@@ -47,21 +48,31 @@ def check_address(text: str) -> str:
     if typed.startswith(f"{SCHEME}:"):
         return _address_of(typed)
     if not typed:
-        raise ValueError("Enter an address such as 192.168.1.7 or ws://192.168.1.7:9090.")
+        raise ValueError(tr("Enter an address such as 192.168.1.7 or ws://192.168.1.7:9090."))
     if ":/" in typed and "://" not in typed:
-        raise ValueError(f"An address begins with ws:// or wss://, not {typed[: typed.index(':/') + 2]}.")
+        raise ValueError(
+            tr("An address begins with ws:// or wss://, not {typed}.").format(
+                typed=typed[: typed.index(":/") + 2]
+            )
+        )
     url = typed if "://" in typed else f"ws://{typed}"
     try:
         parts = urlsplit(url)
         host, port = parts.hostname, parts.port
     except ValueError:
-        raise ValueError(f"{typed} has no valid port: it is a number from 1 to 65535.") from None
+        raise ValueError(
+            tr("{typed} has no valid port: it is a number from 1 to 65535.").format(typed=typed)
+        ) from None
     if parts.netloc.endswith(":"):
-        raise ValueError(f"{typed} has no valid port: it is a number from 1 to 65535.")
+        raise ValueError(tr("{typed} has no valid port: it is a number from 1 to 65535.").format(typed=typed))
     if parts.scheme not in ("ws", "wss"):
-        raise ValueError(f"An address begins with ws:// or wss://, not {parts.scheme}://.")
+        raise ValueError(
+            tr("An address begins with ws:// or wss://, not {scheme}://.").format(scheme=parts.scheme)
+        )
     if not host or any(sign in host for sign in " ,;") or port == 0:
-        raise ValueError(f"{typed} is not an address such as 192.168.1.7 or ws://192.168.1.7:9090.")
+        raise ValueError(
+            tr("{typed} is not an address such as 192.168.1.7 or ws://192.168.1.7:9090.").format(typed=typed)
+        )
     host = f"[{host}]" if ":" in host else host
     return f"{parts.scheme}://{host}:{port or PORT}{parts.path.rstrip('/')}"
 
@@ -71,7 +82,9 @@ def _address_of(text: str) -> str:
     link = read_link(text)
     if isinstance(link, RobotLink):
         return link.url
-    raise ValueError("This link is for pairing: open it, or paste it where the robot's code is asked for.")
+    raise ValueError(
+        tr("This link is for pairing: open it, or paste it where the robot's code is asked for.")
+    )
 
 
 def address(url: str) -> str:
@@ -319,7 +332,7 @@ class KnownRobots:
         name = plain_name(hello.name)
         for paired, key in self._paired().items():
             if plain_name(paired) == name and hello.key != key:
-                return f"Not your paired {paired}: another robot uses its name."
+                return tr("Not your paired {paired}: another robot uses its name.").format(paired=paired)
         return ""
 
 

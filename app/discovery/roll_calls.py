@@ -17,6 +17,7 @@ from bridge.core.async_tasks import cancel_all
 from bridge.core.errors import ProtocolError
 from bridge.discovery.hello import Hello
 from bridge.discovery.roll import MAX_ROLL, PATH, read_roll
+from widgets.core.language import tr
 
 __all__ = ["ASK_PERIOD", "FOUND_TIME", "HEARD_TIME", "MAX_AT_ONCE", "MAX_FOUND", "RollCalls"]
 
@@ -157,7 +158,7 @@ class RollCalls:
         if status == [b"426"] and not secure:
             raise _NeedsTls
         if status != [b"200"]:
-            raise ProtocolError("No list of robots is there.")
+            raise ProtocolError(tr("No list of robots is there."))
         return body
 
     def _unproven(self) -> ssl.SSLContext:

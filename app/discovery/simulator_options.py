@@ -8,6 +8,8 @@ from typing import Any
 
 import msgspec
 
+from widgets.core.language import tr
+
 __all__ = ["SimulationChoice", "SimulatorOptions", "SimulatedRobot", "SimulatedWorld"]
 
 
@@ -52,7 +54,7 @@ class SimulatorOptions(msgspec.Struct, frozen=True):
         """What `python -m robotside offer --json` said; ValueError when that is not to be understood."""
         offered = msgspec.convert(json.loads(text), cls)
         if not offered.robots:
-            raise ValueError("There is no robot that could be simulated.")
+            raise ValueError(tr("There is no robot that could be simulated."))
         return offered
 
     def robot(self, name: str) -> SimulatedRobot | None:

@@ -11,6 +11,8 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from widgets.core.language import tr
+
 __all__ = ["Inquiry", "Simulator", "available", "command", "inquiry"]
 
 READY = re.compile(r"^robotside: ready\b.*?\bbridge=(\S+)")
@@ -115,7 +117,9 @@ class Simulator:
                 cwd=Path(__file__).parents[2],
             )
         except OSError as error:
-            self._on_failed(f"The simulator could not be started: {error.strerror or error}.")
+            self._on_failed(
+                tr("The simulator could not be started: {strerror}.").format(strerror=error.strerror or error)
+            )
             return
         timer = threading.Timer(self._patience, self._give_up)
         timer.start()
@@ -154,9 +158,19 @@ class Simulator:
 
     def _why(self, code: int) -> str:
         if self._late:
-            return f"The simulator did not serve within {self._patience:.0f} s and was ended."
-        last = self._said[-1].rstrip(".") if self._said else f"it ended with exit code {code}"
-        return f"The simulator has stopped: {last}." if self.url else f"The simulator did not start: {last}."
+            return tr("The simulator did not serve within {patience:.0f} s and was ended.").format(
+                patience=self._patience
+            )
+        last = (
+            self._said[-1].rstrip(".")
+            if self._said
+            else tr("it ended with exit code {code}").format(code=code)
+        )
+        return (
+            tr("The simulator has stopped: {last}.").format(last=last)
+            if self.url
+            else tr("The simulator did not start: {last}.").format(last=last)
+        )
 
 
 class Inquiry:
@@ -203,7 +217,9 @@ class Inquiry:
         except subprocess.TimeoutExpired:
             process.kill()
             process.communicate()
-            self._fail(f"it did not answer within {START_TIMEOUT:.0f} s")
+            self._fail(
+                tr("it did not answer within {start_timeout:.0f} s").format(start_timeout=START_TIMEOUT)
+            )
         except OSError as error:
             self._fail(error.strerror or str(error))
         else:
@@ -212,7 +228,9 @@ class Inquiry:
             else:
                 lines = problem.strip().splitlines()
                 self._fail(
-                    lines[-1].rstrip(".") if lines else f"it ended with exit code {process.returncode}"
+                    lines[-1].rstrip(".")
+                    if lines
+                    else tr("it ended with exit code {returncode}").format(returncode=process.returncode)
                 )
 
     def _answer(self, said: str) -> None:
@@ -221,4 +239,4 @@ class Inquiry:
 
     def _fail(self, why: str) -> None:
         if not self._closing.is_set():
-            self._on_failed(f"What can be simulated could not be asked: {why}.")
+            self._on_failed(tr("What can be simulated could not be asked: {why}.").format(why=why))

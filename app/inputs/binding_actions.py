@@ -12,16 +12,20 @@ from app.inputs.base.button_presses import Press
 from app.inputs.base.method_app import MethodApp
 from app.inputs.keys.held_key import MAX_HOLD, HeldKey
 from app.intents.intents import INTENTS, Heard
+from widgets.core.language import mark, tr
 
 __all__ = ["HOLDS", "MEANINGS", "BindingActions", "meaning_icon", "meaning_words"]
 
 METHOD_OF = {"key": "keyboard", "pad": "gamepad"}
-HOLDS = {"talk": ("Talk while held", "mic"), "tilt": ("Tilt drives while held", "screen_rotation_alt")}
+HOLDS = {
+    "talk": (mark("Talk while held"), "mic"),
+    "tilt": (mark("Tilt drives while held"), "screen_rotation_alt"),
+}
 """What is on for as long as a key or a button is held, with its words and its icon."""
 TURNS = "pause_resume"
 MEANINGS: dict[str, tuple[str, str]] = {
     **{name: (intent.words, intent.icon) for name, intent in INTENTS.items()},
-    TURNS: ("Pause or resume", "pause"),
+    TURNS: (mark("Pause or resume"), "pause"),
     **{f"hold.{name}": words for name, words in HOLDS.items()},
 }
 """Everything that a key or a button can mean, with its words and its icon."""
@@ -29,7 +33,7 @@ MEANINGS: dict[str, tuple[str, str]] = {
 
 def meaning_words(meaning: str) -> str:
     """In words; those of nothing for what there is not."""
-    return MEANINGS.get(meaning, ("Nothing", ""))[0]
+    return tr(MEANINGS.get(meaning, (mark("Nothing"), ""))[0])
 
 
 def meaning_icon(meaning: str) -> str:
@@ -114,15 +118,26 @@ class BindingActions:
                 if why is not None:
                     self._let_go(name, held.press)
                 if why:
-                    self._on_lost(f"{why}: let it go, and press it again for: {HOLDS[name][0]}.", held.press)
+                    self._on_lost(
+                        tr("{why}: let it go, and press it again for: {holds}.").format(
+                            why=why, holds=tr(HOLDS[name][0])
+                        ),
+                        held.press,
+                    )
 
     def _ended(self, held: HeldKey) -> str | None:
         """Why nobody holds it any more; empty where it was simply let go, None where it is held."""
         press, now = held.press, self._now()
         if held.too_long(now):
-            return f"{press.name.upper()} is held for {MAX_HOLD:.0f} s"
+            return tr("{name} is held for {max_hold:.0f} s").format(
+                name=press.name.upper(), max_hold=MAX_HOLD
+            )
         if press.source == "pad":
-            return f"{press.device or 'The gamepad'} is silent" if self._silent(press.number) else None
+            return (
+                tr("{device} is silent").format(device=press.device or "The gamepad")
+                if self._silent(press.number)
+                else None
+            )
         away = press.name == self._newest and held.silent(now)
         return "" if held.up(self._is_down) or away else None
 

@@ -11,6 +11,7 @@ from app.inputs.gamepad import pad_map
 from app.inputs.gamepad.pad_map import Profile
 from app.inputs.keys import key_table
 from app.inputs.keys.key_table import KeyTable
+from widgets.core.language import tr
 
 __all__ = ["Bindings"]
 
@@ -43,7 +44,9 @@ class Bindings:
         self.wired = [name for name in wired if isinstance(name, str)] if isinstance(wired, list) else []
         """Names of gamepads that hang on a cable and may be held still."""
         if wired is not None and self.wired != wired:
-            self.problems.append(f"Gamepads on a cable are a list of names, not {shown(wired)}.")
+            self.problems.append(
+                tr("Gamepads on a cable are a list of names, not {wired}.").format(wired=shown(wired))
+            )
 
     def profile(self, name: str) -> Profile:
         """That of the gamepads of that name; one that nobody has changed is as they all are at first."""

@@ -6,14 +6,15 @@ from dataclasses import replace
 from typing import Protocol
 
 from app.inputs.inputs import Inputs
+from widgets.core.language import mark, tr
 
 __all__ = ["GamepadMethod", "KeyboardMethod"]
 
 STANDING = {
     "ready": "ready",
     "drives": "drives",
-    "silent": "silent: drives nothing",
-    "let go": "Release the stick first, then push it again.",
+    "silent": mark("silent: drives nothing"),
+    "let go": mark("Release the stick first, then push it again."),
 }
 
 
@@ -50,8 +51,8 @@ class GamepadMethod:
         pads = self._inputs.gamepads
         names = ", ".join(dict.fromkeys(state.name for state in pads.states))
         if not names:
-            return "none plugged in" if self.on else "off"
-        return f"{names}: {STANDING[pads.standing] if self.on else 'off, but for STOP'}"
+            return tr("none plugged in") if self.on else "off"
+        return f"{names}: {tr(STANDING[pads.standing]) if self.on else tr('off, but for STOP')}"
 
     @property
     def idle(self) -> bool:
@@ -97,8 +98,8 @@ class KeyboardMethod:
         """What the keys do."""
         table = self._inputs.mapped.keys
         if not table.on:
-            return "off, but for STOP"
-        return "shortcuts and driving" if table.drives else "shortcuts"
+            return tr("off, but for STOP")
+        return tr("shortcuts and driving") if table.drives else "shortcuts"
 
     @property
     def problem(self) -> str:

@@ -20,6 +20,7 @@ from app.inputs.input_problems import MethodProblems
 from app.inputs.motion.motion_sensing import MotionSensing
 from app.inputs.voice.process.ending import wait_for_ends
 from app.intents.intents import METHODS, Heard, Verdict
+from widgets.core.language import tr
 
 __all__ = ["MADE_BY", "Method", "Methods"]
 
@@ -152,7 +153,9 @@ class Methods:
         if method is not None:
             with suppress(Exception):  # what failed to begin may fail to end as well
                 method.close()
-        self.faults[name] = f"{name.capitalize()} cannot be used: {problem or type(problem).__name__}."
+        self.faults[name] = tr("{name} cannot be used: {problem}.").format(
+            name=name.capitalize(), problem=problem or type(problem).__name__
+        )
 
     def close(self) -> None:
         """End each."""

@@ -9,6 +9,7 @@ from app.inputs.base.method_app import MethodApp
 from app.inputs.bindings import Bindings
 from app.inputs.gamepad.gamepad import Gamepads, PadEvent
 from app.inputs.gamepad.pad_map import button_words
+from widgets.core.language import tr
 
 __all__ = ["PadNews"]
 
@@ -28,13 +29,19 @@ class PadNews:
         if shell is None:
             return
         if news.what == "plugged":
-            hands = "both its sticks drive" if len(self._gamepads().sticks) > 1 else "its left stick drives"
+            hands = (
+                tr("both its sticks drive")
+                if len(self._gamepads().sticks) > 1
+                else tr("its left stick drives")
+            )
             stop = button_words(self._gamepads().profile(news.name).stops[0]).partition(",")[0]
             shell.say(f"{news.name}: {hands}, {stop} is STOP.", "info", about="gamepad")
         elif news.what == "unplugged":
-            shell.say(f"{news.name} is unplugged.", "info", about="gamepad")
+            shell.say(tr("{name} is unplugged.").format(name=news.name), "info", about="gamepad")
         elif news.what == "unplugged driving":
-            shell.say(f"{news.name} is unplugged: the robot rests.", "warn", about="gamepad")
+            shell.say(
+                tr("{name} is unplugged: the robot rests.").format(name=news.name), "warn", about="gamepad"
+            )
         else:
             self._tell_silence(shell, news.name)
 
@@ -49,11 +56,11 @@ class PadNews:
         """With a way out the first time: what hangs on a cable and is held still tells nothing either."""
         shell.unsay("gamepad")
         if name in self._offered:
-            shell.say("The gamepad is silent: the robot rests.", "warn", about="gamepad")
+            shell.say(tr("The gamepad is silent: the robot rests."), "warn", about="gamepad")
         else:
             self._offered.add(name)
-            text = "The gamepad is silent: the robot rests. Is it wired?"
-            shell.notices.offer(text, "Wired", lambda: self._trust(name), icon="cable")
+            text = tr("The gamepad is silent: the robot rests. Is it wired?")
+            shell.notices.offer(text, tr("Wired"), lambda: self._trust(name), icon="cable")
 
     def _trust(self, name: str) -> None:
         """The operator says that it hangs on a cable: it may be held still from now on."""

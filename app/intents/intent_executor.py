@@ -13,6 +13,7 @@ from app.intents.open_question import OpenQuestion
 from app.intents.speed_steps import SpeedSteps
 from app.intents.task_intents import TaskIntents
 from bridge.msgs.pilothouse_msgs import LightState, TaskOrder
+from widgets.core.language import mark, tr
 from widgets.core.task_words import TASKS, title
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ __all__ = ["IntentExecutor"]
 
 TO_TASK = {"hold": "hold", "surface": "surface", "take_off": "take_off", "land": "land"}
 """Intents that start a task of their own, instead of the one that runs."""
-NO_ROBOT = "No robot is connected."
+NO_ROBOT = mark("No robot is connected.")
 ALONE = ("stop", "theme", "help", "back", "screen.inputs", "yes", "no")
 """What needs no robot."""
 
@@ -47,37 +48,39 @@ class IntentExecutor:
             "faster": lambda: self._speed.why_not(1),
             "slower": lambda: self._speed.why_not(-1),
             "lights": self._why_not_lights,
-            "snapshot": lambda: "" if self._app.records.frame is not None else "There is no picture to keep.",
+            "snapshot": lambda: (
+                "" if self._app.records.frame is not None else tr("There is no picture to keep.")
+            ),
             "camera": self._why_not_camera,
             "take_control": self._why_not_control,
             "yes": self._question.why_not_yes,
             "no": self._question.why_not_answer,
-            "help": lambda: "" if self.on_help is not None else "There is no help here.",
+            "help": lambda: "" if self.on_help is not None else tr("There is no help here."),
             **{intent: partial(self._tasks.why_not_task, task) for intent, task in TO_TASK.items()},
         }
 
     def why_not(self, intent: str) -> str:
         """One sentence why it cannot be done now; empty where it can."""
         if intent not in ALONE and self._app.shell is None:
-            return NO_ROBOT
+            return tr(NO_ROBOT)
         return self._why.get(intent, str)()
 
     def words(self, intent: str) -> str:
         """What it would do now."""
         if self._app.session is not None:
             if intent in ("start", "patrol"):
-                return f"Start {_within(title(self._tasks.order_of(intent)))}"
+                return tr("Start {within}").format(within=_within(title(self._tasks.order_of(intent))))
             if intent == "lights":
-                return "Switch the lights off" if self._lit else "Switch the lights on"
+                return tr("Switch the lights off") if self._lit else tr("Switch the lights on")
             if intent in ("faster", "slower"):
                 return (
                     f"{INTENTS[intent].words}: {self._speed.after(1 if intent == 'faster' else -1):.2f} m/s"
                 )
             if intent == "record":
-                return "Record" if self._app.records.recorder is None else "Stop recording"
+                return tr("Record") if self._app.records.recorder is None else tr("Stop recording")
             status = self._tasks.status
             if intent == "end_task" and status is not None and status.task in TASKS:
-                return f"End {TASKS[status.task].doing}"
+                return tr("End {doing}").format(doing=TASKS[status.task].doing)
         return INTENTS[intent].words
 
     def do(self, intent: str) -> None:
@@ -136,7 +139,7 @@ class IntentExecutor:
 
     def _why_not_stop(self) -> str:
         known = self._app.session is not None or bool(self._app.corner.button.robots)
-        return "" if known else "No robot is known that could be stopped."
+        return "" if known else tr("No robot is known that could be stopped.")
 
     # what it carries, and who steers
 
@@ -144,18 +147,18 @@ class IntentExecutor:
         if why := self._tasks.why_not_asked():
             return why
         offered = self._session.robot.capabilities is not None and self._session.robot.offers("/lights/set")
-        return "" if offered else "This robot has no lights to switch."
+        return "" if offered else tr("This robot has no lights to switch.")
 
     def _why_not_camera(self) -> str:
-        return "" if len(self._session.robot.info.cameras) > 1 else "This robot has no other camera."
+        return "" if len(self._session.robot.info.cameras) > 1 else tr("This robot has no other camera.")
 
     def _why_not_control(self) -> str:
         session = self._session
         if not session.connected:
-            return "There is no link to the robot."
+            return tr("There is no link to the robot.")
         if session.control == "none":
-            return "This robot knows no control."
-        return "You have control already." if session.control == "mine" else ""
+            return tr("This robot knows no control.")
+        return tr("You have control already.") if session.control == "mine" else ""
 
 
 def _within(words: str) -> str:

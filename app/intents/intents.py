@@ -22,6 +22,7 @@ from typing import Any, Literal, Protocol
 
 from app.core.command_origin import Origin, origins
 from app.intents.method_permits import MethodPermits
+from widgets.core.language import mark, tr
 
 __all__ = [
     "CANCEL_TIME",
@@ -58,42 +59,47 @@ Risk = Literal["at_once", "cancel", "confirm"]
 class Intent:
     """One thing that can be wanted."""
 
-    words: str
+    english: str
     """What it does, as on a button."""
     icon: str
     """Name of its icon."""
     risk: Risk
     """`at_once` acts, `cancel` acts after 2 s unless cancelled, `confirm` acts after a yes."""
 
+    @property
+    def words(self) -> str:
+        """What it does, in the language of the glass."""
+        return tr(self.english)
+
 
 INTENTS: dict[str, Intent] = {
     "stop": Intent("STOP", "front_hand", "at_once"),
-    "pause": Intent("Pause", "pause", "at_once"),
-    "resume": Intent("Resume", "play_arrow", "cancel"),
-    "start": Intent("Start the task", "play_circle", "confirm"),
-    "patrol": Intent("Patrol", "route", "confirm"),
-    "go_home": Intent("Go home", "home", "confirm"),
-    "end_task": Intent("End the task", "cancel", "cancel"),
-    "hold": Intent("Hold", "pause_circle", "cancel"),
-    "surface": Intent("Surface", "water", "cancel"),
-    "take_off": Intent("Take off", "arrow_upward", "confirm"),
-    "land": Intent("Land", "arrow_downward", "cancel"),
-    "faster": Intent("Faster", "fast_forward", "confirm"),
-    "slower": Intent("Slower", "expand_more", "at_once"),
-    "lights": Intent("Lights", "lightbulb", "at_once"),
-    "snapshot": Intent("Snapshot", "photo_camera", "at_once"),
-    "record": Intent("Record", "fiber_manual_record", "at_once"),
-    "camera": Intent("Next camera", "videocam", "at_once"),
-    "take_control": Intent("Take control", "person", "cancel"),
-    "yes": Intent("Yes", "check", "at_once"),
-    "no": Intent("No", "close", "at_once"),
-    "screen.drive": Intent("Drive screen", "sports_esports", "at_once"),
-    "screen.mission": Intent("Mission screen", "map", "at_once"),
-    "screen.tasks": Intent("Tasks screen", "list", "at_once"),
-    "screen.inputs": Intent("Inputs screen", "settings", "at_once"),
-    "theme": Intent("Next theme", "light_mode", "at_once"),
-    "help": Intent("Help", "help", "at_once"),
-    "back": Intent("Back", "arrow_back", "at_once"),
+    "pause": Intent(mark("Pause"), "pause", "at_once"),
+    "resume": Intent(mark("Resume"), "play_arrow", "cancel"),
+    "start": Intent(mark("Start the task"), "play_circle", "confirm"),
+    "patrol": Intent(mark("Patrol"), "route", "confirm"),
+    "go_home": Intent(mark("Go home"), "home", "confirm"),
+    "end_task": Intent(mark("End the task"), "cancel", "cancel"),
+    "hold": Intent(mark("Hold"), "pause_circle", "cancel"),
+    "surface": Intent(mark("Surface"), "water", "cancel"),
+    "take_off": Intent(mark("Take off"), "arrow_upward", "confirm"),
+    "land": Intent(mark("Land"), "arrow_downward", "cancel"),
+    "faster": Intent(mark("Faster"), "fast_forward", "confirm"),
+    "slower": Intent(mark("Slower"), "expand_more", "at_once"),
+    "lights": Intent(mark("Lights"), "lightbulb", "at_once"),
+    "snapshot": Intent(mark("Snapshot"), "photo_camera", "at_once"),
+    "record": Intent(mark("Record"), "fiber_manual_record", "at_once"),
+    "camera": Intent(mark("Next camera"), "videocam", "at_once"),
+    "take_control": Intent(mark("Take control"), "person", "cancel"),
+    "yes": Intent(mark("Yes"), "check", "at_once"),
+    "no": Intent(mark("No"), "close", "at_once"),
+    "screen.drive": Intent(mark("Drive screen"), "sports_esports", "at_once"),
+    "screen.mission": Intent(mark("Mission screen"), "map", "at_once"),
+    "screen.tasks": Intent(mark("Tasks screen"), "list", "at_once"),
+    "screen.inputs": Intent(mark("Inputs screen"), "settings", "at_once"),
+    "theme": Intent(mark("Next theme"), "light_mode", "at_once"),
+    "help": Intent(mark("Help"), "help", "at_once"),
+    "back": Intent(mark("Back"), "arrow_back", "at_once"),
 }
 """Everything that can be wanted, by its name. `yes` and `no` mean something only while a question is open."""
 LOCAL_INTENTS = ("faster", "slower", "record", "snapshot", "camera", "theme", "help", "back", "yes", "no")
@@ -222,7 +228,7 @@ class Intents:
             if self.pending is waited:
                 self.pending = None
             if waited is not None:
-                self._told(waited.heard, Verdict("cancelled", "Something else was requested."))
+                self._told(waited.heard, Verdict("cancelled", tr("Something else was requested.")))
         return self._told(heard, verdict)
 
     def choose(self, heard: Heard, act: Callable[[], object]) -> Verdict:
@@ -243,7 +249,12 @@ class Intents:
         if self.allowed(heard.method, heard.intent):
             return None
         name, words = heard.method.capitalize(), INTENTS[heard.intent].words
-        return Verdict("not allowed", f"{name} may not do that: {words}. It can be allowed in Inputs.")
+        return Verdict(
+            "not allowed",
+            tr("{name} may not do that: {words}. It can be allowed in Inputs.").format(
+                name=name, words=words
+            ),
+        )
 
     def answer(self, yes: bool, method: str = "button") -> Verdict:
         """Yes or no to what waits, or to what the robot asks: a yes does it, a no cancels it."""
@@ -259,7 +270,9 @@ class Intents:
         self.pending = None
         if pending.question:
             words = self._acts.words(pending.heard.intent)
-            self._told(pending.heard, Verdict("lapsed", f"Not done, no yes came: {words}."))
+            self._told(
+                pending.heard, Verdict("lapsed", tr("Not done, no yes came: {words}.").format(words=words))
+            )
         else:
             self._told(pending.heard, self._act(pending.heard, pending.decided))
 
@@ -267,7 +280,7 @@ class Intents:
         """What waits is forgotten: the glass is taken away, or the robot is left."""
         pending, self.pending = self.pending, None
         if pending is not None:
-            self._told(pending.heard, Verdict("cancelled", "Left."))
+            self._told(pending.heard, Verdict("cancelled", tr("Left.")))
 
     # how it is decided
 
@@ -288,7 +301,11 @@ class Intents:
         until = now + (CONFIRM_TIME if question else CANCEL_TIME)
         self.pending = Pending(heard, question, now, until, now)
         words = self._acts.words(heard.intent)
-        return Verdict("asks", f"{words}?") if question else Verdict("waits", f"{words}, unless cancelled.")
+        return (
+            Verdict("asks", f"{words}?")
+            if question
+            else Verdict("waits", tr("{words}, unless cancelled.").format(words=words))
+        )
 
     def _act(self, heard: Heard, decided: float) -> Verdict:
         why = self._acts.why_not(heard.intent)
@@ -305,12 +322,12 @@ class Intents:
         if pending is None:
             with origins.during(self._origin(heard, now)):
                 said = self._acts.answer(yes)
-            return Verdict("acted", said) if said else Verdict("not now", "Nothing is asked just now.")
+            return Verdict("acted", said) if said else Verdict("not now", tr("Nothing is asked just now."))
         self.pending = None
         words = self._acts.words(pending.heard.intent)
         if not yes:
-            self._told(pending.heard, Verdict("cancelled", f"Cancelled: {words}."))
-            return Verdict("acted", f"Cancelled: {words}.")
+            self._told(pending.heard, Verdict("cancelled", tr("Cancelled: {words}.").format(words=words)))
+            return Verdict("acted", tr("Cancelled: {words}.").format(words=words))
         return self._told(pending.heard, self._act(pending.heard, now))
 
     def _origin(self, heard: Heard, decided: float) -> Origin:

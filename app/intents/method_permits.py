@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol
 
+from widgets.core.language import tr
+
 __all__ = ["ALWAYS", "FORBIDDEN", "SAYS", "Kept", "MethodPermits"]
 
 ALWAYS = ("stop", "no")
@@ -69,7 +71,11 @@ class MethodPermits:
     def allow(self, method: str, intent: str, allowed: bool) -> None:
         """Allow it, or forbid it; ValueError where it stands as it is."""
         if self.fixed(method, intent):
-            raise ValueError(f"Whether {method} may do {intent!r} cannot be changed.")
+            raise ValueError(
+                tr("Whether {method} may do {intent!r} cannot be changed.").format(
+                    method=method, intent=intent
+                )
+            )
         changed = {name: dict(row) for name, row in self._changed.items()}
         changed.setdefault(method, {})[intent] = allowed
         self._keep(changed)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from app.intents.executor_app import ScreenApp
 from app.intents.robot_access import HELD
+from widgets.core.language import tr
 
 __all__ = ["OpenQuestion"]
 
@@ -42,24 +43,24 @@ class OpenQuestion:
 
     def why_not_answer(self) -> str:
         """Why nothing can be answered, in one sentence; empty where something asks."""
-        return "" if self._asked() is not None else "Nothing is asked just now."
+        return "" if self._asked() is not None else tr("Nothing is asked just now.")
 
     def why_not_yes(self) -> str:
         """A task that was cut short is not resumed while STOP is pressed; that it be ended can be said."""
         if self._asked() == self._answer_question:
             card = self._app.shell.question
             if card.cut and card.held:
-                return f"{card.question} Not yet: {HELD}"
+                return tr("{question} Not yet: {held}").format(question=card.question, held=HELD)
         return self.why_not_answer()
 
     def _answer_reset(self, yes: bool) -> str:
         card = self._app.shell.reset.card
         (card.press if yes else card.close)()
-        return f"Put {card.name} back: {'yes' if yes else 'no'}."
+        return tr("Put {name} back: {value}.").format(name=card.name, value="yes" if yes else "no")
 
     def _answer_handover(self, yes: bool) -> str:
         self._app.shell.cards.handover.ask("grant" if yes else "object")
-        return "Control is handed over." if yes else "Control is kept."
+        return tr("Control is handed over.") if yes else tr("Control is kept.")
 
     def _answer_question(self, yes: bool) -> str:
         card = self._app.shell.question
@@ -69,5 +70,5 @@ class OpenQuestion:
         elif yes:
             card.ask("confirm")
         else:
-            return f"{asked} Not yet."
-        return f"{asked} {'Yes' if yes else 'No'}."
+            return tr("{asked} Not yet.").format(asked=asked)
+        return f"{asked} {tr('Yes') if yes else tr('No')}."

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, cast
 
 from app.intents.executor_app import ScreenApp
 from bridge.msgs.pilothouse_msgs import TaskStatus
+from widgets.core.language import tr
 
 if TYPE_CHECKING:
     from app.session.session import Session
@@ -44,10 +45,11 @@ class RobotAccess:
         """Why the robot cannot be asked for anything from here; empty where it can."""
         session = self._session
         if not session.connected:
-            return "There is no link to the robot."
+            return tr("There is no link to the robot.")
         if session.control == "other":
-            return f"{session.authority.status.driver or 'Another person'} has control; ask for it first."
-        return "" if session.may_ask else "It is not known yet who has control."
+            driver = session.authority.status.driver or tr("Another person")
+            return tr("{driver} has control; ask for it first.").format(driver=driver)
+        return "" if session.may_ask else tr("It is not known yet who has control.")
 
     def why_latched(self) -> str:
         """Why nothing may move; empty while STOP is not pressed."""

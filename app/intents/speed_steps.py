@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from app.intents.executor_app import ScreenApp
+from widgets.core.language import tr
 
 __all__ = ["STEP", "SpeedSteps"]
 
@@ -37,10 +38,10 @@ class SpeedSteps:
         """Why there is no step up (1) or down (-1), in one sentence; empty where there is."""
         card = self._card()
         if card is None:
-            return "This robot has no speed to choose."
+            return tr("This robot has no speed to choose.")
         if abs(self.after(way) - card.maximum_speed) > 1e-6:
             return ""
-        return "It is as fast as it may be." if way > 0 else "It is as slow as it can be set."
+        return tr("It is as fast as it may be.") if way > 0 else tr("It is as slow as it can be set.")
 
     def change(self, way: int) -> None:
         """Take a step up (1) or down (-1)."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from app.intents.robot_access import RobotAccess
 from bridge.msgs.pilothouse_msgs import TaskOrder
+from widgets.core.language import tr
 from widgets.core.task_words import TASKS, title
 
 __all__ = ["TaskIntents"]
@@ -17,22 +18,22 @@ class TaskIntents(RobotAccess):
         if why := self.why_not_asked():
             return why
         if not self._session.robot.offers("/task/pause"):
-            return "This robot knows no pause."
+            return tr("This robot knows no pause.")
         if not self.runs():
-            return "No task runs that could be paused."
-        return "It is paused already." if self.state() == "PAUSED" else ""
+            return tr("No task runs that could be paused.")
+        return tr("It is paused already.") if self.state() == "PAUSED" else ""
 
     def why_not_resume(self) -> str:
         """Why no task can be resumed."""
         if why := self.why_not_asked():
             return why
         if self.state() not in ("PAUSED", "INTERRUPTED"):
-            return "No task is paused."
+            return tr("No task is paused.")
         return self.why_latched()
 
     def why_not_end(self) -> str:
         """Why no task can be ended."""
-        return self.why_not_asked() or ("" if self.runs() else "No task runs.")
+        return self.why_not_asked() or ("" if self.runs() else tr("No task runs."))
 
     def why_not_home(self) -> str:
         """Why the robot cannot be sent home."""
@@ -40,8 +41,8 @@ class TaskIntents(RobotAccess):
             return why
         session = self._session
         if not (session.robot.knows("go_home") and session.robot.offers("/task/go_home")):
-            return "This robot cannot go home by itself."
-        return "It goes home already." if self._doing("go_home") else ""
+            return tr("This robot cannot go home by itself.")
+        return tr("It goes home already.") if self._doing("go_home") else ""
 
     def _doing(self, task: str) -> bool:
         return self.runs() and self.status is not None and self.status.task == task
@@ -52,8 +53,8 @@ class TaskIntents(RobotAccess):
         if why := self.why_not_asked() or self.why_latched():
             return why
         if not (session.robot.knows(task) and session.robot.offers("/task/start")):
-            return f"This robot knows no such task: {TASKS[task].name}."
-        return f"It is {TASKS[task].doing} already." if self._doing(task) else ""
+            return tr("This robot knows no such task: {name}.").format(name=TASKS[task].name)
+        return tr("It is {doing} already.").format(doing=TASKS[task].doing) if self._doing(task) else ""
 
     def start_task(self, task: str) -> None:
         """Start that task, in place of the one that runs."""
@@ -83,11 +84,11 @@ class TaskIntents(RobotAccess):
         if why := self.why_not_asked() or self.why_latched():
             return why
         if not (session.robot.knows(order.task) and session.robot.offers("/task/start")):
-            return f"This robot knows no such task: {TASKS[order.task].name}."
+            return tr("This robot knows no such task: {name}.").format(name=TASKS[order.task].name)
         if self.runs() and self.status is not None:
             return f"{title(TaskOrder(task=self.status.task))} runs; end it first."
         if order.task == "patrol" and not order.places and session.mission.state == "empty":
-            return "There are no points on the map to patrol."
+            return tr("There are no points on the map to patrol.")
         refused: str = session.refusals.order(order, session.mission.draft)
         return refused
 

@@ -17,12 +17,13 @@ from app.core.newest_worker import NewestWorker
 from app.link.feeds import Mailbox
 from bridge.core.camera_frames import Frame, picture_size
 from bridge.core.errors import ProtocolError
+from widgets.core.language import mark, tr
 
 __all__ = ["PICTURE", "REFUSED", "CameraDecoder", "Picture", "best_decoder"]
 
 log = logging.getLogger(__name__)
 
-PICTURE, REFUSED = "picture", "picture refused"
+PICTURE, REFUSED = "picture", mark("picture refused")
 """Channels of the mailbox with decoded pictures, and with why the last one was not decoded, in one sentence."""
 LOG_PERIOD = 60.0
 """Between two log lines about pictures that were not decoded [s]."""
@@ -124,7 +125,7 @@ class CameraDecoder:
             self._refuse(str(error), received)
             return
         except Exception as error:  # noqa: BLE001 - decoders raise what they like at a damaged picture
-            self._refuse("The picture is damaged.", received, error)
+            self._refuse(tr("The picture is damaged."), received, error)
             return
         picture = Picture(frame.seq, frame.stamp, width, height, rgba, (frame.width, frame.height))
         self._mailbox.post(PICTURE, picture, received, urgent=True)

@@ -18,6 +18,7 @@ from bridge.msgs import Msg, ros1_name
 from bridge.msgs.geometry_msgs import TwistStamped
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.msgs.rosapi_msgs import ServicesResponse, TopicsResponse
+from widgets.core.language import tr
 
 __all__ = ["CAMERA", "DRIVE", "MANOEUVRE", "POSE", "Capabilities", "ask_capabilities"]
 
@@ -103,9 +104,9 @@ class Capabilities:
         if self.ours:
             return ""
         if not self.rosapi:
-            return "This robot lists no services (it runs no rosapi): trying the usual names."
-        told = "This robot has no Pilothouse services: no tasks, and STOP sends zero speed."
-        return f"{told} Its place is by odometry." if self.pose_by_odometry else told
+            return tr("This robot lists no services (it runs no rosapi): trying the usual names.")
+        told = tr("This robot has no Pilothouse services: no tasks, and STOP sends zero speed.")
+        return tr("{told} Its place is by odometry.").format(told=told) if self.pose_by_odometry else told
 
 
 NO_CAPABILITIES = Capabilities({}, frozenset(), rosapi=False)

@@ -53,6 +53,7 @@ from bridge.msgs.pilothouse_msgs import (
     SetScheduleResponse,
     StartTaskRequest,
 )
+from widgets.core.language import mark, tr
 from widgets.core.task_words import title
 
 __all__ = ["COMMANDS", "Commands", "Kind", "Outcome"]
@@ -73,14 +74,14 @@ STOP_DOUBT = 1.0
 """STOP without an answer for longer is said to be unanswered; it goes on being sent [s]."""
 RELEASE = ("stop_release", None)
 """What a release of STOP is under way as."""
-TAKEN_BACK = "STOP was pressed after it."
+TAKEN_BACK = mark("STOP was pressed after it.")
 """Stands for the reason of a release that is asked for no longer."""
 OWN_WORDS: Mapping[str, str] = {
-    Code.STOP_NOT_HELD: "STOP stays: hold STOPPED again.",
-    Code.STOP_HELD_SHORT: "STOP stays: hold STOPPED again, for longer.",
+    Code.STOP_NOT_HELD: mark("STOP stays: hold STOPPED again."),
+    Code.STOP_HELD_SHORT: mark("STOP stays: hold STOPPED again, for longer."),
 }
 """Codes of reasons that a robot gives to programs, to what stands on this glass."""
-STILL_SENDING = "Still sending it."
+STILL_SENDING = mark("Still sending it.")
 """Stands for the reason of a STOP that has no answer at all."""
 
 
@@ -100,71 +101,73 @@ class Kind:
 
 
 COMMANDS: dict[str, Kind] = {
-    "start": Kind("/task/start", StartTaskRequest, "start patrol"),
-    "pause": Kind("/task/pause", CommandRequest, "pause"),
-    "resume": Kind("/task/resume", CommandRequest, "resume"),
-    "cancel": Kind("/task/cancel", CommandRequest, "end the task"),
-    "confirm": Kind("/task/confirm", CommandRequest, "confirm"),
-    "home": Kind("/task/go_home", CommandRequest, "go home"),
-    "mission": Kind("/mission/set", SetMissionRequest, "send the mission"),
+    "start": Kind("/task/start", StartTaskRequest, mark("start patrol")),
+    "pause": Kind("/task/pause", CommandRequest, mark("pause")),
+    "resume": Kind("/task/resume", CommandRequest, mark("resume")),
+    "cancel": Kind("/task/cancel", CommandRequest, mark("end the task")),
+    "confirm": Kind("/task/confirm", CommandRequest, mark("confirm")),
+    "home": Kind("/task/go_home", CommandRequest, mark("go home")),
+    "mission": Kind("/mission/set", SetMissionRequest, mark("send the mission")),
     "place": Kind(
         "/places/set",
         SetPlaceRequest,
-        "keep the place",
+        mark("keep the place"),
         SetPlaceResponse,
         lambda fields: (fields["place"].id, fields["place"].id or fields["place"].name),
     ),
     "place_delete": Kind(
         "/places/delete",
         DeletePlaceRequest,
-        "delete the place",
+        mark("delete the place"),
         DeletePlaceResponse,
         lambda fields: fields["id"],
     ),
-    "queue": Kind("/task/queue/set", SetQueueRequest, "change the queue", SetQueueResponse),
+    "queue": Kind("/task/queue/set", SetQueueRequest, mark("change the queue"), SetQueueResponse),
     "schedule": Kind(
         "/schedule/set",
         SetScheduleRequest,
-        "schedule the task",
+        mark("schedule the task"),
         SetScheduleResponse,
         lambda fields: fields["task"].id,
     ),
     "schedule_delete": Kind(
         "/schedule/delete",
         DeleteScheduleRequest,
-        "take it off the schedule",
+        mark("take it off the schedule"),
         DeleteScheduleResponse,
         lambda fields: fields["id"],
     ),
-    "history": Kind("/history/get", GetHistoryRequest, "read the history", GetHistoryResponse),
+    "history": Kind("/history/get", GetHistoryRequest, mark("read the history"), GetHistoryResponse),
     "acknowledge": Kind(
         "/events/acknowledge",
         AcknowledgeEventsRequest,
-        "note that it was seen to",
+        mark("note that it was seen to"),
         AcknowledgeEventsResponse,
         lambda fields: tuple(fields["ids"]),
     ),
-    "missions": Kind("/missions/get", GetMissionsRequest, "list the missions", GetMissionsResponse),
-    "recall": Kind("/mission/recall", RecallMissionRequest, "recall the mission", RecallMissionResponse),
-    "acquire": Kind("/control/acquire", CommandRequest, "take control"),
-    "release": Kind("/control/release", CommandRequest, "release control"),
-    "request": Kind("/control/request", CommandRequest, "ask for control"),
-    "grant": Kind("/control/grant", CommandRequest, "hand over control"),
-    "object": Kind("/control/object", CommandRequest, "keep control"),
-    "mode": Kind("/mode/set", SetModeRequest, "change the mode", SetModeResponse),
+    "missions": Kind("/missions/get", GetMissionsRequest, mark("list the missions"), GetMissionsResponse),
+    "recall": Kind(
+        "/mission/recall", RecallMissionRequest, mark("recall the mission"), RecallMissionResponse
+    ),
+    "acquire": Kind("/control/acquire", CommandRequest, mark("take control")),
+    "release": Kind("/control/release", CommandRequest, mark("release control")),
+    "request": Kind("/control/request", CommandRequest, mark("ask for control")),
+    "grant": Kind("/control/grant", CommandRequest, mark("hand over control")),
+    "object": Kind("/control/object", CommandRequest, mark("keep control")),
+    "mode": Kind("/mode/set", SetModeRequest, mark("change the mode"), SetModeResponse),
     "setting": Kind(
         "/settings/set",
         SetOptionRequest,
-        "change the setting",
+        mark("change the setting"),
         SetOptionResponse,
         lambda fields: fields["name"],
     ),
-    "lights": Kind("/lights/set", SetLightsRequest, "switch the lights", SetLightsResponse),
-    "arm": Kind("/arm/move", MoveArmRequest, "move the arm", MoveArmResponse),
+    "lights": Kind("/lights/set", SetLightsRequest, mark("switch the lights"), SetLightsResponse),
+    "arm": Kind("/arm/move", MoveArmRequest, mark("move the arm"), MoveArmResponse),
     "gateway_up": Kind(
         "/gateways/bring_up",
         BringUpGatewayRequest,
-        "bring the protocol up",
+        mark("bring the protocol up"),
         BringUpGatewayResponse,
         lambda fields: fields["name"],
         SLOW,
@@ -172,7 +175,7 @@ COMMANDS: dict[str, Kind] = {
     "gateway_down": Kind(
         "/gateways/bring_down",
         BringDownGatewayRequest,
-        "bring the protocol down",
+        mark("bring the protocol down"),
         BringDownGatewayResponse,
         lambda fields: fields["name"],
         SLOW,
@@ -180,13 +183,13 @@ COMMANDS: dict[str, Kind] = {
     "payload": Kind(
         "/payloads/set",
         SetPayloadRequest,
-        "switch the payload",
+        mark("switch the payload"),
         SetPayloadResponse,
         lambda fields: fields["key"],
     ),
-    "reset": Kind("/robot/reset", CommandRequest, "put the robot back"),
+    "reset": Kind("/robot/reset", CommandRequest, mark("put the robot back")),
     "stop": Kind("/stop", CommandRequest, "STOP"),
-    "stop_hold": Kind("/stop/hold", CommandRequest, "hold Release"),
+    "stop_hold": Kind("/stop/hold", CommandRequest, mark("hold Release")),
     "stop_release": Kind("/stop/release", CommandRequest, "release STOP"),
 }
 """Every one-shot command by its name in the app."""
@@ -222,21 +225,23 @@ class Outcome:
         order = self.fields.get("order")
         if self.name == "start" and order is not None and order.task:
             words = title(order)
-            return f"start {words[0].lower()}{words[1:]}"
+            return tr("start {task}").format(task=f"{words[0].lower()}{words[1:]}")
         if self.name == "mode":
-            return f"switch to {self.fields.get('mode', '')}"
-        return COMMANDS[self.name].label
+            return tr("switch to {get}").format(get=self.fields.get("mode", ""))
+        return tr(COMMANDS[self.name].label)
 
     @property
     def sentence(self) -> str:
         """The outcome in one line, as in `Accepted: start patrol (18 ms)`."""
         if self.phase == "sent":
-            return f"Sent: {self.label} …"
+            return tr("Sent: {label} …").format(label=self.label)
         if self.phase == "accepted":
-            return f"Accepted: {self.label} ({self.latency * 1000:.0f} ms)"
+            return tr("Accepted: {label} ({latency:.0f} ms)").format(
+                label=self.label, latency=self.latency * 1000
+            )
         if self.phase == "refused":
-            return f"Refused: {self.label}. {self.reason}"
-        return f"No reply: {self.label}. {self.reason}"
+            return tr("Refused: {label}. {reason}").format(label=self.label, reason=self.reason)
+        return tr("No reply: {label}. {reason}").format(label=self.label, reason=self.reason)
 
 
 def _alike(one: object, other: object) -> bool:
@@ -330,7 +335,7 @@ class Commands:
         deadline = started + kind.patience
         while True:
             if outcome.command_id == self._released_before:
-                return replace(outcome, phase="no_reply", reason=TAKEN_BACK)
+                return replace(outcome, phase="no_reply", reason=tr(TAKEN_BACK))
             timeout = min(TRY, deadline - self._now())
             try:
                 answer = await self._call(kind.service, request, kind.response, timeout=timeout)
@@ -345,7 +350,7 @@ class Commands:
             else:
                 phase = "accepted" if answer.success else "refused"
                 took = self._now() - started
-                reason = OWN_WORDS.get(getattr(answer, "code", "")) or answer.message
+                reason = tr(OWN_WORDS.get(getattr(answer, "code", ""), "")) or answer.message
                 return replace(outcome, phase=phase, reason=reason, latency=took, answer=answer)
 
     async def stop(self, origin: Origin = NOBODY) -> None:
@@ -389,7 +394,7 @@ class Commands:
                 return
             if latency > STOP_DOUBT and not doubted:
                 doubted = True
-                reason = answer.message if answer is not None else STILL_SENDING
+                reason = answer.message if answer is not None else tr(STILL_SENDING)
                 self._report(replace(outcome, phase="no_reply", reason=reason, silent=answer is None))
             await asyncio.sleep(STOP_PAUSE)
 

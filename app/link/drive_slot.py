@@ -14,6 +14,7 @@ import msgspec
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.msgs.std_msgs import Header, Time
+from widgets.core.language import tr
 
 __all__ = ["Drive", "DriveSlot", "stamped_at"]
 
@@ -130,7 +131,11 @@ class DriveSlot:
     @staticmethod
     def _check(order: Drive) -> None:
         if isinstance(order, Manoeuvre) and order.kind not in KINDS:
-            raise ValueError(f"A robot is driven by {', '.join(KINDS)}, not by the manoeuvre {order.kind!r}.")
+            raise ValueError(
+                tr("A robot is driven by {kinds}, not by the manoeuvre {kind!r}.").format(
+                    kinds=", ".join(KINDS), kind=order.kind
+                )
+            )
 
     def beat(self) -> None:
         """Say that the user interface is alive, from any thread."""

@@ -16,6 +16,7 @@ import msgspec
 
 from bridge import codec
 from bridge.msgs import Msg
+from widgets.core.language import tr
 
 __all__ = ["Recorder", "schema"]
 
@@ -85,7 +86,11 @@ class Recorder:
         """How the recording stands: what was dropped or went wrong; empty when all is well."""
         if self.problem:
             return self.problem
-        return f"Not recorded because the disk is too slow: {self.dropped}." if self.dropped else ""
+        return (
+            tr("Not recorded because the disk is too slow: {dropped}.").format(dropped=self.dropped)
+            if self.dropped
+            else ""
+        )
 
     def close(self) -> None:
         """Write what waits, finish the file and end the thread; a file that the disk left empty is removed."""
@@ -112,7 +117,7 @@ class Recorder:
 
     def _fail(self, error: OSError) -> None:
         self.dropped += 1
-        self.problem = f"The recording has ended: {error.strerror or error}."
+        self.problem = tr("The recording has ended: {strerror}.").format(strerror=error.strerror or error)
         log.warning("%s", self.problem)
 
     def _write(self, topic: str, message: Msg, at: float) -> None:

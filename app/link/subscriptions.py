@@ -19,6 +19,7 @@ from bridge.msgs import TYPES, Msg, ros1_name
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import CompressedImage
+from widgets.core.language import tr
 
 __all__ = ["MAX_WATCHED", "Peek", "Seen", "Sources", "Watches"]
 
@@ -162,9 +163,9 @@ class Peek:
             kind = TYPES.get(name) or await self._client.learn(name)
         except BridgeError as error:
             if self._topic == topic:
-                sentence = (
-                    f"{name} cannot be shown: this app does not know it, and learning it failed. {error}"
-                )
+                sentence = tr(
+                    "{name} cannot be shown: this app does not know it, and learning it failed. {error}"
+                ).format(name=name, error=error)
                 self._tell(Seen(topic, problem=sentence), float("nan"))
             return
         if self._topic != topic or self._end is not None:

@@ -25,6 +25,7 @@ from bridge.client.credentials import Credentials
 from bridge.core.network_thread import NetworkThread
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
 from bridge.msgs.std_msgs import Time
+from widgets.core.language import tr
 
 if TYPE_CHECKING:
     from app.stop.stop_lane import Report  # when STOP ALL is pressed, for a quick start
@@ -430,7 +431,11 @@ def _is_for_link(robot: _Robot | None, connected: Connected) -> bool:
 
 
 def _not_heard(silent: float) -> str:
-    return "Never heard here." if math.isnan(silent) else f"Not heard for {silence(silent)}."
+    return (
+        tr("Never heard here.")
+        if math.isnan(silent)
+        else tr("Not heard for {silent}.").format(silent=silence(silent))
+    )
 
 
 def _lane_row(robot: _Robot, report: Report) -> Row:
@@ -457,7 +462,7 @@ def _identity(connected: Connected) -> tuple[str, str, Time] | None:
 def _linked_row(connected: Connected, *, begun: bool) -> Row:
     phase, sentence = connected.robot_stop.phase, connected.robot_stop.sentence
     if phase == "ready":
-        phase, sentence = ("released", "STOP was released.") if begun else ("sent", "")
+        phase, sentence = ("released", tr("STOP was released.")) if begun else ("sent", "")
     return Row(
         connected.robot.url,
         connected.robot.name,

@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 from app.stop.stop_state import StopFacts, judge, silence
 from bridge.msgs.nav_msgs import Odometry
+from widgets.core.language import tr
 
 __all__ = ["LocalStop"]
 
@@ -82,17 +83,23 @@ class LocalStop:
         if not self.latched:
             return ""
         if not drives:
-            return "This robot has no STOP of its own and no topic to drive it by: it cannot be stopped from here."
+            return tr(
+                "This robot has no STOP of its own and no topic to drive it by: it cannot be stopped from here."
+            )
         if not reaches:
-            return f"Nothing reaches it until the link is back. {self._witness}"
-        return f"No STOP of its own: zero speed is sent while the link stands. {self._witness}"
+            return tr("Nothing reaches it until the link is back. {witness}").format(witness=self._witness)
+        return tr("No STOP of its own: zero speed is sent while the link stands. {witness}").format(
+            witness=self._witness
+        )
 
     @property
     def _witness(self) -> str:
         """What odometry says of its rest."""
         age = self._now() - self._heard_at
         if math.isnan(age):
-            return "No odometry has come that could confirm that it rests."
+            return tr("No odometry has come that could confirm that it rests.")
         if age >= ODOMETRY_TIMEOUT:
-            return f"Its odometry was last heard {silence(age)} ago."
-        return f"Its odometry {'says' if self._confirmed else 'does not yet say'} that it rests."
+            return tr("Its odometry was last heard {age} ago.").format(age=silence(age))
+        return tr("Its odometry {value} that it rests.").format(
+            value="says" if self._confirmed else "does not yet say"
+        )

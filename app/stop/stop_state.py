@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from app.link.commands import STOP_DOUBT, Outcome
 from bridge.msgs.pilothouse_msgs import ControlStatus
+from widgets.core.language import tr
 
 __all__ = [
     "REST_TIMEOUT",
@@ -84,7 +85,7 @@ def judge(known: StopFacts, now: float) -> Verdict:
     if known.latched is None and math.isnan(known.asked_at) and not math.isnan(known.lost_at):
         return Verdict("lost", _last_heard(known, now))
     if known.released:
-        return Verdict("released", "STOP was released.")
+        return Verdict("released", tr("STOP was released."))
     if math.isnan(known.asked_at):
         return Verdict("ready")
     if known.refusal:
@@ -99,12 +100,12 @@ def judge(known: StopFacts, now: float) -> Verdict:
 
 def _latched(known: StopFacts, now: float) -> Verdict:
     if known.at_rest:
-        return Verdict("stopped", f"Pressed by {known.by}." if known.by else "")
+        return Verdict("stopped", tr("Pressed by {by}.").format(by=known.by) if known.by else "")
     if known.refusal:
         return Verdict("no_answer", known.refusal)
     if now - known.moves_since < REST_TIMEOUT:
         return Verdict("sent", "STOP is pressed; it comes to rest.")
-    return Verdict("moves", "STOP is pressed, and it does not come to rest.")
+    return Verdict("moves", tr("STOP is pressed, and it does not come to rest."))
 
 
 def _unreached(known: StopFacts, now: float) -> Verdict:
@@ -119,7 +120,11 @@ def _unreached(known: StopFacts, now: float) -> Verdict:
 
 
 def _last_heard(known: StopFacts, now: float) -> str:
-    return f"STOPPED when it was last heard, {silence(now - known.lost_at)} ago. {known.why}".strip()
+    return (
+        tr("STOPPED when it was last heard, {silence} ago. {why}")
+        .format(silence=silence(now - known.lost_at), why=known.why)
+        .strip()
+    )
 
 
 def silence(seconds: float) -> str:

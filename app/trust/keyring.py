@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from bridge.client.credentials import Credentials
 from bridge.core.address import LinkLost, host_and_port
 from bridge.core.identity import Role
+from widgets.core.language import tr
 
 if TYPE_CHECKING:
     from bridge.client.pairing import Paired
@@ -83,19 +84,19 @@ class RobotKey:
     def read(cls, kept: Any) -> RobotKey:
         """The key that a file holds; ValueError for anything else."""
         if not isinstance(kept, dict):
-            raise ValueError("a key is no table")  # noqa: TRY004 - the file is wrong, not the program
+            raise ValueError(tr("a key is no table"))  # noqa: TRY004 - the file is wrong, not the program
         texts = {name: kept.get(name) for name in ("fingerprint", "name", "id", "role", "token")}
         if not all(isinstance(text, str) for text in texts.values()):
-            raise ValueError("a key lacks one of its fields")
+            raise ValueError(tr("a key lacks one of its fields"))
         places, ends = kept.get("places", ()), kept.get("ends")
         if not isinstance(places, list) or not all(isinstance(place, str) for place in places):
-            raise ValueError("the places of a key are no list")
+            raise ValueError(tr("the places of a key are no list"))
         if ends is not None and not (isinstance(ends, int | float) and math.isfinite(ends)):
-            raise ValueError("the end of a key is no time")
+            raise ValueError(tr("the end of a key is no time"))
         key = cls(**texts, places=tuple(places[:MAX_ADDRESSES]), ends=ends)  # type: ignore[arg-type]
         Role.read(key.role)
         if not key.credentials.token:
-            raise ValueError("a key has no token")
+            raise ValueError(tr("a key has no token"))
         return key
 
 
@@ -183,7 +184,7 @@ class Keyring:
         try:
             kept = json.loads(self.path.read_text(encoding="utf-8"))
             if not isinstance(kept, list):
-                raise ValueError("it is no list of keys")  # noqa: TRY004 - damaged like any other text
+                raise ValueError(tr("it is no list of keys"))  # noqa: TRY004 - damaged like any other text
             return [RobotKey.read(one) for one in kept[:MAX_ROBOTS]]
         except FileNotFoundError:
             return []
@@ -192,9 +193,9 @@ class Keyring:
 
     def _put_aside(self, why: object) -> list[RobotKey]:
         aside = self.path.with_suffix(".unreadable.json")
-        self.problem = (
-            f"The keys of paired robots could not be read: pair again. The file is kept as {aside.name}."
-        )
+        self.problem = tr(
+            "The keys of paired robots could not be read: pair again. The file is kept as {name}."
+        ).format(name=aside.name)
         log.warning("%s (%s)", self.problem, why)
         try:
             self.path.replace(aside)
@@ -215,7 +216,9 @@ class Keyring:
                 os.fsync(file.fileno())
             fresh.replace(self.path)
         except OSError as error:
-            self.problem = f"The keys of paired robots could not be saved: {error.strerror or error}."
+            self.problem = tr("The keys of paired robots could not be saved: {strerror}.").format(
+                strerror=error.strerror or error
+            )
             log.warning("%s", self.problem)
             with contextlib.suppress(OSError):
                 fresh.unlink()

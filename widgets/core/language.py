@@ -13,11 +13,9 @@ from __future__ import annotations
 import gettext
 import math
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-
-from kivy.event import EventDispatcher
-from kivy.properties import OptionProperty
 
 __all__ = ["FOLDER", "LANGUAGES", "PSEUDO", "Language", "Tongue", "figure", "language", "mark", "tr", "trn"]
 
@@ -57,27 +55,44 @@ _KEPT = re.compile(r"(\{[^}]*\}|\[/?[a-z]+(?:=[^\]]*)?\])")
 """Places for values and marks of type, which no translation changes."""
 
 
-class Language(EventDispatcher):
-    """The language that is chosen; what is on the glass already follows when it is made anew."""
+class Language:
+    """The language that is chosen; what is on the glass already follows when it is made anew.
 
-    name = OptionProperty("en", options=list(LANGUAGES))
-    """One of `LANGUAGES`."""
+    It needs nothing of Kivy, so that a process without a window can speak too.
+    """
 
     def __init__(self) -> None:
-        super().__init__()
-        self._words: gettext.NullTranslations = gettext.NullTranslations()
+        self._name = "en"
+        self._words = gettext.NullTranslations()
+        self._on_change: list[Callable[[], object]] = []
+
+    @property
+    def name(self) -> str:
+        """One of `LANGUAGES`; ValueError where it is set to another."""
+        return self._name
+
+    @name.setter
+    def name(self, name: str) -> None:
+        if name not in LANGUAGES:
+            raise ValueError(f"A language is one of {', '.join(LANGUAGES)}, not {name!r}.")
+        if name != self._name:
+            self._name, self._words = name, _catalogue(name)
+            for follow in self._on_change:
+                follow()
+
+    def follow(self, on_change: Callable[[], object]) -> None:
+        """Call `on_change` whenever another language was chosen, for as long as this process lives."""
+        self._on_change.append(on_change)
 
     @property
     def tongue(self) -> Tongue:
         """What is particular about it."""
         return LANGUAGES[self.name]
 
-    def on_name(self, *_: object) -> None:
-        """Read its catalogue."""
-        self._words = _catalogue(self.name)
-
     def words(self, text: str, context: str = "") -> str:
         """`text` in this language; `context` tells two meanings of one English word apart. English where it is not translated."""
+        if not text:
+            return ""  # of which gettext would give the head of the catalogue
         if self.name == PSEUDO:
             return _pseudo(text)
         return self._words.pgettext(context, text) if context else self._words.gettext(text)

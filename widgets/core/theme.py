@@ -238,7 +238,7 @@ def _take_font(name: str) -> None:
 LabelBase.register("Icons", str(FONTS / "Icons.ttf"))
 theme = Theme()
 """The one theme of this process; kv knows it under the same name."""
-language.bind(name=lambda *_: _take_font(language.tongue.font))
+language.follow(lambda: _take_font(language.tongue.font))
 _take_font(language.tongue.font)
 global_idmap.update(theme=theme, icons=ICONS)
 for name, module in {"Rounded": "rounded", "Outline": "visible", "Tinted": "visible"}.items():

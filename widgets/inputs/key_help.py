@@ -17,6 +17,7 @@ from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
 from widgets.core.base import Control
+from widgets.core.language import tr
 from widgets.core.surfaces import Outlined
 from widgets.parts.column import Column
 from widgets.parts.labels import Text
@@ -161,7 +162,9 @@ class KeyHelp(Control, BoxLayout):
         for column in columns:
             self.ids.columns.add_widget(column)
         if not self.groups:
-            self.ids.columns.add_widget(Text(text="No keys are assigned.", role="muted", font_size="15sp"))
+            self.ids.columns.add_widget(
+                Text(text=tr("No keys are assigned."), role="muted", font_size="15sp")
+            )
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

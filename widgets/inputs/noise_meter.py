@@ -18,6 +18,7 @@ from kivy.uix.widget import Widget
 
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words
 from widgets.core.icons import icon
+from widgets.core.language import tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.parts.sensor_card import first_fitting
@@ -125,23 +126,31 @@ class NoiseMeter(Drawing):
     def _says(self) -> tuple[list[str], str]:
         """Longest first, and the role of the words."""
         if self.state in ("never", "disabled", "stale"):
-            return ["The microphone is closed", "Closed"], "muted"
+            return [tr("The microphone is closed"), tr("Closed")], "muted"
         over = f"{self.snr:.0f} dB" if math.isfinite(self.snr) else ""
         if self.state == "alarm":
             need = (
-                f"Too loud: {over} over the noise, {self.needed:.0f} are needed" if over else "Too loud here"
+                tr("Too loud: {over} over the noise, {needed:.0f} are needed").format(
+                    over=over, needed=self.needed
+                )
+                if over
+                else tr("Too loud here")
             )
-            return [need, f"Too loud: {over}" if over else "Too loud"], "warn"
+            return [need, tr("Too loud: {over}").format(over=over) if over else tr("Too loud")], "warn"
         if self.clipped:
-            return ["Overdriven: speak further away", "Overdriven"], "danger"
-        lead = "Voice detected" if self.speaking else "Listens"
+            return [tr("Overdriven: speak further away"), tr("Overdriven")], "danger"
+        lead = tr("Voice detected") if self.speaking else tr("Listens")
         role = "ok" if self.speaking else "text"
-        return ([f"{lead} · {over} over the noise", f"{lead} · {over}"] if over else [lead]), role
+        return (
+            [tr("{lead} · {over} over the noise").format(lead=lead, over=over), f"{lead} · {over}"]
+            if over
+            else [lead]
+        ), role
 
     def _below(self) -> list[Word]:
         y, size = self.y + dp(15), sp(15)
         if not self.heard:
-            return [Word("Nothing heard yet", self.x + dp(34), y, size, theme.muted, anchor=(0.0, 0.5))]
+            return [Word(tr("Nothing heard yet"), self.x + dp(34), y, size, theme.muted, anchor=(0.0, 0.5))]
         sure = f" · {self.confidence * 100:.0f} % sure" if math.isfinite(self.confidence) else ""
         texts = [f"{self.heard}{sure}", self.heard]
         room = self.width - dp(44)

@@ -17,6 +17,7 @@ from kivy.uix.widget import Widget
 
 from widgets.core.base import Control
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, tint
+from widgets.core.language import mark, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 
@@ -63,7 +64,7 @@ class PadPicture(Control, Drawing):
     """Names of those that are STOP."""
     dead_zone = NumericProperty(0.12)
     """Of the way of a stick, round its middle."""
-    nothing = StringProperty("No gamepad is plugged in.")
+    nothing = StringProperty(mark("No gamepad is plugged in."))
     """What to say where there is none."""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -119,7 +120,11 @@ class PadPicture(Control, Drawing):
         if self.state == "never":
             words.append(self._word(self.nothing, (WIDTH / 2, -0.5), 4.6, theme.muted))
         elif extra:
-            words.append(self._word(f"Button {', '.join(extra)}", (WIDTH / 2, -0.5), 4.6, theme.accent))
+            words.append(
+                self._word(
+                    tr("Button {extra}").format(extra=", ".join(extra)), (WIDTH / 2, -0.5), 4.6, theme.accent
+                )
+            )
         self._ink.fill(shapes)
         self._words.write(words, 1.0)
 

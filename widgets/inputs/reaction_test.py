@@ -15,18 +15,19 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.parts.labels  # noqa: F401 - its rules draw the icon and the words
+from widgets.core.language import mark, tr
 from widgets.core.surfaces import Outlined
 
 __all__ = ["PHASES", "ReactionTest"]
 
 PHASES = {
-    "idle": ("timer", "Not begun", "Press the switch as soon as the sign is full and says NOW."),
-    "wait": ("hourglass_empty", "Wait", "Press when it says NOW, not before."),
-    "go": ("touch_app", "NOW", "Press!"),
-    "early": ("block", "Too early", "Once more: press after the sign."),
-    "missed": ("schedule", "Missed", "Once more: press when it says NOW."),
-    "taken": ("check", "Good", "The next sign comes at once."),
-    "done": ("check_circle_fill", "Done", ""),
+    "idle": ("timer", mark("Not begun"), mark("Press the switch as soon as the sign is full and says NOW.")),
+    "wait": ("hourglass_empty", mark("Wait"), mark("Press when it says NOW, not before.")),
+    "go": ("touch_app", "NOW", mark("Press!")),
+    "early": ("block", mark("Too early"), mark("Once more: press after the sign.")),
+    "missed": ("schedule", mark("Missed"), mark("Once more: press when it says NOW.")),
+    "taken": ("check", mark("Good"), mark("The next sign comes at once.")),
+    "done": ("check_circle_fill", mark("Done"), ""),
 }
 """Phase to its icon, its word and its sentence."""
 
@@ -99,17 +100,17 @@ class ReactionTest(Outlined, BoxLayout):
     """What came out, once it is done."""
 
     def _icon(self) -> str:
-        return PHASES[self.phase][0]
+        return tr(PHASES[self.phase][0])
 
     icon = AliasProperty(_icon, bind=["phase"], cache=True)
 
     def _word(self) -> str:
-        return PHASES[self.phase][1]
+        return tr(PHASES[self.phase][1])
 
     word = AliasProperty(_word, bind=["phase"], cache=True)
 
     def _sentence(self) -> str:
-        return self.result if self.phase == "done" else PHASES[self.phase][2]
+        return self.result if self.phase == "done" else tr(PHASES[self.phase][2])
 
     sentence = AliasProperty(_sentence, bind=["phase", "result"], cache=True)
 

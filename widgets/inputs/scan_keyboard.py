@@ -13,6 +13,7 @@ from kivy.metrics import dp, sp
 from kivy.properties import BooleanProperty, ListProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.widget import Widget
 
+from widgets.core.language import mark, tr
 from widgets.core.theme import theme
 from widgets.inputs.scan_keys import COLUMNS, completed, guesses, laid_out
 from widgets.inputs.scan_pad import PadKey, ScanPad
@@ -21,7 +22,15 @@ __all__ = ["ScanKeyboard"]
 
 CURSOR = "|"
 """Stands behind what was typed."""
-NAMED = {" ": "Space", ".": "Dot", ":": "Colon", "-": "Hyphen", "/": "Slash", ",": "Comma", "'": "Apostrophe"}
+NAMED = {
+    " ": mark("Space"),
+    ".": mark("Dot"),
+    ":": mark("Colon"),
+    "-": mark("Hyphen"),
+    "/": mark("Slash"),
+    ",": mark("Comma"),
+    "'": mark("Apostrophe"),
+}
 """Letters that have a spoken name."""
 SHOWN = {" ": "space"}
 MIN_ROOMY_KEY_HEIGHT, MIN_KEY_HEIGHT = 40.0, 26.0
@@ -67,20 +76,23 @@ class ScanKeyboard(ScanPad):
 
     @staticmethod
     def _likely(words: list[str]) -> list[PadKey]:
-        return [PadKey(f"word{number}", word, words=f"Word {word}") for number, word in enumerate(words)]
+        return [
+            PadKey(f"word{number}", word, words=tr("Word {word}").format(word=word))
+            for number, word in enumerate(words)
+        ]
 
     def _first(self) -> list[PadKey]:
         return [
-            PadKey("enter", "Done", "", wide=1.4),
-            PadKey("delete", "", "backspace", "Delete a letter", repeats=True, able=bool(self.text)),
-            PadKey("capital", "aA", "", "Capital letter", on=self.capital),
-            PadKey("clear", "", "delete_sweep", "Delete all", able=bool(self.text)),
-            PadKey("leave", "", "close", "Leave as it is now"),
+            PadKey("enter", tr("Done"), "", wide=1.4),
+            PadKey("delete", "", "backspace", tr("Delete a letter"), repeats=True, able=bool(self.text)),
+            PadKey("capital", "aA", "", tr("Capital letter"), on=self.capital),
+            PadKey("clear", "", "delete_sweep", tr("Delete all"), able=bool(self.text)),
+            PadKey("leave", "", "close", tr("Leave as it is now")),
         ]
 
     def _letter(self, letter: str) -> PadKey:
         said = letter.upper() if self.capital else letter
-        name = NAMED.get(letter, said)
+        name = tr(NAMED.get(letter, said))
         return PadKey(f"letter{letter}", SHOWN.get(letter, said), "", name)
 
     def on_key(self, name: str) -> None:

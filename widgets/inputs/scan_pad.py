@@ -17,6 +17,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.parts.labels  # noqa: F401 - its rules draw the words
+from widgets.core.language import mark
 from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
 from widgets.parts.buttons import QuietButton
@@ -154,14 +155,14 @@ class ScanPad(Outlined, BoxLayout):
 
 STICK = [
     [
-        PadKey("left", "Left", "arrow_back", repeats=True),
-        PadKey("ahead", "Ahead", "arrow_upward", repeats=True),
-        PadKey("right", "Right", "arrow_forward", repeats=True),
+        PadKey("left", mark("Left"), "arrow_back", repeats=True),
+        PadKey("ahead", mark("Ahead"), "arrow_upward", repeats=True),
+        PadKey("right", mark("Right"), "arrow_forward", repeats=True),
     ],
     [
-        PadKey("half", "Slow", "speed", on=True),
-        PadKey("back", "Back", "arrow_downward", repeats=True),
-        PadKey("done", "Done", "check"),
+        PadKey("half", mark("Slow"), "speed", on=True),
+        PadKey("back", mark("Back"), "arrow_downward", repeats=True),
+        PadKey("done", mark("Done"), "check"),
     ],
 ]
 """For the samples here."""

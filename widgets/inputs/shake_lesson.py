@@ -17,6 +17,7 @@ from kivy.uix.widget import Widget
 
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, tint
 from widgets.core.icons import icon
+from widgets.core.language import mark, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.parts.sensor_card import first_fitting
@@ -24,10 +25,10 @@ from widgets.parts.sensor_card import first_fitting
 __all__ = ["ShakeLesson"]
 
 WORDS = {
-    "lr": ("Shake left and right", "Left and right"),
-    "ud": ("Shake up and down", "Up and down"),
-    "fb": ("Shake forward and back", "Forward and back"),
-    "": ("Done", "Done"),
+    "lr": (mark("Shake left and right"), mark("Left and right")),
+    "ud": (mark("Shake up and down"), mark("Up and down")),
+    "fb": (mark("Shake forward and back"), mark("Forward and back")),
+    "": (mark("Done"), mark("Done")),
 }
 """Of each movement, longest first."""
 BEAT = 2.2
@@ -90,9 +91,13 @@ class ShakeLesson(Drawing):
         self._words.write(words, 1.0)
 
     def _caption(self, foot: float) -> Word:
-        texts = [f"{text} …" if self.doing else text for text in WORDS[self.axis]]
+        texts = [f"{text} …" if self.doing else text for text in map(tr, WORDS[self.axis])]
         if self.axis and not self.doing:
-            texts = [f"Hold still. Next: {texts[1].lower()}", f"Next: {texts[1].lower()}", texts[1]]
+            texts = [
+                tr("Hold still. Next: {texts}").format(texts=texts[1].lower()),
+                tr("Next: {texts}").format(texts=texts[1].lower()),
+                texts[1],
+            ]
         size = sp(18)
         text = first_fitting(texts, size, self.width - dp(12), bold=True) or texts[-1]
         return Word(text, self.center_x, self.y + foot - sp(14), size, theme.text, bold=True)

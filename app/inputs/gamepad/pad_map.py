@@ -13,6 +13,7 @@ from typing import Any
 
 from app.core.checked_settings import known, number, shown
 from app.inputs.gamepad.sdl import PadState
+from widgets.core.language import mark, tr
 
 __all__ = [
     "AXES",
@@ -32,21 +33,21 @@ DEAD_ZONES = (0.02, 0.5)
 EXPOS = (0.0, 1.0)
 """How much finer a stick is round its middle than at its end; 0 is the same everywhere."""
 WAYS = {
-    "left_ahead": "Left control, ahead and back",
-    "left_aside": "Left control, left and right",
-    "right_ahead": "Right control, ahead and back",
-    "right_aside": "Right control, left and right",
+    "left_ahead": mark("Left control, ahead and back"),
+    "left_aside": mark("Left control, left and right"),
+    "right_ahead": mark("Right control, ahead and back"),
+    "right_aside": mark("Right control, left and right"),
 }
 """What a control on the glass can be pushed along; a screen with one control has the left one."""
 AXES = {
-    "left_y": "Left stick, up and down",
-    "left_x": "Left stick, across",
-    "right_y": "Right stick, up and down",
-    "right_x": "Right stick, across",
-    "triggers": "Triggers, right against left",
-    "dpad_y": "Cross, up and down",
-    "dpad_x": "Cross, left and right",
-    "none": "Nothing",
+    "left_y": mark("Left stick, up and down"),
+    "left_x": mark("Left stick, across"),
+    "right_y": mark("Right stick, up and down"),
+    "right_x": mark("Right stick, across"),
+    "triggers": mark("Triggers, right against left"),
+    "dpad_y": mark("Cross, up and down"),
+    "dpad_x": mark("Cross, left and right"),
+    "none": mark("Nothing"),
 }
 """What can push, by the words for it. Up and left are positive, and so is the right trigger."""
 ROUND = (("left_y", "left_x"), ("right_y", "right_x"))
@@ -56,19 +57,19 @@ BUTTONS = {
     "b": "B, right",
     "x": "X, left",
     "y": "Y, above",
-    "leftshoulder": "Left shoulder",
-    "rightshoulder": "Right shoulder",
-    "lefttrigger": "Left trigger",
-    "righttrigger": "Right trigger",
-    "leftstick": "Left stick, pressed",
-    "rightstick": "Right stick, pressed",
-    "dpup": "Cross, up",
-    "dpdown": "Cross, down",
-    "dpleft": "Cross, left",
-    "dpright": "Cross, right",
-    "back": "Back",
-    "start": "Start",
-    "guide": "Guide",
+    "leftshoulder": mark("Left shoulder"),
+    "rightshoulder": mark("Right shoulder"),
+    "lefttrigger": mark("Left trigger"),
+    "righttrigger": mark("Right trigger"),
+    "leftstick": mark("Left stick, pressed"),
+    "rightstick": mark("Right stick, pressed"),
+    "dpup": mark("Cross, up"),
+    "dpdown": mark("Cross, down"),
+    "dpleft": mark("Cross, left"),
+    "dpright": mark("Cross, right"),
+    "back": mark("Back"),
+    "start": mark("Start"),
+    "guide": mark("Guide"),
 }
 """SDL's names of buttons, by the words for them."""
 MEANT = {
@@ -158,14 +159,22 @@ class Profile:
         """The same with another meaning of one button; empty for nothing. ValueError for taking the last STOP away."""
         changed = replace(self, buttons={**self.buttons, button: meaning})
         if not changed.stops:
-            raise ValueError(f"{button_words(button)} is the only STOP: make another button STOP first.")
+            raise ValueError(
+                tr("{button} is the only STOP: make another button STOP first.").format(
+                    button=button_words(button)
+                )
+            )
         return changed
 
     def with_axis(self, way: str, source: str) -> Profile:
         """The same with one of `WAYS` pushed by another of `AXES`. ValueError where that would take the last STOP away."""
         changed = replace(self, axes={**self.axes, way: source})
         if not changed.stops:
-            raise ValueError(f"{AXES[source]} would take the only STOP: make another button STOP first.")
+            raise ValueError(
+                tr("{axes} would take the only STOP: make another button STOP first.").format(
+                    axes=tr(AXES[source])
+                )
+            )
         return changed
 
     def turned(self, way: str) -> Profile:
@@ -193,7 +202,7 @@ def axis(state: PadState, name: str) -> float:
 
 def button_words(button: str) -> str:
     """What a button is called, as in `A, below`; one that SDL does not know as in `Button 7`."""
-    return BUTTONS.get(button, button.capitalize())
+    return tr(BUTTONS.get(button, button.capitalize()))
 
 
 def read(kept: object, meanings: Mapping[str, object] | None = None) -> tuple[Profile, list[str]]:
@@ -202,7 +211,9 @@ def read(kept: object, meanings: Mapping[str, object] | None = None) -> tuple[Pr
     `meanings` are those that there are; None for any.
     """
     if not isinstance(kept, Mapping):
-        return Profile(), [] if kept is None else [f"The gamepad's profile is not a table but {shown(kept)}."]
+        return Profile(), [] if kept is None else [
+            tr("The gamepad's profile is not a table but {kept}.").format(kept=shown(kept))
+        ]
     wrong: list[str] = []
     profile = Profile(
         dead_zone=_number(kept, "dead_zone", DEAD_ZONES, Profile().dead_zone, wrong),
@@ -212,7 +223,7 @@ def read(kept: object, meanings: Mapping[str, object] | None = None) -> tuple[Pr
         buttons=_chosen(kept, "buttons", meanings, wrong) if "buttons" in kept else dict(MEANT),
     )
     if not profile.stops:
-        wrong.append("The gamepad's profile has no STOP: B is STOP.")
+        wrong.append(tr("The gamepad's profile has no STOP: B is STOP."))
         profile = replace(profile, axes=dict(PUSHED), buttons={**profile.buttons, EAST: STOP})
     return profile, wrong
 
@@ -223,7 +234,11 @@ def _number(
     value = kept.get(name, usual)
     if (found := number(value, *ends)) is not None:
         return found
-    wrong.append(f"The gamepad's {name} is from {ends[0]} to {ends[1]}, not {shown(value)}: {usual} is used.")
+    wrong.append(
+        tr("The gamepad's {name} is from {ends} to {ends2}, not {value}: {usual} is used.").format(
+            name=name, ends=ends[0], ends2=ends[1], value=shown(value), usual=usual
+        )
+    )
     return usual
 
 
@@ -237,7 +252,9 @@ def _chosen(
     """A table of words, without those that are not allowed."""
     table = kept.get(name, {})
     if not isinstance(table, Mapping):
-        wrong.append(f"The gamepad's {name} are not a table but {shown(table)}.")
+        wrong.append(
+            tr("The gamepad's {name} are not a table but {table}.").format(name=name, table=shown(table))
+        )
         return {}
     found = {}
     for key, value in table.items():
@@ -245,7 +262,11 @@ def _chosen(
         if isinstance(key, str) and meant and (keys is None or key in keys):
             found[key] = value
         else:
-            wrong.append(f"The gamepad's {name} know no {shown(key)}: {shown(value)}.")
+            wrong.append(
+                tr("The gamepad's {name} know no {key}: {value}.").format(
+                    name=name, key=shown(key), value=shown(value)
+                )
+            )
     return found
 
 
@@ -253,5 +274,9 @@ def _ways(value: object, wrong: list[str]) -> list[str]:
     given = value if isinstance(value, list | tuple) else [value]
     unknown = [way for way in given if not known(way, WAYS)]
     if unknown:
-        wrong.append(f"The gamepad's inverted are some of {', '.join(WAYS)}, not {shown(unknown[0])}.")
+        wrong.append(
+            tr("The gamepad's inverted are some of {ways}, not {unknown}.").format(
+                ways=", ".join(WAYS), unknown=shown(unknown[0])
+            )
+        )
     return [way for way in given if known(way, WAYS)]

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from app.inputs.gamepad.pad_table import PadTable
+from widgets.core.language import tr
 
 __all__ = ["PadState", "Sdl"]
 
@@ -67,7 +68,7 @@ class Sdl:
         try:
             self._declare()
         except AttributeError as lacking:
-            raise OSError(f"This SDL has no {lacking}.") from lacking
+            raise OSError(tr("This SDL has no {lacking}.").format(lacking=lacking)) from lacking
         self._pads: dict[int, _Pad] = {}
         library.SDL_InitSubSystem(JOYSTICK)
         library.SDL_InitSubSystem(CONTROLLER)  # reads the table of gamepads

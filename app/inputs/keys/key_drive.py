@@ -7,6 +7,7 @@ from collections.abc import Callable, Collection
 from app.inputs.base.button_presses import Press
 from app.inputs.keys.held_key import MAX_HOLD, REPEAT_TIMEOUT, HeldKey
 from app.inputs.keys.key_table import ARROWS, DRIVING, KeyTable
+from widgets.core.language import tr
 
 __all__ = ["REPEAT_TIMEOUT", "MAX_HOLD", "KeyDrive"]
 
@@ -137,4 +138,8 @@ class KeyDrive:
         held.stale = held.up(self._is_down)
         if not held.stale and held.too_long(self._now()):
             held.stale = True
-            self._on_lost(f"{name.upper()} is held for {MAX_HOLD:.0f} s: the robot rests.")
+            self._on_lost(
+                tr("{name} is held for {max_hold:.0f} s: the robot rests.").format(
+                    name=name.upper(), max_hold=MAX_HOLD
+                )
+            )

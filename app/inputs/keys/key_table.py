@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from app.core.checked_settings import number, shown
+from widgets.core.language import mark, tr
 
 __all__ = ["ARROWS", "DRIVING", "FIXED", "MEANT", "RISES", "SLOWS", "KeyTable", "key_words", "read"]
 
@@ -47,25 +48,25 @@ DRIVING = {26: "w", 4: "a", 22: "s", 7: "d"}
 ARROWS = {82: "up", 80: "left", 81: "down", 79: "right"}
 """The same with the right control, and with the only one where a screen has one."""
 WORDS = {
-    "escape": "Esc",
-    "spacebar": "Space",
-    "enter": "Enter",
-    "tab": "Tab",
-    "backspace": "Backspace",
-    "pageup": "Page Up",
-    "pagedown": "Page Down",
+    "escape": mark("Esc"),
+    "spacebar": mark("Space"),
+    "enter": mark("Enter"),
+    "tab": mark("Tab"),
+    "backspace": mark("Backspace"),
+    "pageup": mark("Page Up"),
+    "pagedown": mark("Page Down"),
     "home": "Home",
-    "end": "End",
-    "insert": "Ins",
-    "delete": "Del",
+    "end": mark("End"),
+    "insert": mark("Ins"),
+    "delete": mark("Del"),
     "up": "↑",
     "left": "←",
     "down": "↓",
     "right": "→",
-    "numpadadd": "+ (number pad)",
-    "numpadsubstract": "− (number pad)",
-    "numpadenter": "Enter (number pad)",
-    "shift": "Shift",
+    "numpadadd": mark("+ (number pad)"),
+    "numpadsubstract": mark("− (number pad)"),
+    "numpadenter": mark("Enter (number pad)"),
+    "shift": mark("Shift"),
     "-": "−",
 }
 TWINS = {"numpadadd": "+", "numpadsubstract": "-", "=": "+", "numpadenter": "enter", "rshift": "shift"}
@@ -109,9 +110,13 @@ class KeyTable:
     def with_key(self, key: str, meaning: str) -> KeyTable:
         """The same with this key as the only one of this meaning; empty as the key takes it away. ValueError for a key that is taken."""
         if key in FIXED or (key == "spacebar" and self.space_stops):
-            raise ValueError(f"{key_words(key)} is STOP and stays it.")
+            raise ValueError(tr("{key} is STOP and stays it.").format(key=key_words(key)))
         if self.drives and key in (*DRIVING.values(), *ARROWS.values(), "shift", "rshift"):
-            raise ValueError(f"{key_words(key)} drives: choose another key, or let the keys drive no longer.")
+            raise ValueError(
+                tr("{key} drives: choose another key, or let the keys drive no longer.").format(
+                    key=key_words(key)
+                )
+            )
         kept = {name: meant for name, meant in self.keys.items() if meant != meaning and name != key}
         return replace(self, keys=kept | ({key: meaning} if key else {}))
 
@@ -122,7 +127,7 @@ class KeyTable:
 
 def key_words(key: str) -> str:
     """What is printed on a key."""
-    return WORDS.get(key, key.upper() if len(key) < 4 else key.capitalize())
+    return tr(WORDS.get(key, key.upper() if len(key) < 4 else key.capitalize()))
 
 
 def read(kept: object, meanings: Mapping[str, object] | None = None) -> tuple[KeyTable, list[str]]:
@@ -131,7 +136,9 @@ def read(kept: object, meanings: Mapping[str, object] | None = None) -> tuple[Ke
     `meanings` are those that there are; None for any.
     """
     if not isinstance(kept, Mapping):
-        return KeyTable(), [] if kept is None else [f"The keys are not a table but {shown(kept)}."]
+        return KeyTable(), [] if kept is None else [
+            tr("The keys are not a table but {kept}.").format(kept=shown(kept))
+        ]
     wrong: list[str] = []
     flags = {name: _flag(kept, name, wrong) for name in ("on", "drives", "space_stops")}
     usual = KeyTable()
@@ -146,7 +153,11 @@ def read(kept: object, meanings: Mapping[str, object] | None = None) -> tuple[Ke
 def _flag(kept: Mapping[Any, Any], name: str, wrong: list[str]) -> bool:
     value = kept.get(name, True)
     if not isinstance(value, bool):
-        wrong.append(f"The keys' {name} is true or false, not {shown(value)}: true is used.")
+        wrong.append(
+            tr("The keys' {name} is true or false, not {value}: true is used.").format(
+                name=name, value=shown(value)
+            )
+        )
         return True
     return value
 
@@ -157,13 +168,17 @@ def _number(
     value = kept.get(name, usual)
     if (found := number(value, *ends)) is not None:
         return found
-    wrong.append(f"The keys' {name} is from {ends[0]} to {ends[1]}, not {shown(value)}: {usual} is used.")
+    wrong.append(
+        tr("The keys' {name} is from {ends} to {ends2}, not {value}: {usual} is used.").format(
+            name=name, ends=ends[0], ends2=ends[1], value=shown(value), usual=usual
+        )
+    )
     return usual
 
 
 def _keys(table: object, meanings: Mapping[str, object] | None, wrong: list[str]) -> dict[str, str]:
     if not isinstance(table, Mapping):
-        wrong.append(f"The meanings of the keys are not a table but {shown(table)}.")
+        wrong.append(tr("The meanings of the keys are not a table but {table}.").format(table=shown(table)))
         return dict(MEANT)
     found = {}
     for key, meaning in table.items():
@@ -171,5 +186,7 @@ def _keys(table: object, meanings: Mapping[str, object] | None, wrong: list[str]
         if isinstance(key, str) and meant and key not in FIXED:
             found[key] = meaning
         else:
-            wrong.append(f"No key {shown(key)} can mean {shown(meaning)}.")
+            wrong.append(
+                tr("No key {key} can mean {meaning}.").format(key=shown(key), meaning=shown(meaning))
+            )
     return found

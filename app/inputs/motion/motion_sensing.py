@@ -14,6 +14,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from app.device.motion import GRAVITY, KINDS, Axes, Kind, MotionError, MotionSource
+from widgets.core.language import tr
 
 __all__ = ["SILENCE_TIMEOUT", "Fault", "Health", "Judge", "MotionSensing"]
 
@@ -142,12 +143,14 @@ class Judge:
         name = "motion" if self._kind == "acceleration" else "gravity"
         return {
             "": "",
-            "waiting": f"Waiting for the {name} sensor.",
-            "silent": f"The {name} sensor is silent.",
-            "broken": f"The {name} sensor delivers values that are no numbers.",
-            "jumps": f"The {name} sensor jumps about as no hand can.",
-            "frozen": f"The {name} sensor has stood still for a second.",
-            "slow": f"The {name} sensor delivers {self.rate:.0f} Hz, and at least {least:.0f} Hz are needed.",
+            "waiting": tr("Waiting for the {name} sensor.").format(name=name),
+            "silent": tr("The {name} sensor is silent.").format(name=name),
+            "broken": tr("The {name} sensor delivers values that are no numbers.").format(name=name),
+            "jumps": tr("The {name} sensor jumps about as no hand can.").format(name=name),
+            "frozen": tr("The {name} sensor has stood still for a second.").format(name=name),
+            "slow": tr(
+                "The {name} sensor delivers {rate:.0f} Hz, and at least {least:.0f} Hz are needed."
+            ).format(name=name, rate=self.rate, least=least),
         }[fault]
 
 
@@ -225,11 +228,13 @@ class MotionSensing:
     def health(self, kind: Kind, least: float = 25.0, now: float | None = None) -> Health:
         """How samples of that kind come, for one who needs `least` in a second [Hz]; without a fault where nobody asked for them."""
         if kind not in self._source.kinds:
-            return Health("absent", self._source.sentence or f"This device has no {kind} sensor.")
+            return Health(
+                "absent", self._source.sentence or tr("This device has no {kind} sensor.").format(kind=kind)
+            )
         if kind in self._refused:
             return Health("refused", self._refused[kind])
         if self._paused:
-            return Health("paused", "The sensors rest while the app is in the background.")
+            return Health("paused", tr("The sensors rest while the app is in the background."))
         if kind not in self._running:
             return Health()
         came = self._came.get(kind, -math.inf)

@@ -32,6 +32,7 @@ from app.inputs.motion.shake import (
 from app.inputs.motion.shake.gravity import Motion
 from app.inputs.motion.tilt import turned
 from app.intents.intents import Heard
+from widgets.core.language import tr
 
 __all__ = ["CHOICES", "USUAL_MEANING", "ShakeInput"]
 
@@ -98,11 +99,16 @@ class ShakeInput(ToggleableMethod):
             if known(intent, allowed):
                 self.meaning[axis] = intent
             else:
-                self.mistaken = f"{WORDS[axis]} cannot mean {shown(intent)}; it means {USUAL_MEANING[axis]}."
+                self.mistaken = (
+                    f"{tr(WORDS[axis])} cannot mean {shown(intent)}; it means {USUAL_MEANING[axis]}."
+                )
         try:
             self.own: dict[Axis, PersonalAxis] = own_from(kept.get("own", {}))
         except ValueError as problem:
-            self.own, self.mistaken = {}, f"{problem} The lesson has to be done again."
+            self.own, self.mistaken = (
+                {},
+                tr("{problem} The lesson has to be done again.").format(problem=problem),
+            )
 
     def _kept(self) -> dict[str, Any]:
         meaning = {str(axis): intent for axis, intent in self.meaning.items()}
@@ -126,7 +132,9 @@ class ShakeInput(ToggleableMethod):
     def mean(self, axis: Axis, intent: str) -> None:
         """Have a direction mean that intent, or nothing where it is empty; ValueError for what it cannot."""
         if intent not in CHOICES.get(axis, ()):
-            raise ValueError(f"{WORDS[axis]} cannot mean {intent!r}.")
+            raise ValueError(
+                tr("{words} cannot mean {intent!r}.").format(words=tr(WORDS[axis]), intent=intent)
+            )
         self.meaning[axis] = intent
         self._keep()
 
@@ -151,7 +159,11 @@ class ShakeInput(ToggleableMethod):
         if not self._on:
             return "off"
         health = self._app.sensing.health("acceleration", least=NEEDED_RATE)
-        words = {"": "listening", "slow": f"{health.rate:.0f} Hz: too slow", "absent": "no sensor"}
+        words = {
+            "": "listening",
+            "slow": tr("{rate:.0f} Hz: too slow").format(rate=health.rate),
+            "absent": "no sensor",
+        }
         return str(words.get(health.fault, health.fault))
 
     # when it listens
@@ -253,7 +265,7 @@ class ShakeInput(ToggleableMethod):
         intent = "stop" if stops else self.meaning[shake.axis]
         self.last, self.at = shake, self._now()
         if not intent:
-            self.said = f"{WORDS[shake.axis]} means nothing."
+            self.said = tr("{words} means nothing.").format(words=tr(WORDS[shake.axis]))
             return
         vibrate(STOP_VIBRATION_TIME if stops else VIBRATION_TIME)
         if self._trying and not (stops and self._app.intents.possible("stop")):
@@ -267,7 +279,7 @@ class ShakeInput(ToggleableMethod):
                 shake.confidence,
                 shake.began,
                 ended,
-                said=WORDS[shake.axis].lower() if not stops or shake.axis == "lr" else "strong shake",
+                said=tr(WORDS[shake.axis]).lower() if not stops or shake.axis == "lr" else tr("strong shake"),
                 snippet=self._snippet(shake),
             )
         )

@@ -18,6 +18,7 @@ from typing import Any, Self
 
 from app.core.checked_settings import number, shown
 from app.device.motion import GRAVITY, Axes
+from widgets.core.language import tr
 
 __all__ = ["Level", "OneEuro", "Tilt", "TiltSettings", "between", "shaped", "turned"]
 
@@ -84,7 +85,7 @@ class TiltSettings:
             value = given.get(name, usual)
             if isinstance(usual, bool):
                 good = isinstance(value, bool)
-                allowed = "true or false"
+                allowed = tr("true or false")
             else:
                 low, high = RANGES[name]
                 good = number(value, low, high) is not None
@@ -221,7 +222,7 @@ class Tilt:
         elif math.isnan(self._odd):
             self._odd = t
         elif self._closed and t - self._odd > FALL:
-            self._open("The tablet falls or is thrown about: it does not steer.")
+            self._open(tr("The tablet falls or is thrown about: it does not steer."))
 
     def press(self, now: float) -> None:
         """The clutch is pressed; it closes as soon as it is known where gravity is."""
@@ -245,7 +246,7 @@ class Tilt:
     def update(self, now: float) -> Pair:
         """What it commands at `now`, to the right and ahead, shares of full command, together at most 1."""
         if self._pressed and not self.why and now - self._heard > SILENCE_TIMEOUT and self._closed:
-            self._open("The sensor is silent: the tablet does not steer.")
+            self._open(tr("The sensor is silent: the tablet does not steer."))
         if not self._closed:
             return 0.0, 0.0
         dt = now - self._looked
@@ -282,7 +283,7 @@ class Tilt:
         elif math.isnan(self._far):
             self._far = t
         elif t - self._far > TOO_LONG:
-            self._open(f"Tilted by more than {OVER:.0f}°: it does not steer.")
+            self._open(tr("Tilted by more than {over:.0f}°: it does not steer.").format(over=OVER))
 
 
 def _slew(said: Pair, wanted: Pair, dt: float) -> Pair:

@@ -16,6 +16,7 @@ from app.inputs.motion.simulated_tablet import ARROWS, SimulatedTablet
 from app.inputs.motion.tilt_options import TiltOptions
 from app.inputs.motion.tilt_sensor import TiltSensor
 from widgets.controls.sticks.tilt_circle import TiltCircle
+from widgets.core.language import tr
 
 __all__ = ["TiltInput"]
 
@@ -43,8 +44,8 @@ class TiltInput(TiltOptions):
         if self.tilt.closed:
             return "drives"
         if self._circle is None:
-            return "ready: choose Tilt on the drive screen"
-        return "hold the circle to drive" if not self.simulated else "simulated: arrow keys lean it"
+            return tr("ready: choose Tilt on the drive screen")
+        return tr("hold the circle to drive") if not self.simulated else tr("simulated: arrow keys lean it")
 
     @property
     def fault(self) -> str:
@@ -144,7 +145,7 @@ class TiltInput(TiltOptions):
         if not down:
             self.let_go()
         elif self.on and self._circle is None:
-            self._say("Nothing is tilted yet: choose Tilt on the drive screen first.")
+            self._say(tr("Nothing is tilted yet: choose Tilt on the drive screen first."))
 
     def _hold(self, down: bool) -> None:
         """The key or the button that means it was pressed, or let go."""

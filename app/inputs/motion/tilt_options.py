@@ -10,6 +10,7 @@ from app.device.motion import Axes
 from app.inputs.base.toggleable_method import ToggleableMethod
 from app.inputs.motion.motion_app import MotionApp
 from app.inputs.motion.tilt import Tilt, TiltSettings
+from widgets.core.language import tr
 
 __all__ = ["TiltOptions"]
 
@@ -25,7 +26,7 @@ class TiltOptions(ToggleableMethod):
     def __init__(self, app: MotionApp) -> None:
         """`app` is asked for its `settings`."""
         self._app = app
-        read = CheckedSettings(app.settings.get("tilt"), "the tilt")
+        read = CheckedSettings(app.settings.get("tilt"), tr("the tilt"))
         kept = read.values
         self._on = read.flag("on", usual=False)
         self.others = read.flag("others", usual=True)
@@ -35,7 +36,7 @@ class TiltOptions(ToggleableMethod):
         self.tilt = Tilt(settings)
         self.tilt.neutral = _axes(kept.get("neutral"))
         if kept.get("neutral") is not None and self.tilt.neutral is None:
-            read.mistaken("neutral", "three numbers")
+            read.mistaken("neutral", tr("three numbers"))
         self.faults += [read.sentence] if read.sentence else []
 
     def let_go(self) -> None:

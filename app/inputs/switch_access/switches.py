@@ -26,6 +26,7 @@ from app.inputs.switch_access.step_feedback import StepFeedback
 from app.inputs.switch_access.typing_guard import TypingGuard, types_letters
 from app.inputs.switch_access.window.window_app import WindowApp
 from app.intents.intents import Heard
+from widgets.core.language import tr
 
 __all__ = ["SwitchAccess"]
 
@@ -87,7 +88,9 @@ class SwitchAccess:
         if not self.on:
             return ""
         if self._stuck:
-            return f"Switch {' and '.join(self._stuck)} is stuck down and is ignored until it comes up."
+            return tr("Switch {stuck} is stuck down and is ignored until it comes up.").format(
+                stuck=" and ".join(self._stuck)
+            )
         return self.options.missing
 
     def start(self) -> None:
@@ -271,10 +274,12 @@ class SwitchAccess:
         """Say it, once each."""
         if stuck and switch not in self._stuck:
             self._stuck.append(switch)
-            self._say(f"Switch {switch} is stuck down: it is ignored until it comes up.")
+            self._say(
+                tr("Switch {switch} is stuck down: it is ignored until it comes up.").format(switch=switch)
+            )
         elif not stuck and switch in self._stuck:
             self._stuck.remove(switch)
-            self._say(f"Switch {switch} works again.", "info")
+            self._say(tr("Switch {switch} works again.").format(switch=switch), "info")
 
     def _say(self, text: str, level: str = "warn") -> None:
         notify(self._app, text, level, self.name)

@@ -7,6 +7,7 @@ from collections.abc import Collection
 
 from app.inputs.base.method_app import MethodApp
 from app.inputs.voice.interfaces.speech_recognizer import Result
+from widgets.core.language import mark, tr
 
 __all__ = ["DEAF", "EARLIER", "CommandGate"]
 
@@ -14,8 +15,8 @@ ECHO_TIME = 0.3
 """What was heard up to so long after the app itself spoke was its own voice [s]."""
 ANSWERS = frozenset({"yes", "no", "pause"})
 """What counts while something waits for a yes; STOP always does."""
-DEAF = "The app itself was speaking."
-EARLIER = "That answer came before the question."
+DEAF = mark("The app itself was speaking.")
+EARLIER = mark("That answer came before the question.")
 
 
 class CommandGate:
@@ -45,9 +46,9 @@ class CommandGate:
         """Why `result` does not count, as a sentence; empty where it does."""
         speaks, spoke = self._talked()
         if speaks or result.began < spoke + ECHO_TIME:
-            return DEAF
+            return tr(DEAF)
         if result.command in ("yes", "no") and result.began < self._asked_since:
-            return EARLIER
+            return tr(EARLIER)
         return ""
 
     def _talked(self) -> tuple[bool, float]:

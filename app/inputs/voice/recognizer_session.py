@@ -14,6 +14,7 @@ from app.inputs.voice.interfaces.speech_recognizer import (
     VoiceTrouble,
 )
 from app.inputs.voice.recognition.phrases import PHRASES
+from widgets.core.language import tr
 
 __all__ = ["RecognizerSession"]
 
@@ -41,7 +42,9 @@ class RecognizerSession:
         if absent := recognizer.missing():
             return absent
         if language not in recognizer.languages:
-            return f"What understands here does not know the language {language}."
+            return tr("What understands here does not know the language {language}.").format(
+                language=language
+            )
         try:
             recognizer.start(Grammar(PHRASES[language], language), self.on_event)
         except VoiceTrouble as trouble:

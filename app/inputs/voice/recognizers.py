@@ -5,12 +5,17 @@ from __future__ import annotations
 from app.device import is_android
 from app.inputs.voice.interfaces.speech_recognizer import SpeechRecognizer
 from app.inputs.voice.process.worker import recognizer
+from widgets.core.language import mark, tr
 
 __all__ = ["BEST", "RECOGNIZERS", "choose"]
 
 BEST = ""
 """The first of `RECOGNIZERS` that works here."""
-RECOGNIZERS: dict[str, str] = {"phonemes": "By sounds", "vosk": "Vosk", "sphinx": "By words"}
+RECOGNIZERS: dict[str, str] = {
+    "phonemes": mark("By sounds"),
+    "vosk": mark("Vosk"),
+    "sphinx": mark("By words"),
+}
 """Name of each, with its name for the operator; the best first. A phone has one of its own."""
 
 
@@ -30,5 +35,5 @@ def choose(wanted: str = BEST, model: str = "") -> tuple[SpeechRecognizer, str]:
     for name, title in RECOGNIZERS.items():
         other = recognizer(name, model)
         if name != first.name and not other.missing():
-            return other, f"{missing} “{title}” listens instead."
+            return other, tr("{missing} “{title}” listens instead.").format(missing=missing, title=title)
     return first, ""

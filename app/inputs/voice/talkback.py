@@ -29,6 +29,7 @@ from app.intents.intents import LOCAL_INTENTS, Heard, Verdict
 from app.link.channels import EVENT, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
+from widgets.core.language import tr
 
 __all__ = ["RATES", "Talkback", "aloud"]
 
@@ -248,13 +249,13 @@ class Talkback(ToggleableMethod):
             try:
                 speaker.start(lambda word, sentence: self._told.append((word, sentence)))
             except OSError as problem:
-                self.problem = f"The voice cannot be started: {problem}."
+                self.problem = tr("The voice cannot be started: {problem}.").format(problem=problem)
         if self.problem:
             self._fail(self.problem)
             return False
         self._speaker = speaker
         if instead and instead != self._instead:
-            notify(self._app, f"Talk-back: {instead}", "info", about=self.name)
+            notify(self._app, tr("Talk-back: {instead}").format(instead=instead), "info", about=self.name)
         self._instead = instead
         return True
 
@@ -271,7 +272,7 @@ class Talkback(ToggleableMethod):
     def _fail(self, sentence: str) -> None:
         self._put_away()
         self.problem = sentence
-        notify(self._app, f"Talk-back: {sentence}", about=self.name)
+        notify(self._app, tr("Talk-back: {sentence}").format(sentence=sentence), about=self.name)
 
     def _put_away(self) -> None:
         speaker, self._speaker = self._speaker, None
@@ -311,7 +312,7 @@ class Talkback(ToggleableMethod):
             return
         label = outcome.label[:1].upper() + outcome.label[1:]
         if outcome.phase == "accepted":
-            self.say(f"{label}: the robot has accepted it.", "answer")
+            self.say(tr("{label}: the robot has accepted it.").format(label=label), "answer")
         else:
             why = "refused" if outcome.phase == "refused" else "no reply"
             self.say(f"{label}: {why}. {outcome.reason}", "alarm")
@@ -319,7 +320,7 @@ class Talkback(ToggleableMethod):
     def _watch_stop(self) -> None:
         stopped = self._session is not None and self._session.robot_stop.phase == "stopped"
         if stopped and not self._stopped:
-            self.say("Halted: the robot confirms it.", "alarm")
+            self.say(tr("Halted: the robot confirms it."), "alarm")
         self._stopped = stopped
 
     def _taken(self, heard: Heard, verdict: Verdict) -> None:

@@ -28,12 +28,13 @@ from app.inputs.voice.talk_button import TalkButton
 from app.inputs.voice.voice_settings import VoiceOptions
 from app.inputs.voice.voice_status import CLIPS, VoiceStatus
 from app.intents.intents import Heard
+from widgets.core.language import mark, tr
 
 __all__ = ["VoiceInput"]
 
 RETRY_PERIOD = 5.0
 """Where it is to listen all the time and the microphone gives nothing, it is opened anew so often [s]."""
-HEARS = "The microphone works again."
+HEARS = mark("The microphone works again.")
 TRIED = "Understood; while it is tried out nothing is done."
 
 
@@ -96,7 +97,7 @@ class VoiceInput(VoiceOptions):
     def problem(self) -> str:
         """Why it does not work though it is on; empty when it is well. What is overdriven is only understood badly."""
         return self._status.fault(self.mistaken) or (
-            CLIPS if self.listening and self._status.is_clipping else ""
+            tr(CLIPS) if self.listening and self._status.is_clipping else ""
         )
 
     @property
@@ -245,7 +246,7 @@ class VoiceInput(VoiceOptions):
             return
         news = self._status.change(state)
         if news == "hears":
-            self._say(HEARS, "info")
+            self._say(tr(HEARS), "info")
         elif news:
             self._say(
                 self._status.fault(self.mistaken) or state.sentence,
@@ -285,7 +286,7 @@ class VoiceInput(VoiceOptions):
 
     def _say(self, sentence: str, level: str = "warn") -> None:
         if sentence:
-            notify(self._app, f"Voice: {sentence}", level, self.name)
+            notify(self._app, tr("Voice: {sentence}").format(sentence=sentence), level, self.name)
 
 
 def _heard(result: Result, noise: float) -> Heard:

@@ -8,16 +8,17 @@ from typing import Literal
 
 from app.inputs.voice.interfaces.speech_recognizer import Level, State
 from app.inputs.voice.voice_settings import VoiceSettings
+from widgets.core.language import mark, tr
 
 __all__ = ["CLIPPED_TIME", "CLIPS", "DEAF_NOW", "MUTED_NOW", "VoiceStatus"]
 
 CLIPPED_TIME = 1.0
 """The microphone counts as overdriven for so long after it was measured last [s]."""
 DEAF_NOW = "STOP by voice is not heard now; the microphone is tried again by itself."
-MUTED_NOW = "STOP by voice is not heard now."
-CLIPS = "The microphone is overdriven: speak more softly, or farther away from it."
-TOO_LOUD = "Too loud here for voice."
-WORDS = {"starting": "gets ready", "ready": "hold to talk"}
+MUTED_NOW = mark("STOP by voice is not heard now.")
+CLIPS = mark("The microphone is overdriven: speak more softly, or farther away from it.")
+TOO_LOUD = mark("Too loud here for voice.")
+WORDS = {"starting": mark("gets ready"), "ready": "hold to talk"}
 
 
 class VoiceStatus:
@@ -82,9 +83,9 @@ class VoiceStatus:
     def fault(self, mistaken: str) -> str:
         """Why nothing is understood, as a sentence; `mistaken` is what is wrong with the settings. Empty when all is well."""
         if self.is_deaf:
-            return f"{self.state.sentence} {MUTED_NOW if self.state.word == 'muted' else DEAF_NOW}"
+            return f"{self.state.sentence} {tr(MUTED_NOW) if self.state.word == 'muted' else DEAF_NOW}"
         if self.loud:
-            return self.state.sentence or TOO_LOUD
+            return self.state.sentence or tr(TOO_LOUD)
         wrong = self.state.word in ("failed", "ready") and self.state.sentence
         return mistaken or (self.state.sentence if wrong else "")
 
@@ -99,7 +100,7 @@ class VoiceStatus:
             return "too loud"
         if self.state.word == "listening":
             return "listening"
-        return WORDS.get(self.state.word, "does not work")
+        return tr(WORDS.get(self.state.word, "does not work"))
 
     def sign(self, mistaken: str, *, listening: bool) -> str:
         """For the button to talk while the microphone is open (`listening`) or not: `ready`, `listening`, `loud` or `wrong`; empty while off."""

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from app.core.optional_parts import is_included
 from app.screens.parts.method_signs import METHOD_SIGNS
+from widgets.core.language import mark
 
 __all__ = ["PANES", "Pane", "panes"]
 
@@ -32,8 +33,8 @@ PANES: dict[str, Pane] = {
     "switches": Pane(*METHOD_SIGNS["switches"], "app.screens.inputs.panes.switch_pane:SwitchPane"),
     "gamepad": Pane(*METHOD_SIGNS["gamepad"], "app.screens.inputs.panes.pad_pane:PadPane"),
     "keyboard": Pane(*METHOD_SIGNS["keyboard"], "app.screens.inputs.panes.keys_pane:KeysPane"),
-    "table": Pane("tune", "Permissions", "app.screens.inputs.panes.permit_table:TablePane"),
-    "study": Pane("timeline", "Log and study", "app.screens.inputs.study.study_pane:StudyPane"),
+    "table": Pane("tune", mark("Permissions"), "app.screens.inputs.panes.permit_table:TablePane"),
+    "study": Pane("timeline", mark("Log and study"), "app.screens.inputs.study.study_pane:StudyPane"),
 }
 """By its name, which is that of the method where it sets up one."""
 

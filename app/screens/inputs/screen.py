@@ -17,6 +17,7 @@ from app.screens.inputs.pane_table import panes
 from app.screens.parts.pane_head import PaneHead
 from app.screens.parts.placing import Area, put  # noqa: F401 - a rule names the area
 from app.screens.parts.robot_screen import RobotScreen
+from widgets.core.language import tr
 from widgets.parts.kit import Column, Remark, Roll
 
 __all__ = ["InputsScreen"]
@@ -70,7 +71,7 @@ class InputsScreen(RobotScreen):
         self._form, self._dp, self._titled = "", 1.0, True
         self._places: dict[str, Rect] = {}
         self.notice = Rect(0, 0, 1, 1)
-        self.head = PaneHead(title="Inputs", sentence="Tap one to set it up.")
+        self.head = PaneHead(title=tr("Inputs"), sentence=tr("Tap one to set it up."))
         self.back_head = PaneHead(closable=True)
         self.back_head.bind(on_close=lambda _: self.back())
         self.rows: dict[str, MethodRow] = {}
@@ -80,7 +81,7 @@ class InputsScreen(RobotScreen):
     def _fill(self) -> None:
         listed, column = self.ids.listed, Column(spacing="6dp")
         for name, pane in self.panes.items():
-            row = self.rows[name] = MethodRow(icon=pane.icon, title=pane.title)
+            row = self.rows[name] = MethodRow(icon=pane.icon, title=tr(pane.title))
             row.bind(
                 on_release=lambda _, name=name: self.open(name),
                 on_turn=lambda _, on, name=name: self._turn(name, on),
@@ -191,7 +192,7 @@ class InputsScreen(RobotScreen):
                 (self.add_widget if area in here else self.remove_widget)(area)
         self._show(self.pane(shown) if shown else None)
         if shown:
-            self._place_pane(self.pane(shown), self.panes[shown].title, tall=tall)
+            self._place_pane(self.pane(shown), tr(self.panes[shown].title), tall=tall)
 
     def _place_pane(self, pane: Widget, title: str, *, tall: bool) -> None:
         detail = self.ids.detail

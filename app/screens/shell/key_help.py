@@ -15,6 +15,7 @@ from app.inputs.keys.key_table import ARROWS, DRIVING, KeyTable, key_words
 from app.inputs.methods import Methods
 from app.inputs.switch_access.scan.settings import Options
 from app.screens.parts.dialogs import Question
+from widgets.core.language import tr
 
 __all__ = ["HelpCard", "help_groups", "toggle_help"]
 
@@ -137,7 +138,7 @@ def _pad(profile: Profile, on: bool) -> Rows:
     for way, words in WAYS.items():
         source = profile.axes.get(way, "none")
         if source != "none":
-            rows.append(([AXES[source].partition(",")[0]], _way(words, turned=way in profile.inverted)))
+            rows.append(([tr(AXES[source]).partition(",")[0]], _way(words, turned=way in profile.inverted)))
     for button in profile.buttons:
         meaning = profile.meaning(button)
         if meaning and meaning != "stop":

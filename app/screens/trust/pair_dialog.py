@@ -13,6 +13,7 @@ from kivy.uix.textinput import TextInput
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.screens.parts.dialogs import Question
 from bridge.trust.pairing import BadPairing, PairLink
+from widgets.core.language import mark, tr
 from widgets.parts.buttons import PushButton
 
 __all__ = ["PairDialog"]
@@ -22,8 +23,12 @@ MAX_DIGITS = 8
 MAX_PASTED = 600
 """Characters that are taken from the clipboard."""
 KEYS = ("1", "2", "3", "4", "5", "6", "7", "8", "9", "Paste", "0", "backspace")
-HINT = "Type the code that the robot shows, or paste its link. A phone's camera opens the QR code by itself."
-HINT_LINK = "Paste the robot's link. A phone's camera opens the QR code by itself. For a code, choose the robot's card."
+HINT = mark(
+    "Type the code that the robot shows, or paste its link. A phone's camera opens the QR code by itself."
+)
+HINT_LINK = mark(
+    "Paste the robot's link. A phone's camera opens the QR code by itself. For a code, choose the robot's card."
+)
 
 Builder.load_string("""
 <PairDialog>:
@@ -101,7 +106,7 @@ class PairDialog(Question):
     """
 
     wanted = (468.0, 560.0)
-    title = StringProperty("Pair with a robot")
+    title = StringProperty(mark("Pair with a robot"))
     sentence = StringProperty(HINT)
     problem = StringProperty("")
     """Why it did not work, as a sentence."""
@@ -146,14 +151,14 @@ class PairDialog(Question):
         self.ids.field.bind(text=self._typed)
         if link is not None:
             self.types = False
-            self.title = f"Pair with {link.name or 'this robot'}?"
-            self.sentence = (
-                f"Its link names {link.host}:{link.port}. Pair only if you opened the link yourself."
-            )
+            self.title = tr("Pair with {name}?").format(name=link.name or "this robot")
+            self.sentence = tr(
+                "Its link names {host}:{port}. Pair only if you opened the link yourself."
+            ).format(host=link.host, port=link.port)
         elif robot:
-            self.title = f"Pair with {robot}"
+            self.title = tr("Pair with {robot}").format(robot=robot)
         else:
-            self.sentence = HINT_LINK
+            self.sentence = tr(HINT_LINK)
 
     def press(self, key: str) -> None:
         """A key below the field was pressed."""

@@ -28,6 +28,7 @@ from bridge.msgs.pilothouse_msgs import (
     RemovePersonRequest,
     RemovePersonResponse,
 )
+from widgets.core.language import mark, tr
 from widgets.parts.buttons import IconButton
 from widgets.parts.qr_code import QrCode  # noqa: F401 - its rule draws what is used here
 from widgets.parts.rows import ListRow
@@ -38,19 +39,19 @@ ICONS = {"handheld": "touch_app", "token": "vpn_key", "guest": "person"}
 ROLES = {"watch": "watches", "drive": "drives", "manage": "manages"}
 GUEST_TIME = 3600.0
 """How long a guest is let in [s]."""
-REMOVE = "Tap again to remove. It cannot come in any more."
-REMOVE_OWN = "Tap again to remove this handheld itself: it cannot come in any more."
-REMOVE_LAST = (
+REMOVE = mark("Tap again to remove. It cannot come in any more.")
+REMOVE_OWN = mark("Tap again to remove this handheld itself: it cannot come in any more.")
+REMOVE_LAST = mark(
     "Tap again to remove the last one who manages. Then only `robotside pair` at the robot lets others in."
 )
-NOT_PROTECTED = (
+NOT_PROTECTED = mark(
     "This link is not protected: anybody in this network can read and change it. Pair by the robot's link."
 )
 BY_CODE = "Scan it with the other handheld's camera, or type the code there. For one, which may drive; for ten minutes."
 GUEST_BY_CODE = (
     "Scan it with the guest's camera, or type the code there. For one, which may drive; for one hour."
 )
-NOT_SHOWN = "Who manages this robot sees here who has a key, and lets others in."
+NOT_SHOWN = mark("Who manages this robot sees here who has a key, and lets others in.")
 CHANGES = frozenset((Code.PERSON_PAIRED, Code.PERSON_REMOVED))
 """Codes of the events after which the list is another."""
 CONFIRM_TIMEOUT = 4.0
@@ -144,16 +145,16 @@ Builder.load_string("""
 def seen_text(person: Person, now: float) -> str:
     """When a person was last there, in a few words; `now` is the operators' clock [s], NaN where it is not known."""
     if person.connected:
-        return "here now"
+        return tr("here now")
     since = now - person.last_seen
     if math.isnan(person.last_seen):
-        return "never here"
+        return tr("never here")
     if math.isnan(since):
         return ""
     for length, word in ((86400.0, "d"), (3600.0, "h"), (60.0, "min")):
         if since >= length:
             return f"{since / length:.0f} {word} ago"
-    return "just now"
+    return tr("just now")
 
 
 class PersonRow(ListRow):
@@ -162,9 +163,10 @@ class PersonRow(ListRow):
     def __init__(self, person: Person, seen: str, *, mine: bool, manages: bool, on_remove: Any) -> None:
         super().__init__(whole=True)
         self.person = person
-        self.question = REMOVE_OWN if mine else REMOVE
+        self.question = tr(REMOVE_OWN) if mine else tr(REMOVE)
         self.icon = ICONS.get(person.kind, "person")
-        self.title = f"{person.name or 'Somebody'}{' · this handheld' if mine else ''}"
+        title = person.name or tr("Somebody")
+        self.title = tr("{name} · this handheld").format(name=title) if mine else title
         self.chosen = mine
         self._detail = ", ".join(part for part in (ROLES.get(person.role, person.role), seen) if part)
         self.detail = self._detail
@@ -179,15 +181,15 @@ class PersonRow(ListRow):
 
     def goes(self) -> None:
         """The robot was asked to remove it."""
-        self.detail, self._remove.disabled = "Removing …", True
+        self.detail, self._remove.disabled = tr("Removing …"), True
 
 
 class PeopleDialog(Question):
     """Asks the robot who is there, and what the buttons say."""
 
     wanted = (640.0, 420.0)
-    title = StringProperty("People")
-    sentence = StringProperty("Asking the robot …")
+    title = StringProperty(mark("People"))
+    sentence = StringProperty(mark("Asking the robot …"))
     problem = StringProperty("")
     warning = StringProperty("")
     """What is to be known of the link; empty for a protected one."""
@@ -210,8 +212,8 @@ class PeopleDialog(Question):
         self._armed_until = -math.inf
         self._disarming = Clock.create_trigger(lambda _: self._disarm(), CONFIRM_TIMEOUT)
         self._code_ends = Clock.create_trigger(lambda _: self._end_code())
-        self.title = f"People of {session.robot.name}"
-        self.warning = "" if session.protected else NOT_PROTECTED
+        self.title = tr("People of {name}").format(name=session.robot.name)
+        self.warning = "" if session.protected else tr(NOT_PROTECTED)
         session.listeners.append(self._hear)
         self._list()
 
@@ -264,13 +266,15 @@ class PeopleDialog(Question):
         elif answer.service == "/people/remove":
             self._list()
         elif answer.service == "/people/list":
-            self.manages, self.sentence = False, NOT_SHOWN
+            self.manages, self.sentence = False, tr(NOT_SHOWN)
 
     def _show(self, people: list[Person]) -> None:
         self.manages, self._armed = True, None
         count = len(people)
         self.sentence = (
-            "Nobody has a key of this robot." if not count else f"{count} with a key of this robot"
+            tr("Nobody has a key of this robot.")
+            if not count
+            else tr("{count} with a key of this robot").format(count=count)
         )
         self.ids.rows.clear_widgets()
         managing = [person for person in people if person.role == Role.MANAGE.word]
@@ -279,7 +283,7 @@ class PeopleDialog(Question):
             mine = person.id == self._session.own_id
             row = PersonRow(person, seen_text(person, now), mine=mine, manages=True, on_remove=self.remove)
             if managing == [person]:
-                row.question = REMOVE_LAST
+                row.question = tr(REMOVE_LAST)
             self.ids.rows.add_widget(row)
 
     def _list(self) -> None:

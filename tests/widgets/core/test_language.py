@@ -58,9 +58,20 @@ def test_what_is_not_translated_stays_english():
 
 
 @pytest.mark.usefixtures("german")
+def test_nothing_is_nothing_in_every_language():
+    assert tr("") == ""
+
+
+@pytest.mark.usefixtures("german")
 def test_a_count_chooses_the_form_of_the_language():
     assert trn("{count} robot", "{count} robots", 1) == "1 Roboter"
     assert trn("{count} robot", "{count} robots", 3) == "3 Robotern"
+
+
+def test_a_language_that_there_is_not_is_refused_and_the_old_one_stays():
+    with pytest.raises(ValueError, match="A language is one of en, fr, .*, not 'xx'."):
+        language.name = "xx"
+    assert language.name == "en"
 
 
 def test_a_constant_is_marked_and_unchanged():

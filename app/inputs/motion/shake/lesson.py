@@ -20,6 +20,7 @@ from app.inputs.motion.shake.tuning import (
     Axis,
     PersonalAxis,
 )
+from widgets.core.language import tr
 
 __all__ = ["MOVING_TIME", "READY_TIME", "Lesson", "Measured", "measure"]
 
@@ -114,21 +115,29 @@ class Lesson:
 
 def measure(axis: Axis, moved: list[tuple[float, Motion]], others: dict[Axis, PersonalAxis]) -> Measured:
     """What samples of one movement, with their times [s], say; `others` are those that it must differ from."""
-    name = WORDS[axis]
+    name = tr(WORDS[axis])
     spread = _spread(moved)
     along = [spread.way[0] * x + spread.way[1] * y + spread.way[2] * z for _, (x, y, z) in moved]
     peaks, times = _halves([t for t, _ in moved], along)
     if len(peaks) < MIN_HALF_CYCLES or median(peaks) < LEAST_PEAK:
-        return Measured(None, f"{name} was too gentle: shake harder, to and fro.")
+        return Measured(None, tr("{name} was too gentle: shake harder, to and fro.").format(name=name))
     gap = median(b - a for a, b in pairwise(times))
     if gap > MOST_GAP:
-        return Measured(None, f"{name} was too slow: once to and fro takes at most {2 * MOST_GAP:.1f} s.")
+        return Measured(
+            None,
+            tr("{name} was too slow: once to and fro takes at most {most_gap:.1f} s.").format(
+                name=name, most_gap=2 * MOST_GAP
+            ),
+        )
     if spread.straight < MIN_STRAIGHTNESS or spread.round > MAX_ROUNDNESS:
-        return Measured(None, f"{name} went round and round: go to and fro on a line.")
+        return Measured(None, tr("{name} went round and round: go to and fro on a line.").format(name=name))
     for other, own in others.items():
         if abs(sum(a * b for a, b in zip(spread.way, own.way, strict=True))) > MAX_COSINE:
             return Measured(
-                None, f"{name} looked like {WORDS[other].lower()}: do it once more, along another line."
+                None,
+                tr("{name} looked like {words}: do it once more, along another line.").format(
+                    name=name, words=tr(WORDS[other]).lower()
+                ),
             )
     return Measured(PersonalAxis(spread.way, min(median(peaks), MOST_PEAK), max(gap, LEAST_GAP)), "")
 

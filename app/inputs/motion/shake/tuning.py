@@ -9,6 +9,7 @@ from typing import Any, Literal, get_args
 
 from app.core.checked_settings import number
 from app.inputs.motion.shake.gravity import Motion
+from widgets.core.language import mark, tr
 
 __all__ = [
     "AXES",
@@ -30,7 +31,7 @@ __all__ = [
 Axis = Literal["lr", "ud", "fb"]
 """Left-right, up-down, forward-back."""
 AXES: tuple[Axis, ...] = get_args(Axis)
-WORDS: dict[Axis, str] = {"lr": "Left-right", "ud": "Up-down", "fb": "Forward-back"}
+WORDS: dict[Axis, str] = {"lr": mark("Left-right"), "ud": mark("Up-down"), "fb": mark("Forward-back")}
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,23 +215,38 @@ def own_to(own: Mapping[Axis, PersonalAxis]) -> dict[str, Any]:
 def own_from(kept: object) -> dict[Axis, PersonalAxis]:
     """What the settings say; ValueError with one sentence for what cannot be."""
     if not isinstance(kept, Mapping):
-        raise ValueError(f"What the lesson of shaking measured is a table, not {str(kept)[:40]!r}.")  # noqa: TRY004 - one kind of error for all
+        sentence = tr("What the lesson of shaking measured is a table, not {kept}.")
+        raise ValueError(sentence.format(kept=repr(str(kept)[:40])))  # noqa: TRY004 - the file is wrong, not the program
     return {axis: _own(axis, kept[axis]) for axis in AXES if axis in kept}
 
 
 def _own(axis: Axis, kept: object) -> PersonalAxis:
-    name = WORDS[axis].lower()
+    name = tr(WORDS[axis]).lower()
     if not isinstance(kept, Mapping) or not isinstance(kept.get("way"), list) or len(kept["way"]) != 3:
-        raise ValueError(f"What the lesson measured of {name} is a way of three numbers, a peak and a gap.")
+        raise ValueError(
+            tr("What the lesson measured of {name} is a way of three numbers, a peak and a gap.").format(
+                name=name
+            )
+        )
     peak, gap = _number(kept.get("peak")), _number(kept.get("gap"))
     x, y, z = (_number(value) for value in kept["way"])
     length = math.sqrt(x * x + y * y + z * z)
     if not 0.9 < length < 1.1:
-        raise ValueError(f"The way of {name} has a length of 1, not {length:.3g}.")
+        raise ValueError(
+            tr("The way of {name} has a length of 1, not {length:.3g}.").format(name=name, length=length)
+        )
     if not LEAST_PEAK <= peak <= MOST_PEAK:
-        raise ValueError(f"The peak of {name} is {LEAST_PEAK:g} to {MOST_PEAK:g} m/s², not {peak:.3g}.")
+        raise ValueError(
+            tr("The peak of {name} is {least_peak:g} to {most_peak:g} m/s², not {peak:.3g}.").format(
+                name=name, least_peak=LEAST_PEAK, most_peak=MOST_PEAK, peak=peak
+            )
+        )
     if not LEAST_GAP <= gap <= MOST_GAP:
-        raise ValueError(f"The gap of {name} is {LEAST_GAP:g} to {MOST_GAP:g} s, not {gap:.3g}.")
+        raise ValueError(
+            tr("The gap of {name} is {least_gap:g} to {most_gap:g} s, not {gap:.3g}.").format(
+                name=name, least_gap=LEAST_GAP, most_gap=MOST_GAP, gap=gap
+            )
+        )
     return PersonalAxis((x / length, y / length, z / length), peak, gap)
 
 

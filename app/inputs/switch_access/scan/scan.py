@@ -16,10 +16,11 @@ from typing import Literal
 
 from app.inputs.switch_access.scan.plan import Group, leaves
 from app.inputs.switch_access.scan.target import Mark, Target
+from widgets.core.language import mark, tr
 
 __all__ = ["Pace", "Scan"]
 
-BACK = "Back"
+BACK = mark("Back")
 """What the way out of a group is called."""
 MAX_NAMED = 2
 """So many are named; of more the first and the last."""
@@ -100,7 +101,7 @@ class Scan:
         count, at = self._count(self._here.path), self._here.at
         if at >= len(children):
             marked = tuple(leaves(self._group(self._here.path)))
-            return Mark(marked, "back", BACK, at, count, self._step, self._until)
+            return Mark(marked, "back", tr(BACK), at, count, self._step, self._until)
         child = children[at]
         kind: Literal["item", "group"] = "item" if isinstance(child, Target) else "group"
         return Mark(tuple(leaves(child)), kind, _words(child), at, count, self._step, self._until)

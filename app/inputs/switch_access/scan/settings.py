@@ -9,6 +9,7 @@ from typing import Any, Literal
 from app.core.checked_settings import number, shown
 from app.inputs.switch_access.scan.presses import Timing
 from app.inputs.switch_access.scan.scan import Pace
+from widgets.core.language import mark, tr
 
 __all__ = ["RANGES", "Key", "Options", "read"]
 
@@ -23,7 +24,7 @@ RANGES: dict[str, tuple[float, float]] = {
 """Least and most of each figure: seconds, and `loops` a number."""
 MAX_KEYS = 6
 """Keys and buttons that one switch may have."""
-WORDS = {"spacebar": "Space", "numpadenter": "Number pad Enter"}
+WORDS = {"spacebar": mark("Space"), "numpadenter": mark("Number pad Enter")}
 """What keys are called here that Kivy calls otherwise."""
 NAME = 80
 """Letters of a name, at most."""
@@ -47,8 +48,8 @@ class Key:
     @property
     def words(self) -> str:
         """For the operator, as in `Tab` or `Button A`."""
-        said = WORDS.get(self.name, self.name.replace("_", " ").capitalize())
-        return f"Pad {said}" if self.source == "pad" else said
+        said = tr(WORDS.get(self.name, self.name.replace("_", " ").capitalize()))
+        return tr("Pad {said}").format(said=said) if self.source == "pad" else said
 
 
 _PACE, _TIMING = Pace(), Timing()
@@ -96,21 +97,21 @@ class Options:
         if not self.on:
             return "off"
         if self.one:
-            return f"one switch: {_first(self.b) or 'no key yet'}"
-        return f"{_first(self.a) or 'no key'} next, {_first(self.b) or 'no key'} does it"
+            return tr("one switch: {b}").format(b=_first(self.b) or "no key yet")
+        return tr("{a} next, {b} does it").format(a=_first(self.a) or "no key", b=_first(self.b) or "no key")
 
     @property
     def hint(self) -> str:
         """What the switches do, as in `Tab next · Enter do it`; empty while they are off or have no keys."""
-        do = f"{_first(self.b)} do it" if self.on and self.b else ""
+        do = tr("{b} do it").format(b=_first(self.b)) if self.on and self.b else ""
         return do if not do or self.one or not self.a else f"{_first(self.a)} next · {do}"
 
     @property
     def missing(self) -> str:
         """Which switch has no key, as one sentence; empty where none is missing."""
         if not self.b:
-            return "No key is assigned to the switch that presses the marked target."
-        return "" if self.a or self.one else "No key is the switch for the next one."
+            return tr("No key is assigned to the switch that presses the marked target.")
+        return "" if self.a or self.one else tr("No key is the switch for the next one.")
 
     def switch_of(self, source: str, name: str, device: str) -> Literal["A", "B"] | None:
         """The switch that a key or a button is; None where it is none."""
@@ -136,7 +137,9 @@ def read(kept: object) -> tuple[Options, str]:
     if kept is None:
         return DEFAULTS, ""
     if not isinstance(kept, Mapping):
-        return DEFAULTS, f"The settings of the switches are no table but {shown(kept)}: as delivered."
+        return DEFAULTS, tr("The settings of the switches are no table but {kept}: as delivered.").format(
+            kept=shown(kept)
+        )
     options, wrong = DEFAULTS, []
     for one in fields(Options):
         if one.name not in kept:
@@ -147,8 +150,13 @@ def read(kept: object) -> tuple[Options, str]:
         else:
             options = replace(options, **{one.name: value})
     if set(options.a) & set(options.b):
-        options, wrong = replace(options, a=DEFAULTS.a, b=DEFAULTS.b), [*wrong, "one key for both switches"]
-    return options, f"Of the switches put to the default: {', '.join(wrong)}." if wrong else ""
+        options, wrong = (
+            replace(options, a=DEFAULTS.a, b=DEFAULTS.b),
+            [*wrong, tr("one key for both switches")],
+        )
+    return options, tr("Of the switches put to the default: {wrong}.").format(
+        wrong=", ".join(wrong)
+    ) if wrong else ""
 
 
 def _checked(name: str, value: object) -> Any:
@@ -181,4 +189,6 @@ def _allowed(name: str) -> str:
     if name in RANGES:
         low, high = RANGES[name]
         return f"{low:g} to {high:g}"
-    return f"at most {MAX_KEYS} keys" if name in ("a", "b") else "true or false"
+    return (
+        tr("at most {max_keys} keys").format(max_keys=MAX_KEYS) if name in ("a", "b") else tr("true or false")
+    )

@@ -9,6 +9,7 @@ from kivy.metrics import dp
 from app.inputs.switch_access.window import finger
 from app.inputs.switch_access.window.finding import in_window
 from widgets.controls.crosshair import Crosshair
+from widgets.core.language import tr
 from widgets.inputs.scan_pad import PadKey, ScanPad
 from widgets.map.map_gestures import HOLD_DURATION, MapGestures
 
@@ -57,35 +58,35 @@ class Area:
     def rows(self) -> list[list[PadKey]]:
         """Its keys, as they stand now."""
         arrows = {
-            "left": "arrow_back",
-            "up": "arrow_upward",
-            "down": "arrow_downward",
-            "right": "arrow_forward",
+            "left": (tr("Left"), "arrow_back"),
+            "up": (tr("Up"), "arrow_upward"),
+            "down": (tr("Down"), "arrow_downward"),
+            "right": (tr("Right"), "arrow_forward"),
         }
-        steps = [PadKey(name, name.capitalize(), icon, repeats=True) for name, icon in arrows.items()]
-        touch = PadKey("touch", "Set", "touch_app", "Set or choose here")
+        steps = [PadKey(name, words, icon, repeats=True) for name, (words, icon) in arrows.items()]
+        touch = PadKey("touch", tr("Set"), "touch_app", tr("Set or choose here"))
         fine = PadKey(
             "fine",
-            "Fine",
+            tr("Fine"),
             "filter_center_focus",
-            "Coarse steps" if self._fine else "Fine steps",
+            tr("Coarse steps") if self._fine else tr("Fine steps"),
             on=self._fine,
         )
         taken = self._taken is not None
         carry = PadKey(
             "carry",
-            "Drop" if taken else "Take",
+            tr("Drop") if taken else tr("Take"),
             "open_with",
-            "Drop here" if taken else "Take this to move it",
+            tr("Drop here") if taken else tr("Take this to move it"),
             on=taken,
         )
-        done = PadKey("done", "Done", "check")
+        done = PadKey("done", tr("Done"), "check")
         if not self.moves:
             return [steps, [touch, fine, carry, done]]
-        here = PadKey("hold", "Place", "add_location_alt", "New place here")
+        here = PadKey("hold", tr("Place"), "add_location_alt", tr("New place here"))
         out, in_ = (
-            PadKey("zoom_out", "Out", "zoom_out", repeats=True),
-            PadKey("zoom_in", "In", "zoom_in", repeats=True),
+            PadKey("zoom_out", tr("Out"), "zoom_out", repeats=True),
+            PadKey("zoom_in", tr("In"), "zoom_in", repeats=True),
         )
         acts = self._acts()
         return [
@@ -97,8 +98,8 @@ class Area:
     def _acts(self) -> list[PadKey]:
         """What belongs to what is chosen on the map, at hand while the pad covers its buttons."""
         return [
-            PadKey("delete", "Delete", "delete", "Delete the chosen point"),
-            PadKey("undo", "Undo", "undo"),
+            PadKey("delete", tr("Delete"), "delete", tr("Delete the chosen point")),
+            PadKey("undo", tr("Undo"), "undo"),
         ]
 
     def press(self, name: str) -> None:

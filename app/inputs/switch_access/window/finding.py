@@ -11,6 +11,7 @@ from kivy.uix.scrollview import ScrollView
 from kivy.uix.widget import Widget
 
 from app.inputs.switch_access.window.kinds import kind_of
+from widgets.core.language import mark, tr
 
 __all__ = ["Box", "Found", "find", "in_window"]
 
@@ -34,37 +35,37 @@ WHOLE = ("press", "hold", "step", "field", "stick", "area", "slide", "fader", "h
 """Kinds that keep a finger to themselves: what lies below them takes none there."""
 
 GROUPS = {
-    "TopBar": "Top bar",
-    "Rail": "Screens",
-    "Notices": "Messages",
+    "TopBar": mark("Top bar"),
+    "Rail": mark("Screens"),
+    "Notices": mark("Messages"),
     "StopList": "STOP ALL",
-    "ActionColumn": "Actions",
-    "ActionButtons": "Actions",
-    "ActButtons": "Task",
-    "TaskButtons": "Task",
-    "MissionPanel": "Panel",
-    "OrderPane": "Order",
-    "SettingsPane": "Settings",
-    "PlacePane": "Place",
-    "MissionPane": "Missions",
-    "NowList": "Now",
-    "EventList": "Events",
-    "EventLog": "Events",
-    "TaskTabs": "Pages",
-    "Segmented": "Choice",
-    "Stepper": "Number",
-    "RobotCard": "Robot",
-    "QuestionCard": "Question",
-    "HandoverCard": "Control",
-    "ModeCard": "Mode",
-    "PausedCard": "Paused",
-    "SelectionBar": "Selection",
+    "ActionColumn": mark("Actions"),
+    "ActionButtons": mark("Actions"),
+    "ActButtons": mark("Task"),
+    "TaskButtons": mark("Task"),
+    "MissionPanel": mark("Panel"),
+    "OrderPane": mark("Order"),
+    "SettingsPane": mark("Settings"),
+    "PlacePane": mark("Place"),
+    "MissionPane": mark("Missions"),
+    "NowList": mark("Now"),
+    "EventList": mark("Events"),
+    "EventLog": mark("Events"),
+    "TaskTabs": mark("Pages"),
+    "Segmented": mark("Choice"),
+    "Stepper": mark("Number"),
+    "RobotCard": mark("Robot"),
+    "QuestionCard": mark("Question"),
+    "HandoverCard": mark("Control"),
+    "ModeCard": mark("Mode"),
+    "PausedCard": mark("Paused"),
+    "SelectionBar": mark("Selection"),
     "SpeedCard": "Speed",
-    "ArmPanel": "Arm",
-    "CheckCard": "Checks",
-    "CheckList": "Checks",
-    "TopicDetail": "Topic",
-    "IntentCard": "Asked",
+    "ArmPanel": mark("Arm"),
+    "CheckCard": mark("Checks"),
+    "CheckList": mark("Checks"),
+    "TopicDetail": mark("Topic"),
+    "IntentCard": mark("Asked"),
 }
 """Class of a container to what its members have in common."""
 
@@ -134,7 +135,7 @@ def _walk(widget: Any, where: _Where) -> Iterator[Found]:
             return
         inner = _Where(_cut(box, where.seen), where.group, where.path, scrolled=True)
     else:
-        word = str(getattr(widget, "scan_group", "") or GROUPS.get(type(widget).__name__, ""))
+        word = str(getattr(widget, "scan_group", "") or tr(GROUPS.get(type(widget).__name__, "")))
         inner = _Where(where.seen, (*where.group, word) if word else where.group, where.path, where.scrolled)
     ids = {id(_plain(one)): name for name, one in getattr(widget, "ids", {}).items()}
     for child in _plain(widget).children:

@@ -4,70 +4,72 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import cache
 from typing import Any
 
 from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
+from widgets.core.language import language, mark, tr
 from widgets.parts.buttons import PushButton
 
 __all__ = ["intent_of", "slug", "words_of"]
 
 ICON_WORDS = {
-    "add": "Zoom in",
-    "remove": "Zoom out",
-    "my_location": "Centre on the robot",
-    "fit_screen": "Show all",
-    "layers": "Other map",
-    "undo": "Undo",
-    "redo": "Redo",
-    "arrow_back": "Back",
-    "close": "Close",
-    "delete": "Delete",
-    "edit": "Edit",
-    "more_vert": "More",
-    "more_horiz": "More",
-    "expand_more": "Unfold",
-    "expand_less": "Fold",
-    "chevron_left": "Before",
-    "chevron_right": "Next",
-    "arrow_upward": "Up",
-    "arrow_downward": "Down",
+    "add": mark("Zoom in"),
+    "remove": mark("Zoom out"),
+    "my_location": mark("Centre on the robot"),
+    "fit_screen": mark("Show all"),
+    "layers": mark("Other map"),
+    "undo": mark("Undo"),
+    "redo": mark("Redo"),
+    "arrow_back": mark("Back"),
+    "close": mark("Close"),
+    "delete": mark("Delete"),
+    "edit": mark("Edit"),
+    "more_vert": mark("More"),
+    "more_horiz": mark("More"),
+    "expand_more": mark("Unfold"),
+    "expand_less": mark("Fold"),
+    "chevron_left": mark("Before"),
+    "chevron_right": mark("Next"),
+    "arrow_upward": mark("Up"),
+    "arrow_downward": mark("Down"),
 }
 """Icon of a button without words to what it does."""
 SAYS = ("scan_words", "text", "title", "words", "label", "hint_text", "question")
 """Properties that say what a widget is, the best first."""
 INTENTS = {
-    "pause": "pause",
-    "resume": "resume",
-    "go on": "resume",
-    "go home": "go_home",
-    "home": "go_home",
-    "start": "start",
-    "start patrol": "patrol",
-    "patrol": "patrol",
-    "end task": "end_task",
-    "surface": "surface",
-    "take off": "take_off",
-    "land": "land",
-    "lights": "lights",
-    "snapshot": "snapshot",
-    "take control": "take_control",
+    mark("Pause"): "pause",
+    mark("Resume"): "resume",
+    mark("Go on"): "resume",
+    mark("Go home"): "go_home",
+    mark("Home"): "go_home",
+    mark("Start"): "start",
+    mark("Start patrol"): "patrol",
+    mark("Patrol"): "patrol",
+    mark("End task"): "end_task",
+    mark("Surface"): "surface",
+    mark("Take off"): "take_off",
+    mark("Land"): "land",
+    mark("Lights"): "lights",
+    mark("Snapshot"): "snapshot",
+    mark("Take control"): "take_control",
 }
 """Words of a button to the intent that it is the button of."""
 KINDS = {
-    "StopButton": "Release STOP",
-    "GridMap": "Map",
-    "GeoMap": "Map",
-    "Joystick": "Stick",
-    "RudderThrottle": "Throttle and rudder",
-    "LiftLever": "Lift",
-    "TiltCircle": "Tilt circle",
+    "StopButton": mark("Release STOP"),
+    "GridMap": mark("Map"),
+    "GeoMap": mark("Map"),
+    "Joystick": mark("Stick"),
+    "RudderThrottle": mark("Throttle and rudder"),
+    "LiftLever": mark("Lift"),
+    "TiltCircle": mark("Tilt circle"),
     "GoalPad": "Goal",
-    "CourseDial": "Course",
-    "HeadingDial": "Heading",
-    "ArmPanel": "Arm",
-    "SheetGrip": "Sheet",
+    "CourseDial": mark("Course"),
+    "HeadingDial": mark("Heading"),
+    "ArmPanel": mark("Arm"),
+    "SheetGrip": mark("Sheet"),
 }
 """Class of what says nothing that would name it."""
 OWNERS = ("RobotCard",)
@@ -79,7 +81,7 @@ MAX_LETTERS = 60
 def words_of(widget: Widget) -> str:
     """What a press on it would do, in words; its kind where it says nothing of itself."""
     if known := KINDS.get(type(widget).__name__):
-        return known
+        return tr(known)
     for name in SAYS:
         said = getattr(widget, name, "")
         if isinstance(said, str) and said.strip():
@@ -90,7 +92,7 @@ def words_of(widget: Widget) -> str:
     icon = str(getattr(widget, "icon", "") or "").removesuffix("_fill")
     if not icon and isinstance(widget, Label):
         icon = str(getattr(widget, "name", "") or "")
-    return ICON_WORDS.get(icon, icon.replace("_", " ").capitalize()) or _kind(widget)
+    return tr(ICON_WORDS.get(icon, icon.replace("_", " ").capitalize())) or _kind(widget)
 
 
 def beside(widget: Widget) -> str:
@@ -112,12 +114,18 @@ def intent_of(widget: Widget, words: str) -> str:
     said = getattr(widget, "intent", "")
     if said or not isinstance(widget, PushButton):
         return str(said)
-    return INTENTS.get(words.casefold(), "")
+    return _intents(language.name).get(words.casefold(), "")
+
+
+@cache
+def _intents(_name: str) -> dict[str, str]:
+    """`INTENTS` in the language of that name, which is that of the glass."""
+    return {tr(text).casefold(): intent for text, intent in INTENTS.items()}
 
 
 def slug(text: str) -> str:
     """Words as part of a name."""
-    return re.sub(r"[^a-z0-9]+", "_", text.casefold()).strip("_")[:24]
+    return re.sub(r"\W+", "_", text.casefold()).strip("_")[:24]
 
 
 _CLOCK = re.compile(r"\b\d+:\d\d(:\d\d)?\b")

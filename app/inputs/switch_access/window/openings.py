@@ -18,6 +18,7 @@ from app.inputs.switch_access.window.finding import Box, in_window
 from app.inputs.switch_access.window.placing import beside
 from app.inputs.switch_access.window.window_app import WindowApp
 from widgets.controls.stop.stop_button import LONG_HOLD_DURATION, RELEASE_DURATION
+from widgets.core.language import tr
 from widgets.inputs.scan_keyboard import ScanKeyboard
 from widgets.inputs.scan_pad import PadKey, ScanPad
 
@@ -30,7 +31,6 @@ MAX_HOLD_FACTOR = 6.0
 SLOW_SHARE = 0.4
 """Of the whole way, where a stick is pushed gently."""
 FADER_STEPS = 10
-DONE = PadKey("done", "Done", "check")
 LEANS = {"ahead": (1.0, 0.0), "back": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0.0, -1.0)}
 """Key to how a stick leans: forward, left."""
 
@@ -145,32 +145,36 @@ class Openings:
             return self._stick_rows(widget), lambda name: self._push(widget, name)
         if kind == "fader":
             less, more = (
-                PadKey("less", "Less", "remove", repeats=True),
-                PadKey("more", "More", "add", repeats=True),
+                PadKey("less", tr("Less"), "remove", repeats=True),
+                PadKey("more", tr("More"), "add", repeats=True),
             )
-            return [[less, more, DONE]], lambda name: _slide_fader(widget, 1 if name == "more" else -1)
+            return [[less, more, _done()]], lambda name: _slide_fader(widget, 1 if name == "more" else -1)
         if kind == "handle":
-            up = PadKey("up", "Up", "arrow_upward", repeats=True)
-            down = PadKey("down", "Down", "arrow_downward", repeats=True)
-            return [[up, down, DONE]], lambda name: _carry(widget, 1 if name == "up" else -1)
-        yes = {"slide": ("Slide to " + str(getattr(widget, "text", "")), "chevron_right")}.get(kind)
+            up = PadKey("up", tr("Up"), "arrow_upward", repeats=True)
+            down = PadKey("down", tr("Down"), "arrow_downward", repeats=True)
+            return [[up, down, _done()]], lambda name: _carry(widget, 1 if name == "up" else -1)
+        yes = {
+            "slide": (tr("Slide to {what}").format(what=getattr(widget, "text", "")), "chevron_right")
+        }.get(kind)
         text, icon = yes or (_held_words(widget), "lock_open")
         sure = PadKey("sure", text, icon)
-        return [[PadKey("done", "Not now", "close"), sure]], lambda _: self._sure(kind, widget)
+        return [[PadKey("done", tr("Not now"), "close"), sure]], lambda _: self._sure(kind, widget)
 
     def _stick_rows(self, stick: Any) -> list[list[PadKey]]:
         aside = bool(stick.shaped(0.0, 1.0)[1])
-        slow = PadKey("slow", "Slow", "speed", "Full push" if self._slow else "Slow push", on=self._slow)
+        slow = PadKey(
+            "slow", tr("Slow"), "speed", tr("Full push") if self._slow else tr("Slow push"), on=self._slow
+        )
 
-        def push(name: str, icon: str) -> PadKey:
-            return PadKey(name, name.capitalize(), icon, repeats=True)
+        def push(name: str, words: str, icon: str) -> PadKey:
+            return PadKey(name, words, icon, repeats=True)
 
-        ahead, back = push("ahead", "arrow_upward"), push("back", "arrow_downward")
+        ahead, back = push("ahead", tr("Ahead"), "arrow_upward"), push("back", tr("Back"), "arrow_downward")
         if not aside:
-            return [[ahead, back], [slow, DONE]]
+            return [[ahead, back], [slow, _done()]]
         return [
-            [push("left", "arrow_back"), ahead, push("right", "arrow_forward")],
-            [slow, back, DONE],
+            [push("left", tr("Left"), "arrow_back"), ahead, push("right", tr("Right"), "arrow_forward")],
+            [slow, back, _done()],
         ]
 
     def _push(self, stick: Any, name: str) -> None:
@@ -204,8 +208,12 @@ class Openings:
         )
 
 
+def _done() -> PadKey:
+    return PadKey("done", tr("Done"), "check")
+
+
 def _held_words(widget: Any) -> str:
-    return str(getattr(widget, "text", "") or "Release STOP")
+    return str(getattr(widget, "text", "") or tr("Release STOP"))
 
 
 def _slide_fader(fader: Any, steps: int) -> None:

@@ -15,6 +15,7 @@ from kivy.metrics import dp, sp
 from app.inputs.switch_access.window.finding import Box
 from app.inputs.switch_access.window.window_app import WindowApp
 from widgets.core.base import text_texture
+from widgets.core.language import tr
 from widgets.core.theme import theme
 
 __all__ = ["THICK", "Ring"]
@@ -86,7 +87,7 @@ class Ring:
         if kind == "item":
             self._arrow(self.frames[0])
         if kind != "item" or named:
-            self._chip("Back" if kind == "back" else words, others() if others is not None else [])
+            self._chip(tr("Back") if kind == "back" else words, others() if others is not None else [])
 
     def _outside_stop(self, box: Box) -> Box:
         """The largest part of it that STOP does not lie on; STOP itself where that is what is marked."""

@@ -21,6 +21,7 @@ from app.inputs.switch_access.window.ring import Ring
 from app.inputs.switch_access.window.window_app import WindowApp
 from bridge.discovery.interfaces import broadcast_addresses
 from bridge.msgs.pilothouse_msgs import PlaceArray
+from widgets.core.language import mark, tr
 from widgets.inputs.scan_pad import PadButton, ScanPad
 from widgets.parts.cards import ActionToast
 
@@ -34,7 +35,7 @@ URGENT_WEIGHT = 8.0
 """How much likelier than all else is what waits for an answer."""
 PAGE_SHARE = 0.8
 """Of what is in sight is scrolled on by one step."""
-LEAVES = {"cancel", "close", "back", "not now", "no", "leave"}
+LEAVES = (mark("Cancel"), mark("Close"), mark("Back"), mark("Not now"), mark("No"), mark("Leave"))
 """What the button says that closes a question; one that has it needs no other way out."""
 PRESSED = ("press", "hold", "step", "field", "fader", "slide")
 """Kinds that words of the mark should not lie on; a map or a stick has room."""
@@ -84,10 +85,16 @@ class WindowTargets:
         found = find(self._roots(), self._app.corner.layer)
         dialog = self._dialog()
         made = [self._target(one) for one in found]
-        ways_out = {one.words.casefold() for one in made} & LEAVES
+        ways_out = {one.words.casefold() for one in made} & {tr(words).casefold() for words in LEAVES}
         if dialog is not None and self.openings.pad is None and not ways_out:
             made.append(
-                Target(f"{self.place}.leave", "Close", dialog.close, group=("Dialog",), key=dialog.ids.card)
+                Target(
+                    f"{self.place}.leave",
+                    tr("Close"),
+                    dialog.close,
+                    group=(tr("Dialog"),),
+                    key=dialog.ids.card,
+                )
             )
         return _unique(made)
 
@@ -131,7 +138,7 @@ class WindowTargets:
         words = words_of(widget)
         told = beside(widget.parent if kind == "step" else widget) if kind in BARE or _mute(widget) else ""
         if kind == "step":
-            words = f"{'More' if widget.step > 0 else 'Less'} {told}".strip()
+            words = f"{tr('More') if widget.step > 0 else tr('Less')} {told}".strip()
         elif told:
             words = told
         intent = intent_of(widget, words)
@@ -160,7 +167,7 @@ class WindowTargets:
         """A list or a text that is longer than its room: on, and at its end back to its beginning."""
         view: ScrollView = one.widget
         ends = view.scroll_y <= 0.001 if view.do_scroll_y else view.scroll_x >= 0.999
-        words = "Back to the beginning" if ends else "Scroll on"
+        words = tr("Back to the beginning") if ends else tr("Scroll on")
         return Target(
             self._name(one, "scroll"),
             words,
@@ -282,7 +289,7 @@ def _pad_group(button: PadButton) -> tuple[str, ...]:
     while not isinstance(pad, ScanPad):
         pad = pad.parent
     lines = list(reversed(pad.ids.grid.children))
-    return (pad.title or "Keys", f"Row {lines.index(button.parent) + 1}")
+    return (pad.title or tr("Keys"), tr("Row {parent}").format(parent=lines.index(button.parent) + 1))
 
 
 def _scroll_on(view: ScrollView) -> None:

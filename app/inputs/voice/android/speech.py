@@ -25,21 +25,30 @@ from app.inputs.voice.interfaces.speech_recognizer import (
 )
 from app.inputs.voice.recognition.matching import Match, match, said_within
 from app.inputs.voice.recognition.phrases import PHRASES
+from widgets.core.language import mark, tr
 
 __all__ = ["AndroidSpeaker", "AndroidRecognizer"]
 
 log = logging.getLogger(__name__)
 
 RECORD_AUDIO = "android.permission.RECORD_AUDIO"
-ASKS = "Android asks whether the microphone may be used: allow it, and voice begins."
-REFUSED = "The microphone is not allowed. Allow it in Android's settings of this app, or command by touch."
-NONE = (
+ASKS = mark("Android asks whether the microphone may be used: allow it, and voice begins.")
+REFUSED = mark(
+    "The microphone is not allowed. Allow it in Android's settings of this app, or command by touch."
+)
+NONE = mark(
     "This phone has no speech recogniser. Install one, as Google's, or command by touch, shake or switches."
 )
-NO_PACK = "Android has no offline speech for this language and no network. Download the language in Android's settings."
-NO_LANGUAGE = "Android's speech recogniser does not know this language. Download it in Android's settings."
-GIVES_UP = "Android's speech recogniser does not answer (error {}). Switch voice off and on to try again."
-NO_VOICE = "This phone has no voice to talk by. Install one in Android's settings."
+NO_PACK = mark(
+    "Android has no offline speech for this language and no network. Download the language in Android's settings."
+)
+NO_LANGUAGE = mark(
+    "Android's speech recogniser does not know this language. Download it in Android's settings."
+)
+GIVES_UP = mark(
+    "Android's speech recogniser does not answer (error {}). Switch voice off and on to try again."
+)
+NO_VOICE = mark("This phone has no voice to talk by. Install one in Android's settings.")
 QUIET = frozenset({6, 7})
 """Errors that only mean that nobody spoke, or nothing that it knows."""
 SENTENCES = {1: NO_PACK, 2: NO_PACK, 9: REFUSED, 12: NO_LANGUAGE, 13: NO_LANGUAGE}
@@ -107,7 +116,7 @@ def _runnable(do: Callable[[], None], kept: list[Any]) -> Any:
 class AndroidRecognizer:
     """A `SpeechRecognizer`, offline where the phone can."""
 
-    name = "Android"
+    name = mark("Android")
     languages = tuple(PHRASES)
 
     def __init__(self, now: Callable[[], float] = time.monotonic) -> None:
@@ -130,7 +139,7 @@ class AndroidRecognizer:
         from jnius import autoclass
 
         there = autoclass("android.speech.SpeechRecognizer").isRecognitionAvailable(_activity())
-        return "" if there else NONE
+        return "" if there else tr(NONE)
 
     def start(self, grammar: Grammar, hear: Hear) -> None:
         """Ask for the microphone once, and get ready; `VoiceTrouble` without the permission."""
@@ -138,10 +147,10 @@ class AndroidRecognizer:
         activity = _activity()
         if activity.checkSelfPermission(RECORD_AUDIO) != 0:
             if RECORD_AUDIO in _asked:
-                raise VoiceTrouble(REFUSED)
+                raise VoiceTrouble(tr(REFUSED))
             _asked.add(RECORD_AUDIO)
             activity.requestPermissions([RECORD_AUDIO], 1)
-            raise VoiceTrouble(ASKS)
+            raise VoiceTrouble(tr(ASKS))
         self._grammar, self._hear, self._errors = grammar, hear, 0
         self._main.post(self._make)
 
@@ -248,14 +257,14 @@ class AndroidRecognizer:
         every = frozenset(grammar.phrases)
         heeded = (every - grammar.asked if self._heeded is None else self._heeded) | grammar.urgent
         if not found:
-            self._hear(Rejected("That was no command.", ended=ended))
+            self._hear(Rejected(tr("That was no command."), ended=ended))
             return
         best = found[0]
         score = scores[0] if scores and 0.0 < scores[0] <= 1.0 else 0.9
         confidence = max(0.5, min(1.0, best.alike * score)) if best.alike > 0 else 0.5
         if best.command not in heeded:
             asked = best.command in grammar.asked
-            why = "counts only while a question is open" if asked else "does not count now"
+            why = tr("counts only while a question is open") if asked else tr("does not count now")
             self._hear(Rejected(f"“{best.phrase}” {why}.", best.command, confidence, ended))
             return
         others = tuple((one.command, round(one.alike, 2)) for one in found[1:4])
@@ -268,14 +277,14 @@ class AndroidRecognizer:
         """The utterance ended without words."""
         if number in QUIET:
             if not math.isnan(self._began) and not self._spotted:
-                self._hear(Rejected("Nothing was understood.", ended=self._now()))
+                self._hear(Rejected(tr("Nothing was understood."), ended=self._now()))
             self._errors = 0
             self._again()
             return
         self._errors += 1
         if number in SENTENCES or self._errors >= TRIES:
             self._running = self._open = False
-            self._hear(State("failed", SENTENCES.get(number, GIVES_UP.format(number))))
+            self._hear(State("failed", SENTENCES.get(number, tr(GIVES_UP).format(number))))
             return
         self._again(BUSY_MS)
 
@@ -390,7 +399,7 @@ class AndroidSpeaker:
 
     def _begun(self, status: int) -> None:
         if status != 0:
-            self._tell("failed", NO_VOICE)
+            self._tell("failed", tr(NO_VOICE))
             return
         from jnius import autoclass
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
+from widgets.core.language import tr
 
 __all__ = ["PROGRAM", "EspeakLibrary", "is_installed", "say_by_program"]
 
@@ -55,7 +56,9 @@ class EspeakLibrary:
         """Of the samples [Hz]."""
         self._voice = voice.encode()
         if self.sample_rate <= 0 or self._library.espeak_SetVoiceByName(self._voice) != 0:
-            raise VoiceTrouble(f"espeak-ng does not start: its voice {voice!r} is missing.")
+            raise VoiceTrouble(
+                tr("espeak-ng does not start: its voice {voice!r} is missing.").format(voice=voice)
+            )
         self._parts: list[NDArray[np.float32]] = []
         kind = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.POINTER(ctypes.c_short), ctypes.c_int, ctypes.c_void_p)
         self._callback = kind(self._take)  # the library keeps no reference

@@ -18,13 +18,14 @@ from numpy.typing import NDArray
 
 from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
 from app.inputs.voice.speech import espeak
+from widgets.core.language import mark, tr
 
 __all__ = ["main", "play"]
 
 BLOCK_MS = 60
 TAIL = 0.15
 """Silence after each, so that the device is not closed on its last sound [s]."""
-NO_SPEAKER = "There is no loudspeaker to talk by."
+NO_SPEAKER = mark("There is no loudspeaker to talk by.")
 
 
 class Synthesizer(Protocol):
@@ -102,10 +103,10 @@ def play(sound: NDArray[np.float32], rate: int, hushed: threading.Event, audio: 
             output_format=audio.SampleFormat.SIGNED16, nchannels=1, sample_rate=rate, buffersize_msec=BLOCK_MS
         )
     except audio.MiniaudioError as problem:
-        raise VoiceTrouble(f"{NO_SPEAKER[:-1]}: {problem.args[0]}.") from problem
+        raise VoiceTrouble(f"{tr(NO_SPEAKER)[:-1]}: {problem.args[0]}.") from problem
     try:
         if str(device.backend).lower() == "null":
-            raise VoiceTrouble(NO_SPEAKER)
+            raise VoiceTrouble(tr(NO_SPEAKER))
         source = feed()
         next(source)
         device.start(source)

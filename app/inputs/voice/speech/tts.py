@@ -19,15 +19,16 @@ from app.inputs.voice.interfaces.speaker import Speaker, Tell
 from app.inputs.voice.process.ending import end_aside
 from app.inputs.voice.process.installing import install_command
 from app.inputs.voice.speech import espeak
+from widgets.core.language import mark, tr
 
 __all__ = ["VOICES", "SpeakerProcess", "choose_voice", "speaker_of"]
 
-VOICES: dict[str, str] = {"natural": "Natural", "clear": "Clear, like a machine"}
+VOICES: dict[str, str] = {"natural": mark("Natural"), "clear": mark("Clear, like a machine")}
 """Voices of a desktop, with their names for the operator."""
 ROOT = Path(__file__).parents[4]
 NO_HIBARI = f"Talking needs the packages hibari-tts and miniaudio: {install_command('voice')}."
 NO_ESPEAK = f"This voice needs the program espeak-ng, or {install_command('espeak')}."
-CRASHED = "The voice that talks crashed and is silent. Choose it again to start it again."
+CRASHED = mark("The voice that talks crashed and is silent. Choose it again to start it again.")
 
 
 def speaker_of(voice: str) -> Speaker:
@@ -46,7 +47,9 @@ def choose_voice(voice: str, make: Callable[[str], Speaker] = speaker_of) -> tup
     for name in VOICES if missing else ():
         other = make(name)
         if name != voice and not other.missing():
-            return other, f"{missing} “{VOICES[name]}” talks instead."
+            return other, tr("{missing} “{voices}” talks instead.").format(
+                missing=missing, voices=tr(VOICES[name])
+            )
     return first, ""
 
 
@@ -127,4 +130,4 @@ class SpeakerProcess:
                 return
             tell(str(word), str(sentence))
         if not failed and not over.is_set():
-            tell("failed", CRASHED)
+            tell("failed", tr(CRASHED))

@@ -8,11 +8,12 @@ from typing import Any
 from kivy.uix.boxlayout import BoxLayout
 
 from app.inputs.base.button_presses import Press
-from app.inputs.binding_actions import HOLDS, MEANINGS
+from app.inputs.binding_actions import HOLDS, MEANINGS, meaning_words
 from app.inputs.keys.key_table import RISES, SLOWS, KeyTable, key_words
 from app.screens.inputs.parts.pane_app import PaneApp
 from app.screens.inputs.parts.setting_row import number_row, switch_row
 from app.screens.parts.pane_head import PaneHead
+from widgets.core.language import tr
 from widgets.inputs.key_help import KeyCap
 from widgets.parts.kit import Column, ListRow, QuietButton, Roll
 from widgets.parts.rows import group_label
@@ -33,7 +34,7 @@ class KeysPane(BoxLayout):
         """What a key is being chosen for; empty for nothing."""
         self.head = PaneHead(closable=True)
         self.head.bind(on_close=lambda _: self.back())
-        self.none = QuietButton(text="No key", icon="block", size_hint_y=None)
+        self.none = QuietButton(text=tr("No key"), icon="block", size_hint_y=None)
         self.none.bind(on_release=lambda _: self._take(""))
         self.rows: dict[str, ListRow] = {}
         self._caps: dict[str, BoxLayout] = {}
@@ -45,19 +46,19 @@ class KeysPane(BoxLayout):
 
     def _build(self) -> None:
         column = self._column
-        column.add_widget(group_label("Driving"))
+        column.add_widget(group_label(tr("Driving")))
         self._drive_row, self.drives = switch_row(
-            "keyboard", "Keys drive while held",
+            "keyboard", tr("Keys drive while held"),
             "W A S D push the left control, the arrows the right one; where there is one control, both push it.",
             lambda on: self._keep(replace(self._table, drives=on)),
         )  # fmt: skip
         self._rise_row, self.rise = number_row(
-            "timeline", "From rest to full", "A key let go rests at once.",
+            "timeline", tr("From rest to full"), tr("A key let go rests at once."),
             lambda value: self._keep(replace(self._table, rise=value)),
             minimum=RISES[0], maximum=RISES[1], step=0.1, unit="s",
         )  # fmt: skip
         self._slow_row, self.slow = number_row(
-            "speed", "With Shift", "How far the control is pushed while Shift is held as well.",
+            "speed", tr("With Shift"), tr("How far the control is pushed while Shift is held as well."),
             lambda value: self._keep(replace(self._table, slow=value / 100)),
             minimum=round(SLOWS[0] * 100), maximum=round(SLOWS[1] * 100), step=5, unit="%",
         )  # fmt: skip
@@ -66,20 +67,20 @@ class KeysPane(BoxLayout):
         column.add_widget(self._slow_row)
         column.add_widget(group_label("STOP"))
         self._space_row, self.space = switch_row(
-            "front_hand", "Space is STOP", "Escape is STOP always. Without this Space can be a switch.",
+            "front_hand", tr("Space is STOP"), tr("Escape is STOP always. Without this Space can be a switch."),
             lambda on: self._keep(replace(self._table, space_stops=on)),
         )  # fmt: skip
         column.add_widget(self._space_row)
-        column.add_widget(group_label("Shortcuts"))
+        column.add_widget(group_label(tr("Shortcuts")))
         for name, (words, icon) in MEANINGS.items():
             if name not in NOT_KEYS:
                 column.add_widget(self._row(name, words, icon))
-        self.reset = QuietButton(text="As it was at first", icon="replay", size_hint_y=None)
+        self.reset = QuietButton(text=tr("As it was at first"), icon="replay", size_hint_y=None)
         self.reset.bind(on_release=lambda _: self._keep(KeyTable()))
         column.add_widget(self.reset)
 
     def _row(self, name: str, words: str, icon: str) -> ListRow:
-        row = self.rows[name] = ListRow(icon=icon, title=words)
+        row = self.rows[name] = ListRow(icon=icon, title=tr(words))
         caps = self._caps[name] = BoxLayout(size_hint=(None, 1), spacing="4dp")
         caps.bind(minimum_width=caps.setter("width"))
         row.add_widget(caps)
@@ -130,10 +131,10 @@ class KeysPane(BoxLayout):
 
     def _ask(self, name: str) -> None:
         self._asked = name
-        words = MEANINGS[name][0]
-        held = " It is on for as long as the key is held." if name.partition(".")[2] in HOLDS else ""
+        words = meaning_words(name)
+        held = tr(" It is on for as long as the key is held.") if name.partition(".")[2] in HOLDS else ""
         self.head.title, self.head.refused = words, False
-        self.head.sentence = f"Press the key for it.{held} Escape stays STOP."
+        self.head.sentence = tr("Press the key for it.{held} Escape stays STOP.").format(held=held)
         self.clear_widgets()
         self.add_widget(self.head)
         self.add_widget(self.none)
@@ -149,7 +150,7 @@ class KeysPane(BoxLayout):
             return
         self._keep(table)
         if before and before != self._asked:
-            self.rows[before].detail = f"{key_words(key)} was taken from it."
+            self.rows[before].detail = tr("{key} was taken from it.").format(key=key_words(key))
         self.back()
 
     # what is kept

@@ -16,6 +16,7 @@ from app.screens.inputs.parts.meaning_list import MeaningList
 from app.screens.inputs.parts.pane_app import PaneApp
 from app.screens.inputs.parts.setting_row import number_row
 from widgets import PadPicture
+from widgets.core.language import mark, tr
 from widgets.parts.kit import Column, IconButton, ListRow, QuietButton, Roll, Segmented
 from widgets.parts.labels import Remark
 from widgets.parts.rows import group_label
@@ -24,7 +25,7 @@ __all__ = ["PadPane"]
 
 LIVE_TIMEOUT = 1.0
 """A pushed gamepad that has measured nothing new for longer is said to be silent [s]."""
-HINT = "Press a button to find it in the list. Here it does nothing else, but STOP stays STOP."
+HINT = mark("Press a button to find it in the list. Here it does nothing else, but STOP stays STOP.")
 REST = {"left": (0.0, 0.0), "right": (0.0, 0.0)}
 ANY = "Gamepad"
 """What is set up while none is plugged in."""
@@ -46,7 +47,7 @@ class PadPane(BoxLayout):
         self.names.bind(on_choose=lambda _, name: self._take(name))
         self.meanings, self.sources = (
             MeaningList(),
-            MeaningList({name: (words, "tune") for name, words in AXES.items()}),
+            MeaningList({name: (tr(words), "tune") for name, words in AXES.items()}),
         )
         for choosing in (self.meanings, self.sources):
             choosing.bind(on_choose=lambda _, name: self._chosen(name), on_close=lambda _: self.back())
@@ -63,14 +64,14 @@ class PadPane(BoxLayout):
         column = self._column
         column.add_widget(self.picture)
         column.add_widget(self.standing)
-        column.add_widget(group_label("Sticks"))
+        column.add_widget(group_label(tr("Sticks")))
         self._dead, self.dead = number_row(
-            "tune", "Dead zone", "Round the middle, where a stick commands nothing.",
+            "tune", tr("Dead zone"), tr("Round the middle, where a stick commands nothing."),
             lambda value: self._keep(replace(self._profile, dead_zone=value / 100)),
             minimum=round(DEAD_ZONES[0] * 100), maximum=round(DEAD_ZONES[1] * 100), step=2, unit="%",
         )  # fmt: skip
         self._curve, self.expo = number_row(
-            "timeline", "Finer in the middle", "How much less a small push commands; the end is the same.",
+            "timeline", tr("Finer in the middle"), tr("How much less a small push commands; the end is the same."),
             lambda value: self._keep(replace(self._profile, expo=value / 100)),
             minimum=round(EXPOS[0] * 100), maximum=round(EXPOS[1] * 100), step=10, unit="%",
         )  # fmt: skip
@@ -78,19 +79,19 @@ class PadPane(BoxLayout):
         column.add_widget(self._curve)
         self.turns: dict[str, IconButton] = {}
         for way, words in WAYS.items():
-            row = self.ways[way] = ListRow(icon="joystick", title=words, whole=True, end="2dp")
+            row = self.ways[way] = ListRow(icon="joystick", title=tr(words), whole=True, end="2dp")
             turn = self.turns[way] = IconButton(icon="swap_vert", bare=True, pos_hint={"center_y": 0.5})
             turn.bind(on_release=lambda _, way=way: self._turn(way))
             row.bind(on_release=lambda _, way=way: self._ask("way", way))
             row.add_widget(turn)
             column.add_widget(row)
-        column.add_widget(group_label("Buttons"))
-        column.add_widget(Remark(text=HINT, font_size="15sp"))
+        column.add_widget(group_label(tr("Buttons")))
+        column.add_widget(Remark(text=tr(HINT), font_size="15sp"))
         self._rows = Column(spacing="6dp")
         column.add_widget(self._rows)
         for button in BUTTONS:
             self._row(button)
-        self.reset = QuietButton(text="As it was at first", icon="replay", size_hint_y=None)
+        self.reset = QuietButton(text=tr("As it was at first"), icon="replay", size_hint_y=None)
         self.reset.bind(on_release=lambda _: self._reset())
         column.add_widget(self.reset)
 
@@ -146,16 +147,18 @@ class PadPane(BoxLayout):
     def _standing(self, state: PadState | None) -> str:
         if state is None:
             gone = f"{self._name} is not plugged in; its settings are kept." if self._name else ""
-            return gone or "Plug one in, at any time. Each kind keeps its own set-up."
+            return gone or tr("Plug one in, at any time. Each kind keeps its own set-up.")
         pads, wired = self._inputs.gamepads, state.name in self._inputs.gamepads.wired
         age = pads.age(state.number)
         still = self._profile.lean(state) == REST
         silent = (
             ""
             if age < LIVE_TIMEOUT or still
-            else f" Nothing new for {age:.0f} s{', on its cable' if wired else ''}."
+            else tr(" Nothing new for {age:.0f} s{value}.").format(
+                age=age, value=", on its cable" if wired else ""
+            )
         )
-        drives = "" if self._inputs.mapped.pads_on else " Off: only its STOP counts."
+        drives = "" if self._inputs.mapped.pads_on else tr(" Off: only its STOP counts.")
         return f"{state.name}.{drives}{silent}"
 
     def _show(self, state: PadState) -> None:
@@ -220,11 +223,11 @@ class PadPane(BoxLayout):
         self.dead.value, self.expo.value = round(profile.dead_zone * 100), round(profile.expo * 100)
         for way, row in self.ways.items():
             turned = way in profile.inverted
-            row.detail = AXES[profile.axes.get(way, "none")] + (", turned round" if turned else "")
+            row.detail = tr(AXES[profile.axes.get(way, "none")]) + (tr(", turned round") if turned else "")
             self.turns[way].role = "accent" if turned else "muted"
         for button, row in self.buttons.items():
             meaning = profile.meaning(button)
-            row.detail = "Pushes a control" if button in profile.driving else meaning_words(meaning)
+            row.detail = tr("Pushes a control") if button in profile.driving else meaning_words(meaning)
             row.icon = "joystick" if button in profile.driving else meaning_icon(meaning)
             row.role = "danger" if meaning == "stop" else "accent" if meaning else "muted"
         self.reset.disabled = not self._inputs.mapped.changed(self._name or ANY)
@@ -234,9 +237,9 @@ class PadPane(BoxLayout):
         profile = self._profile
         choosing = self.meanings if what == "button" else self.sources
         if what == "button":
-            choosing.ask(button_words(which), "Choose a command", profile.meaning(which))
+            choosing.ask(button_words(which), tr("Choose a command"), profile.meaning(which))
         else:
-            choosing.ask(WAYS[which], "What shall push it?", profile.axes.get(which, "none"))
+            choosing.ask(tr(WAYS[which]), tr("What shall push it?"), profile.axes.get(which, "none"))
         self.clear_widgets()
         self.add_widget(choosing)
 

@@ -10,6 +10,7 @@ from kivy.uix.boxlayout import BoxLayout
 from app.intents.intents import INTENTS, METHODS, PRESSED, Intent
 from app.intents.method_permits import ALWAYS, SAYS
 from app.screens.parts.method_signs import METHOD_SIGNS
+from widgets.core.language import tr
 from widgets.parts.kit import Column, ListRow, QuietButton, Remark, Roll, Segmented, Toggle
 
 __all__ = ["TablePane", "how"]
@@ -21,10 +22,10 @@ TELLS = tuple(method for method in METHODS if SAYS.get(method))
 def how(intent: Intent, method: str) -> str:
     """How soon it acts when that method says it."""
     if intent.risk == "confirm" and method != "switches":
-        return "asks first"
+        return tr("asks first")
     if intent.risk == "cancel" and method not in PRESSED:
-        return "after 2 s, unless cancelled"
-    return "at once"
+        return tr("after 2 s, unless cancelled")
+    return tr("at once")
 
 
 class TablePane(BoxLayout):
@@ -66,8 +67,10 @@ class TablePane(BoxLayout):
             row.switch.active = table.allowed(self.method, intent)
             row.faded = not row.switch.active
         self.usual.disabled = table.usual(self.method)
-        self.usual.text = f"{METHOD_SIGNS[self.method][1]}: reset to default"
-        self.remark.text = table.problem or "A forbidden command is refused with a sentence."
+        self.usual.text = tr("{method_signs}: reset to default").format(
+            method_signs=METHOD_SIGNS[self.method][1]
+        )
+        self.remark.text = table.problem or tr("A forbidden command is refused with a sentence.")
 
     def _fill(self, *_: object) -> None:
         self._column.clear_widgets()

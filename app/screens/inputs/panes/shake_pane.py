@@ -13,6 +13,7 @@ from app.intents.intents import INTENTS
 from app.screens.inputs.parts.meaning_list import MeaningList
 from app.screens.inputs.parts.pane_app import PaneApp
 from app.screens.inputs.parts.setting_row import switch_row
+from widgets.core.language import mark, tr
 from widgets.inputs.shake_lesson import ShakeLesson
 from widgets.parts.kit import Column, ListRow, PrimaryButton, QuietButton, Roll
 from widgets.parts.labels import Remark
@@ -25,14 +26,14 @@ HOW = (
     "the others act when you have stopped."
 )
 ACTS = "Listening. A shake acts here as anywhere; the result appears here."
-TRY = "Shake: the result appears here, and only STOP acts."
-LESSON = "Ten seconds: left and right, up and down, forward and back, as you would do it."
+TRY = mark("Shake: the result appears here, and only STOP acts.")
+LESSON = mark("Ten seconds: left and right, up and down, forward and back, as you would do it.")
 FRESH = 6.0
 """For so long what was understood last is shown as new [s]."""
 
 
 def _words(intent: str) -> tuple[str, str]:
-    return (INTENTS[intent].words, INTENTS[intent].icon) if intent else ("Nothing", "block")
+    return (INTENTS[intent].words, INTENTS[intent].icon) if intent else (tr("Nothing"), "block")
 
 
 class ShakePane(BoxLayout):
@@ -47,29 +48,29 @@ class ShakePane(BoxLayout):
         self.lists: dict[Axis, MeaningList] = {}
         self.roll = Roll()
         column = Column(spacing="6dp")
-        self.trial = QuietButton(text="Try it", icon="mobile_vibrate", size_hint_y=None)
+        self.trial = QuietButton(text=tr("Try it"), icon="mobile_vibrate", size_hint_y=None)
         self.trial.bind(on_release=lambda _: self._try())
         column.add_widget(self.standing)
         column.add_widget(self.trial)
         column.add_widget(Remark(text=HOW, font_size="15sp"))
-        column.add_widget(group_label("What it means"))
+        column.add_widget(group_label(tr("What it means")))
         for axis in AXES:
-            row = self.rows[axis] = ListRow(icon="mobile_vibrate", title=WORDS[axis], whole=True)
+            row = self.rows[axis] = ListRow(icon="mobile_vibrate", title=tr(WORDS[axis]), whole=True)
             row.bind(on_release=lambda _, axis=axis: self._ask(axis))
             column.add_widget(row)
         row, self.any_stops = switch_row(
             "front_hand",
-            "Any strong shake stops",
-            "While the robot moves, in any direction.",
+            tr("Any strong shake stops"),
+            tr("While the robot moves, in any direction."),
             lambda on: setattr(self.shaking, "any_stops", on),
         )
         column.add_widget(row)
-        column.add_widget(group_label("The lesson"))
+        column.add_widget(group_label(tr("The lesson")))
         self.learnt = Remark(font_size="15sp")
         column.add_widget(self.learnt)
-        self.teach = PrimaryButton(text="Begin the lesson", icon="play_arrow", size_hint_y=None)
+        self.teach = PrimaryButton(text=tr("Begin the lesson"), icon="play_arrow", size_hint_y=None)
         self.teach.bind(on_release=lambda _: self._teach())
-        self.unlearn = QuietButton(text="Forget the lesson", icon="replay", size_hint_y=None)
+        self.unlearn = QuietButton(text=tr("Forget the lesson"), icon="replay", size_hint_y=None)
         self.unlearn.bind(on_release=lambda _: self._unlearn())
         column.add_widget(self.teach)
         column.add_widget(self.unlearn)
@@ -88,7 +89,7 @@ class ShakePane(BoxLayout):
         page = BoxLayout(orientation="vertical", spacing="8dp")
         self.picture = ShakeLesson()
         self.told = Remark(font_size="17sp")
-        self.leave_lesson = QuietButton(text="Leave the lesson", icon="close", size_hint_y=None)
+        self.leave_lesson = QuietButton(text=tr("Leave the lesson"), icon="close", size_hint_y=None)
         self.leave_lesson.bind(on_release=lambda _: self.back())
         for widget in (self.picture, self.told, self.leave_lesson):
             page.add_widget(widget)
@@ -132,14 +133,16 @@ class ShakePane(BoxLayout):
         if shake is None or not new:
             return ""
         sure = f", {shake.confidence:.0%} sure" if math.isfinite(shake.confidence) else ""
-        return f"{WORDS[shake.axis]}, {shake.count} half cycles{sure}. {self.shaking.said}"
+        return tr("{words}, {count} half cycles{sure}. {said}").format(
+            words=tr(WORDS[shake.axis]), count=shake.count, sure=sure, said=self.shaking.said
+        )
 
     def _usual(self) -> str:
         if self.shaking.trying:
-            return TRY
+            return tr(TRY)
         if not self.shaking.on:
-            here = "" if self.trial.disabled else ", or try it here"
-            return f"Off: nothing is measured. Switch it on in the list of inputs{here}."
+            here = "" if self.trial.disabled else tr(", or try it here")
+            return tr("Off: nothing is measured. Switch it on in the list of inputs{here}.").format(here=here)
         return ACTS
 
     def _follow_lesson(self, now: float) -> None:
@@ -150,11 +153,13 @@ class ShakePane(BoxLayout):
         self.picture.update(lesson.axis or "", doing=lesson.doing, progress=lesson.progress, beat=now)
         self.told.role = "warn" if self.shaking.problem or lesson.sentence else "muted"
         if lesson.over:
-            self.told.text = "Done: that is how you shake. It is kept."
-            self.leave_lesson.text, self.leave_lesson.icon = "Good", "check"
+            self.told.text = tr("Done: that is how you shake. It is kept.")
+            self.leave_lesson.text, self.leave_lesson.icon = tr("Good"), "check"
         else:
             self.told.text = (
-                self.shaking.problem or lesson.sentence or "Three seconds each. It vibrates when one is done."
+                self.shaking.problem
+                or lesson.sentence
+                or tr("Three seconds each. It vibrates when one is done.")
             )
 
     # what fingers change
@@ -170,19 +175,19 @@ class ShakePane(BoxLayout):
             self.rows[axis].detail, self.rows[axis].icon = _words(shaking.meaning[axis])
         self.any_stops.active = shaking.any_stops
         self._write_lesson()
-        self.teach.text = "Do the lesson again" if shaking.own else "Begin the lesson"
+        self.teach.text = tr("Do the lesson again") if shaking.own else tr("Begin the lesson")
         self.unlearn.disabled = not shaking.own
 
     def _write_lesson(self) -> None:
         """No lesson begins that could not be heard: its place says why."""
         sensing, shaking = self._app.sensing, self.shaking
         self.teach.disabled = self.trial.disabled = not sensing.has("acceleration")
-        self.trial.text = "End the try" if shaking.trying else "Try it"
+        self.trial.text = tr("End the try") if shaking.trying else tr("Try it")
         self.trial.icon = "close" if shaking.trying else "mobile_vibrate"
         if self.teach.disabled:
             self.learnt.text, self.learnt.role = str(sensing.health("acceleration").sentence), "warn"
         else:
-            self.learnt.text = "It goes by how you shake." if shaking.own else LESSON
+            self.learnt.text = tr("It goes by how you shake.") if shaking.own else tr(LESSON)
             self.learnt.role = "muted"
 
     def _ask(self, axis: Axis) -> None:
@@ -192,7 +197,7 @@ class ShakePane(BoxLayout):
         if axis not in self.lists:
             choices = self.lists[axis] = MeaningList({name: _words(name) for name in CHOICES[axis]})
             choices.bind(on_choose=lambda _, name: self._chosen(name), on_close=lambda _: self.back())
-        self.lists[axis].ask(WORDS[axis], "Choose a command", self.shaking.meaning[axis])
+        self.lists[axis].ask(tr(WORDS[axis]), tr("Choose a command"), self.shaking.meaning[axis])
         self._page(self.lists[axis])
 
     def _chosen(self, name: str) -> None:
@@ -207,7 +212,7 @@ class ShakePane(BoxLayout):
         if self.teach.disabled:
             return
         self.shaking.teach()
-        self.leave_lesson.text, self.leave_lesson.icon = "Leave the lesson", "close"
+        self.leave_lesson.text, self.leave_lesson.icon = tr("Leave the lesson"), "close"
         self._page(self.lesson_page)
         self.tick()
 

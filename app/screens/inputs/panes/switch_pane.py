@@ -15,6 +15,7 @@ from app.inputs.switch_access.scan.settings import DEFAULTS, MAX_KEYS, RANGES, K
 from app.inputs.switch_access.switches import SwitchAccess
 from app.screens.inputs.parts.pane_app import PaneApp
 from app.screens.inputs.parts.setting_row import number_row, switch_row
+from widgets.core.language import mark, tr
 from widgets.inputs.reaction_test import ReactionTest
 from widgets.parts.kit import Column, IconButton, ListRow, PrimaryButton, QuietButton, Remark, Roll, Segmented
 from widgets.parts.rows import group_label
@@ -22,15 +23,39 @@ from widgets.parts.rows import group_label
 __all__ = ["SwitchPane"]
 
 NUMBERS: dict[str, tuple[str, str, str, float, str]] = {
-    "interval": ("timer", "Each step stays", "The test below finds what fits the hand.", 0.1, "s"),
-    "first": ("hourglass_empty", "The first one longer by", "Time to find the mark again.", 0.1, "s"),
-    "loops": ("repeat", "Rounds, then rest", "Asleep, the next press wakes it.", 1, ""),
-    "ignore_repeat": ("block", "Repeats ignored for", "A second press of a hand that trembles.", 0.05, "s"),
-    "acceptance": ("touch_app", "A press counts after", "For a hand that brushes over switches.", 0.05, "s"),
+    "interval": (
+        "timer",
+        mark("Each step stays"),
+        mark("The test below finds what fits the hand."),
+        0.1,
+        "s",
+    ),
+    "first": (
+        "hourglass_empty",
+        mark("The first one longer by"),
+        mark("Time to find the mark again."),
+        0.1,
+        "s",
+    ),
+    "loops": ("repeat", mark("Rounds, then rest"), mark("Asleep, the next press wakes it."), 1, ""),
+    "ignore_repeat": (
+        "block",
+        mark("Repeats ignored for"),
+        mark("A second press of a hand that trembles."),
+        0.05,
+        "s",
+    ),
+    "acceptance": (
+        "touch_app",
+        mark("A press counts after"),
+        mark("For a hand that brushes over switches."),
+        0.05,
+        "s",
+    ),
     "debounce": (
         "bolt",
-        "A contact bounces for",
-        "A switch is let go when it is open for longer.",
+        mark("A contact bounces for"),
+        mark("A switch is let go when it is open for longer."),
         0.01,
         "s",
     ),
@@ -39,16 +64,16 @@ NUMBERS: dict[str, tuple[str, str, str, float, str]] = {
 BY_ITSELF = ("interval", "first", "loops")
 """Those of a mark that moves by itself."""
 FELT: dict[str, tuple[str, str, str]] = {
-    "tones": ("volume_up", "Each step is heard", "A short tone; another one for a press."),
-    "vibrates": ("mobile_vibrate", "Each step is felt", "On a handheld that vibrates."),
-    "spoken": ("text_fields", "The mark is spoken", "By the voice chosen in Voice."),
+    "tones": ("volume_up", mark("Each step is heard"), "A short tone; another one for a press."),
+    "vibrates": ("mobile_vibrate", mark("Each step is felt"), mark("On a handheld that vibrates.")),
+    "spoken": ("text_fields", mark("The mark is spoken"), mark("By the voice chosen in Voice.")),
 }
 KEYS = {
-    "a": ("skip_next", "Next"),
-    "b": ("check_circle_fill", "Do it"),
+    "a": ("skip_next", mark("Next")),
+    "b": ("check_circle_fill", mark("Do it")),
 }
-ASKED = "Press the key, the switch or the button now."
-STOPS = "Escape and the button B of a gamepad stay STOP, and cannot be switches."
+ASKED = mark("Press the key, the switch or the button now.")
+STOPS = mark("Escape and the button B of a gamepad stay STOP, and cannot be switches.")
 
 
 class SwitchPane(BoxLayout):
@@ -77,7 +102,7 @@ class SwitchPane(BoxLayout):
 
     def _build(self) -> None:
         self.kind = Segmented(
-            options=[("two", "Two switches"), ("one", "One switch")], size_hint_y=None, height="48dp"
+            options=[("two", tr("Two switches")), ("one", tr("One switch"))], size_hint_y=None, height="48dp"
         )
         self.kind.bind(on_choose=lambda _, value: self._set(one=value == "one"))
         self.remark = Remark(font_size="14sp")
@@ -87,21 +112,21 @@ class SwitchPane(BoxLayout):
             self._put(self._key_row(name), False if name == "a" else None)
         for name in BY_ITSELF:
             self._put(self._number(name), True)
-        self._put(group_label("How fast is the hand?"), True)
+        self._put(group_label(tr("How fast is the hand?")), True)
         self.picture = ReactionTest(total=self.test.of)
         self._put(self.picture, True)
-        self.begin = PrimaryButton(text="Begin the test", icon="play_arrow", size_hint_y=None)
+        self.begin = PrimaryButton(text=tr("Begin the test"), icon="play_arrow", size_hint_y=None)
         self.begin.bind(on_release=lambda _: self._begin_or_take())
         self._put(self.begin, True)
-        self._put(group_label("Press timing"))
+        self._put(group_label(tr("Press timing")))
         for name in NUMBERS:
             if name not in BY_ITSELF:
                 self._put(self._number(name))
-        self._put(group_label("Feedback"))
+        self._put(group_label(tr("Feedback")))
         for name, (icon, title, detail) in FELT.items():
-            row, self.toggles[name] = switch_row(icon, title, detail, partial(self._switch, name))
+            row, self.toggles[name] = switch_row(icon, tr(title), tr(detail), partial(self._switch, name))
             self._put(row)
-        self.reset = QuietButton(text="As it was at first", icon="replay", size_hint_y=None)
+        self.reset = QuietButton(text=tr("As it was at first"), icon="replay", size_hint_y=None)
         self.reset.bind(on_release=lambda _: self._put_back())
         self._put(self.reset)
 
@@ -110,7 +135,7 @@ class SwitchPane(BoxLayout):
 
     def _key_row(self, name: str) -> ListRow:
         icon, title = KEYS[name]
-        row = self.rows[name] = ListRow(icon=icon, title=title, whole=True)
+        row = self.rows[name] = ListRow(icon=icon, title=tr(title), whole=True)
         row.bind(on_release=lambda _: self._ask(name))
         less = IconButton(icon="delete", bare=True, role="muted", pos_hint={"center_y": 0.5})
         less.bind(on_release=lambda _: self._clear(name))
@@ -122,8 +147,8 @@ class SwitchPane(BoxLayout):
         low, high = RANGES[name]
         row, self.numbers[name] = number_row(
             icon,
-            title,
-            detail,
+            tr(title),
+            tr(detail),
             lambda value: self._set(**{name: round(value, 3)}),
             minimum=low,
             maximum=high,
@@ -160,7 +185,9 @@ class SwitchPane(BoxLayout):
         other = "b" if name == "a" else "a"
         rest = tuple(one for one in getattr(options, other) if one != key)
         if len(mine) > MAX_KEYS:
-            self._refused = f"A switch has at most {MAX_KEYS} keys: take some away first."
+            self._refused = tr("A switch has at most {max_keys} keys: take some away first.").format(
+                max_keys=MAX_KEYS
+            )
         else:
             self._set(**{name: tuple(mine), other: rest})
         self.tick()
@@ -195,9 +222,9 @@ class SwitchPane(BoxLayout):
         test.update(self._app.now())
         self.picture.phase, self.picture.count = test.phase, test.done
         if test.phase == "done":
-            self.picture.result = (
-                f"You press within {test.mean:.2f} s: the mark should stay for {test.interval:.1f} s."
-            )
+            self.picture.result = tr(
+                "You press within {mean:.2f} s: the mark should stay for {interval:.1f} s."
+            ).format(mean=test.mean, interval=test.interval)
             self._deafen()
             self.tick()
 
@@ -252,21 +279,21 @@ class SwitchPane(BoxLayout):
 
     def _write_keys(self, name: str, row: ListRow, options: Options) -> None:
         keys = getattr(options, name) if name == "b" or not options.one else ()
-        listed = ", ".join(key.words for key in keys) or "No key yet"
+        listed = ", ".join(key.words for key in keys) or tr("No key yet")
         asked = self._asked == name
         row.chosen, row.role = asked, "accent" if keys else "warn"
         said = self._refused or f"{listed}. {_held(name, options)}"
-        row.detail = f"{ASKED} {STOPS}" if asked else said
+        row.detail = f"{tr(ASKED)} {tr(STOPS)}" if asked else said
 
     def _write_begin(self) -> None:
         phase = self.test.phase
         done = phase == "done"
         self.begin.text = (
-            f"Take {self.test.interval:.1f} s"
+            tr("Take {interval:.1f} s").format(interval=self.test.interval)
             if done
-            else "Begin the test"
+            else tr("Begin the test")
             if phase == "idle"
-            else "End the test"
+            else tr("End the test")
         )
         self.begin.icon = "check" if done else "play_arrow" if phase == "idle" else "close"
         self.begin.disabled = not self.switches.on
@@ -275,15 +302,16 @@ class SwitchPane(BoxLayout):
     def _explained(options: Options) -> str:
         if options.one:
             return f"The mark moves by itself; the switch presses the target. {_held('b', options)}"
-        return (
-            "The first switch moves the mark, the second presses the target on release. "
-            "The first press only wakes it."
+        return tr(
+            "The first switch moves the mark, the second presses the target on release. The first press only wakes it."
         )
 
 
 def _held(name: str, options: Options) -> str:
     """What comes of holding the switch `a` or `b`."""
     if name == "a":
-        return f"Held {options.timing.hold_back:.1f} s: back, or out of the group."
-    both = "" if options.one else ", or both together"
-    return f"Held {options.timing.hold_stop:.1f} s{both}: STOP."
+        return tr("Held {hold_back:.1f} s: back, or out of the group.").format(
+            hold_back=options.timing.hold_back
+        )
+    both = "" if options.one else tr(", or both together")
+    return tr("Held {hold_stop:.1f} s{both}: STOP.").format(hold_stop=options.timing.hold_stop, both=both)

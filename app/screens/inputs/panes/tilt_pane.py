@@ -14,6 +14,7 @@ from app.inputs.motion.tilt import RANGES
 from app.inputs.motion.tilt_input import TiltInput
 from app.inputs.motion.tilt_sensor import MIN_RATE
 from widgets import TiltCircle
+from widgets.core.language import mark, tr
 from widgets.parts.kit import Card, Column, ListRow, Remark, Roll, Stepper, Text, Toggle
 
 __all__ = ["TiltPane"]
@@ -32,29 +33,47 @@ class Amount(NamedTuple):
 
 
 AMOUNTS = {
-    "full": Amount("speed", "Full command", "Tilted so far it drives as fast as the slider lets it.", 1),
-    "dead": Amount("pause_circle", "Dead zone, standing", "Tilted less it does nothing.", 1),
-    "walking_dead": Amount("pause_circle", "Dead zone, walking", "A walking hand sways by more.", 1),
-    "expo": Amount("timeline", "Flat in the middle", "More of it steers finer near neutral.", 10, "%", 100),
+    "full": Amount(
+        "speed", mark("Full command"), mark("Tilted so far it drives as fast as the slider lets it."), 1
+    ),
+    "dead": Amount("pause_circle", mark("Dead zone, standing"), mark("Tilted less it does nothing."), 1),
+    "walking_dead": Amount(
+        "pause_circle", mark("Dead zone, walking"), mark("A walking hand sways by more."), 1
+    ),
+    "expo": Amount(
+        "timeline", mark("Flat in the middle"), mark("More of it steers finer near neutral."), 10, "%", 100
+    ),
 }
 SWITCHES = {
-    "fixed": ("my_location", "Neutral as it is held now", ""),
-    "walking": ("route", "I walk while I steer", "A larger dead zone, and neutral slowly follows the hand."),
-    "invert_pitch": ("swap_vert", "Ahead is towards me", "Tilting the upper edge up drives ahead."),
+    "fixed": ("my_location", mark("Neutral as it is held now"), ""),
+    "walking": (
+        "route",
+        mark("I walk while I steer"),
+        mark("A larger dead zone, and neutral slowly follows the hand."),
+    ),
+    "invert_pitch": (
+        "swap_vert",
+        mark("Ahead is towards me"),
+        mark("Tilting the upper edge up drives ahead."),
+    ),
     "invert_roll": (
         "arrow_forward",
-        "Left and right exchanged",
-        "Tilting the right side down goes to the left.",
+        mark("Left and right exchanged"),
+        mark("Tilting the right side down goes to the left."),
     ),
     "others": (
         "sports_esports",
-        "Offer it for every robot",
-        "A choice beside the stick where the robot has no tilt circle.",
+        mark("Offer it for every robot"),
+        mark("A choice beside the stick where the robot has no tilt circle."),
     ),
-    "simulate": ("computer", "Simulate a tablet", "The arrow keys lean it while the circle is held."),
+    "simulate": (
+        "computer",
+        mark("Simulate a tablet"),
+        mark("The arrow keys lean it while the circle is held."),
+    ),
 }
 """Name to icon, title and what it does while it is on."""
-FREE = "Off: neutral is however it is held when the clutch closes."
+FREE = mark("Off: neutral is however it is held when the clutch closes.")
 FIXED = "Neutral stays as it was set; it drives once it has been there."
 
 Builder.load_string("""
@@ -83,7 +102,7 @@ class TiltPane(BoxLayout):
         super().__init__(**kwargs)
         self.tilting: TiltInput = self.app.methods.get("tilt")
         """The method that is set up here."""
-        self.circle = TiltCircle(title="Tilt", needs_hold=True, in_shares=True, state="disabled")
+        self.circle = TiltCircle(title=tr("Tilt"), needs_hold=True, in_shares=True, state="disabled")
         self.circle.size_hint_x = None
         self.circle.bind(height=self.circle.setter("width"))
         self.lean = Text(bold=True, font_size="22sp")
@@ -112,7 +131,7 @@ class TiltPane(BoxLayout):
 
     def _amount(self, name: str) -> Widget:
         amount, (low, high) = AMOUNTS[name], RANGES[name]
-        row = ListRow(icon=amount.icon, title=amount.title, detail=amount.detail, whole=True)
+        row = ListRow(icon=amount.icon, title=tr(amount.title), detail=tr(amount.detail), whole=True)
         stepper = self.steppers[name] = Stepper(
             minimum=low * amount.scale, maximum=high * amount.scale, step=amount.step, unit=amount.unit
         )
@@ -123,7 +142,7 @@ class TiltPane(BoxLayout):
 
     def _switch(self, name: str) -> ListRow:
         icon, title, detail = SWITCHES[name]
-        row = ListRow(icon=icon, title=title, detail=detail, whole=True)
+        row = ListRow(icon=icon, title=tr(title), detail=tr(detail), whole=True)
         toggle = self.toggles[name] = Toggle(pos_hint={"center_y": 0.5})
         toggle.bind(on_change=lambda _, on: self._set(name, on))
         row.bind(on_release=lambda _: self._set(name, not toggle.active))
@@ -185,7 +204,7 @@ class TiltPane(BoxLayout):
     def _tell_neutral(self) -> None:
         tilt = self.tilting.tilt
         row, fixed = self._rows["fixed"], tilt.neutral is not None
-        row.detail = FIXED if fixed else FREE
+        row.detail = FIXED if fixed else tr(FREE)
         row.disabled = self.toggles["fixed"].disabled = not fixed and tilt.up is None
 
     def _tell(self) -> None:
@@ -193,9 +212,9 @@ class TiltPane(BoxLayout):
         roll, pitch = tilting.tilt.tilt
         closed = tilting.tilt.closed
         ahead, right = "ahead" if pitch > 0 else "back", "right" if roll > 0 else "left"
-        self.lean.text = f"{abs(pitch):.0f}° {ahead}\n{abs(roll):.0f}° {right}" if closed else "Not held"
+        self.lean.text = f"{abs(pitch):.0f}° {ahead}\n{abs(roll):.0f}° {right}" if closed else tr("Not held")
         if not tilting.on:
-            self.says.text = "Switch tilting on to try it here."
+            self.says.text = tr("Switch tilting on to try it here.")
         else:
             self.says.text = tilting.tilt.why or ("" if tilting.problem else self._how())
         self.says.role = "warn" if tilting.tilt.why else "muted"
@@ -203,8 +222,8 @@ class TiltPane(BoxLayout):
 
     def _how(self) -> str:
         keys = self.app.inputs.mapped.keys.keys_of("hold.tilt")
-        key = f", or the key {keys[0].upper()}," if keys else ""
-        return f"Hold the circle{key} and tilt. This one drives nothing."
+        key = tr(", or the key {keys},").format(keys=keys[0].upper()) if keys else ""
+        return tr("Hold the circle{key} and tilt. This one drives nothing.").format(key=key)
 
     def _sensor(self, tilting: TiltInput) -> tuple[str, str]:
         """What the sensor delivers, and the role of that."""
@@ -216,8 +235,8 @@ class TiltPane(BoxLayout):
         name = (
             "simulated"
             if tilting.simulated
-            else "fused gravity"
+            else tr("fused gravity")
             if kind == "gravity"
-            else "accelerometer alone: it sways when you walk"
+            else tr("accelerometer alone: it sways when you walk")
         )
-        return ("" if math.isnan(rate) else f"{rate:.0f} Hz, {name}"), "muted"
+        return ("" if math.isnan(rate) else tr("{rate:.0f} Hz, {name}").format(rate=rate, name=name)), "muted"

@@ -19,6 +19,7 @@ from app.inputs.voice.voice_input import VoiceInput
 from app.intents.intents import INTENTS
 from app.screens.inputs.parts.pane_app import PaneApp
 from app.screens.inputs.parts.setting_row import number_row, switch_row
+from widgets.core.language import mark, tr
 from widgets.inputs.noise_meter import NoiseMeter
 from widgets.parts.kit import Column, ListRow, PrimaryButton, QuietButton, Roll, Segmented
 from widgets.parts.labels import Remark
@@ -28,9 +29,9 @@ from widgets.parts.text_field import TextField
 __all__ = ["VoicePane"]
 
 PUSH = "Hold Talk at the edge of the screen, a key or a button of a gamepad while you speak; a tap listens for one command."
-FREE = "It listens all the time. Among people who talk, hold the button instead."
-TRY = "Say a command: the result is shown, and only STOP acts."
-EXAMPLE = "Go home? Say yes or no."
+FREE = mark("It listens all the time. Among people who talk, hold the button instead.")
+TRY = mark("Say a command: the result is shown, and only STOP acts.")
+EXAMPLE = mark("Go home? Say yes or no.")
 
 
 class VoicePane(BoxLayout):
@@ -56,12 +57,14 @@ class VoicePane(BoxLayout):
         add = self._column.add_widget
         add(self.standing)
         add(self.meter)
-        self.trial = PrimaryButton(text="Try it", icon="mic", size_hint_y=None)
+        self.trial = PrimaryButton(text=tr("Try it"), icon="mic", size_hint_y=None)
         self.trial.bind(on_release=lambda _: self._try())
         add(self.trial)
-        add(group_label("When it listens"))
+        add(group_label(tr("When it listens")))
         self.kind = Segmented(
-            options=[("push", "Push to talk"), ("free", "Hands-free")], size_hint_y=None, height="48dp"
+            options=[("push", tr("Push to talk")), ("free", tr("Hands-free"))],
+            size_hint_y=None,
+            height="48dp",
         )
         self.kind.bind(on_choose=lambda _, value: self._listen_so(value))
         add(self.kind)
@@ -69,7 +72,7 @@ class VoicePane(BoxLayout):
         self._fill_recognizers()
         self._fill_languages()
         self._fill_answers()
-        add(group_label("Phrases"))
+        add(group_label(tr("Phrases")))
         for intent in PHRASES["en"]:
             known = INTENTS[intent]
             self.words[intent] = ListRow(icon=known.icon, title=known.words, whole=True)
@@ -77,19 +80,21 @@ class VoicePane(BoxLayout):
 
     def _fill_answers(self) -> None:
         add = self._column.add_widget
-        add(group_label("Voice"))
+        add(group_label(tr("Voice")))
         row, self.talks = switch_row(
-            "volume_up", "Talk back", "Answers, alarms, what the robot confirmed.", self._talk
+            "volume_up", tr("Talk back"), tr("Answers, alarms, what the robot confirmed."), self._talk
         )
         add(row)
-        self.voices = Segmented(options=list(VOICES.items()), size_hint_y=None, height="48dp")
+        self.voices = Segmented(
+            options=[(name, tr(words)) for name, words in VOICES.items()], size_hint_y=None, height="48dp"
+        )
         self.voices.bind(on_choose=lambda _, voice: self._choose_voice(voice))
         if not is_android():  # a phone's voice is chosen in Android's settings
             add(self.voices)
         row, self.rate = number_row(
             "speed",
-            "How fast",
-            "1 is usual.",
+            tr("How fast"),
+            tr("1 is usual."),
             self._choose_rate,
             minimum=RATES[0],
             maximum=RATES[1],
@@ -97,7 +102,7 @@ class VoicePane(BoxLayout):
             unit="×",
         )
         add(row)
-        self.example = QuietButton(text="Say something", icon="volume_up", size_hint_y=None)
+        self.example = QuietButton(text=tr("Say something"), icon="volume_up", size_hint_y=None)
         self.example.bind(on_release=lambda _: self._say_something())
         add(self.example)
         self.trouble = Remark(font_size="14sp", role="warn")
@@ -106,14 +111,16 @@ class VoicePane(BoxLayout):
     def _fill_recognizers(self) -> None:
         """Not on a phone, which has one of its own."""
         self.recognizers = Segmented(
-            options=[(BEST, "Best"), *RECOGNIZERS.items()], size_hint_y=None, height="48dp"
+            options=[(BEST, tr("Best")), *((name, tr(words)) for name, words in RECOGNIZERS.items())],
+            size_hint_y=None,
+            height="48dp",
         )
         self.recognizers.bind(on_choose=lambda _, name: self._choose_recognizer(name))
-        self.model = TextField(label="Vosk model", hint_text="Folder of a Vosk model")
+        self.model = TextField(label=tr("Vosk model"), hint_text=tr("Folder of a Vosk model"))
         self.model.bind(on_text_validate=lambda _: self._enter_model(), focus=self._on_model_focus)
         self._models = Column(spacing="6dp")
         if not is_android():
-            self._column.add_widget(group_label("Recogniser"))
+            self._column.add_widget(group_label(tr("Recogniser")))
             self._column.add_widget(self.recognizers)
             self._column.add_widget(self._models)
 
@@ -125,7 +132,7 @@ class VoicePane(BoxLayout):
         )
         self.language.bind(on_choose=lambda _, name: self._choose_language(name))
         if len(known) > 1:
-            self._column.add_widget(group_label("Language"))
+            self._column.add_widget(group_label(tr("Language")))
             self._column.add_widget(self.language)
 
     # what a finger asks for
@@ -169,7 +176,7 @@ class VoicePane(BoxLayout):
 
     def _say_something(self) -> None:
         self.talking.voice = self.talking.voice  # one that failed is tried again
-        self.talking.say(EXAMPLE, "answer")
+        self.talking.say(tr(EXAMPLE), "answer")
         self.tick()
 
     # what the screen calls
@@ -194,10 +201,10 @@ class VoicePane(BoxLayout):
         self._show_meter(speaking)
         self.standing.role = "warn" if speaking.problem else "muted"
         self.standing.text = speaking.problem or self._usual(speaking)
-        self.trial.text = "End the try" if speaking.trying else "Try it"
+        self.trial.text = tr("End the try") if speaking.trying else tr("Try it")
         self.trial.icon = "close" if speaking.trying else "mic"
         self.kind.value = "free" if speaking.hands_free else "push"
-        self.how.text = FREE if speaking.hands_free else PUSH
+        self.how.text = tr(FREE) if speaking.hands_free else PUSH
         self._show_recognizer(speaking)
         self.language.value = speaking.language
         self.talks.active = talking.on
@@ -216,10 +223,14 @@ class VoicePane(BoxLayout):
 
     def _usual(self, speaking: VoiceInput) -> str:
         if speaking.trying:
-            return TRY
+            return tr(TRY)
         if not speaking.on:
-            return "Off: nothing listens and nothing is loaded. Switch it on in the list of inputs, or try it here."
-        return {"listening": "Listening.", "hold to talk": "Ready."}.get(speaking.standing, "One moment …")
+            return tr(
+                "Off: nothing listens and nothing is loaded. Switch it on in the list of inputs, or try it here."
+            )
+        return {"listening": tr("Listening."), "hold to talk": tr("Ready.")}.get(
+            speaking.standing, "One moment …"
+        )
 
     def _show_meter(self, speaking: VoiceInput) -> None:
         meter, level = self.meter, speaking.level

@@ -8,11 +8,12 @@ from kivy.uix.boxlayout import BoxLayout
 
 from app.inputs.binding_actions import MEANINGS
 from app.screens.parts.pane_head import PaneHead
+from widgets.core.language import mark, tr
 from widgets.parts.kit import Column, ListRow, Roll
 
 __all__ = ["MeaningList"]
 
-NOTHING = ("Nothing", "block")
+NOTHING = (mark("Nothing"), "block")
 
 
 class MeaningList(BoxLayout):
@@ -32,7 +33,7 @@ class MeaningList(BoxLayout):
         self.add_widget(self.head)
         self.add_widget(roll)
         for name, (words, icon) in (choices or {"": NOTHING, **MEANINGS}).items():
-            row = self.rows[name] = ListRow(icon=icon, title=words)
+            row = self.rows[name] = ListRow(icon=icon, title=tr(words))
             row.bind(on_release=lambda _, name=name: self.dispatch("on_choose", name))
             self._column.add_widget(row)
 
