@@ -103,6 +103,18 @@ class RobotWidget(Widget):
 
     accepts: ClassVar[tuple[type[Msg], ...]] = ()
     """Types that `show` takes."""
+    beside: ClassVar[tuple[type[Msg], ...]] = ()
+    """Of `accepts`, those that it only shows beside others: it is no picture of one of them alone."""
+    draws: ClassVar[tuple[type[Msg], ...]] = ()
+    """Types of pictures that it draws once somebody has decoded them."""
+    shows_fields: ClassVar[tuple[str, ...]] = ()
+    """Kinds of fields, as in `widgets.fields.field_kinds`, of which it shows one; empty for one that shows whole messages."""
+    over_time: ClassVar[bool] = False
+    """It shows a field over time."""
+    specificity: ClassVar[float | None] = None
+    """How much it is made for what it accepts, 0 to 1; None for the more, the fewer types that are."""
+    grid_size: ClassVar[tuple[int, int]] = (3, 4)
+    """Columns and rows that become it on a grid of 12 x 12 that fills a tablet."""
 
     veiled: ClassVar[bool] = True
     """The states are drawn here: a veil with the age on it, an outline. False for a widget that draws its own."""
@@ -196,6 +208,8 @@ class Control(RobotWidget):
 
     sends: ClassVar[tuple[type[Msg], ...]] = ()
     """Types that `on_command` carries."""
+    publishes: ClassVar[bool] = False
+    """What `on_command` carries goes to a topic of the robot as it is, again and again."""
 
     __events__: tuple[str, ...] = ("on_command",)
 

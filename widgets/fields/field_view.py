@@ -82,6 +82,7 @@ class FieldView(RobotWidget, FloatLayout):
     """The fields of the newest message. Only what is in sight has widgets, and they are brought up to date ten times a second."""
 
     accepts = (Msg,)
+    grid_size: ClassVar = (4, 5)
 
     message: ObjectProperty[Msg | None] = ObjectProperty(
         None, allownone=True, comparator=lambda one, other: one is other

@@ -59,6 +59,7 @@ class CommandedMotion(Gauge):
     """Name, value and unit of each part of the order, and its kind in a word."""
 
     accepts: ClassVar = (Manoeuvre,)
+    grid_size: ClassVar = (3, 3)
     drawn_from: ClassVar = ("kind", "figures")
 
     kind = StringProperty("")

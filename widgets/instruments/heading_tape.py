@@ -42,6 +42,7 @@ class HeadingTape(Glass, Drawing):
     """Which way the bow points, on a strip."""
 
     accepts: ClassVar = (Imu, Odometry, PoseWithCovarianceStamped)
+    grid_size: ClassVar = (5, 2)
     drawn_from: ClassVar = ("heading", "wanted", "span", "badge")
 
     heading = NumericProperty(math.nan)

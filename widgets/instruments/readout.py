@@ -8,26 +8,36 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 from kivy.lang import Builder
 from kivy.metrics import dp
-from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty, StringProperty
+from kivy.properties import (
+    AliasProperty,
+    BooleanProperty,
+    DictProperty,
+    NumericProperty,
+    OptionProperty,
+    StringProperty,
+)
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from widgets.core.base import RobotWidget, age_text, fitting_size, text_texture
-from widgets.core.field_paths import number_at
+from widgets.core.field_paths import value_at
 from widgets.core.language import language
 from widgets.core.quantities import SI_KINDS, digits_for, quantities, to_shown, unit_of
 from widgets.core.theme import theme
+from widgets.fields.field_kinds import ENUM, NUMBER, TEXT
 from widgets.parts.labels import spaced
 
 __all__ = ["Readout", "figure"]
 
 DASH, MINUS, DEGREE = "—", "−", "°"
+MAX_WORDS = 40
+"""Letters of a text that are shown."""
 
 Builder.load_string("""
 <Readout>:
@@ -99,6 +109,8 @@ class Readout(RobotWidget, BoxLayout):
     """A name over a value with its unit. `path` says where in a message the value is."""
 
     accepts = (Msg,)
+    shows_fields: ClassVar = (NUMBER, ENUM, TEXT)
+    grid_size: ClassVar = (2, 2)
     veiled = False
 
     name = StringProperty("")
@@ -122,6 +134,8 @@ class Readout(RobotWidget, BoxLayout):
     `twist.twist.linear.xy`, are how long it is in those directions."""
     scale = NumericProperty(1.0)
     """What the field is multiplied by, as in 57.2958 from radian to degree."""
+    value_names: DictProperty[int, str] = DictProperty()
+    """Of a field whose values have names: what is shown for each; a value without one is shown as a number."""
     font_size = NumericProperty("26sp")
     """Of the value [px]."""
     fitted = BooleanProperty(True)
@@ -217,8 +231,14 @@ class Readout(RobotWidget, BoxLayout):
     """Role of the figure's colour."""
 
     def show(self, msg: Msg) -> None:
-        """Take the field at `path`; AttributeError or IndexError when the message has no such field."""
-        self.value = number_at(msg, self.path) * self.scale
+        """Take the field at `path`, a number or a text; AttributeError or IndexError when the message has no such field."""
+        found = value_at(msg, self.path)
+        if isinstance(found, str):
+            self.words = found[:MAX_WORDS].strip() or DASH
+            return
+        if self.value_names:
+            self.words = self.value_names.get(found, "")
+        self.value = (math.nan if found is None else float(found)) * self.scale
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

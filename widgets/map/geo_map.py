@@ -36,6 +36,7 @@ MAX_ENLARGEMENT = 8.0
 class GeoMap(MapOverlay):
     """The map of `MapOverlay` on aerial pictures, north up."""
 
+    specificity: ClassVar[float | None] = 0.25
     drawn_from: ClassVar[tuple[str, ...]] = (*MapOverlay.drawn_from, "tiles", "datum")
     may_turn = False
 

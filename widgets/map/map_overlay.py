@@ -56,6 +56,8 @@ class MapOverlay(MapViewport, Drawing):
         LaserScan,
         Limits,
     )
+    beside: ClassVar[tuple[type[Msg], ...]] = (IntruderArray, LaserScan, Limits)
+    grid_size: ClassVar[tuple[int, int]] = (6, 6)
     drawn_from: ClassVar[tuple[str, ...]] = (
         "view", "waypoints", "selected", "home", "placed", "grip", "mode", "robot", "robot_radius", "camera_fov",
         "plan", "places", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets", "fence", "foot",

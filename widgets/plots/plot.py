@@ -47,6 +47,9 @@ class Plot(PlotBase, Drawing):
     """Up to eight fields over time. A line is broken where data is missing; spikes are never lost."""
 
     accepts: ClassVar = (Msg,)
+    shows_fields: ClassVar = ("number",)
+    over_time: ClassVar = True
+    grid_size: ClassVar = (6, 4)
     drawn_from: ClassVar = ("title", "unit", "span", "until", "cursor", "age", "low", "high", "epoch")
 
     paths: ListProperty[str] = ListProperty()

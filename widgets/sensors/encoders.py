@@ -37,6 +37,7 @@ class EncodersView(Gauge):
     """A bar for each wheel, to the right of its middle when it turns ahead."""
 
     accepts: ClassVar = (JointState,)
+    grid_size: ClassVar = (3, 3)
     drawn_from: ClassVar = ("wheels", "full")
 
     wheels: ListProperty[tuple[str, float, float]] = ListProperty()

@@ -39,6 +39,7 @@ class LaserScanView(Glass, Drawing):
     """The newest sweep, the robot's bow up. A return is a dot in the colour of its distance."""
 
     accepts: ClassVar = (LaserScan,)
+    grid_size: ClassVar = (4, 4)
     drawn_from: ClassVar = ("scan", "title", "rate", "reach", "near", "close", "card")
 
     scan: ObjectProperty[LaserScan | None] = ObjectProperty(None, allownone=True, force_dispatch=True)

@@ -39,6 +39,7 @@ class LineSensorView(Gauge):
     """A row of cells, the leftmost on the left."""
 
     accepts: ClassVar = (LineSensor,)
+    grid_size: ClassVar = (4, 2)
     drawn_from: ClassVar = ("values", "spacing")
 
     values: ListProperty[float] = ListProperty()

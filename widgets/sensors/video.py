@@ -26,6 +26,7 @@ from kivy.properties import (
 )
 from kivy.uix.widget import Widget
 
+from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
 from widgets.core.base import VEIL, fitting_size, text_texture
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, shader, tint
@@ -68,6 +69,9 @@ class Video(Drawing):
     """The newest camera frame on one kept texture."""
 
     accepts: ClassVar = (Detection2DArray,)
+    beside: ClassVar = (Detection2DArray,)
+    draws: ClassVar = (CompressedImage,)
+    grid_size: ClassVar = (6, 6)
     drawn_from: ClassVar = (
         "frame_size", "taken_size", "fit", "boxes", "age", "corner", "insets", "below", "marks", "field_of_view", "refusal",
     )  # fmt: skip

@@ -8,7 +8,7 @@ checks.bind(on_fold=lambda _, unfold: setattr(checks, "open", unfold))
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, ClassVar
 
 from kivy.lang import Builder
 from kivy.metrics import dp, sp
@@ -131,6 +131,7 @@ class CheckList(Outlined, RobotWidget, BoxLayout):
     """The list. A tap on its head dispatches `on_fold(unfold)`; the owner sets `open`."""
 
     accepts = (Checklist,)
+    grid_size: ClassVar = (4, 4)
     __events__ = ("on_fold",)
 
     open = BooleanProperty(False)

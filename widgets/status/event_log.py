@@ -11,7 +11,7 @@ import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterable
 from functools import partial
-from typing import Any
+from typing import Any, ClassVar
 
 from kivy.clock import Clock
 from kivy.lang import Builder
@@ -76,6 +76,7 @@ class EventLog(RobotWidget, FloatLayout):
     """
 
     accepts = (Event,)
+    grid_size: ClassVar = (6, 4)
 
     __events__ = ("on_command",)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 from kivy.lang import Builder
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, ObjectProperty, StringProperty
@@ -92,6 +92,8 @@ class TaskCard(Outlined, RobotWidget, Column):
     """One task. Progress counts only for the task that the status is about."""
 
     accepts = (TaskStatus, TaskProgress)
+    beside: ClassVar = (TaskProgress,)
+    grid_size: ClassVar = (4, 3)
 
     brief = BooleanProperty(False)
     """Takes little room: the reason on one line, no figures."""
