@@ -14,6 +14,7 @@ from app.link.feeds import Feeds
 from app.session.robot_profile import RobotProfile
 from bridge.core.link_state import CONTROL_TIMEOUT
 from bridge.msgs.pilothouse_msgs import ControlStatus
+from widgets.core.language import tr
 
 __all__ = ["Authority", "ControlledRobot", "Line"]
 
@@ -207,7 +208,9 @@ class Authority:
         fresh = status.requested_by_id if status.requested_by_id != before.requested_by_id else ""
         if not fresh or me in (fresh, status.driver_id):
             return None
-        return f"{status.requested_by} asks {status.driver} for control.", "info"
+        return tr("{requested_by} asks {driver} for control.").format(
+            requested_by=status.requested_by, driver=status.driver
+        ), "info"
 
     def _end(self, before: ControlStatus, status: ControlStatus) -> tuple[str, str] | None:
         """What became of somebody's asking."""
@@ -215,27 +218,33 @@ class Authority:
         if not asker or status.requested_by_id == asker:
             return None
         if status.driver_id == asker:
-            return ("You have control.", "ok") if asker == me else (f"{status.driver} has control.", "info")
+            return (
+                (tr("You have control."), "ok")
+                if asker == me
+                else (tr("{driver} has control.").format(driver=status.driver), "info")
+            )
         if asker == me and self._withdrawn:
             self._withdrawn = False
             return None
         if status.driver_id != before.driver_id or not status.driver_id:
             return None
         if status.driver_id == me:
-            return f"You keep control: {before.requested_by} does not ask any more.", "info"
-        return f"{status.driver} keeps control.", "info"
+            return tr("You keep control: {requested_by} does not ask any more.").format(
+                requested_by=before.requested_by
+            ), "info"
+        return tr("{driver} keeps control.").format(driver=status.driver), "info"
 
     def _lost(self, before: ControlStatus, status: ControlStatus) -> tuple[str, str] | None:
         """Control was ours and is not: handed over to who asked, or lapsed."""
         if before.requested_by_id and status.driver_id == before.requested_by_id:
             self.wanted = False
-            return f"{status.driver} has control now.", "info"
-        silence = f"after {CONTROL_TIMEOUT:.0f}\u00a0s without contact"
-        when = "while the link was away" if self._away else silence
-        free = "Requesting it again…" if self.wanted else "It is free."
-        now = f"{status.driver} has it now." if status.driver else free
+            return tr("{driver} has control now.").format(driver=status.driver), "info"
+        silence = tr("after {control_timeout:.0f} s without contact").format(control_timeout=CONTROL_TIMEOUT)
+        when = tr("while the link was away") if self._away else silence
+        free = tr("Requesting it again…") if self.wanted else tr("It is free.")
+        now = tr("{driver} has it now.").format(driver=status.driver) if status.driver else free
         self._lapsed = when if self.wanted else ""
-        return f"Control lost {when}. {now}", "warn"
+        return tr("Control lost {when}. {now}").format(when=when, now=now), "warn"
 
 
 def _parties(status: ControlStatus) -> tuple[str, str]:

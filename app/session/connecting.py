@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from bridge.core.link_state import Phase
+from widgets.core.language import tr
 
 if TYPE_CHECKING:
     from app.session.session import Session
@@ -17,10 +18,12 @@ def connecting_words(session: Session) -> tuple[str, str]:
     """A sentence and its level: the first attempt is news, a later one a warning."""
     state = session.link_state
     waits = state.phase is Phase.WAITING and session.retry_in > 0
-    waiting = f" Trying again in {math.ceil(session.retry_in)} s." if waits else ""
+    waiting = (
+        tr(" Trying again in {retry_in} s.").format(retry_in=math.ceil(session.retry_in)) if waits else ""
+    )
     sentence = state.sentence + waiting
     if state.attempt > 1 or state.retry_in > 0:
-        return f"{sentence} Tap to cancel.", "warn"
+        return tr("{sentence} Tap to cancel.").format(sentence=sentence), "warn"
     return sentence, "info"
 
 

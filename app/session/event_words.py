@@ -12,18 +12,19 @@ from msgspec.structs import replace
 
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Event, TaskStatus
+from widgets.core.language import mark, tr
 
 __all__ = ["own_event", "own_reason"]
 
 _EVENTS: Mapping[str, str] = {
-    Code.CONTROL_TAKEN: "You have control.",
-    Code.STOP_PRESSED: "You pressed STOP.",
-    Code.STOP_RELEASED: "You released STOP.",
-    Code.TASK_STOPPED: "STOP paused the task.",
-    Code.TASK_PAUSED: "You paused.",
-    Code.TASK_TAKEN_OVER: "You took the stick.",
-    Code.TASK_CANCELED: "You canceled it.",
-    Code.TASK_DISCARDED: "You discarded it.",
+    Code.CONTROL_TAKEN: mark("You have control."),
+    Code.STOP_PRESSED: mark("You pressed STOP."),
+    Code.STOP_RELEASED: mark("You released STOP."),
+    Code.TASK_STOPPED: mark("STOP paused the task."),
+    Code.TASK_PAUSED: mark("You paused."),
+    Code.TASK_TAKEN_OVER: mark("You took the stick."),
+    Code.TASK_CANCELED: mark("You canceled it."),
+    Code.TASK_DISCARDED: mark("You discarded it."),
 }
 """Codes of what an actor did, to the words for that actor."""
 _REASONS: Mapping[str, str] = {**_EVENTS, Code.TASK_STOPPED: _EVENTS[Code.STOP_PRESSED]}
@@ -35,8 +36,8 @@ def own_event(event: Event, own_id: str, gave_stop: str = "") -> Event:
 
     `gave_stop` says what gave its STOP, as of `command_origin.gave_stop`; empty for a hand on a button.
     """
-    words = _EVENTS.get(event.code) if own_id and event.actor_id == own_id else None
-    if words is None:
+    words = tr(_EVENTS.get(event.code, "")) if own_id and event.actor_id == own_id else ""
+    if not words:
         return event
     if event.code == Code.STOP_PRESSED:
         words = gave_stop or words
@@ -46,5 +47,5 @@ def own_event(event: Event, own_id: str, gave_stop: str = "") -> Event:
 
 def own_reason(status: TaskStatus, own_id: str) -> TaskStatus:
     """`status` with its reason as it reads on the handheld that the robot publishes by `own_id`."""
-    words = _REASONS.get(status.code) if own_id and status.actor_id == own_id else None
-    return status if words is None else replace(status, reason=words)
+    words = tr(_REASONS.get(status.code, "")) if own_id and status.actor_id == own_id else ""
+    return replace(status, reason=words) if words else status  # (status, reason=words)

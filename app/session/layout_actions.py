@@ -11,23 +11,24 @@ from app.session.recordings import Recordings
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import LightState, TaskOrder, TaskStatus
 from widgets.controls.action_column import Action
+from widgets.core.language import mark, tr
 from widgets.core.task_words import TASKS
 
 __all__ = ["ACTIONS", "CARRIED", "LayoutActions", "Line"]
 
 ACTIONS: dict[str, tuple[str, str]] = {
-    "task.surface": ("Surface", "water"),
-    "task.hold": ("Hold", "pause_circle"),
-    "task.follow_heading": ("Follow heading", "explore"),
-    "task.take_off": ("Take off", "arrow_upward"),
-    "task.land": ("Land", "arrow_downward"),
-    "task.go_home": ("Go home", "home"),
-    "pause": ("Pause", "pause"),
-    "lights": ("Lights", "lightbulb"),
-    "record": ("Start recording", "fiber_manual_record_fill"),
-    "snapshot": ("Snapshot", "photo_camera"),
-    "camera": ("Camera", "videocam"),
-    "reset": ("Put back", "replay"),
+    "task.surface": (mark("Surface"), "water"),
+    "task.hold": (mark("Hold"), "pause_circle"),
+    "task.follow_heading": (mark("Follow heading"), "explore"),
+    "task.take_off": (mark("Take off"), "arrow_upward"),
+    "task.land": (mark("Land"), "arrow_downward"),
+    "task.go_home": (mark("Go home"), "home"),
+    "pause": (mark("Pause"), "pause"),
+    "lights": (mark("Lights"), "lightbulb"),
+    "record": (mark("Start recording"), "fiber_manual_record_fill"),
+    "snapshot": (mark("Snapshot"), "photo_camera"),
+    "camera": (mark("Camera"), "videocam"),
+    "reset": (mark("Put back"), "replay"),
 }
 """Every action that a layout may name, to its words and its icon where the layout gives none."""
 CARRIED = ("lights", "camera")
@@ -93,12 +94,12 @@ class LayoutActions:
         """`lines` are the actions that the layout names."""
         self._session, self._app = session, app
         self._words = {
-            line.what: (line.text or ACTIONS[line.what][0], line.icon or ACTIONS[line.what][1])
+            line.what: (line.text or tr(ACTIONS[line.what][0]), line.icon or ACTIONS[line.what][1])
             for line in lines
         }
         self._besides = [what for what in CARRIED if what not in self._words]
         """What no line names."""
-        self._words |= {what: ACTIONS[what] for what in self._besides}
+        self._words |= {what: (tr(ACTIONS[what][0]), ACTIONS[what][1]) for what in self._besides}
         self._looks: dict[str, Callable[[str, str], Action | None]] = {
             "pause": self._pause,
             "lights": self._lights,
@@ -134,7 +135,9 @@ class LayoutActions:
         if not self._paused:
             return replace(action, text=self._words[action.name][0], able=False, meaning="")
         able = action.able and not self._session.robot_stop.latched
-        return replace(action, text=f"Resume {TASKS[task].doing}", able=able, meaning="resume")
+        return replace(
+            action, text=tr("Resume {doing}").format(doing=TASKS[task].doing), able=able, meaning="resume"
+        )
 
     def confirm(self, what: str) -> str:
         """Do what a slide to its end means now; the command that is asked for, empty for none."""
@@ -181,7 +184,13 @@ class LayoutActions:
         if not session.robot.knows(task) or not session.robot.offers(service):
             return None
         if self._runs(task):
-            return Action(what, f"End {TASKS[task].doing}", "stop", session.may_ask, meaning="end")
+            return Action(
+                what,
+                tr("End {doing}").format(doing=TASKS[task].doing),
+                "stop",
+                session.may_ask,
+                meaning="end",
+            )
         able = session.may_ask and not session.robot_stop.latched
         return Action(what, text, icon, able, meaning="start")
 
@@ -202,7 +211,7 @@ class LayoutActions:
             return None
         able = session.may_ask and session.running and not (session.robot_stop.latched and self._paused)
         return (
-            Action("pause", "Resume", "play_arrow", able)
+            Action("pause", tr("Resume"), "play_arrow", able)
             if self._paused
             else Action("pause", text, icon, able)
         )
@@ -247,7 +256,7 @@ class LayoutActions:
         records = self._app.records
         if records.recorder is None:
             return Action("record", text, icon, meaning="start")
-        return Action("record", "Stop recording", "stop", said=records.clock, meaning="stop")
+        return Action("record", tr("Stop recording"), "stop", said=records.clock, meaning="stop")
 
     def _snapshot(self, text: str, icon: str) -> Action:
         return Action("snapshot", text, icon, self._app.records.frame is not None)

@@ -10,6 +10,7 @@ from app.link.commands import Outcome
 from app.link.event_order import GRAVE, KnownEvents, Missed
 from bridge.msgs.arrays import Int32Array
 from bridge.msgs.pilothouse_msgs import Event
+from widgets.core.language import tr, trn
 
 __all__ = ["MAX_EVENTS", "Logbook", "marks"]
 
@@ -92,7 +93,10 @@ class Logbook:
     def words(self) -> str:
         """What was missed, in a few words, as in `23 while you were away`; empty when nothing was."""
         count = len(self.missed)
-        return f"{count}{' and more' if self.gone else ''} while you were away" if count else ""
+        if not count:
+            return ""
+        words = tr("{count} and more while you were away") if self.gone else tr("{count} while you were away")
+        return words.format(count=count)
 
     def news(self) -> str:
         """What was missed, in a sentence, where it was not told by this before; else empty."""
@@ -101,9 +105,9 @@ class Logbook:
             return ""
         missed = self.missed
         grave = sum(one.level in GRAVE and not one.acknowledged_by for one in missed)
-        happened = f"{len(missed)} event{'' if len(missed) == 1 else 's'} while you were away"
-        seen = f", {grave} to be seen to" if grave else ""
-        gone = "; the robot keeps no more of them" if self.gone else ""
+        happened = trn("{count} event while you were away", "{count} events while you were away", len(missed))
+        seen = tr(", {grave} to be seen to").format(grave=grave) if grave else ""
+        gone = tr("; the robot keeps no more of them") if self.gone else ""
         return f"{happened}{seen}{gone}." if missed else ""
 
     @property

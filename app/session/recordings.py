@@ -12,6 +12,7 @@ from app.link.channels import EVENT
 from bridge.core.camera_frames import Frame
 from bridge.core.topics import TOPICS
 from bridge.msgs import Msg
+from widgets.core.language import tr
 
 if TYPE_CHECKING:
     from app.link.recorder import Recorder
@@ -55,9 +56,12 @@ class Recordings:
         try:
             _save(path, self.frame.jpeg)
         except OSError as error:
-            self._say(f"The snapshot could not be saved: {error.strerror or error}.", "warn")
+            self._say(
+                tr("The snapshot could not be saved: {strerror}.").format(strerror=error.strerror or error),
+                "warn",
+            )
             return None
-        self._say(f"Snapshot saved as {path.name}.", "ok")
+        self._say(tr("Snapshot saved as {name}.").format(name=path.name), "ok")
         return path
 
     def toggle(self, session: Session | None) -> None:
@@ -78,7 +82,10 @@ class Recordings:
         try:
             self.recorder = Recorder(path, wall=self._wall)
         except OSError as error:
-            self._say(f"The recording could not start: {error.strerror or error}.", "warn")
+            self._say(
+                tr("The recording could not start: {strerror}.").format(strerror=error.strerror or error),
+                "warn",
+            )
             return False
         self._began = self._now()
         for entry in TOPICS:
@@ -106,14 +113,14 @@ class Recordings:
         if recorder is None:
             return
         recorder.close()
-        saved = "" if recorder.problem else f"Recording saved as {recorder.path.name}. "
+        saved = "" if recorder.problem else tr("Recording saved as {name}. ").format(name=recorder.path.name)
         self._say((saved + recorder.sentence).strip(), "warn" if recorder.sentence else "ok")
 
     @property
     def clock(self) -> str:
         """How long the recording runs, as in `04:31`; `Record` while none does."""
         if self.recorder is None:
-            return "Record"
+            return tr("Record")
         seconds = int(self._now() - self._began)
         return f"{seconds // 60:02d}:{seconds % 60:02d}"
 

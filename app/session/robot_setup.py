@@ -17,6 +17,7 @@ from bridge.msgs.pilothouse_msgs import (
     Payload,
     PayloadArray,
 )
+from widgets.core.language import mark, tr
 
 __all__ = ["GATEWAYS", "PAYLOADS", "RobotSetup", "State"]
 
@@ -30,8 +31,8 @@ SILENCE_SHOWN = 2.0
 """A silence of the robot over a link that stands is told from here on [s]; shorter ones come and go."""
 MAX_WAIT = 60.0
 """What has no answer by then gets none, as when its link was exchanged for another: it may be asked for again [s]."""
-_TURNING = {"coming_up": "Coming up", "going_down": "Going down"}
-_WISHES = {"gateway_up": ("come up", "coming_up"), "gateway_down": ("go down", "going_down")}
+_TURNING = {"coming_up": mark("Coming up"), "going_down": mark("Going down")}
+_WISHES = {"gateway_up": (mark("come up"), "coming_up"), "gateway_down": (mark("go down"), "going_down")}
 
 
 class RobotSetup:
@@ -121,9 +122,9 @@ class RobotSetup:
             return "There is no link; what can be seen was so before."
         offer = session.robot.capabilities
         if offer is not None and not (offer.serves("/gateways/bring_up") or offer.serves("/payloads/set")):
-            return "This robot's protocols and payloads cannot be switched from here."
+            return tr("This robot's protocols and payloads cannot be switched from here.")
         if self._role is None:
-            return "Asking the robot what may be switched from here …"
+            return tr("Asking the robot what may be switched from here …")
         if self._role < Role.MANAGE:
             return f"Only who manages the robot switches these; this handheld has the role {self._role.word}."
         return ""
@@ -140,15 +141,21 @@ class RobotSetup:
     def sentence(self) -> State:
         """What is to be known of all of it: how old it is, or why it cannot be switched."""
         if not self._session.connected:
-            since = f" It is {self.age:.0f} s old." if self.gateways and math.isfinite(self.age) else ""
+            since = (
+                tr(" It is {age:.0f} s old.").format(age=self.age)
+                if self.gateways and math.isfinite(self.age)
+                else ""
+            )
             return f"{self.why_not}{since}", "warn"
         if self.age > 0.0:
             return f"The robot is silent; what can be seen is {self.age:.0f} s old.", "warn"
         if self.why_not:
             return self.why_not, "muted"
         if not self.gateways and not self.payloads:
-            return "Asking the robot …", "muted"
-        return "As the robot says it now. A payload that is off takes no power, a protocol no port.", "muted"
+            return tr("Asking the robot …"), "muted"
+        return tr(
+            "As the robot says it now. A payload that is off takes no power, a protocol no port."
+        ), "muted"
 
     def gateway_state(self, gateway: Gateway) -> State:
         """How a protocol is, in one sentence."""
@@ -158,28 +165,29 @@ class RobotSetup:
         if gateway.state == "up":
             return self._up(gateway), "ok" if self.age == 0.0 else "muted"
         if gateway.state == "lost":
-            return gateway.fault or "Its broker is not reached.", "warn"
+            return gateway.fault or tr("Its broker is not reached."), "warn"
         if gateway.state in _TURNING:
-            word = _TURNING[gateway.state]
-            return (f"{word} …", "accent") if self.age == 0.0 else (f"{word} {self.age:.0f} s ago", "warn")
+            word = tr(_TURNING[gateway.state])
+            return (f"{word} …", "accent") if self.age == 0.0 else (_ago(word, self.age), "warn")
         if gateway.package:
-            return f"Needs {gateway.package}, which the robot lacks.", "warn"
+            return tr("Needs {package}, which the robot lacks.").format(package=gateway.package), "warn"
         return (gateway.fault, "warn") if gateway.fault else (gateway.doc, "muted")
 
     @staticmethod
     def _up(gateway: Gateway) -> str:
-        words = [gateway.endpoint or "up", *(["always up"] if gateway.fixed else [])]
+        words = [gateway.endpoint or tr("up"), *([tr("always up")] if gateway.fixed else [])]
         return " · ".join(words)
 
     def _waiting(self, wish: Outcome, gateway: Gateway) -> State:
         """What was asked for, and for how long; that the robot turns already, where it said so, is its last word."""
         asked, turning = _WISHES[wish.name]
-        since = f"{max(0.0, self._session.now() - wish.sent):.0f} s"
+        since = tr("{seconds:.0f} s").format(seconds=max(0.0, self._session.now() - wish.sent))
         if wish.phase == "sent" and self.age == 0.0:
-            return f"{_TURNING[turning]} … {since}", "accent"
+            return f"{tr(_TURNING[turning])} … {since}", "accent"
         if gateway.state == turning and math.isfinite(self.age):
-            return f"{_TURNING[turning]} {self.age:.0f} s ago", "warn"
-        return f"Asked to {asked}; not answered for {since}", "warn"
+            return _ago(tr(_TURNING[turning]), self.age), "warn"
+        words = tr("Asked to {act}; not answered for {time}")
+        return words.format(act=tr(asked), time=since), "warn"
 
     def payload_state(self, payload: Payload) -> State:
         """How a payload is, in one sentence."""
@@ -193,16 +201,16 @@ class RobotSetup:
         asked = self._asked_for(payload)
         if asked is not None:
             return asked
-        on, heard = "On" if payload.on else "Off", self.age == 0.0
-        ago = "" if heard or math.isnan(self.age) else f" {self.age:.0f} s ago"
-        return f"{on}{ago}", "ok" if payload.on and heard else "muted"
+        on, heard = tr("On") if payload.on else tr("Off"), self.age == 0.0
+        told = on if heard or math.isnan(self.age) else _ago(on, self.age)
+        return told, "ok" if payload.on and heard else "muted"
 
     def _asked_for(self, payload: Payload) -> State | None:
         wish = self._open(PAYLOADS, payload.key)
         if wish is None or (wish.phase == "no_reply" and wish.fields["on"] == payload.on):
             return None
         if wish.phase == "sent" and self.age == 0.0:
-            return "Asked for …", "accent"
+            return tr("Asked for …"), "accent"
         since = max(0.0, self._session.now() - wish.sent)
         return f"Asked for {'on' if wish.fields['on'] else 'off'}; not answered for {since:.0f} s", "warn"
 
@@ -211,7 +219,11 @@ class RobotSetup:
         outcome = self._outcomes.get((kind, name))
         if outcome is None or outcome.phase in ("sent", "accepted"):
             return ""
-        return outcome.reason if outcome.phase == "refused" else f"The robot did not answer. {outcome.reason}"
+        return (
+            outcome.reason
+            if outcome.phase == "refused"
+            else tr("The robot did not answer. {reason}").format(reason=outcome.reason)
+        )
 
     def may(self, kind: str, name: str) -> bool:
         """It can be switched now: the robot told how it is, and nothing is on its way."""
@@ -254,3 +266,8 @@ def _role(word: str) -> Role | None:
         return Role.read(word)
     except ValueError:
         return None
+
+
+def _ago(what: str, age: float) -> str:
+    """What was so, and how long ago that was heard [s]."""
+    return tr("{what} {age:.0f} s ago").format(what=what, age=age)

@@ -32,6 +32,7 @@ from bridge.core.identity import public_id
 from bridge.discovery.hello import is_loopback
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
+from widgets.core.language import tr
 
 __all__ = ["Session"]
 
@@ -232,7 +233,7 @@ class Session:
             with origins.during(stop.origin if stop is not None else NOBODY):
                 link.stop()
         if self.mission.sent is not None:
-            self.mission.answered(self.mission.sent, False, "No reply: the link was closed.")
+            self.mission.answered(self.mission.sent, False, tr("No reply: the link was closed."))
         self.tasking.dropped()
         self.logbook.dropped()
         self.missions.dropped()

@@ -12,6 +12,7 @@ from app.link.subscriptions import Seen
 from app.session.session import Session
 from bridge.core.topics import TOPICS, Topic
 from bridge.msgs import Msg
+from widgets.core.language import mark, tr
 
 __all__ = ["Line", "TopicListing"]
 
@@ -26,7 +27,7 @@ USES = {
     "/plan": "plan",
     "/fix": "satellites",
     "/battery_state": "battery",
-    "/detections": "boxes in the video",
+    "/detections": mark("boxes in the video"),
     CAMERA: "camera",
 }
 """What a screen shows a topic as, by our name of it."""
@@ -96,9 +97,9 @@ class TopicListing:
         for entry in TOPICS:
             source = offer.source(entry.name) if entry.to == "handheld" else None
             if source is not None:
-                found[source] = (entry.name, USES.get(entry.name, ""))
+                found[source] = (entry.name, tr(USES.get(entry.name, "")))
         if offer.drive is not None:
-            found[offer.drive] = ("", "drives it")
+            found[offer.drive] = ("", tr("drives it"))
         return found
 
     def _line(self, name: str, kind: str, uses: dict[str, tuple[str, str]]) -> Line:
@@ -117,14 +118,16 @@ class TopicListing:
         offer = self.offer
         if offer is None:
             return (
-                "Asking the robot for its topics …" if self._session.connected else "There is no connection."
+                tr("Asking the robot for its topics …")
+                if self._session.connected
+                else tr("There is no connection.")
             )
         if not offer.rosapi:
-            return "This robot lists no topics: it runs no rosapi."
+            return tr("This robot lists no topics: it runs no rosapi.")
         if not offer.topics:
-            return "This robot has no topics."
+            return tr("This robot has no topics.")
         if not self.lines():
-            return f"No topic has “{self.search.strip()}” in its name or type."
+            return tr("No topic has “{search}” in its name or type.").format(search=self.search.strip())
         return ""
 
     @property
@@ -169,7 +172,7 @@ class TopicListing:
             self.open(self.opened)
             return True
         if channel == CAPABILITIES and self.opened and not self.type:
-            self.problem = f"The robot no longer offers {self.opened}."
+            self.problem = tr("The robot no longer offers {opened}.").format(opened=self.opened)
         if channel != SEEN or post.value.topic != self.opened:
             return False
         self._take(post.value, post)
@@ -230,7 +233,7 @@ class TopicListing:
         if not self.opened:
             return ""
         if self.kind is None:
-            return f"Learning {self.type} …"
+            return tr("Learning {type} …").format(type=self.type)
         if self.message is None:
-            return f"Nothing has come yet on {self.opened}."
+            return tr("Nothing has come yet on {opened}.").format(opened=self.opened)
         return ""

@@ -26,6 +26,7 @@ from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word
 from widgets.core.finger_stay import FingerStay
 from widgets.core.geometry import DASH, dial_point, dial_text, heading_text, shortest_turn
+from widgets.core.language import mark, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.parts.sensor_card import Gauge
@@ -46,13 +47,13 @@ WIDE = 1.25
 """A card this many times broader than high has its figures beside the dial."""
 ON_COURSE = 2.5
 """A heading that is no farther off is on course [deg]."""
-INVITES = "hold to set"
+INVITES = mark("hold to set")
 OUTCOMES = {
     "": "",
-    "sent": "sent",
-    "accepted": "taken",
-    "refused": "refused",
-    "no_reply": "no reply",
+    "sent": mark("sent"),
+    "accepted": mark("taken"),
+    "refused": mark("refused"),
+    "no_reply": mark("no reply"),
 }
 
 
@@ -82,7 +83,7 @@ class CourseDial(Grip, Gauge):
         self._came: tuple[float, float] | None = None
         self._followed = False
         self._catch = FingerStay(self._caught, HOLD_DURATION)
-        super().__init__(**{"title": "Course", **kwargs})
+        super().__init__(**{"title": tr("Course"), **kwargs})
         self.veil_radius = theme.radius
 
     def show(self, msg: Compass | Manoeuvre) -> None:
@@ -123,13 +124,15 @@ class CourseDial(Grip, Gauge):
     def course(self) -> tuple[float, str]:
         """The course that is shown in figures [deg] and what it is: `let go to set`, `sent`, `hold to set`, or nothing."""
         if self.resting:
-            return self.wanted, "keep holding"
+            return self.wanted, tr("keep holding")
         if self.dragged:
-            return (self.aim, "let go to set") if math.isfinite(self.aim) else (self.wanted, "no change")
+            return (
+                (self.aim, tr("let go to set")) if math.isfinite(self.aim) else (self.wanted, tr("no change"))
+            )
         if math.isfinite(self.asked):
-            return self.asked, OUTCOMES[self.outcome] or "asked"
+            return self.asked, tr(OUTCOMES[self.outcome]) or tr("asked")
         free = math.isnan(self.wanted) and math.isfinite(self.heading) and not self.disabled
-        return self.wanted, OUTCOMES[self.outcome] or (INVITES if free else "")
+        return self.wanted, tr(OUTCOMES[self.outcome]) or (tr(INVITES) if free else "")
 
     @property
     def place(self) -> tuple[float, float, float]:
@@ -275,7 +278,7 @@ class CourseDial(Grip, Gauge):
         high = free / lines
         large = sp(28 if high > dp(58) else 18)
         told = said or self.off_words
-        first = said.upper() if said not in ("", INVITES) and lines == 2 else "COURSE"
+        first = said.upper() if said not in ("", tr(INVITES)) and lines == 2 else "COURSE"
         for row, (name, value, ink) in enumerate(
             ((first, course, theme.plan), ("HEADING", self.heading, theme.accent))
         ):

@@ -18,6 +18,7 @@ import widgets.parts.choices
 import widgets.parts.stepper  # noqa: F401 - same
 from bridge.msgs.pilothouse_msgs import MAX_DWELL, MAX_LAPS, MOTIONS, REACTIONS, Mission
 from widgets.core.base import Control
+from widgets.core.language import mark
 from widgets.parts.column import Column
 
 __all__ = ["MotionSelector"]
@@ -89,7 +90,7 @@ class MotionSelector(Control, Column):
     """How long it stands at each point in intermittent motion [s]."""
     laps = NumericProperty(0)
     """0 goes on until stopped."""
-    reactions = [("report", "Report"), ("stop", "Stop"), ("circle", "Circle it")]
+    reactions = [("report", mark("Report")), ("stop", mark("Stop")), ("circle", mark("Circle it"))]
     """Each reaction to an intruder and its word."""
     reaction = OptionProperty("report", options=list(REACTIONS))
     """What it does when it finds an intruder; a property called `on_intruder` would be an event to Kivy."""

@@ -21,6 +21,7 @@ from widgets.controls.finger_grip import Grip
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.icons import icon
+from widgets.core.language import mark, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.parts.sensor_card import Gauge, first_fitting, wide
@@ -36,10 +37,10 @@ OUTCOME_TIMEOUT = 3.0
 
 OUTCOMES = {
     "ready": ("", "muted", ""),
-    "sent": ("sent", "accent", "hourglass_top"),
-    "accepted": ("accepted", "ok", "check_circle_fill"),
-    "refused": ("refused", "danger", "block"),
-    "no_reply": ("no reply", "warn", "signal_disconnected"),
+    "sent": (mark("sent"), "accent", "hourglass_top"),
+    "accepted": (mark("accepted"), "ok", "check_circle_fill"),
+    "refused": (mark("refused"), "danger", "block"),
+    "no_reply": (mark("no reply"), "warn", "signal_disconnected"),
 }
 """Outcome of what was confirmed to its word, the role of its colour and its icon."""
 
@@ -160,14 +161,21 @@ class SlideToConfirm(Grip, Gauge):
         room = end - start - dp(4)
         word, role, sign = OUTCOMES[self.outcome]
         if sign:
-            yield from self._outcome((start + end) / 2, room, (word, role, sign))
+            yield from self._outcome((start + end) / 2, room, (tr(word), role, sign))
             return
         strength = min(max(1.0 - 2.2 * self.share, 0.0), 1.0)
-        whole, middle = f"slide to {self.text}", (start + end) / 2
+        whole, middle = tr("slide to {text}").format(text=self.text), (start + end) / 2
         size = sp(16 if room > dp(200) else 14)
         taken = wide(whole, size, bold=True)
-        if max(taken, *(wide(f"slide to {text}", size, bold=True) for text in self.kin), 0) > room:
-            yield Word("slide to", middle, y + sp(9), sp(12), tint(theme.muted, strength))
+        if (
+            max(
+                taken,
+                *(wide(tr("slide to {text}").format(text=text), size, bold=True) for text in self.kin),
+                0,
+            )
+            > room
+        ):
+            yield Word(tr("slide to"), middle, y + sp(9), sp(12), tint(theme.muted, strength))
             size = fitting_size([self.text], sp(14), room, bold=True)
             yield Word(self.text, middle, y - sp(8), size, tint(theme.text, strength), bold=True)
             return

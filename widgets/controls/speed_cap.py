@@ -15,6 +15,7 @@ from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, Str
 from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import ControlStatus
+from widgets.core.language import tr
 from widgets.status.notice_card import NoticeCard
 
 __all__ = ["SLOW_RTT", "SpeedCap"]
@@ -45,14 +46,14 @@ class SpeedCap(NoticeCard):
 
     def _why(self) -> str:
         if self.driver:
-            return f"Slow link of {self.driver}"
+            return tr("Slow link of {driver}").format(driver=self.driver)
         if math.isnan(self.rtt):
-            return "Slow link"
+            return tr("Slow link")
         figure = f"{self.rtt * 1000:.0f} ms"
         return (
-            f"Slow link, {figure}"
+            tr("Slow link, {figure}").format(figure=figure)
             if self.rtt >= SLOW_RTT
-            else f"The robot measured {self.measured} a moment ago"
+            else tr("The robot measured {measured} a moment ago").format(measured=self.measured)
         )
 
     why = AliasProperty(_why, bind=["rtt", "driver", "share"], cache=True)
@@ -63,11 +64,11 @@ class SpeedCap(NoticeCard):
         """The round trip that such a share comes from, as in `320 ms`."""
         part = 1.0 - (self.share - CRAWL_SHARE) / (1.0 - CRAWL_SHARE)
         figure = f"{(SLOW_RTT + min(1.0, max(0.0, part)) * (CRAWL_RTT - SLOW_RTT)) * 1000:.0f} ms"
-        return f"{figure} or more" if part >= 1.0 else figure
+        return tr("{figure} or more").format(figure=figure) if part >= 1.0 else figure
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(icon="speed", role="warn", **kwargs)
-        self.switch = self.add_beside("Full speed", "link_off")
+        self.switch = self.add_beside(tr("Full speed"), "link_off")
         self.switch.bind(on_release=lambda _: self.press())
         for name in ("share", "follows", "why", "blocked", "sent"):
             self.fbind(name, self._write)
@@ -95,11 +96,11 @@ class SpeedCap(NoticeCard):
         if self.follows:
             self.headline, self.said = f"{self.share * 100:.0f} % speed", f"{self.why}."
         else:
-            self.headline = "Full speed always"
+            self.headline = tr("Full speed always")
             self.said = (
-                f"{self.why}." if self.rtt >= SLOW_RTT and not self.driver else "On a slow link as well."
+                f"{self.why}." if self.rtt >= SLOW_RTT and not self.driver else tr("On a slow link as well.")
             )
-        self.relabel(*(("Full speed", "link_off") if self.follows else ("Follow link", "link")))
+        self.relabel(*((tr("Full speed"), "link_off") if self.follows else (tr("Follow link"), "link")))
         self.switch.meaning = self.switch.text
         self.switch.disabled = self.blocked or self.sent
 

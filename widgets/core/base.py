@@ -20,6 +20,7 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs import Msg
 from widgets.core.icons import icon
+from widgets.core.language import tr
 from widgets.core.theme import theme
 
 __all__ = ["STATES", "Control", "RobotWidget", "age_text", "fitting_size", "text_texture"]
@@ -72,8 +73,10 @@ def age_text(age: float) -> str:
     if math.isnan(age):
         return ""
     if age < 60:
-        return f"{age:.0f} s old" if age >= 1 else "< 1 s old"
-    return f"{age / 60:.0f} min old" if age < 3600 else f"{age / 3600:.0f} h old"
+        return tr("{age:.0f} s old").format(age=age) if age >= 1 else tr("< 1 s old")
+    if age < 3600:
+        return tr("{age:.0f} min old").format(age=age / 60)
+    return tr("{age:.0f} h old").format(age=age / 3600)
 
 
 _textures: dict[tuple[str, str, float, bool], Texture] = {}

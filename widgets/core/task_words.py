@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from bridge.msgs.pilothouse_msgs import Mission, RobotInfo, ScheduledTask, TaskOrder
+from widgets.core.language import mark, tr, trn
 
 __all__ = [
     "KINDS",
@@ -32,103 +33,134 @@ __all__ = [
 class TaskWords:
     """How a task looks and reads."""
 
-    name: str
+    english: str
     """As on a button."""
     icon: str
-    doing: str
+    act: str
     """As in `AUTO · patrol`."""
     fields: tuple[str, ...]
     """What the operator may say about it, in the order of the form."""
-    about: str
+    aim: str
     """What it is for, in a few words."""
+
+    @property
+    def name(self) -> str:
+        """As on a button, in the language of the glass."""
+        return tr(self.english)
+
+    @property
+    def doing(self) -> str:
+        """As in `AUTO · patrol`, in the language of the glass."""
+        return tr(self.act)
+
+    @property
+    def about(self) -> str:
+        """What it is for, in the language of the glass."""
+        return tr(self.aim)
 
 
 TASKS: dict[str, TaskWords] = {
     "patrol": TaskWords(
-        "Patrol", "route", "patrol", ("points", "reaction"), "Round the points, watching for intruders"
+        mark("Patrol"),
+        "route",
+        mark("patrol"),
+        ("points", "reaction"),
+        mark("Round the points, watching for intruders"),
     ),
     "deliver": TaskWords(
-        "Deliver",
+        mark("Deliver"),
         "local_shipping",
-        "delivery",
+        mark("delivery"),
         ("from", "to", "then", "message", "recipient"),
-        "Fetch from one place, bring to another",
+        mark("Fetch from one place, bring to another"),
     ),
-    "guide": TaskWords("Guide", "group", "guiding", ("stops", "message"), "Lead a person along places"),
-    "go_to": TaskWords("Go to", "near_me", "going", ("to",), "Drive to a place and stay"),
-    "go_home": TaskWords("Go home", "home", "going home", (), "Return to where it lives"),
-    "hold": TaskWords("Hold", "pause_circle", "holding", ("height", "duration"), "Stay where it is"),
+    "guide": TaskWords(
+        mark("Guide"), "group", mark("guiding"), ("stops", "message"), mark("Lead a person along places")
+    ),
+    "go_to": TaskWords(mark("Go to"), "near_me", mark("going"), ("to",), mark("Drive to a place and stay")),
+    "go_home": TaskWords(mark("Go home"), "home", mark("going home"), (), mark("Return to where it lives")),
+    "hold": TaskWords(
+        mark("Hold"), "pause_circle", mark("holding"), ("height", "duration"), mark("Stay where it is")
+    ),
     "follow_heading": TaskWords(
-        "Heading",
+        mark("Heading"),
         "explore",
-        "heading",
+        mark("heading"),
         ("heading", "speed", "throttle", "height", "duration"),
-        "Straight in one direction",
+        mark("Straight in one direction"),
     ),
-    "dock": TaskWords("Dock", "battery_charging_full", "docking", ("dock",), "Onto the charger"),
-    "take_off": TaskWords("Take off", "arrow_upward", "taking off", ("height",), "Up into the air"),
-    "land": TaskWords("Land", "arrow_downward", "landing", (), "Down to the ground"),
-    "surface": TaskWords("Surface", "water", "surfacing", (), "Up out of the water"),
+    "dock": TaskWords(
+        mark("Dock"), "battery_charging_full", mark("docking"), ("dock",), mark("Onto the charger")
+    ),
+    "take_off": TaskWords(
+        mark("Take off"), "arrow_upward", mark("taking off"), ("height",), mark("Up into the air")
+    ),
+    "land": TaskWords(mark("Land"), "arrow_downward", mark("landing"), (), mark("Down to the ground")),
+    "surface": TaskWords(mark("Surface"), "water", mark("surfacing"), (), mark("Up out of the water")),
 }
 """Every task in the order of the chooser."""
 
 KINDS: dict[str, tuple[str, str, str]] = {
-    "place": ("place", "Place", "Places"),
-    "office": ("door_front", "Office", "Offices"),
-    "home": ("home", "Home", "Home"),
-    "dock": ("battery_charging_full", "Dock", "Docks"),
-    "reception": ("person", "Reception", "Reception"),
-    "lab": ("build", "Lab", "Labs"),
-    "hall": ("crop_free", "Hall", "Halls"),
+    "place": ("place", mark("Place"), mark("Places")),
+    "office": ("door_front", mark("Office"), mark("Offices")),
+    "home": ("home", mark("Home"), mark("Home")),
+    "dock": ("battery_charging_full", mark("Dock"), mark("Docks")),
+    "reception": ("person", mark("Reception"), mark("Reception")),
+    "lab": ("build", mark("Lab"), mark("Labs")),
+    "hall": ("crop_free", mark("Hall"), mark("Halls")),
 }
 """Kind of a place to icon, word and word for several."""
 
 STATES: dict[str, tuple[str, str, str]] = {
-    "IDLE": ("info", "muted", "idle"),
-    "RUNNING": ("play_arrow_fill", "accent", "runs"),
-    "PAUSED": ("pause_fill", "warn", "paused"),
-    "SUCCEEDED": ("check_circle", "ok", "done"),
-    "CANCELED": ("cancel", "muted", "canceled"),
-    "FAILED": ("error", "danger", "failed"),
-    "INTERRUPTED": ("warning", "warn", "cut short"),
+    "IDLE": ("info", "muted", mark("idle")),
+    "RUNNING": ("play_arrow_fill", "accent", mark("runs")),
+    "PAUSED": ("pause_fill", "warn", mark("paused")),
+    "SUCCEEDED": ("check_circle", "ok", mark("done")),
+    "CANCELED": ("cancel", "muted", mark("canceled")),
+    "FAILED": ("error", "danger", mark("failed")),
+    "INTERRUPTED": ("warning", "warn", mark("cut short")),
 }
 """State of a task to icon, role and word."""
 
 NEEDS = {
-    "deliver": ((2, "Choose where to fetch it."), (1, "Choose where to bring it.")),
-    "guide": ((1, "Choose at least one place to lead to."),),
-    "go_to": ((1, "Choose where to go."),),
+    "deliver": ((2, mark("Choose where to fetch it.")), (1, mark("Choose where to bring it."))),
+    "guide": ((1, mark("Choose at least one place to lead to.")),),
+    "go_to": ((1, mark("Choose where to go.")),),
 }
 PECULIAR = ("take_off", "land", "surface")
 """Tasks of robots that fly or dive."""
-MOVES, HOLDS = "Drives", "Stands still where it is"
+MOVES, HOLDS = mark("Drives"), mark("Stands still where it is")
 """Words for a robot that gives none of its own: how it moves, and how it keeps its place."""
 FIGURES = ("speed", "throttle", "height")
 """Fields of an order that only some robots take, as `RobotInfo.order_fields` names them."""
-DAYS = ("Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun")
+DAYS = (mark("Mon"), mark("Tue"), mark("Wed"), mark("Thu"), mark("Fri"), mark("Sat"), mark("Sun"))
 REACTS = {
-    "stop": "Stops when it finds an intruder.",
-    "report": "Reports intruders and goes on.",
-    "circle": "Goes once round each intruder, then on.",
+    "stop": mark("Stops when it finds an intruder."),
+    "report": mark("Reports intruders and goes on."),
+    "circle": mark("Goes once round each intruder, then on."),
 }
 
 
 def title(order: TaskOrder) -> str:
     """An order in a few words, as in `Deliver: Office 12 → Lab`."""
     words = TASKS.get(order.task)
-    name = words.name if words else order.task or "No task"
+    name = words.name if words else order.task or tr("No task")
     places = [place for place in order.places if place]
     if order.task == "follow_heading":
         return f"{name} {heading_of(order.heading)}"
     if order.task == "take_off" and math.isfinite(order.height):
-        return f"{name} to {order.height:g} m"
+        return tr("{task} to {height:g} m").format(task=name, height=order.height)
     if order.task == "hold" and math.isfinite(order.duration):
-        return f"{name} for {span_words(order.duration)}"
+        return tr("{task} for {span}").format(task=name, span=span_words(order.duration))
     if order.task == "go_to" and places:
         return f"{name} {places[0]}"
     if not places:
         return name
-    shown = places if len(places) <= 3 else [places[0], f"{len(places) - 2} more", places[-1]]
+    shown = (
+        places
+        if len(places) <= 3
+        else [places[0], tr("{count} more").format(count=len(places) - 2), places[-1]]
+    )
     return f"{name}: {' → '.join(shown)}"
 
 
@@ -136,18 +168,20 @@ def lacking(order: TaskOrder, mission: Mission | None = None) -> str:
     """What is missing before the order can be given, as one sentence; empty when nothing is."""
     places = order.places
     if order.task == "patrol" and not places and mission is not None and not mission.waypoints:
-        return "The mission has no points: set some on the map, or choose places here."
+        return tr("The mission has no points: set some on the map, or choose places here.")
     if order.task == "deliver":
         start, end = [*places, "", ""][:2]
         if not start or not end:
-            return NEEDS["deliver"][0 if not start else 1][1]
+            return tr(NEEDS["deliver"][0 if not start else 1][1])
         if start == end:
-            return f"It cannot bring from {start} to {end}: choose two places."
+            return tr("It cannot bring from {start} to {end}: choose two places.").format(
+                start=start, end=end
+            )
         return ""
     for least, sentence in NEEDS.get(order.task, ()):
         if len([place for place in places if place]) < least and not order.goals:
-            return sentence
-    return "" if order.task in TASKS else "Choose a task."
+            return tr(sentence)
+    return "" if order.task in TASKS else tr("Choose a task.")
 
 
 def fields(task: str, info: RobotInfo) -> tuple[str, ...]:
@@ -185,82 +219,111 @@ def will(
         "hold": lambda: _holds(order, robot),
         "follow_heading": lambda: _follows(order, robot),
         "take_off": lambda: _takes_off(order),
-        "land": lambda: "Lands on the ground below.",
-        "surface": lambda: "Swims up to the surface and stays there.",
-        "go_home": lambda: "Goes home and stays there.",
+        "land": lambda: tr("Lands on the ground below."),
+        "surface": lambda: tr("Swims up to the surface and stays there."),
+        "go_home": lambda: tr("Goes home and stays there."),
     }
     if order.task in says:
         return says[order.task]()
-    goal = order.places[0] if order.places else "the goal"
-    return f"Goes to {goal} and stays there."
+    goal = order.places[0] if order.places else tr("the goal")
+    return tr("Goes to {goal} and stays there.").format(goal=goal)
 
 
 def _how_long(order: TaskOrder) -> str:
-    return f"for {span_words(order.duration)}" if math.isfinite(order.duration) else "until you stop it"
+    return (
+        tr("for {span}").format(span=span_words(order.duration))
+        if math.isfinite(order.duration)
+        else tr("until you stop it")
+    )
 
 
 def _holds(order: TaskOrder, robot: RobotInfo) -> str:
-    return f"{robot.holds or HOLDS}{_at_height(order, robot)} {_how_long(order)}."
+    return f"{robot.holds or tr(HOLDS)}{_at_height(order, robot)} {_how_long(order)}."
 
 
 def _follows(order: TaskOrder, robot: RobotInfo) -> str:
-    towards = "where it points now" if math.isnan(order.heading) else heading_of(order.heading)
-    pace = f" at {order.speed:.1f} m/s" if math.isfinite(order.speed) else ""
+    towards = tr("where it points now") if math.isnan(order.heading) else heading_of(order.heading)
+    pace = tr(" at {speed:.1f} m/s").format(speed=order.speed) if math.isfinite(order.speed) else ""
     if math.isfinite(order.throttle):
-        pace = f" with {order.throttle * 100:.0f} % throttle"
-    return f"{robot.moves or MOVES} straight towards {towards}{pace}{_at_height(order, robot)} {_how_long(order)}."
+        pace = tr(" with {throttle:.0f} % throttle").format(throttle=order.throttle * 100)
+    return tr("{moves} straight towards {towards}{pace}{height} {time}.").format(
+        moves=robot.moves or tr(MOVES),
+        towards=towards,
+        pace=pace,
+        height=_at_height(order, robot),
+        time=_how_long(order),
+    )
 
 
 def _takes_off(order: TaskOrder) -> str:
-    height = f" to {order.height:g} m" if math.isfinite(order.height) else ""
-    return f"Takes off{height} and hovers there."
+    if math.isfinite(order.height):
+        return tr("Takes off to {height:g} m and hovers there.").format(height=order.height)
+    return tr("Takes off and hovers there.")
 
 
 def _at_height(order: TaskOrder, robot: RobotInfo) -> str:
     if not math.isfinite(order.height):
         return ""
-    return f", {abs(order.height):g} m {'deep' if robot.dives else 'high'},"
+    words = tr(", {height:g} m deep,") if robot.dives else tr(", {height:g} m high,")
+    return words.format(height=abs(order.height))
 
 
 def _patrols(order: TaskOrder, mission: Mission) -> str:
     count = len(order.places) or len(mission.waypoints)
-    what = _listed(order.places) if order.places else f"{count} point{'' if count == 1 else 's'}"
-    laps = (
-        f", {mission.laps} lap{'' if mission.laps == 1 else 's'}" if mission.laps else ", until you stop it"
-    )
-    how = {"loop": "in order", "random": "in any order", "intermittent": f"with {mission.dwell:g} s at each"}
+    what = _listed(order.places) if order.places else trn("{count} point", "{count} points", count)
+    laps = trn(", {count} lap", ", {count} laps", mission.laps) if mission.laps else tr(", until you stop it")
+    how = {
+        "loop": tr("in order"),
+        "random": tr("in any order"),
+        "intermittent": tr("with {dwell:g} s at each").format(dwell=mission.dwell),
+    }
     react = "stop" if mission.stop_on_intruder else mission.on_intruder or "report"
-    return f"Visits {what} {how.get(mission.motion, mission.motion)}{laps}. {REACTS.get(react, '')}"
+    return tr("Visits {what} {motion}{laps}. {react}").format(
+        what=what, motion=how.get(mission.motion, mission.motion), laps=laps, react=tr(REACTS.get(react, ""))
+    )
 
 
 def _delivers(order: TaskOrder) -> str:
     start, end, then = [*order.places, "", "", ""][:3]
-    who = "a tap here or the addressee's tag" if order.recipient_tag else "a tap here or the tag of the place"
-    after = f" Then goes on to {then}." if then else ""
-    return f"Fetches at {start}, brings it to {end}; waits at each for {who}.{after}"
+    who = (
+        tr("a tap here or the addressee's tag")
+        if order.recipient_tag
+        else tr("a tap here or the tag of the place")
+    )
+    after = tr(" Then goes on to {then}.").format(then=then) if then else ""
+    sentence = tr("Fetches at {start}, brings it to {end}; waits at each for {who}.")
+    return sentence.format(start=start, end=end, who=who) + after
 
 
 def _guides(order: TaskOrder, follows: bool) -> str:
     names = [place for place in order.places if place]
     if not follows:
-        blind = "Does not wait: it has no sensor for followers."
-        return f"Leads a person to {_listed(names)} and reads out the notes. {blind}"
-    return f"Leads a person to {_listed(names)}, waits when no one follows, and reads out the notes."
+        blind = tr("Does not wait: it has no sensor for followers.")
+        return tr("Leads a person to {names} and reads out the notes. {blind}").format(
+            names=_listed(names), blind=blind
+        )
+    return tr("Leads a person to {names}, waits when no one follows, and reads out the notes.").format(
+        names=_listed(names)
+    )
 
 
 def _docks(order: TaskOrder) -> str:
-    return f"Drives onto {order.places[0] if order.places else 'its dock'} and charges."
+    return tr("Drives onto {places} and charges.").format(
+        places=order.places[0] if order.places else tr("its dock")
+    )
 
 
 def _listed(names: Sequence[str]) -> str:
     """As in `A, B and C`."""
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+    if len(names) == 1:
+        return names[0]
+    return tr("{names} and {last}").format(names=", ".join(names[:-1]), last=names[-1])
 
 
 def heading_of(yaw: float) -> str:
     """A yaw [rad] as the heading that people steer by, as in `090°`; `ahead` for NaN."""
     if not math.isfinite(yaw):
-        return "ahead"
+        return tr("ahead")
     return f"{round(90 - math.degrees(yaw)) % 360:03d}°"
 
 
@@ -269,15 +332,15 @@ def span_words(seconds: float) -> str:
     if not math.isfinite(seconds):
         return "—"
     if seconds < 60:
-        return f"{seconds:.0f} s"
+        return tr("{seconds:.0f} s").format(seconds=seconds)
     minutes = round(seconds / 60)
     if minutes < 60:
-        return f"{minutes} min"
+        return tr("{minutes} min").format(minutes=minutes)
     hours, minutes = divmod(minutes, 60)
     if hours < 24:
-        return f"{hours} h {minutes} min" if minutes else f"{hours} h"
+        return tr("{hours} h {minutes} min" if minutes else "{hours} h").format(hours=hours, minutes=minutes)
     days, hours = divmod(hours, 24)
-    return f"{days} d {hours} h" if hours else f"{days} d"
+    return tr("{days} d {hours} h" if hours else "{days} d").format(days=days, hours=hours)
 
 
 def distance_words(metres: float) -> str:
@@ -290,12 +353,13 @@ def distance_words(metres: float) -> str:
 def rhythm(task: ScheduledTask) -> str:
     """When a scheduled task starts, as in `22:00, Mon to Fri`."""
     if not task.at:
-        return f"every {span_words(task.every)}"
+        return tr("every {span}").format(span=span_words(task.every))
     days = [index for index, on in enumerate(task.days) if on]
     if len(days) == 7:
-        return f"{task.at}, every day"
+        return tr("{at}, every day").format(at=task.at)
     if not days:
-        return f"{task.at}, on no day"
+        return tr("{at}, on no day").format(at=task.at)
     if len(days) > 2 and days == list(range(days[0], days[-1] + 1)):
-        return f"{task.at}, {DAYS[days[0]]} to {DAYS[days[-1]]}"
-    return f"{task.at}, {', '.join(DAYS[day] for day in days)}"
+        words = tr("{at}, {first} to {last}")
+        return words.format(at=task.at, first=tr(DAYS[days[0]]), last=tr(DAYS[days[-1]]))
+    return f"{task.at}, {', '.join(tr(DAYS[day]) for day in days)}"

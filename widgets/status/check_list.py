@@ -20,6 +20,7 @@ from kivy.uix.widget import Widget
 import widgets.parts.rows  # noqa: F401 - its rules draw what scrolls here
 from bridge.msgs.pilothouse_msgs import Check, Checklist
 from widgets.core.base import RobotWidget
+from widgets.core.language import tr
 from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
 
@@ -183,9 +184,13 @@ class CheckList(Outlined, RobotWidget, BoxLayout):
 
     def _title(self) -> str:
         if self.ready:
-            return "Checks good" if self.open else "Checks"
+            return tr("Checks good") if self.open else tr("Checks")
         count = f"{self.good} of {self.total}"
-        return f"Before it moves: {count} good" if self.open and self.wide > dp(300) else f"Checks: {count}"
+        return (
+            tr("Before it moves: {count} good").format(count=count)
+            if self.open and self.wide > dp(300)
+            else tr("Checks: {count}").format(count=count)
+        )
 
     title = AliasProperty(_title, bind=["checks", "open", "wide"], cache=True)
 
@@ -235,10 +240,14 @@ class CheckList(Outlined, RobotWidget, BoxLayout):
         for state in ("bad", "unknown"):
             for check in self.checks:
                 if _state(check) == state:
-                    lines.add_widget(_line(state, check.text or f"The {check.name} is not good.", "text"))
+                    lines.add_widget(
+                        _line(
+                            state, check.text or tr("The {name} is not good.").format(name=check.name), "text"
+                        )
+                    )
         good = [check.name for check in self.checks if check.state == "ok"]
         if good and not self.brief:
-            lines.add_widget(_line("ok", f"Good: {', '.join(good)}.", "muted"))
+            lines.add_widget(_line("ok", tr("Good: {good}.").format(good=", ".join(good)), "muted"))
 
 
 def _state(check: Check) -> str:

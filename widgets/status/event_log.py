@@ -26,6 +26,7 @@ from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
 from widgets.core.base import RobotWidget
+from widgets.core.language import tr
 from widgets.status.event_row import ago, appearance, is_open, note, row_height
 
 __all__ = ["EventLog", "ago", "appearance"]
@@ -96,7 +97,7 @@ class EventLog(RobotWidget, FloatLayout):
     """Words above the newest of those; empty for none."""
 
     def _notice(self) -> str:
-        return "" if self.count else "No events yet."
+        return "" if self.count else tr("No events yet.")
 
     notice = AliasProperty(_notice, bind=["count"], cache=True)
 

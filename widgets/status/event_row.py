@@ -21,6 +21,7 @@ import widgets.parts.column  # noqa: F401 - their rules draw a row
 from bridge.core.codes import Code
 from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.pilothouse_msgs import Event
+from widgets.core.language import tr
 from widgets.core.theme import theme
 from widgets.parts.labels import Text
 
@@ -196,8 +197,10 @@ def note(event: Event, *, asked: bool = False) -> str:
     if event.acknowledged_by:
         then = event.acknowledged.seconds
         clock = f", {datetime.fromtimestamp(then, UTC).astimezone():%H:%M}" if then > 0 else ""
-        return f"Seen by {event.acknowledged_by}{clock}"
-    return "Sending to the robot \u2026" if asked else ""
+        return tr("Seen by {acknowledged_by}{clock}").format(
+            acknowledged_by=event.acknowledged_by, clock=clock
+        )
+    return tr("Sending to the robot …") if asked else ""
 
 
 @lru_cache(maxsize=2000)

@@ -15,6 +15,7 @@ from kivy.properties import AliasProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import ControlStatus
+from widgets.core.language import tr
 from widgets.status.notice_card import NoticeCard
 
 __all__ = ["HandoverCard"]
@@ -47,9 +48,9 @@ class HandoverCard(NoticeCard):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(icon="person", role="warn", **kwargs)
         self.keep, self.hand_over = self.add_below(
-            ("Keep control", "lock", False), ("Hand over", "arrow_forward", True)
+            (tr("Keep control"), "lock", False), (tr("Hand over"), "arrow_forward", True)
         )
-        (self.take_back,) = self.add_below(("Withdraw", "close", False))
+        (self.take_back,) = self.add_below((tr("Withdraw"), "close", False))
         self._rows = {"asked": self.keep.parent, "asking": self.take_back.parent}
         for button, name in ((self.keep, "object"), (self.hand_over, "grant"), (self.take_back, "take_back")):
             button.bind(on_release=lambda _, name=name: self.ask(name))
@@ -78,13 +79,17 @@ class HandoverCard(NoticeCard):
 
     def _write(self, *_: object) -> None:
         if self.part == "asking":
-            self.headline = f"You asked {self.driver}{self.countdown}"
-            self.said = f"You get control unless {self.driver} keeps it."
+            self.headline = tr("You asked {driver}{countdown}").format(
+                driver=self.driver, countdown=self.countdown
+            )
+            self.said = tr("You get control unless {driver} keeps it.").format(driver=self.driver)
         else:
-            self.headline = f"{self.asker} asks for control{self.countdown}"
-            self.said = "Without an answer, control is handed over."
+            self.headline = tr("{asker} asks for control{countdown}").format(
+                asker=self.asker, countdown=self.countdown
+            )
+            self.said = tr("Without an answer, control is handed over.")
         if self.sent:
-            self.said = "Sent …"
+            self.said = tr("Sent …")
         elif self.tiny and self.part == "asking":
             self.said = ""
         for part, row in self._rows.items():

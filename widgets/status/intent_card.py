@@ -15,6 +15,7 @@ from kivy.lang import Builder
 from kivy.properties import BooleanProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
+from widgets.core.language import tr
 from widgets.parts.buttons import PushButton
 from widgets.status.notice_card import NoticeCard
 
@@ -68,10 +69,10 @@ class IntentCard(NoticeCard):
         self._drain = Drain()
         self.fbind("left", self._drain.setter("left"))
         self.fbind("role", self._drain.setter("role"))
-        no, yes = self.add_below(("No", "close", False), ("Yes", "check", True))
+        no, yes = self.add_below((tr("No"), "close", False), (tr("Yes"), "check", True))
         self._rows: dict[bool, tuple[PushButton, ...]] = {
             True: (no, yes),
-            False: tuple(self.add_below(("Cancel", "close", True))),
+            False: tuple(self.add_below((tr("Cancel"), "close", True))),
         }
         self.add_widget(self._drain)
         for buttons in self._rows.values():

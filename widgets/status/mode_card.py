@@ -14,6 +14,7 @@ from kivy.properties import BooleanProperty, StringProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import ControlStatus
+from widgets.core.language import tr
 from widgets.status.notice_card import NoticeCard
 
 __all__ = ["ModeCard"]
@@ -73,7 +74,7 @@ class ModeCard(NoticeCard):
         self.role = "plan" if automatic else "accent"
         self.icon = "autorenew" if automatic else "sports_esports"
         sentence = self._sentence()
-        self.headline, self.said = (sentence, "") if self.tiny else ("Who steers?", sentence)
+        self.headline, self.said = (sentence, "") if self.tiny else (tr("Who steers?"), sentence)
         driven = not automatic and bool(self.who)
         for button, chosen in ((self.manual, driven), (self.auto, automatic)):
             button.fill, button.border = (self.role, self.role) if chosen else ("raised", "line")
@@ -85,15 +86,21 @@ class ModeCard(NoticeCard):
 
     def _sentence(self) -> str:
         if self.sent:
-            return f"Requesting {self.sent} …"
+            return tr("Requesting {sent} …").format(sent=self.sent)
         if self.why_not:
             return self.why_not
         if self.mode == "AUTO":
-            return f"MANUAL pauses: {self.task}." if self.task else "MANUAL pauses it."
-        driver = {"you": "You are driving.", "": "Nobody drives."}.get(self.who, f"{self.who} is driving.")
+            return (
+                tr("MANUAL pauses: {task}.").format(task=self.task) if self.task else tr("MANUAL pauses it.")
+            )
+        driver = {"you": tr("You are driving."), "": tr("Nobody drives.")}.get(
+            self.who, tr("{name} is driving.").format(name=self.who)
+        )
         if self.ready:
-            return f"{driver} AUTO continues{f': {self.task}' if self.task else ' the task'}."
-        return f"{driver} Start a task to switch to AUTO."
+            if not self.task:
+                return tr("{driver} AUTO continues the task.").format(driver=driver)
+            return tr("{driver} AUTO continues: {task}.").format(driver=driver, task=self.task)
+        return tr("{driver} Start a task to switch to AUTO.").format(driver=driver)
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

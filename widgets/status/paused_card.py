@@ -16,6 +16,7 @@ from kivy.uix.widget import Widget
 from bridge.core.codes import Code
 from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskStatus
+from widgets.core.language import mark, tr
 from widgets.core.task_words import title
 from widgets.status.notice_card import NoticeCard
 
@@ -23,18 +24,18 @@ __all__ = ["PausedCard"]
 
 
 OWN_WORDS: Mapping[str, str] = {
-    Code.TASK_TAKEN_OVER: "You took the stick.",
-    Code.TASK_STOPPED: "You pressed STOP.",
-    Code.TASK_PAUSED: "You paused.",
+    Code.TASK_TAKEN_OVER: mark("You took the stick."),
+    Code.TASK_STOPPED: mark("You pressed STOP."),
+    Code.TASK_PAUSED: mark("You paused."),
 }
 """Codes of what this handheld did, to what the card says."""
 WORDS: Mapping[str, str] = {
-    Code.TASK_TAKEN_OVER: "{name} took the stick.",
-    Code.TASK_LINK_LOST: "The link to {name} was lost.",
-    Code.TASK_BUMPED: "The bumper touched something.",
-    Code.TASK_HELD_FAST: "The wheels turn, but something holds the robot.",
-    Code.TASK_INTRUDER: "Intruder {id} was found.",
-    Code.TASK_OVERTURNED: "{robot} has turned over.",
+    Code.TASK_TAKEN_OVER: mark("{name} took the stick."),
+    Code.TASK_LINK_LOST: mark("The link to {name} was lost."),
+    Code.TASK_BUMPED: mark("The bumper touched something."),
+    Code.TASK_HELD_FAST: mark("The wheels turn, but something holds the robot."),
+    Code.TASK_INTRUDER: mark("Intruder {id} was found."),
+    Code.TASK_OVERTURNED: mark("{robot} has turned over."),
 }
 """Codes of what others did or what happened; of any other code the card says the robot's own reason."""
 
@@ -51,7 +52,7 @@ class PausedCard(NoticeCard):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(icon="pause_fill", role="warn", **kwargs)
-        self.resume = self.add_beside("Resume", "play_arrow")
+        self.resume = self.add_beside(tr("Resume"), "play_arrow")
         self.resume.bind(on_release=lambda _: self.dispatch("on_command", "resume"))
         self.cross = self.add_close()
         for name in ("held", "blocked"):
@@ -63,14 +64,16 @@ class PausedCard(NoticeCard):
         self.open = msg.state == "PAUSED"
         if not self.open:
             return
-        self.headline = f"{title(TaskOrder(task=msg.task, places=list(msg.places)))} is paused"
+        self.headline = tr("{title} is paused").format(
+            title=title(TaskOrder(task=msg.task, places=list(msg.places)))
+        )
         self.said = self._words(msg)
         self.resume.meaning = self.headline
 
     def _words(self, msg: TaskStatus) -> str:
         """Why it is paused, shorter than the robot says it: that it is paused stands above."""
         mine = self.client_id and msg.actor_id == self.client_id
-        words = OWN_WORDS.get(msg.code) if mine else WORDS.get(msg.code)
+        words = tr((OWN_WORDS if mine else WORDS).get(msg.code, ""))
         try:
             return (
                 words.format_map({pair.key: pair.value for pair in msg.parameters}) if words else msg.reason

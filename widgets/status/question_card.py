@@ -20,6 +20,7 @@ import widgets.parts.column
 import widgets.parts.labels  # noqa: F401 - their rules draw what is used here
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskStatus
 from widgets.core.base import Control
+from widgets.core.language import tr
 from widgets.core.surfaces import Outlined
 from widgets.core.task_words import title
 
@@ -142,7 +143,7 @@ class QuestionCard(Outlined, Control, BoxLayout):
         """Take over what the robot asks or offers; a new question forgets what became of the last answer."""
         cut = msg.state == "INTERRUPTED"
         what = title(TaskOrder(task=msg.task, places=list(msg.places)))
-        question = f"Continue? {what}" if cut else msg.asks
+        question = tr("Continue? {what}").format(what=what) if cut else msg.asks
         if question != self.question:
             self.why = ""
         self.cut, self.reason, self.question = cut, msg.reason if question else "", question
@@ -155,7 +156,7 @@ class QuestionCard(Outlined, Control, BoxLayout):
     def answer(self, name: str, outcome: str, why: str = "") -> None:
         """Say what became of an answer: `sent`, `accepted`, `refused` (and why) or `no_reply`."""
         if outcome in ("refused", "no_reply"):
-            self.why = why or f"No reply to {name}."
+            self.why = why or tr("No reply to {name}.").format(name=name)
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

@@ -14,12 +14,13 @@ from kivy.properties import BooleanProperty, StringProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import Event
+from widgets.core.language import mark, tr
 from widgets.status.notice_card import NoticeCard
 
 __all__ = ["ResetCard"]
 
-WHAT = "Its task ends, and it stands still where it started."
-WHAT_FLIES = "Its task ends, and it stands on the ground where it started, rotors off."
+WHAT = mark("Its task ends, and it stands still where it started.")
+WHAT_FLIES = mark("Its task ends, and it stands on the ground where it started, rotors off.")
 
 
 class ResetCard(NoticeCard):
@@ -27,7 +28,7 @@ class ResetCard(NoticeCard):
 
     accepts = (Event,)
 
-    name = StringProperty("the robot")
+    name = StringProperty(mark("the robot"))
     """What the robot is called."""
     flies = BooleanProperty(False)
     """It is one that flies."""
@@ -40,7 +41,9 @@ class ResetCard(NoticeCard):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(role="danger", icon="replay", **kwargs)
-        self.leave, self.go = self.add_below(("Leave it", "close", False), ("Put back", "replay", False))
+        self.leave, self.go = self.add_below(
+            (tr("Leave it"), "close", False), (tr("Put back"), "replay", False)
+        )
         self.leave.bind(on_release=lambda _: self.close())
         self.go.bind(on_release=lambda _: self.press())
         for name in ("name", "flies", "mishap", "asked", "sent", "blocked"):
@@ -85,15 +88,15 @@ class ResetCard(NoticeCard):
     def _write(self, *_: object) -> None:
         if self.asked:
             self.headline, self.said = (
-                f"Put {self.name} back to where it started?",
-                WHAT_FLIES if self.flies else WHAT,
+                tr("Put {name} back to where it started?").format(name=self.name),
+                tr(WHAT_FLIES) if self.flies else tr(WHAT),
             )
-            self.go.text, self.leave.text = "Yes, put back", "No"
+            self.go.text, self.leave.text = tr("Yes, put back"), tr("No")
         else:
             self.headline = self.mishap or self.name
-            self.said = "It can be put back to where it started."
-            self.go.text, self.leave.text = "Put back", "Leave it"
-        self.go.text = "Putting back" if self.sent else self.go.text
+            self.said = tr("It can be put back to where it started.")
+            self.go.text, self.leave.text = tr("Put back"), tr("Leave it")
+        self.go.text = tr("Putting back") if self.sent else self.go.text
         self.go.meaning = self.go.text
         grave = self.asked and not self.blocked
         self.go.fill, self.go.border = ("danger", "danger") if grave else ("raised", "line")

@@ -17,6 +17,7 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import GetMissionsResponse, KeptMission
 from bridge.msgs.std_msgs import Time
+from widgets.core.language import mark, tr
 from widgets.parts.listing import Listing
 from widgets.parts.rows import ListRow
 from widgets.status.event_row import when_words
@@ -45,7 +46,7 @@ class MissionList(Listing):
     """Name of the one that the robot patrols; empty when that has none."""
     now = NumericProperty(math.nan)
     """The operators' clock [s]; NaN while it is not known."""
-    nothing = StringProperty("The robot has no stored missions.")
+    nothing = StringProperty(mark("The robot has no stored missions."))
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -67,7 +68,9 @@ class MissionList(Listing):
             icon="check_circle" if current else "route",
             role="ok" if current else "plan",
             title=mission.name,
-            detail=f"{'Current mission · ' if current else ''}{mission_words(mission)}",
+            detail=(tr("Current mission · {what}") if current else "{what}").format(
+                what=mission_words(mission)
+            ),
             aside=when_words(stored, self.now) if stored > 0 else "",
             chosen=mission.name == self.chosen,
             whole=True,

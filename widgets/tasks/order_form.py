@@ -23,6 +23,7 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.pilothouse_msgs import Mission, Place, PlaceArray, RobotInfo, TaskOrder, Waypoint
 from widgets.controls.heading_dial import HeadingDial
+from widgets.core.language import mark, tr, trn
 from widgets.core.task_words import KINDS, fields
 from widgets.parts.buttons import IconButton, QuietButton
 from widgets.parts.choices import Segmented
@@ -36,16 +37,16 @@ from widgets.tasks.place_list import SOME, PlaceList
 __all__ = ["OrderForm"]
 
 ASKS = {
-    "from": ("From", "Where is it fetched?"),
-    "to": ("To", "Where does it go?"),
-    "then": ("Then on to", "Where does it go afterwards?"),
-    "dock": ("Dock", "Which dock?"),
-    "stops": ("Places", "Which place next?"),
+    "from": (mark("From"), mark("Where is it fetched?")),
+    "to": (mark("To"), mark("Where does it go?")),
+    "then": (mark("Then on to"), mark("Where does it go afterwards?")),
+    "dock": (mark("Dock"), mark("Which dock?")),
+    "stops": (mark("Places"), mark("Which place next?")),
 }
 """Field for places to its name and the question over the list of places."""
 SLOTS = {"from": 0, "to": 1, "then": 2, "dock": 0}
 """Field to its place in `TaskOrder.places`; `to` is the first where there is no `from`."""
-OPTIONAL = {"then": "Stay there", "dock": "Its own dock"}
+OPTIONAL = {"then": mark("Stay there"), "dock": mark("Its own dock")}
 """Field that may be left open to what that means."""
 MAX_TEXT_LENGTH = 200
 """Characters of a message."""
@@ -96,7 +97,7 @@ class OrderForm(OrderDraft, BoxLayout):
         self.list = PlaceList()
         """Where places are chosen; over the fields while `picking`."""
         self.dial = HeadingDial(pos_hint={"center_x": 0.5})
-        hints = {"message": "Message for the person", "recipient_tag": "Tag of the recipient"}
+        hints = {"message": tr("Message for the person"), "recipient_tag": tr("Tag of the recipient")}
         self._texts = {name: TextField(hint_text=hint, label=hint) for name, hint in hints.items()}
         super().__init__(**kwargs)
         for field in self._texts.values():
@@ -194,13 +195,13 @@ class OrderForm(OrderDraft, BoxLayout):
                 column.add_widget(widget)
 
     def _build_picking(self) -> None:
-        row = FormRow(title=ASKS[self.picking][1])
+        row = FormRow(title=tr(ASKS[self.picking][1]))
         back = IconButton(icon="arrow_back", bare=True, pos_hint={"center_y": 0.5})
         back.bind(on_release=lambda _: self.back())
         row.add_widget(back, index=1)
         if self.picking in OPTIONAL:
             none = QuietButton(
-                text=OPTIONAL[self.picking], size_hint_x=None, width="140dp", pos_hint={"center_y": 0.5}
+                text=tr(OPTIONAL[self.picking]), size_hint_x=None, width="140dp", pos_hint={"center_y": 0.5}
             )
             none.bind(on_release=lambda _: self.pick(Place()))
             row.add_widget(none)
@@ -231,8 +232,8 @@ class OrderForm(OrderDraft, BoxLayout):
         row = ListRow(
             icon=KINDS[kinds.get(name, "place")][0] if name else "search",
             role="plan" if name else "muted",
-            title=name or OPTIONAL.get(field, "Choose a place"),
-            aside=ASKS[field][0],
+            title=name or tr(OPTIONAL.get(field, mark("Choose a place"))),
+            aside=tr(ASKS[field][0]),
             faded=not name,
         )
         row.bind(on_release=lambda _: self.ask(field))
@@ -246,14 +247,14 @@ class OrderForm(OrderDraft, BoxLayout):
             gone.bind(on_release=lambda _, index=index: self._drop(index))
             row.add_widget(gone)
             rows.append(row)
-        more = QuietButton(text="Add a place", icon="add")
+        more = QuietButton(text=tr("Add a place"), icon="add")
         more.bind(on_release=lambda _: self.ask("stops"))
         return [*rows, more]
 
     def _points(self) -> list[Widget]:
         count = len(self.mission.waypoints)
-        words = f"{count} point{'' if count == 1 else 's'} on the map"
-        choice = Segmented(options=[("map", words), ("names", "Places by name")])
+        words = trn("{count} point on the map", "{count} points on the map", count)
+        choice = Segmented(options=[("map", words), ("names", tr("Places by name"))])
         choice.value = "names" if self.places else "map"
         choice.bind(on_choose=lambda _, way: self.ask("stops") if way == "names" else self._on_map())
         return [choice, *(self._stops() if self.places else [])]
@@ -263,11 +264,11 @@ class OrderForm(OrderDraft, BoxLayout):
         self._build()
 
     def _reaction(self) -> list[Widget]:
-        options = [("report", "Report"), ("stop", "Stop"), ("circle", "Circle it")]
+        options = [("report", tr("Report")), ("stop", tr("Stop")), ("circle", tr("Circle it"))]
         choice = Segmented(options=options)
         choice.value = "stop" if self.mission.stop_on_intruder else self.mission.on_intruder or "report"
         choice.bind(on_choose=lambda _, reaction: self.dispatch("on_react", reaction))
-        return [SectionLabel(title="When it finds an intruder"), choice]
+        return [SectionLabel(title=tr("When it finds an intruder")), choice]
 
     def _text(self, name: str) -> TextField:
         field = self._texts[name]
@@ -297,22 +298,22 @@ class OrderForm(OrderDraft, BoxLayout):
         share = 0 if math.isnan(self.throttle) else round(self.throttle * 100)
         throttle = Stepper(value=share, step=10, maximum=100, unit="%", zero="default")
         throttle.bind(on_change=lambda _, value: self.set(throttle=value / 100 if value else math.nan))
-        return [self._row("Throttle", throttle)]
+        return [self._row(tr("Throttle"), throttle)]
 
     def _height(self) -> list[Widget]:
         deep = self.robot.dives
         value = 0 if math.isnan(self.at_height) else abs(self.at_height)
-        usual = "default" if self.task == "take_off" else "as now"
+        usual = "default" if self.task == "take_off" else tr("as now")
         height = Stepper(value=value, step=0.5, maximum=MAX_HEIGHT, unit="m", zero=usual)
         sign = -1.0 if deep else 1.0
         height.bind(on_change=lambda _, value: self.set(at_height=sign * value if value else math.nan))
-        return [self._row("Depth" if deep else "Height", height)]
+        return [self._row(tr("Depth") if deep else tr("Height"), height)]
 
     def _duration(self) -> list[Widget]:
         minutes = 0 if math.isnan(self.duration) else math.ceil(self.duration / 60)
-        span = Stepper(value=minutes, maximum=1440, unit="min", zero="until stopped")
+        span = Stepper(value=minutes, maximum=1440, unit="min", zero=tr("until stopped"))
         span.bind(on_change=lambda _, value: self.set(duration=value * 60.0 if value else math.nan))
-        return [self._row("For how long", span)]
+        return [self._row(tr("For how long"), span)]
 
     def _row(self, name: str, behind: Widget) -> FormRow:
         row = FormRow(title=name)

@@ -18,6 +18,7 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskQueue
 from widgets.core.base import Control
+from widgets.core.language import mark, tr
 from widgets.core.task_words import TASKS, title
 from widgets.parts.buttons import IconButton
 from widgets.parts.labels import Text
@@ -48,7 +49,7 @@ class OrderQueue(Control, BoxLayout):
     """The robot has not confirmed what is shown."""
     held = StringProperty("")
     """Why the next one does not start by itself, as the end of a sentence; empty when it does."""
-    nothing = StringProperty("No tasks are waiting. A new one starts after the one before.")
+    nothing = StringProperty(mark("No tasks are waiting. A new one starts after the one before."))
     """What to say while nothing waits."""
     gap = NumericProperty("6dp")
     """Between two rows [px]."""
@@ -168,7 +169,7 @@ def dp_below(text: Text) -> float:
 
 def details(order: TaskOrder, *, first: bool, held: bool = False) -> str:
     """Remarks on an order, in one line; of the `first` one also when it starts."""
-    turn = ("Waits until resumed" if held else "Next") if first else ""
+    turn = (tr("Waits until resumed") if held else tr("Next")) if first else ""
     return " · ".join(part for part in (turn, order.message) if part)
 
 

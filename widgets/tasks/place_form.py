@@ -22,6 +22,7 @@ from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.pilothouse_msgs import Place
 from widgets.controls.heading_dial import HeadingDial
 from widgets.core.base import Control
+from widgets.core.language import tr
 from widgets.core.task_words import KINDS, heading_of
 from widgets.tasks.place_list import SOME
 from widgets.tasks.task_chooser import TaskTile
@@ -106,7 +107,7 @@ class PlaceForm(Control, BoxLayout):
     """What it says so far."""
 
     def _faces(self) -> str:
-        return heading_of(self.yaw) if math.isfinite(self.yaw) else "one way"
+        return heading_of(self.yaw) if math.isfinite(self.yaw) else tr("one way")
 
     faces = AliasProperty(_faces, bind=["yaw"], cache=True)
     """The direction to stand in as a heading, `one way` while there is none."""
@@ -114,11 +115,11 @@ class PlaceForm(Control, BoxLayout):
     def _lacking(self) -> str:
         name = self.name.strip()
         if not name:
-            return "Enter a name."
+            return tr("Enter a name.")
         if name.casefold() in {other.casefold() for other in self.taken}:
-            return f"There is a {name} already. Choose another name."
+            return tr("There is a {name} already. Choose another name.").format(name=name)
         if self.kind == "dock" and math.isnan(self.yaw):
-            return "Set the direction in which the robot docks."
+            return tr("Set the direction in which the robot docks.")
         return ""
 
     lacking = AliasProperty(_lacking, bind=["name", "taken", "kind", "yaw"])
@@ -129,7 +130,7 @@ class PlaceForm(Control, BoxLayout):
         self.dial = HeadingDial(pos_hint={"center_x": 0.5})
         super().__init__(**kwargs)
         for kind, (icon, word, _) in KINDS.items():
-            tile = self._tiles[kind] = TaskTile(icon=icon, text=word)
+            tile = self._tiles[kind] = TaskTile(icon=icon, text=tr(word))
             tile.bind(on_release=lambda _, kind=kind: self.set(kind=kind))
             self.ids.kinds.add_widget(tile)
         self.dial.bind(on_command=lambda _, yaw: self.set(yaw=yaw))

@@ -22,6 +22,7 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.pilothouse_msgs import Place, PlaceArray
 from widgets.core.base import Control
+from widgets.core.language import mark, tr
 from widgets.core.task_words import KINDS, distance_words
 from widgets.parts.labels import Text
 from widgets.parts.rows import ListRow, group_label
@@ -75,8 +76,8 @@ def grouped(places: Sequence[Place], robot: Sequence[float]) -> list[tuple[str, 
 
     groups: dict[str, list[Place]] = {}
     for place in sorted(places, key=rank):
-        word = KINDS.get(place.kind, KINDS["place"])[2]
-        groups.setdefault(f"Floor {place.floor} · {word}", []).append(place)
+        word = tr(KINDS.get(place.kind, KINDS["place"])[2])
+        groups.setdefault(tr("Floor {floor} · {word}").format(floor=place.floor, word=word), []).append(place)
     if located:
         return list(groups.items())
     return sorted(groups.items(), key=lambda group: natural(group[0]))
@@ -101,7 +102,7 @@ class PlaceList(Control, BoxLayout):
     """What is looked for; empty shows all."""
     chosen: ListProperty[str] = ListProperty()
     """Names of the places that stand out."""
-    nothing = StringProperty("No places yet. Hold a finger on the map to add one.")
+    nothing = StringProperty(mark("No places yet. Hold a finger on the map to add one."))
     """What to say while there are no places."""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -145,9 +146,13 @@ class PlaceList(Control, BoxLayout):
                 column.add_widget(self._row(place))
             left -= len(places)
         if left < 0:
-            column.add_widget(Text(text=f"{-left} more: search for them.", role="muted"))
+            column.add_widget(Text(text=tr("{left} more: search for them.").format(left=-left), role="muted"))
         if not hits:
-            sentence = f"No place is called “{self.search}”." if self.places else self.nothing
+            sentence = (
+                tr("No place is called “{search}”.").format(search=self.search)
+                if self.places
+                else self.nothing
+            )
             column.add_widget(Text(text=sentence, role="muted"))
         self.ids.roll.scroll_y = 1
         self._mark()

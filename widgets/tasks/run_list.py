@@ -16,6 +16,7 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import GetHistoryResponse, TaskOrder, TaskRun
 from bridge.msgs.std_msgs import Time
+from widgets.core.language import mark, tr
 from widgets.core.task_words import STATES, distance_words, span_words, title
 from widgets.parts.buttons import QuietButton
 from widgets.parts.listing import Listing
@@ -31,10 +32,10 @@ MAX_RUNS = 300
 def run_words(run: TaskRun, now: float = math.nan) -> str:
     """How it ended, how far and how long it went and who asked for it, as in `done · 340 m · 12 min · tablet-B`."""
     over = run.ended.seconds if run.ended.seconds > 0 else now
-    parts = [STATES.get(run.state, STATES["IDLE"])[2], distance_words(run.distance)]
+    parts = [tr(STATES.get(run.state, STATES["IDLE"])[2]), distance_words(run.distance)]
     if math.isfinite(over) and run.started.seconds > 0:
         parts.append(span_words(max(0.0, over - run.started.seconds)))
-    parts.append(run.by or "by itself")
+    parts.append(run.by or tr("by itself"))
     return " · ".join(parts)
 
 
@@ -49,7 +50,7 @@ class RunList(Listing):
     """There may be older ones at the robot."""
     now = NumericProperty(math.nan)
     """The operators' clock [s]; NaN while it is not known."""
-    nothing = StringProperty("No runs yet.")
+    nothing = StringProperty(mark("No runs yet."))
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -68,7 +69,7 @@ class RunList(Listing):
     def _build(self, *_: object) -> None:
         self.fill(self._row(run) for run in self.runs)
         if self.runs and self.more:
-            button = QuietButton(text="Older", icon="history")
+            button = QuietButton(text=tr("Older"), icon="history")
             button.bind(on_release=lambda _: self.dispatch("on_command", self.runs[-1].id))
             self.ids.column.add_widget(button)
 

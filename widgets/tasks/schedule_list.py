@@ -16,6 +16,7 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import Schedule, ScheduledTask, TaskOrder
 from bridge.msgs.std_msgs import Time
+from widgets.core.language import mark
 from widgets.core.task_words import TASKS, rhythm, span_words, title
 from widgets.parts.choices import Toggle
 from widgets.parts.listing import Listing
@@ -34,7 +35,7 @@ class ScheduleList(Listing):
 
     tasks: ListProperty[ScheduledTask] = ListProperty()
     """Every `ScheduledTask`."""
-    nothing = StringProperty("No tasks are scheduled.")
+    nothing = StringProperty(mark("No tasks are scheduled."))
     now = NumericProperty(math.nan)
     """The operators' clock [s]; NaN while it is not known."""
 

@@ -20,28 +20,29 @@ from kivy.uix.widget import Widget
 import widgets.parts.buttons  # noqa: F401 - its rules draw the buttons
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets.core.base import VEIL, Control
+from widgets.core.language import mark, tr
 from widgets.parts.column import Column
 
 __all__ = ["COMMANDS", "TaskButtons"]
 
 COMMANDS = {
-    "start": ("Start patrol", "play_arrow_fill"),
-    "pause": ("Pause", "pause"),
-    "resume": ("Resume", "play_arrow_fill"),
-    "stop": ("End task", "stop"),
-    "home": ("Go home", "home"),
+    "start": (mark("Start patrol"), "play_arrow_fill"),
+    "pause": (mark("Pause"), "pause"),
+    "resume": (mark("Resume"), "play_arrow_fill"),
+    "stop": (mark("End task"), "stop"),
+    "home": (mark("Go home"), "home"),
 }
 """Name of each command to its words and its icon."""
 
-BRIEF = {"start": "Start", "stop": "End", "home": "Home"}
+BRIEF = {"start": mark("Start"), "stop": mark("End"), "home": mark("Home")}
 """Shorter words where there is no room."""
 
 OUTCOMES = {
     "none": ("", "info", "muted"),
-    "sent": ("Sent: {what}", "schedule", "muted"),
-    "accepted": ("Accepted: {what}{after}", "check_circle", "ok"),
-    "refused": ("Refused: {why}", "block", "danger"),
-    "no_reply": ("No reply to: {what}", "signal_disconnected", "warn"),
+    "sent": (mark("Sent: {what}"), "schedule", "muted"),
+    "accepted": (mark("Accepted: {what}{after}"), "check_circle", "ok"),
+    "refused": (mark("Refused: {why}"), "block", "danger"),
+    "no_reply": (mark("No reply to: {what}"), "signal_disconnected", "warn"),
 }
 """What became of a command, to its sentence, icon and role."""
 
@@ -190,10 +191,10 @@ class TaskButtons(Control, Column):
     def _sentence(self) -> str:
         if self.outcome == "none":
             return self.reason
-        words = self.what or COMMANDS.get(self.command, (self.command,))[0]
+        words = self.what or tr(COMMANDS.get(self.command, (self.command,))[0])
         after = f" ({self.took * 1000:.0f} ms)" if math.isfinite(self.took) else ""
         what = words[:1].lower() + words[1:]
-        return OUTCOMES[self.outcome][0].format(what=what, after=after, why=self.why or what)
+        return tr(OUTCOMES[self.outcome][0]).format(what=what, after=after, why=self.why or what)
 
     sentence = AliasProperty(
         _sentence, bind=["outcome", "command", "what", "why", "took", "reason"], cache=True
@@ -217,7 +218,7 @@ class TaskButtons(Control, Column):
 
     def words(self, name: str) -> str:
         """What the button of a command says."""
-        return BRIEF.get(name, COMMANDS[name][0]) if self.narrow else COMMANDS[name][0]
+        return tr(BRIEF.get(name, COMMANDS[name][0]) if self.narrow else COMMANDS[name][0])
 
     def show(self, msg: TaskStatus) -> None:
         """Offer what can be done in the task's state, and say what the robot says about it."""

@@ -19,6 +19,7 @@ import widgets.parts.sliders  # noqa: F401 - its rules draw what is used here
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskStatus
 from widgets.core.base import RobotWidget
+from widgets.core.language import tr
 from widgets.core.surfaces import Outlined
 from widgets.core.task_words import STATES, TASKS, distance_words, span_words, title
 from widgets.parts.column import Column
@@ -74,7 +75,9 @@ def figures_words(status: TaskStatus, progress: TaskProgress | None) -> str:
     parts = []
     if status.waypoint:
         parts.append(
-            f"{'Point' if status.task == 'patrol' else 'Place'} {status.waypoint} of {status.waypoints}"
+            (tr("Point {at} of {all}") if status.task == "patrol" else tr("Place {at} of {all}")).format(
+                at=status.waypoint, all=status.waypoints
+            )
         )
     if status.lap and status.task == "patrol":
         parts.append(f"lap {status.lap}" + (f" of {status.laps}" if status.laps else ""))
@@ -82,7 +85,11 @@ def figures_words(status: TaskStatus, progress: TaskProgress | None) -> str:
         if math.isfinite(progress.progress):
             parts.append(f"{progress.progress * 100:.0f} %")
         if math.isfinite(progress.distance_to_next) and progress.distance_to_next > 0:
-            parts.append(f"{distance_words(progress.distance_to_next)} to go")
+            parts.append(
+                tr("{distance_to_next} to go").format(
+                    distance_to_next=distance_words(progress.distance_to_next)
+                )
+            )
         if math.isfinite(progress.time_left):
             parts.append(f"{span_words(progress.time_left)} left")
     return " · ".join(parts)
@@ -110,7 +117,7 @@ class TaskCard(Outlined, RobotWidget, Column):
 
     def _title(self) -> str:
         if not self.status.task:
-            return "No task"
+            return tr("No task")
         places = list(self.status.places)
         if self.brief and len(places) > 1:
             return f"{places[0]} → {places[-1]}"  # the icon says what, the end is the goal
@@ -138,7 +145,7 @@ class TaskCard(Outlined, RobotWidget, Column):
     state_role = AliasProperty(_state_role, bind=["status"], cache=True)
 
     def _phase_words(self) -> str:
-        return self.status.phase or self._appearance()[2]
+        return self.status.phase or tr(self._appearance()[2])
 
     phase_words = AliasProperty(_phase_words, bind=["status"], cache=True)
     """What it does just now in one word: the phase, else the state."""

@@ -20,6 +20,7 @@ import widgets.parts.choices
 import widgets.parts.stepper  # noqa: F401 - their rules draw what is used here
 from bridge.msgs.pilothouse_msgs import ScheduledTask
 from widgets.core.base import Control
+from widgets.core.language import tr
 from widgets.core.surfaces import Outlined
 from widgets.core.task_words import DAYS
 from widgets.parts.column import Column
@@ -98,7 +99,7 @@ class WhenPicker(Control, Column):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._days = []
-        for index, name in enumerate(DAYS):
+        for index, name in enumerate(map(tr, DAYS)):
             day = Day(text=name)
             day.bind(on_release=lambda _, index=index: self._flip(index))
             self._days.append(day)

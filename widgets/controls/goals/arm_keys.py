@@ -11,6 +11,7 @@ from kivy.properties import AliasProperty, BooleanProperty, ListProperty, Numeri
 
 from bridge.msgs.pilothouse_msgs import ArmOrder
 from widgets.controls.finger_grip import Grip
+from widgets.core.language import tr
 from widgets.core.theme import theme
 from widgets.parts.buttons import QuietButton
 from widgets.parts.sensor_card import Gauge, wide
@@ -65,7 +66,7 @@ class ArmKeys(Grip, Gauge):
         self._close = Clock.create_trigger(lambda _: self.rest(), CHOICE_TIMEOUT)
         self.arrange = Clock.create_trigger(self._arrange, -1)
         super().__init__(**kwargs)
-        self.chooser = PoseKey(text="Poses", icon="precision_manufacturing", size_hint=(None, None))
+        self.chooser = PoseKey(text=tr("Poses"), icon="precision_manufacturing", size_hint=(None, None))
         self.chooser.bind(on_release=lambda _: self.choose())
         self.grip = PoseKey(size_hint=(None, None))
         self.grip.bind(on_release=lambda _: self.press_gripper())
@@ -188,7 +189,7 @@ class ArmKeys(Grip, Gauge):
             key.bind(on_release=self._pressed)
             self._keys.append(key)
         key, here = self._keys[number], bool(name) and name == self.pose
-        key.name, key.text = name, pose_words(name) if name else "More"
+        key.name, key.text = name, pose_words(name) if name else tr("More")
         key.meaning = name or "more"
         key.icon = "check" if here else "" if name else "more_horiz"
         key.ink, key.border = ("accent", "accent") if here else ("text", "line")
@@ -212,7 +213,7 @@ class ArmKeys(Grip, Gauge):
 
     def _label_gripper(self, *_: object) -> None:
         """A press does the one or the other, by how wide it is open."""
-        word = "Open" if self.opens else "Close"
+        word = tr("Open") if self.opens else tr("Close")
         self.grip.text = self.grip.meaning = f"{word} gripper" if self.beside else word
         self.grip.icon = "zoom_out_map" if self.opens else "filter_center_focus"
         self.grip.disabled = math.isnan(self.gripper)

@@ -37,6 +37,7 @@ from widgets.controls.goals.arm_picture import (
 from widgets.controls.slide_confirm import OUTCOMES
 from widgets.core.canvas_ink import Word
 from widgets.core.geometry import DASH
+from widgets.core.language import tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.readout import figure
@@ -84,7 +85,7 @@ class ArmPanel(ArmDials):
         self._start = (0.0, 0.0)
         self._joints = []
         self._forget = Clock.create_trigger(lambda _: self.answer("ready"), OUTCOME_TIMEOUT)
-        super().__init__(**{"title": "Arm", **kwargs})
+        super().__init__(**{"title": tr("Arm"), **kwargs})
 
     def show(self, msg: ArmState) -> None:
         """Show where the arm is and where it goes; one joint that is not known is a dash for all."""
@@ -242,11 +243,11 @@ class ArmPanel(ArmDials):
         """What it does, or what became of an order, longest first, and the role of that."""
         word, role, _ = OUTCOMES[self.outcome]
         if self.outcome in ("sent", "refused", "no_reply"):
-            return (word,), role
+            return (tr(word),), role
         if not self.angles:
             return (), "muted"
         if self.touching:
-            return ("touches something", "touches"), "warn"
+            return (tr("touches something"), tr("touches")), "warn"
         if self.moving:
             return ("moving",), "plan"
         return (pose_words(self.pose),) if self.pose else ("still",), "text"

@@ -25,6 +25,7 @@ from bridge.msgs.std_msgs import Header
 from widgets.controls.goals.goal_status import GoalStatus
 from widgets.core.base import Control
 from widgets.core.geometry import Points
+from widgets.core.language import mark, tr
 
 __all__ = ["BUTTONS", "MAX_COORDINATE", "OUTCOMES", "STEP", "TURN", "UNDER_WAY", "GoalChoice"]
 
@@ -46,17 +47,17 @@ BUTTONS: dict[str, tuple[int, int, str, tuple[int, int, int]]] = {
 }
 """Name to column, row from above, icon, and steps in x, y and yaw. `here` puts the goal where the robot is."""
 OUTCOMES = {
-    "": ("Go", "near_me"),
-    "sent": ("Sent", "hourglass_top"),
-    "accepted": ("Going", "route"),
-    "waiting": ("Waiting", "hourglass_top"),
-    "paused": ("Paused", "pause"),
-    "there": ("There", "check"),
-    "canceled": ("Canceled", "cancel"),
-    "failed": ("Failed", "block"),
-    "interrupted": ("Cut off", "pause"),
-    "refused": ("Refused", "block"),
-    "no_reply": ("No reply", "help"),
+    "": (mark("Go"), "near_me"),
+    "sent": (mark("Sent"), "hourglass_top"),
+    "accepted": (mark("Going"), "route"),
+    "waiting": (mark("Waiting"), "hourglass_top"),
+    "paused": (mark("Paused"), "pause"),
+    "there": (mark("There"), "check"),
+    "canceled": (mark("Canceled"), "cancel"),
+    "failed": (mark("Failed"), "block"),
+    "interrupted": (mark("Cut off"), "pause"),
+    "refused": (mark("Refused"), "block"),
+    "no_reply": (mark("No reply"), "help"),
 }
 """What became of the goal to what the button says."""
 UNDER_WAY = ("sent", "accepted", "waiting", "paused")
@@ -146,7 +147,7 @@ class GoalChoice(Control):
     def goal(self) -> PoseStamped:
         """The goal as a message; ValueError while there is none."""
         if not self.wanted:
-            raise ValueError("There is no goal yet: the robot's position is unknown, and no goal is set.")
+            raise ValueError(tr("There is no goal yet: the robot's position is unknown, and no goal is set."))
         x, y, yaw = self.wanted
         return PoseStamped(Header(frame_id="map"), Pose(Point(x, y), Quaternion.from_yaw(yaw)))
 
@@ -162,7 +163,10 @@ class GoalChoice(Control):
     @property
     def says(self) -> tuple[str, str]:
         """Words and icon of the button in the middle."""
-        return ("There", "check") if self.outcome == "accepted" and self.there else OUTCOMES[self.outcome]
+        if self.outcome == "accepted" and self.there:
+            return tr("There"), "check"
+        words, icon = OUTCOMES[self.outcome]
+        return tr(words), icon
 
     def can(self, name: str) -> bool:
         """Whether a press of that button does anything."""

@@ -12,6 +12,7 @@ from kivy.metrics import dp, sp
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import Points, View, nice_floor, rounded
+from widgets.core.language import tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.readout import figure
@@ -48,7 +49,7 @@ def draw(
     ground(shapes, box, theme.bg, theme.line)
     places = [place for place in (actual, wanted, followed) if place]
     if not places:
-        yield Word("robot position unknown", left + width / 2, low + height / 2, sp(11), theme.muted)
+        yield Word(tr("robot position unknown"), left + width / 2, low + height / 2, sp(11), theme.muted)
         return
     inner = left + dp(20), low + dp(20), width - dp(40), height - dp(40)
     view = View.fitting(np.array([place[:2] for place in places]), box=inner, most=dp(70))
@@ -63,7 +64,9 @@ def draw(
         x, y = view.to_screen(*followed[:2])
         shapes.disc(x, y, dp(9), theme.plan)
         shapes.polygon(arrow(x, y, followed[2], dp(8)), theme.ink_plan)
-        told = f"going to {figure(followed[0], 2)} / {figure(followed[1], 2)}"
+        told = tr("going to {followed} / {followed2}").format(
+            followed=figure(followed[0], 2), followed2=figure(followed[1], 2)
+        )
         size = fitting_size([told], sp(12), width - dp(12), bold=True)
         yield Word(told, left + width / 2, low + height - dp(10), size, theme.plan, bold=True)
     if actual:

@@ -20,6 +20,7 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre, RudderState
 from widgets.controls.sticks.stick import DEAD_ZONE, Stick
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import HULL, Points, rounded
+from widgets.core.language import tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.readout import figure
@@ -137,7 +138,7 @@ class RudderThrottle(Stick, Gauge):
         if self._has_report:
             turned = self.angle if math.isfinite(self.angle) else 0.0
         degrees = round(math.degrees(turned))
-        return f"{abs(degrees)}° {'port' if degrees > 0 else 'starboard'}" if degrees else "set amidships"
+        return f"{abs(degrees)}° {'port' if degrees > 0 else 'starboard'}" if degrees else tr("set amidships")
 
     @property
     def _has_report(self) -> bool:

@@ -19,6 +19,7 @@ from widgets.controls.finger_grip import Grip
 from widgets.core.base import text_texture
 from widgets.core.canvas_ink import Drawing, Ink
 from widgets.core.icons import icon
+from widgets.core.language import tr
 from widgets.core.theme import theme
 
 __all__ = ["DEAD_ZONE", "MIN_PUSH", "Stick"]
@@ -147,7 +148,9 @@ class Stick(Grip, Drawing):
         False, and nothing is commanded, while a finger has it. ValueError for what is not finite.
         """
         if not math.isfinite(forward + left):
-            raise ValueError(f"A stick leans from -1 to 1, not to {forward}, {left}.")
+            raise ValueError(
+                tr("A stick leans from -1 to 1, not to {forward}, {left}.").format(forward=forward, left=left)
+            )
         if self._finger is not None:
             return False
         self._push(forward, left)

@@ -17,6 +17,7 @@ from kivy.uix.widget import Widget
 
 from widgets.controls.sticks.tilt_stick import TiltStick
 from widgets.core.canvas_ink import Word, ground, tint
+from widgets.core.language import tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.parts.labels import spaced
@@ -55,7 +56,7 @@ class TiltCircle(TiltStick, Gauge):
     """What it drives does not lean: the words show shares of full command instead of degrees."""
 
     def __init__(self, **kwargs: Any) -> None:
-        super().__init__(**{"title": "Tilt", "card": False, **kwargs})
+        super().__init__(**{"title": tr("Tilt"), "card": False, **kwargs})
         for name in ("size", "card", "title", "missing"):
             self.fbind(name, self._round_veil)
         self._round_veil()
@@ -197,11 +198,11 @@ class TiltCircle(TiltStick, Gauge):
     def _idle_words(self) -> tuple[str, ...]:
         name = spaced(self.title.upper())
         if self.needs_hold and self.missing:
-            return (self.missing, "No motion sensor", "No sensor")
+            return (self.missing, tr("No motion sensor"), tr("No sensor"))
         if self.needs_hold and self.held and self.opened:
             return (self.opened, "let go")
         if self.needs_hold and not self.held and not self.disabled:
-            return (f"{name} · hold it to tilt", "hold to tilt", self.title)
+            return (tr("{name} · hold it to tilt").format(name=name), tr("hold to tilt"), self.title)
         return (name, self.title.upper())
 
     def _beside(self, end: float) -> Iterator[Word]:

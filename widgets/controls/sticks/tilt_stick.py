@@ -12,6 +12,7 @@ from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from widgets.controls.sticks.stick import Stick
+from widgets.core.language import tr
 
 __all__ = ["NEUTRAL_ZONE", "TiltStick"]
 
@@ -80,7 +81,11 @@ class TiltStick(Stick):
         holds it; nor is anything shown while a gamepad or a key pushes it. ValueError for what is not finite.
         """
         if not math.isfinite(roll + pitch):
-            raise ValueError(f"A tilt is a finite number of radians, not {roll}, {pitch}.")
+            raise ValueError(
+                tr("A tilt is a finite number of radians, not {roll}, {pitch}.").format(
+                    roll=roll, pitch=pitch
+                )
+            )
         at = roll / self.max_tilt, pitch / self.max_tilt
         ahead, left = self.shaped(at[1], -at[0])
         return self.steer(at, (-left, ahead))
@@ -91,7 +96,11 @@ class TiltStick(Stick):
         The dead zone and the curve of `command` are its giver's. Returns and raises as `tilt` does.
         """
         if not math.isfinite(sum(at) + sum(command)):
-            raise ValueError(f"A circle is steered by finite shares, not by {at}, {command}.")
+            raise ValueError(
+                tr("A circle is steered by finite shares, not by {at}, {command}.").format(
+                    at=at, command=command
+                )
+            )
         if self.disabled or (self.finger is not None and not self.needs_hold):
             return False
         holds = not self.needs_hold or self.clutched or self.finger is not None

@@ -18,6 +18,7 @@ from kivy.uix.widget import Widget
 
 from widgets.controls.hold_progress import Hold
 from widgets.core.base import Control
+from widgets.core.language import mark, tr
 from widgets.core.surfaces import Outlined
 from widgets.parts.labels import spaced
 
@@ -46,17 +47,17 @@ MIN_FONT_SIZE = 14.0
 
 PHASES = {
     "ready": ("STOP", "", "pan_tool_fill"),
-    "sent": ("STOP", "sent, not confirmed", "pan_tool_fill"),
-    "stopped": ("STOPPED", "hold to release", "lock"),
-    "moves": ("STOP", "pressed, still moving", "warning"),
-    "no_answer": ("STOP", "no answer, sending again", "signal_disconnected"),
-    "lost": ("STOP", "no link, was STOPPED", "signal_disconnected"),
+    "sent": ("STOP", mark("sent, not confirmed"), "pan_tool_fill"),
+    "stopped": (mark("STOPPED"), mark("hold to release"), "lock"),
+    "moves": ("STOP", mark("pressed, still moving"), "warning"),
+    "no_answer": ("STOP", mark("no answer, sending again"), "signal_disconnected"),
+    "lost": ("STOP", mark("no link, was STOPPED"), "signal_disconnected"),
 }
 """Phase to its word, its sentence and its icon."""
 LOCAL = {
-    "sent": ("", "zero speed is sent"),
-    "moves": ("still moves · ", "hold 3 s to release"),
-    "no_answer": ("not confirmed · ", "hold 3 s to release"),
+    "sent": ("", mark("zero speed is sent")),
+    "moves": (mark("still moves · "), mark("hold 3 s to release")),
+    "no_answer": (mark("not confirmed · "), mark("hold 3 s to release")),
 }
 """Sentences of a STOP that this handheld alone holds, or that is pressed and not obeyed, where they are others.
 
@@ -145,12 +146,14 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
     def _sentence(self) -> str:
         head, sentence = "", PHASES[self.phase][1]
         if self.local:
-            head, sentence = LOCAL.get(self.phase, (head, sentence))
+            head, sentence = map(tr, LOCAL.get(self.phase, (head, sentence)))
+        else:
+            sentence = tr(sentence)
         if self.width * self.height < dp(MIN_AGE_SIDE) * dp(MIN_AGE_SIDE):
             return sentence
         sentence = head + sentence
         if self.phase == "lost" and self.ago:
-            return f"{sentence} " + f"{self.ago} ago".replace(" ", NO_BREAK)
+            return f"{sentence} " + tr("{time} ago").format(time=self.ago).replace(" ", NO_BREAK)
         return sentence
 
     sentence = AliasProperty(_sentence, bind=["phase", "local", "ago", "size"], cache=True)
@@ -161,7 +164,7 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
     icon = AliasProperty(_icon, bind=["phase"], cache=True)
 
     def _word(self) -> str:
-        return spaced(PHASES[self.phase][0])
+        return spaced(tr(PHASES[self.phase][0]))
 
     word = AliasProperty(_word, bind=["phase"], cache=True)
 

@@ -20,6 +20,7 @@ from kivy.uix.widget import Widget
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from widgets.controls.hold_progress import Hold
 from widgets.core.base import Control
+from widgets.core.language import mark, tr
 from widgets.parts.buttons import QuietButton
 
 __all__ = ["WORDS", "StopList", "StopRow"]
@@ -255,8 +256,8 @@ class StopList(Control, BoxLayout):
         self.worst = f"{worst.name}: {WORDS[worst.phase][0]}" if worst is not None else ""
         held = sum(robot.foreign for robot in robots)
         open_ones = sum(robot.phase not in ("stopped", "released") for robot in robots)
-        self.footnote = _footnote(open_ones, held, untried, since) or HINT
-        self.offer = "Hold to stop sending" if open_ones or held else ""
+        self.footnote = _footnote(open_ones, held, untried, since) or tr(HINT)
+        self.offer = tr("Hold to stop sending") if open_ones or held else ""
 
     def _measure(self, *_: object) -> None:
         ids, card = self.ids, self.ids.card
@@ -280,19 +281,19 @@ class StopList(Control, BoxLayout):
         return bool(super().on_touch_down(touch) or self.collide_point(*touch.pos))
 
 
-HINT = "To release one: connect to it, take control, hold STOP."
+HINT = mark("To release one: connect to it, take control, hold STOP.")
 
 
 def _footnote(open_ones: int, held: int, untried: int, since: int) -> str:
     parts = []
     if since:
-        parts.append(f"{since} more found since: press STOP ALL again.")
+        parts.append(tr("{since} more found since: press STOP ALL again.").format(since=since))
     if untried:
-        parts.append(f"{untried} more not tried: too many at once.")
+        parts.append(tr("{untried} more not tried: too many at once.").format(untried=untried))
     if open_ones:
-        parts.append("STOP is sent until every robot rests.")
+        parts.append(tr("STOP is sent until every robot rests."))
     if held:
-        parts.append("A robot without its own STOP rests only while zero speed is sent.")
+        parts.append(tr("A robot without its own STOP rests only while zero speed is sent."))
     return " ".join(parts)
 
 
