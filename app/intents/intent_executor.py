@@ -14,6 +14,7 @@ from app.intents.speed_steps import SpeedSteps
 from app.intents.task_intents import TaskIntents
 from bridge.msgs.pilothouse_msgs import LightState, TaskOrder
 from widgets.core.language import mark, tr
+from widgets.core.quantities import said
 from widgets.core.task_words import TASKS, title
 
 if TYPE_CHECKING:
@@ -73,9 +74,8 @@ class IntentExecutor:
             if intent == "lights":
                 return tr("Switch the lights off") if self._lit else tr("Switch the lights on")
             if intent in ("faster", "slower"):
-                return (
-                    f"{INTENTS[intent].words}: {self._speed.after(1 if intent == 'faster' else -1):.2f} m/s"
-                )
+                speed = self._speed.after(1 if intent == "faster" else -1)
+                return f"{INTENTS[intent].words}: {' '.join(said(speed, 'speed', 2))}"
             if intent == "record":
                 return tr("Record") if self._app.records.recorder is None else tr("Stop recording")
             status = self._tasks.status

@@ -1,4 +1,4 @@
-"""Geometry of the instruments: dials, tapes, laser sweeps, views of a map. No Kivy in here.
+"""Geometry of the instruments: dials, tapes, laser sweeps, views of a map. Nothing is drawn in here.
 
 Screen coordinates are Kivy's: pixels, x to the right, y up. World coordinates are the `map` frame's: metres,
 x east, y north. A colour is four floats, red, green, blue, alpha, 0 to 1.
@@ -18,6 +18,7 @@ from bridge.core.units import heading_from_yaw, yaw_from_heading
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import Imu
+from widgets.core.quantities import quantities, to_shown, unit_of
 
 __all__ = [
     "CARDINALS",
@@ -243,7 +244,9 @@ def nice_floor(value: float) -> float:
 
 
 def length_text(metres: float) -> str:
-    """A round length with its unit: `20 cm`, `5 m`, `2 km`."""
+    """A length with its unit: `20 cm`, `5 m`, `2 km`; in another unit of the operator's to one decimal."""
+    if quantities.system == "imperial":
+        return f"{round(to_shown(metres, 'height'), 1):g} {unit_of('height')}"
     if metres < 1.0:
         return f"{metres * 100:g} cm"
     return f"{metres:g} m" if metres < 1000.0 else f"{metres / 1000:g} km"

@@ -1,4 +1,4 @@
-"""Geometry of the small sensors: the offset of a line, the aim of a ranger, distances in words. No Kivy in here."""
+"""Geometry of the small sensors: the offset of a line, the aim of a ranger, distances in words. Nothing is drawn in here."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterable
 
 import numpy as np
+
+from widgets.core.quantities import said
 
 __all__ = ["aim", "ago_text", "away_text", "contrast_of", "line_offset", "side_text", "wheel_name"]
 
@@ -62,10 +64,11 @@ def aim(frame: str) -> float:
 
 
 def away_text(metres: float) -> str:
-    """A distance as one reads it at a glance: `0.42 m`, `4.2 m`, `120 m`; a dash for NaN."""
+    """A distance as one reads it at a glance, in the operator's unit: `0.42 m`, `4.2 m`, `120 m`; a dash for NaN."""
     if not math.isfinite(metres):
         return "–"
-    return f"{metres:.2f} m" if metres < 0.995 else f"{metres:.1f} m" if metres < 99.5 else f"{metres:.0f} m"
+    told = said(metres, "height", 2 if metres < 0.995 else 1 if metres < 99.5 else 0)
+    return f"{told.text} {told.unit}"
 
 
 def side_text(angle: float) -> str:

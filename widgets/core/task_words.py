@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from bridge.msgs.pilothouse_msgs import Mission, RobotInfo, ScheduledTask, TaskOrder
 from widgets.core.language import mark, tr, trn
+from widgets.core.quantities import quantities, said
 
 __all__ = [
     "KINDS",
@@ -149,7 +150,7 @@ def title(order: TaskOrder) -> str:
     if order.task == "follow_heading":
         return f"{name} {heading_of(order.heading)}"
     if order.task == "take_off" and math.isfinite(order.height):
-        return tr("{task} to {height:g} m").format(task=name, height=order.height)
+        return tr("{task} to {height}").format(task=name, height=_metres(order.height))
     if order.task == "hold" and math.isfinite(order.duration):
         return tr("{task} for {span}").format(task=name, span=span_words(order.duration))
     if order.task == "go_to" and places:
@@ -243,7 +244,7 @@ def _holds(order: TaskOrder, robot: RobotInfo) -> str:
 
 def _follows(order: TaskOrder, robot: RobotInfo) -> str:
     towards = tr("where it points now") if math.isnan(order.heading) else heading_of(order.heading)
-    pace = tr(" at {speed:.1f} m/s").format(speed=order.speed) if math.isfinite(order.speed) else ""
+    pace = tr(" at {speed}").format(speed=_pace(order.speed)) if math.isfinite(order.speed) else ""
     if math.isfinite(order.throttle):
         pace = tr(" with {throttle:.0f} % throttle").format(throttle=order.throttle * 100)
     return tr("{moves} straight towards {towards}{pace}{height} {time}.").format(
@@ -257,15 +258,29 @@ def _follows(order: TaskOrder, robot: RobotInfo) -> str:
 
 def _takes_off(order: TaskOrder) -> str:
     if math.isfinite(order.height):
-        return tr("Takes off to {height:g} m and hovers there.").format(height=order.height)
+        return tr("Takes off to {height} and hovers there.").format(height=_metres(order.height))
     return tr("Takes off and hovers there.")
+
+
+def _metres(height: float) -> str:
+    """A height that was ordered, to the centimetre, in the operator's unit."""
+    if quantities.system != "imperial":
+        return f"{height:g} m"
+    told = said(height, "height", 2)
+    return f"{told.text} {told.unit}"
+
+
+def _pace(speed: float) -> str:
+    """A speed in the operator's unit."""
+    told = said(speed, "speed", 1)
+    return f"{told.text} {told.unit}"
 
 
 def _at_height(order: TaskOrder, robot: RobotInfo) -> str:
     if not math.isfinite(order.height):
         return ""
-    words = tr(", {height:g} m deep,") if robot.dives else tr(", {height:g} m high,")
-    return words.format(height=abs(order.height))
+    words = tr(", {height} deep,") if robot.dives else tr(", {height} high,")
+    return words.format(height=_metres(abs(order.height)))
 
 
 def _patrols(order: TaskOrder, mission: Mission) -> str:
@@ -347,7 +362,8 @@ def distance_words(metres: float) -> str:
     """A distance [m] in words; a dash for NaN."""
     if not math.isfinite(metres):
         return "—"
-    return f"{metres / 1000:.1f} km" if metres >= 1000 else f"{metres:.0f} m"
+    told = said(metres, "distance")
+    return f"{told.text} {told.unit}"
 
 
 def rhythm(task: ScheduledTask) -> str:

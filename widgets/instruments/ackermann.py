@@ -20,6 +20,7 @@ from bridge.msgs.pilothouse_msgs import AckermannState
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import DASH, Points, rounded
+from widgets.core.quantities import said
 from widgets.core.sensor_geometry import away_text
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -103,7 +104,8 @@ class AckermannView(Gauge):
     @property
     def speed_words(self) -> str:
         """As in `1.8 m/s`, negative astern."""
-        return f"{figure(self.speed, 1)} m/s" if math.isfinite(self.speed) else DASH
+        told = said(self.speed, "speed", 1)
+        return f"{told.text} {told.unit}" if math.isfinite(self.speed) else DASH
 
     def marks(self, shapes: Shapes) -> Iterator[Word]:
         """The truck with its way and its wheels, and the figures."""
@@ -222,9 +224,7 @@ class AckermannView(Gauge):
     def _brief(self) -> Iterator[Word]:
         """Speed over steering."""
         low, room = self.y + self.edge + sp(7), self.width - 2 * self.edge
-        speed = first_fitting(
-            (self.speed_words, self.speed_words.removesuffix(" m/s")), sp(15), room, bold=True
-        )
+        speed = first_fitting((self.speed_words, self.speed_words.partition(" ")[0]), sp(15), room, bold=True)
         yield Word(speed, self.center_x, low + sp(18), sp(15), theme.text, bold=True)
         yield Word(first_fitting((self.steer_words,), sp(11), room), self.center_x, low, sp(11), theme.muted)
 

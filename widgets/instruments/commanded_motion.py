@@ -18,6 +18,7 @@ from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from widgets.core.canvas_ink import Word
 from widgets.core.geometry import DASH
+from widgets.core.quantities import said
 from widgets.core.shapes import Shapes
 from widgets.core.task_words import heading_of
 from widgets.core.theme import theme
@@ -108,8 +109,8 @@ class CommandedMotion(Gauge):
         if math.isnan(held):
             return []
         if self.under_water:
-            return [Figure("Target depth", figure(-held, 1), "m", "plan")]
-        return [Figure("Target height", figure(held, 1), "m", "plan")]
+            return [Figure("Target depth", *said(-held, "height", 1), "plan")]
+        return [Figure("Target height", *said(held, "height", 1), "plan")]
 
     def _of_twist(self, order: Manoeuvre) -> Iterator[Figure]:
         """Ahead, up and round always; aside, roll and pitch from when they were first asked for."""
@@ -221,7 +222,7 @@ def _unit_wide(told: Figure, size: float) -> float:
 
 
 def _speed(name: str, value: float) -> Figure:
-    return Figure(name, figure(value, 2), "m/s")
+    return Figure(name, *said(value, "speed", 2))
 
 
 def _rate(name: str, value: float) -> Figure:

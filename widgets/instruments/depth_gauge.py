@@ -20,9 +20,9 @@ from bridge.msgs.pilothouse_msgs import ControlStatus, Manoeuvre
 from bridge.msgs.sensor_msgs import FluidPressure
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import DASH, Points, nice_floor
+from widgets.core.quantities import said, to_shown, unit_of
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.instruments.readout import figure
 from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["DepthGauge", "samples"]
@@ -63,10 +63,10 @@ class DepthGauge(Gauge):
     def _figure_text(self) -> str:
         if math.isnan(self.depth):
             return DASH
-        return figure(self.depth, 1 if self.depth < 99.95 else 0)
+        return said(self.depth, "height", 1 if self.depth < 99.95 else 0).text
 
     words = AliasProperty(_figure_text, bind=["depth"], cache=True)
-    """The depth as written, in metres."""
+    """The depth as written, in the operator's unit."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**{"title": "Depth", **kwargs})
@@ -114,7 +114,7 @@ class DepthGauge(Gauge):
     def _figures(self, box: tuple[float, float, float, float]) -> Iterator[Word]:
         """The depth large, the wanted one under it."""
         left, bottom, room, high = box
-        size = self._fitting(self.words, " m", room, min(sp(44), high * 0.3))
+        size = self._fitting(self.words, f" {unit_of('height')}", room, min(sp(44), high * 0.3))
         middle = bottom + high * 0.62
         yield from self._value(self.words, left, middle, size, "text")
         y = middle - size * 0.62 - sp(16)
@@ -123,8 +123,8 @@ class DepthGauge(Gauge):
             yield Word(told, left, y, sp(13), theme.warn, bold=True, anchor=(0, 0.5))
         elif math.isfinite(self.wanted):
             yield Word("TARGET", left, y, sp(11.5), theme.plan, anchor=(0, 0.5))
-            told = figure(self.wanted, 1)
-            small = self._fitting(told, " m", room, min(size * 0.7, sp(26)))
+            told = said(self.wanted, "height", 1).text
+            small = self._fitting(told, f" {unit_of('height')}", room, min(size * 0.7, sp(26)))
             yield from self._value(told, left, y - sp(8) - small * 0.6, small, "plan")
         else:
             texts = ("held where it is", "held") if self.held else ("no target depth", "no target")
@@ -142,23 +142,25 @@ class DepthGauge(Gauge):
         yield Word(text, left, y, size, theme.roles[role], bold=True, anchor=(0, 0.5))
         if text != DASH:
             behind = left + wide(text, size, bold=True) + size * 0.14
-            yield Word("m", behind, y - size * 0.16, max(size * 0.5, sp(11)), theme.muted, anchor=(0, 0.5))
+            unit, small = unit_of("height"), max(size * 0.5, sp(11))
+            yield Word(unit, behind, y - size * 0.16, small, theme.muted, anchor=(0, 0.5))
 
     def _scale(self, shapes: Shapes, box: tuple[float, float, float, float]) -> Iterator[Word]:
         """Water below the surface, with marks at round depths, and the two pointers."""
         left, bottom, room, high = box
         top = bottom + high - dp(10)
         right = left + room
-        labels = sp(22 if self.reach < 100 else 30)
+        labels = sp(22 if to_shown(self.reach, "height") < 100 else 30)
         bar_left, bar_right = left + dp(14), right - labels - dp(2)
         span = top - bottom - dp(6)
         water = np.array([[(bar_left + bar_right) / 2, bottom], [(bar_left + bar_right) / 2, top]])
         shapes.line(water, bar_right - bar_left, tint(theme.sky, 0.32))
         shapes.line(_waves(bar_left - dp(4), bar_right + dp(4), top), dp(2.2), theme.muted)
-        step = nice_floor(self.reach / (2.5 if span < dp(130) else 4.5))
-        for number in range(round(self.reach / step) + 1):
+        reach = to_shown(self.reach, "height")
+        step = nice_floor(reach / (2.5 if span < dp(130) else 4.5))
+        for number in range(int(reach / step + 1e-6) + 1):
             deep = number * step
-            y = top - deep / self.reach * span
+            y = top - deep / reach * span
             start, end = np.array([[bar_right - dp(9), y]]), np.array([[bar_right, y]])
             shapes.segments(start, end, dp(1.5), theme.muted)
             yield Word(f"{deep:g}", right, y, sp(11.5), theme.muted, anchor=(1, 0.5))
@@ -203,14 +205,15 @@ class DepthGauge(Gauge):
 
     def _tails(self) -> tuple[str, ...]:
         """Words behind the depth in one line, the longest first."""
+        unit = unit_of("height")
         if self.words == DASH:
             return (" depth", "")
         if self.rises:
-            return (" m, floats up", " m, rises", " m")
+            return (f" {unit}, floats up", f" {unit}, rises", f" {unit}")
         if math.isfinite(self.wanted) and self.wanted > 0:
-            told = figure(self.wanted, 1)
-            return (f" m, holds {told}", f" m → {told}", f" → {told}")
-        return (" m, held", " held") if self.held else (" m depth", " m")
+            told = said(self.wanted, "height", 1).text
+            return (f" {unit}, holds {told}", f" {unit} → {told}", f" → {told}")
+        return (f" {unit}, held", " held") if self.held else (f" {unit} depth", f" {unit}")
 
 
 def _waves(left: float, right: float, y: float) -> Points:

@@ -19,9 +19,9 @@ from bridge.msgs.pilothouse_msgs import ControlStatus, FlightState
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import DASH, nice_floor
+from widgets.core.quantities import from_shown, said, to_shown, unit_of
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.instruments.readout import figure
 from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["HeightTape", "samples"]
@@ -64,10 +64,10 @@ class HeightTape(Gauge):
     def _figure_text(self) -> str:
         if not math.isfinite(self.own_height):
             return DASH
-        return figure(self.own_height, 1 if self.own_height < 99.95 else 0)
+        return said(self.own_height, "height", 1 if self.own_height < 99.95 else 0).text
 
     words = AliasProperty(_figure_text, bind=["own_height"], cache=True)
-    """The height as written, in metres."""
+    """The height as written, in the operator's unit."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**{"title": "Height", **kwargs})
@@ -127,9 +127,8 @@ class HeightTape(Gauge):
         yield Word(self.words, left, middle, size, theme.text, bold=True, anchor=(0, 0.5))
         if self.words != DASH:
             behind = left + wide(self.words, size, bold=True) + size * 0.14
-            yield Word(
-                "m", behind, middle - size * 0.16, max(size * 0.5, sp(11)), theme.muted, anchor=(0, 0.5)
-            )
+            unit, small = unit_of("height"), max(size * 0.5, sp(11))
+            yield Word(unit, behind, middle - size * 0.16, small, theme.muted, anchor=(0, 0.5))
         elif self.phase:
             yield Word(
                 first_fitting(("out of reach",), sp(12), room),
@@ -150,9 +149,10 @@ class HeightTape(Gauge):
             shapes.polygon(
                 [(x, y + sign * half), (x - half, y - sign * half), (x + half, y - sign * half)], theme.accent
             )
-            told, shift = f"{abs(self.climb):.1f}", dp(16)
+            told, shift = said(abs(self.climb), "speed", 1).text, dp(16)
         else:
-            told, shift = ("0.0", 0.0) if math.isfinite(self.climb) else (DASH, 0.0)
+            nothing = said(0.0, "speed", 1).text
+            told, shift = (nothing, 0.0) if math.isfinite(self.climb) else (DASH, 0.0)
         size = sp(18 if room >= dp(84) else 15)
         yield Word(told, left + shift, y, size, theme.text, bold=True, anchor=(0, 0.5))
         if told != DASH:
@@ -160,9 +160,10 @@ class HeightTape(Gauge):
                 left + shift + wide(told, size, bold=True) + dp(3),
                 sp(12 if room >= dp(84) else 11),
             )
-            if wide("m/s", small) > left + room + dp(4) - behind:  # below, where there is no room behind
+            unit = unit_of("speed")
+            if wide(unit, small) > left + room + dp(4) - behind:  # below, where there is no room behind
                 behind, y = left + shift, y - size * 0.5 - sp(5)
-            yield Word("m/s", behind, y - dp(1), small, theme.muted, anchor=(0, 0.5))
+            yield Word(unit, behind, y - dp(1), small, theme.muted, anchor=(0, 0.5))
 
     def _tape(self, shapes: Shapes, box: tuple[float, float, float, float]) -> Iterator[Word]:
         left, bottom, room, high = box
@@ -180,7 +181,8 @@ class HeightTape(Gauge):
             return
         scale = high / self._span()
         self._ground(shapes, (left, right, bottom), middle - self.own_height * scale)
-        step = nice_floor(sp(44) / scale)
+        rung = nice_floor(to_shown(sp(44) / scale, "height"))
+        step = from_shown(rung, "height")
         first = math.ceil((self.own_height - self._span() / 2) / (step / 2))
         last = math.floor((self.own_height + self._span() / 2) / (step / 2))
         for number in range(max(first, 0), last + 1):
@@ -190,7 +192,7 @@ class HeightTape(Gauge):
             shapes.segments(np.array([[left, y]]), np.array([[left + reach, y]]), dp(1.5), theme.muted)
             inside = bottom + sp(8) < y < bottom + high - sp(8)
             if whole and number and inside and abs(y - middle) > sp(15):
-                yield Word(f"{number * step / 2:g}", left + dp(15), y, sp(12), theme.muted, anchor=(0, 0.5))
+                yield Word(f"{number * rung / 2:g}", left + dp(15), y, sp(12), theme.muted, anchor=(0, 0.5))
         self._target(shapes, (left, right), (bottom, high), scale)
         word = Word(self.words, left + dp(15), middle, sp(13), theme.text, bold=True, anchor=(0, 0.5))
         ground(shapes, word, theme.surface)
@@ -246,12 +248,13 @@ class HeightTape(Gauge):
                 bold=True,
             )
             return
-        tail = " high" if self.words == DASH else " m, hovers" if self.hovers else " m high"
+        unit = unit_of("height")
+        tail = " high" if self.words == DASH else f" {unit}, hovers" if self.hovers else f" {unit} high"
         behind = max(size * 0.56, sp(12))
         if self.hovers:
             behind = min(behind, fitting_size([tail], behind, room - wide(self.words, size, bold=True)))
         if wide(self.words, size, bold=True) + wide(tail, behind) > room:
-            tail = " m" if self.words != DASH else ""
+            tail = f" {unit}" if self.words != DASH else ""
         taken = wide(self.words, size, bold=True)
         left = self.center_x - (taken + wide(tail, behind)) / 2
         yield Word(self.words, left, self.center_y, size, theme.text, bold=True, anchor=(0, 0.5))

@@ -14,8 +14,9 @@ from kivy.metrics import dp, sp
 
 from widgets.core.base import text_texture
 from widgets.core.canvas_ink import Word, ground, tint
-from widgets.core.geometry import Points, View, length_text, nice_floor, thinned
+from widgets.core.geometry import Points, View, nice_floor, thinned
 from widgets.core.icons import icon
+from widgets.core.quantities import round_length
 from widgets.core.shapes import Shapes
 from widgets.core.task_words import KINDS
 from widgets.core.theme import theme
@@ -281,7 +282,7 @@ def place_handle(
 
 def scale_bar(shapes: Shapes, view: View, left: float, bottom: float, longest: float) -> Iterator[Word]:
     """A round length at the scale of the map, with its text above."""
-    metres = nice_floor(longest / view.scale)
+    metres, words = round_length(longest / view.scale)
     right, high = left + metres * view.scale, bottom + dp(6)
     corners = np.array([[left, high], [left, bottom], [right, bottom], [right, high]])
     edge, middle = dp(6), bottom + dp(9)
@@ -289,9 +290,7 @@ def scale_bar(shapes: Shapes, view: View, left: float, bottom: float, longest: f
     shapes.line(behind, dp(26), tint(theme.bg, 0.85))  # a fence or a grid may run through it
     shapes.line(corners, dp(5), tint(theme.bg, 0.7))
     shapes.line(corners, dp(2), theme.text)
-    yield from outlined(
-        Word(length_text(metres), (left + right) / 2, bottom + dp(4), sp(13), theme.text, anchor=(0.5, 0))
-    )
+    yield from outlined(Word(words, (left + right) / 2, bottom + dp(4), sp(13), theme.text, anchor=(0.5, 0)))
 
 
 def grid_lines(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -17,6 +18,8 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from widgets.core.finger_stay import FingerStay
+from widgets.core.geometry import nice_floor
+from widgets.core.quantities import from_shown, said, to_shown
 from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
 from widgets.parts.labels import Icon
@@ -108,24 +111,37 @@ class Stepper(Outlined, BoxLayout):
     maximum = NumericProperty(99)
     step = NumericProperty(1)
     unit = StringProperty("")
+    kind = StringProperty("")
+    """Kind of quantity, as in `widgets.core.quantities.KINDS`: `value`, its ends and `step` are in SI then, and what is shown and counted
+    is in the operator's unit, which stands for `unit`; empty for a bare number."""
     zero = StringProperty("")
     """What to say instead of 0, as in `until stopped`; empty says 0."""
 
     def _figures(self) -> str:
         if self.zero and self.value == 0:
             return self.zero
+        if self.kind:
+            told = said(self.value, self.kind, max(0, -math.floor(math.log10(self.step) + 1e-9)))
+            return f"{told.text} {told.unit}"
         # as it is written: nothing before the sign of degrees and of times
         gap = "" if self.unit in ("°", "×") else " "
         return f"{self.value:g}{gap}{self.unit}".rstrip()
 
-    figures = AliasProperty(_figures, bind=["value", "unit", "zero"], cache=True)
+    figures = AliasProperty(_figures, bind=["value", "unit", "kind", "zero"], cache=True)
 
     def count(self, steps: int) -> None:
         """Go so many steps up or, below 0, down; stays between the ends."""
-        wanted = max(self.minimum, min(self.maximum, self.value + steps * self.step))
+        further = self._counted(steps) if self.kind else self.value + steps * self.step
+        wanted = max(self.minimum, min(self.maximum, further))
         if wanted != self.value:
             self.value = wanted
             self.dispatch("on_change", wanted)
+
+    def _counted(self, steps: int) -> float:
+        """So many round steps of the shown unit further, in SI."""
+        step = nice_floor(to_shown(self.step, self.kind))
+        shown = (round(to_shown(self.value, self.kind) / step) + steps) * step
+        return from_shown(round(shown, 9), self.kind)
 
     def on_change(self, value: float) -> None:
         """A finger set `value`."""

@@ -21,6 +21,7 @@ from bridge.msgs.sensor_msgs import LaserScan
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, ground, tint
 from widgets.core.geometry import DASH, Points, length_text, not_exceeded_by, scan_points, scan_reach
 from widgets.core.icons import icon
+from widgets.core.quantities import said
 from widgets.core.shapes import Shapes
 from widgets.core.surfaces import Glass
 from widgets.core.theme import theme
@@ -168,7 +169,15 @@ class LaserScanView(Glass, Drawing):
             yield Word(DASH, right, y, sp(14), theme.muted, anchor=(1, 0.5))
         elif self.nearest < self.near:
             colour = theme.danger if self.nearest < self.close else theme.warn
-            yield Word(f"{self.nearest:.1f} m", right, y, sp(14), colour, bold=True, anchor=(1, 0.5))
+            yield Word(
+                " ".join(said(self.nearest, "height", 1)),
+                right,
+                y,
+                sp(14),
+                colour,
+                bold=True,
+                anchor=(1, 0.5),
+            )
             if self.nearest < self.close and not alarm:
                 yield Word(
                     icon("warning"), right - sp(52), y, sp(16), colour, font=theme.icons, anchor=(0.5, 0.5)

@@ -284,14 +284,19 @@ class OrderForm(OrderDraft, BoxLayout):
             self.set(**{name: text})
 
     def _speed(self) -> list[Widget]:
-        tenths = 0 if math.isnan(self.speed) else round(self.speed * 10)
         most = max(1, math.floor((self.robot.max_speed or DEFAULT_MAX_SPEED) * 10 + 1e-6)) / 10
-        speed = Stepper(value=tenths / 10, step=0.1, maximum=most, unit="m/s", zero="default")
+        speed = Stepper(
+            value=0.0 if math.isnan(self.speed) else self.speed,
+            step=0.1,
+            maximum=most,
+            kind="speed",
+            zero="default",
+        )
         speed.bind(on_change=self._sped)
         return [self._row("Speed", speed)]
 
     def _sped(self, stepper: Stepper, value: float) -> None:
-        stepper.value = round(value, 1)  # tenths have no exact binary form
+        stepper.value = round(value, 4)  # tenths have no exact binary form
         self.set(speed=stepper.value or math.nan)
 
     def _throttle(self) -> list[Widget]:
@@ -304,7 +309,7 @@ class OrderForm(OrderDraft, BoxLayout):
         deep = self.robot.dives
         value = 0 if math.isnan(self.at_height) else abs(self.at_height)
         usual = "default" if self.task == "take_off" else tr("as now")
-        height = Stepper(value=value, step=0.5, maximum=MAX_HEIGHT, unit="m", zero=usual)
+        height = Stepper(value=value, step=0.5, maximum=MAX_HEIGHT, kind="height", zero=usual)
         sign = -1.0 if deep else 1.0
         height.bind(on_change=lambda _, value: self.set(at_height=sign * value if value else math.nan))
         return [self._row(tr("Depth") if deep else tr("Height"), height)]

@@ -28,6 +28,7 @@ from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets.controls.sticks.stick import Stick
 from widgets.controls.sticks.tilt_circle import TiltCircle
+from widgets.core.quantities import said
 
 __all__ = ["DriveControls"]
 
@@ -241,7 +242,7 @@ class DriveControls(EventDispatcher):
         if told is None or feeds.state("/odom") != "live":
             return "–"
         way = told.twist.twist.linear
-        return f"{math.hypot(way.x, way.y, way.z):.1f}\u00a0m/s"
+        return said(math.hypot(way.x, way.y, way.z), "speed", 1).words
 
     def take_limits(self) -> None:
         """The slider's range is the robot's; where it stood is kept."""

@@ -9,6 +9,7 @@ from kivy.metrics import dp
 from kivy.properties import AliasProperty, NumericProperty, StringProperty
 
 from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
+from widgets.core.quantities import said
 from widgets.parts.kit import Card
 
 __all__ = ["SPEED", "YAW_RATE", "SpeedCard", "allowed"]
@@ -32,8 +33,8 @@ Builder.load_string("""
         opacity: .4 if root.driven else 1
         on_change: root.maximum_speed = args[1]
     ValueUnit:
-        value: '%.2f' % root.maximum_speed
-        unit: 'm/s'
+        value: root.told[0]
+        unit: root.told[1]
         font_size: sp(18)
         unit_size: sp(14)
         room: root.width - dp(18)
@@ -61,9 +62,16 @@ class SpeedCard(Card):
     driven = StringProperty("")
     """What drives instead of the stick, and how fast, as in `task: 1.9 m/s`; empty while nothing does."""
 
+    def _told(self) -> tuple[str, str]:
+        return said(self.maximum_speed, "speed", 2)
+
+    told = AliasProperty(_told, bind=["maximum_speed"], cache=True)
+    """Figure and unit of `maximum_speed`, as the operator chose them."""
+
     def _limits(self) -> str:
         word = "limit" if self.width > dp(90) else "≤"
-        speed = f"{word} {self.speed_limit:.2f}\u00a0m/s" if math.isfinite(self.speed_limit) else ""
+        limit = said(self.speed_limit, "speed", 2).words
+        speed = f"{word} {limit}" if math.isfinite(self.speed_limit) else ""
         turn = f"turn {math.degrees(self.turn_limit):.0f}°/s" if math.isfinite(self.turn_limit) else ""
         return "\n".join(filter(None, (speed, turn)))
 

@@ -8,6 +8,7 @@ from app.session.session import Session
 from app.session.steering import Steering, steering
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from bridge.msgs.sensor_msgs import NavSatFix
+from widgets.core.quantities import said
 
 __all__ = ["control", "control_nav", "fix", "mode", "standing"]
 
@@ -122,4 +123,4 @@ def _accuracy(fix: NavSatFix) -> str:
     """How far off the position may be, as in `±1.2 m`; the bare fact where the receiver does not say."""
     if not fix.position_covariance_type or not fix.position_covariance:
         return "fix"
-    return f"±{math.sqrt(max(0.0, fix.position_covariance[0])):.1f} m"
+    return f"±{said(math.sqrt(max(0.0, fix.position_covariance[0])), 'height', 1).words}"

@@ -7,6 +7,7 @@ import pytest
 from bridge.msgs.pilothouse_msgs import Mission, PlaceArray, RobotInfo, TaskOrder, Waypoint
 from robotside.kinds.registry import described
 from widgets.controls.heading_dial import HeadingDial
+from widgets.core.quantities import quantities, read
 from widgets.core.task_words import TASKS
 from widgets.parts.buttons import PushButton
 from widgets.parts.choices import Segment
@@ -129,6 +130,28 @@ def test_speed_and_time_are_left_to_the_robot_until_they_are_set(stage, form):
     span.count(3)
     assert form.asked[-1].duration == 180.0
     assert len(of(form, StepperEnd)) == 4
+
+
+@pytest.mark.parametrize(("system", "sign"), [("metric", "m/s"), ("imperial", "mph"), ("nautical", "kn")])
+def test_what_is_counted_in_the_shown_unit_is_asked_for_in_si(stage, form, system, sign):
+    quantities.system = system
+    try:
+        form.begin("follow_heading")
+        stage.frames(4)
+        speed, _ = of(form, Stepper)
+        for _ in range(3):
+            speed.count(1)
+        assert speed.figures.endswith(f" {sign}")
+        assert form.asked[-1].speed == pytest.approx(read(speed.figures, "speed"), abs=1e-3)
+        speed.count(50)
+        assert form.asked[-1].speed == pytest.approx(0.8), "the robot's own limit holds in every unit"
+        form.set(speed=0.5)
+        assert form.order.speed == 0.5, "what was asked for before is not rounded to another unit"
+        height = Stepper(kind="height", step=0.5, value=0.0, maximum=30.0)
+        height.count(1)
+        assert height.value == pytest.approx({"metric": 0.5, "imperial": 0.3048, "nautical": 0.5}[system])
+    finally:
+        quantities.system = "metric"
 
 
 def test_the_reaction_to_an_intruder_is_told_apart(stage, form):
