@@ -13,9 +13,9 @@ from app.link.channels import CAPABILITIES, EVENT, KNOWN, LINK, MISSED, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Feeds, Post
 from app.link.link import Link
-from app.missions.fence_refusals import FenceRefusals
 from app.missions.mission_drafts import MissionDrafts
 from app.missions.mission_editor import Draft
+from app.missions.refusals import Refusals
 from app.missions.stored_missions import StoredMissions
 from app.missions.tasking import Tasking
 from app.session.authority import Authority
@@ -75,7 +75,7 @@ class Session:
         self.mission = self.drafts.editor
         self.tasking = Tasking(self)
         self.checks = CheckListState(feeds, lambda: self.running)
-        self.refusals = FenceRefusals(feeds)
+        self.refusals = Refusals(feeds)
         self.missions = StoredMissions(self)
         self.logbook = Logbook(settings, self.command)
         self.events = EventIntake(self, self.own_id, self.logbook, lambda post: self._publish(EVENT, post))

@@ -32,7 +32,7 @@ def test_points_outside_are_said_while_they_are_edited_and_can_be_sent_all_the_s
     fenced.stage.frames(3)
     wanted = "Point 2 at (12.0, 5.0) is outside the robot's fence."
     assert mission.selection.trouble == wanted
-    assert mission.panel._send.note == "The fence forbids point 2."
+    assert mission.panel._send.note == wanted
     robot.refusals["/mission/set"] = "The robot's own words."
     fenced.until(lambda: not mission.ids["send"].disabled, "nothing can be sent")
     fenced.tap(mission.ids["send"])

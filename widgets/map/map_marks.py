@@ -7,7 +7,7 @@ the screen do not depend on the zoom.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 
 import numpy as np
 from kivy.metrics import dp, sp
@@ -31,6 +31,7 @@ __all__ = [
     "handle_reach",
     "place_handle",
     "place_marks",
+    "reasons",
     "plan_line",
     "robot_mark",
     "route_line",
@@ -91,8 +92,9 @@ def waypoint_marks(
     visited: int,
     coming: int,
     selected: int,
+    refused: Container[tuple[float, float]] = (),
 ) -> Iterator[Word]:
-    """Numbered discs: the first `visited` filled, the others open; `coming` and `selected` stand out."""
+    """Numbered discs: the first `visited` filled, the others open; `coming` and `selected` stand out, those at `refused` are red."""
     for index, place in enumerate(waypoints):
         x, y = view.to_screen(*place[:2])
         if index == selected:
@@ -101,10 +103,11 @@ def waypoint_marks(
         elif index == coming:
             shapes.disc(x, y, radius + dp(10), tint(theme.plan, 0.25))
         filled = index < visited
+        bad = theme.danger if tuple(place[:2]) in refused else theme.plan
         shapes.disc(x, y, radius, theme.plan if filled else theme.bg)
         if not filled:
-            shapes.ring(x, y, radius - dp(1.8), dp(3.6), theme.plan)
-        ink = theme.ink_plan if filled else theme.plan
+            shapes.ring(x, y, radius - dp(1.8), dp(3.6), bad)
+        ink = theme.ink_plan if filled else bad
         yield Word(str(index + 1), x, y, radius * 1.05, ink, bold=True)
 
 
@@ -169,6 +172,23 @@ def intruder_marks(
         others = [*taken, *(place for place in places if place != (px, py))]
         word = _beside((px, py), label, size, box, others)
         word.colour = colour
+        ground(shapes, word, tint(theme.bg, 0.85))
+        yield word
+
+
+def reasons(
+    shapes: Shapes,
+    view: View,
+    places: Sequence[tuple[float, float, str, float]],
+    *,
+    box: tuple[float, float, float, float],
+    taken: Sequence[tuple[float, float]] = (),
+) -> Iterator[Word]:
+    """A few words beside each of `places`: x and y [m], the words, and the size of the mark there [px]; inside `box` and off `taken` [px]."""
+    for x, y, words, size in places:
+        at = view.to_screen(x, y)
+        word = _beside(at, words, size, box, [one for one in taken if one != at])
+        word.colour = theme.danger
         ground(shapes, word, tint(theme.bg, 0.85))
         yield word
 

@@ -60,7 +60,7 @@ class MapOverlay(MapViewport, Drawing):
     grid_size: ClassVar[tuple[int, int]] = (6, 6)
     drawn_from: ClassVar[tuple[str, ...]] = (
         "view", "waypoints", "selected", "home", "placed", "grip", "mode", "robot", "robot_radius", "camera_fov",
-        "plan", "places", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets", "fence", "foot",
+        "plan", "places", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets", "fence", "foot", "refused",
     )  # fmt: skip
 
     robot_radius = NumericProperty(0.2)
@@ -77,6 +77,8 @@ class MapOverlay(MapViewport, Drawing):
     """Draw what the laser hits."""
     fence: ObjectProperty[Fence] = ObjectProperty(Fence())
     """Where it may be, a `Fence`; waypoints, home and places that it would refuse are marked."""
+    refused: ListProperty[tuple[float, float, str]] = ListProperty()
+    """Waypoints and home that it would refuse for another reason too, or why it would: x, y [m], a few words; none of them empty."""
     foot = NumericProperty(0)
     """How far above the lower edge of what is free the scale and the legend begin [px]; NaN draws neither."""
     visited: NumericProperty[int] = NumericProperty(0)
@@ -219,21 +221,29 @@ class MapOverlay(MapViewport, Drawing):
         yield from marks.waypoint_marks(
             shapes, view, places, self.mark_radius,
             visited=self.visited, coming=self.coming, selected=self.selected,
+            refused={place for place in places if self._would_refuse(*place)},
         )  # fmt: skip
         yield from self._refused(shapes, places, home)
 
     def _refused(
         self, shapes: Shapes, waypoints: list[tuple[float, float]], home: Sequence[float]
     ) -> Iterator[Word]:
-        """Where the robot would not go: of a dock it is the place before it that counts, which is not known here."""
-        if not self.fence:
-            return
+        """Where the robot would not go, and why: of a dock it is the place before it that counts, which is not known here."""
         sizes = [(place, self.mark_radius) for place in waypoints]
         sizes += [((home[0], home[1]), self.mark_radius * 0.9)] if home else []
         sizes += [(place[:2], self.mark_radius * 0.8) for place in self.places if place[3] != "dock"]
-        for (x, y), size in sizes:
-            if self.fence.forbids(x, y, self.robot_radius):
-                yield fence_marks.refused_mark(shapes, self.view, x, y, size)
+        bad = [(place, size) for place, size in sizes if self._would_refuse(*place)]
+        taken = [self.view.to_screen(*place) for place, _ in sizes]
+        for place, size in bad:
+            yield fence_marks.refused_mark(shapes, self.view, *place, size)
+        why = {(x, y): words for x, y, words in self.refused}
+        said = [(*place, why[place], size) for place, size in bad if place in why]
+        yield from marks.reasons(shapes, self.view, said, box=self.free_box, taken=taken)
+
+    def _would_refuse(self, x: float, y: float) -> bool:
+        if any((x, y) == one[:2] for one in self.refused):
+            return True
+        return bool(self.fence) and self.fence.forbids(x, y, self.robot_radius)
 
     def _fill_robot(self, shapes: Shapes) -> Iterator[Word]:
         yield from self._alarms(shapes)

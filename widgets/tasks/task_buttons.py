@@ -69,7 +69,7 @@ Builder.load_string("""
             ink: 'ink_accent' if root.inviting else 'text'
             flow: root.flow
             height: row.height
-            disabled: root.disabled or (root.held and root.main != 'pause')
+            disabled: root.disabled or (root.held and root.main != 'pause') or (root.empty and root.main == 'start')
             size_hint_x: 1 if root.brief else 1.12 if root.narrow else 1.25
             on_release: root.ask(root.main)
         QuietButton:
@@ -121,7 +121,9 @@ class TaskButtons(Control, Column):
     """Icons above the words, for a phone."""
 
     ready = BooleanProperty(True)
-    """There is a patrol to start; without one Start is as quiet as the rest."""
+    """There is a patrol that the robot would start; without one Start is as quiet as the rest."""
+    empty = BooleanProperty(False)
+    """There are no points to start a patrol of, and Start cannot be pressed."""
     held = BooleanProperty(False)
     """STOP is pressed: nothing that moves the robot can be asked for."""
 
@@ -282,7 +284,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         ),
         "no reply": make("RUNNING", ("home", "no_reply")),
         "disabled": make("RUNNING", state="disabled"),
-        "nothing to start": make(ready=False),
+        "would be refused": make(ready=False),
+        "nothing to start": make(ready=False, empty=True),
         "held": make("PAUSED", held=True),
         "phone": make("RUNNING", brief=True, width="300dp"),
         "phone paused": make("PAUSED", brief=True, width="300dp"),

@@ -10,6 +10,7 @@ from kivy.metrics import dp
 from kivy.uix.widget import Widget
 
 from app.missions.mission_editor import Draft
+from app.missions.refusals import summary
 from app.screens.mission.map_places import MapPlaces
 from app.screens.mission.selection_bar import SelectionBar
 from app.screens.shell.screen_host import ScreenHost
@@ -70,6 +71,8 @@ class MapPointing:
         self._screen, self._session = screen, session
         self.bar = SelectionBar()
         self.places = MapPlaces(screen, session, self.show)
+        self._judged: dict[str, str] = {}
+        """Name of each point and of home that the robot would refuse where it is now, to why."""
         self._ids: dict[str, Any] = {}
         self._build()
 
@@ -169,7 +172,7 @@ class MapPointing:
     def _trouble(self) -> str:
         """Why the robot would refuse what is being edited, as one sentence; empty when it would not."""
         screen, area, index = self._screen, self._screen.map, int(self._screen.map.selected)
-        found = self._session.refusals.draft(self._held())
+        found = self._judged
         if screen.mode == "home":
             return found.get("Home", "")
         points = {name: said for name, said in found.items() if name != "Home"}
@@ -177,9 +180,7 @@ class MapPointing:
             return ""
         if 0 <= index < len(area.waypoints):
             return points.get(f"Point {index + 1}", "")
-        more = len(points) - 1
-        first = next(iter(points.values()))
-        return f"{first.rstrip('.')}; {more} more would be refused too." if more else first
+        return summary(points.values())
 
     def _held(self) -> Draft:
         """The draft with what a finger holds where the finger has brought it."""
@@ -194,6 +195,17 @@ class MapPointing:
         return replace(draft, points=tuple(points))
 
     def _say(self, *_: object) -> None:
+        self.judge()
+
+    def judge(self) -> None:
+        """Mark what the robot would refuse, and say why in the bar."""
+        held = self._held()
+        faults = self._session.refusals.faults(held)
+        self._judged = {name: fault.sentence for name, fault in faults.items()}
+        places = {f"Point {number}": point for number, point in enumerate(held.points, 1)}
+        if held.home is not None:
+            places["Home"] = held.home
+        self._screen.map.refused = [(*places[name], fault.brief) for name, fault in faults.items()]
         self.bar.trouble = self._trouble()
 
     def _reorder(self, step: int) -> None:

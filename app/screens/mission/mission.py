@@ -142,7 +142,8 @@ class MissionScreen(RobotScreen):
         self._maps.follow(self._pointing)
         bind(self.map, "/robot/info", self._show_info, fresh=False)
         bind(self.map, "/task/status", self._drawing.show_task, fresh=False)
-        bind(self.map, "/limits", lambda _: self._drawing.show_draft(), fresh=False)
+        for topic in ("/limits", "/map"):
+            bind(self.map, topic, lambda _: self._drawing.show_draft(), fresh=False)
         bind(self.compass, "/pose")
         bind(self, "/pose", self._pointing.places.on_pose, fresh=False)
         bind(
@@ -294,6 +295,7 @@ class MissionScreen(RobotScreen):
     def tick(self) -> None:
         """Bring up to date what time changes."""
         self.dashboard.tick()
+        self._drawing.tick()
         self.panel.tick()
         self.checks.tick()
         self._tools.tick()

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from app.missions.fence_refusals import summary
+import math
+
+from app.missions.refusals import summary
 from app.screens.mission.map_pointing import MapPointing
 from app.screens.mission.mission_maps import MissionMaps
 from app.screens.mission.mission_panel import MissionPanel
@@ -11,6 +13,8 @@ from bridge.msgs.pilothouse_msgs import RobotInfo, TaskStatus
 
 __all__ = ["MissionOnMap"]
 
+JUDGE_PERIOD = 1.0
+"""Between two looks at what the robot would refuse from where it is now [s]."""
 DEFAULT_RADIUS = 0.2
 """Of a robot that does not publish its own [m]."""
 
@@ -22,6 +26,7 @@ class MissionOnMap:
         self, session: Session, maps: MissionMaps, panel: MissionPanel, pointing: MapPointing
     ) -> None:
         self._session, self._maps, self._panel, self._pointing = session, maps, panel, pointing
+        self._judged = -math.inf
 
     def show_draft(self) -> None:
         """Bring the draft up to date, on the map and in the panel."""
@@ -31,9 +36,23 @@ class MissionOnMap:
         if area.selected >= len(draft.points):
             area.selected = -1
         area.motion_name = draft.motion
-        self._panel.refused = summary(self._session.refusals.draft(draft))
+        self._panel.refused = summary(self._session.refusals.draft(draft).values())
         self._panel.show_draft()
         self._pointing.show()
+
+    def tick(self) -> None:
+        """Bring up to date what time changes: where ways lead to depends on where the robot is."""
+        if self._session.now() - self._judged >= JUDGE_PERIOD:
+            self.judge()
+
+    def judge(self) -> None:
+        """Say anew what the robot would refuse."""
+        self._judged = self._session.now()
+        refused = summary(self._session.refusals.draft(self._session.mission.draft).values())
+        if refused != self._panel.refused:
+            self._panel.refused = refused
+            self._panel.show_draft()
+        self._pointing.judge()
 
     def show_info(self, info: RobotInfo) -> None:
         """The robot's size and its camera's field of view."""

@@ -15,7 +15,7 @@ from kivy.uix.widget import Widget
 from app.screens.mission.no_mission_panel import Figures, NoMissionPanel
 from app.session.dashboard import Dashboard
 from app.session.session import Session
-from bridge.msgs.pilothouse_msgs import TaskProgress, TaskStatus
+from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskStatus
 from widgets import EventLog, MotionSelector, Readout, TaskButtons
 from widgets.parts.column import Column
 from widgets.parts.kit import Card
@@ -55,9 +55,11 @@ Builder.load_string("""
 
 <SendRow>:
     spacing: dp(5)
-    PrimaryButton:
+    PushButton:
         id: send
-        role: 'plan'
+        fill: 'plan' if root.calls else 'raised'
+        border: 'plan' if root.calls else 'line'
+        ink: 'ink_plan' if root.calls else 'text'
         icon: 'upload'
         text: root.words
         disabled: not root.may_send
@@ -69,14 +71,12 @@ Builder.load_string("""
             name: root.icon
             role: root.role
             font_size: sp(17)
-            pos_hint: {'center_y': .5}
+            pos_hint: {'top': 1}
         Text:
             id: note
             text: root.note
             role: root.role
             font_size: sp(14)
-            shorten: True
-            shorten_from: 'right'
 
 <ProgressRow>:
     spacing: dp(5)
@@ -138,6 +138,8 @@ class SendRow(Column):
     role = StringProperty("muted")
     icon = StringProperty("info")
     may_send = NumericProperty(0)
+    calls = BooleanProperty(False)
+    """Nothing else sends these points: the robot goes round others just now."""
 
 
 class ProgressRow(Column):
@@ -278,7 +280,18 @@ class MissionPanel(BoxLayout):
         self._fill.height = 0 if self.sheet_open else max(0, spare)
 
     def _command(self, name: str) -> None:
-        self._session.command(TASKS.get(name, name))
+        if name == "start":
+            self._start()
+        else:
+            self._session.command(TASKS.get(name, name))
+
+    def _start(self) -> None:
+        """Start the patrol of the points that are drawn: what the robot does not have of them yet goes ahead."""
+        session = self._session
+        if session.mission.dirty:
+            session.tasking.start(TaskOrder(task="patrol"), send_first=True)
+        else:
+            session.command("start")
 
     @property
     def beside_stop(self) -> Widget:
@@ -304,6 +317,7 @@ class MissionPanel(BoxLayout):
             if count
             else "Send to the robot"
         )
+        self._send.calls = self._patrols
         note, role = STATES[state]
         if state == "draft" and mission.failed:
             note, role = mission.outcome, "danger"
@@ -354,7 +368,8 @@ class MissionPanel(BoxLayout):
         self.tasks.state = "live" if mine and tasks else "disabled"
         if not tasks:
             self.tasks.reason = NO_TASKS
-        self.tasks.ready = bool(session.mission.draft.points)
+        self.tasks.empty = not session.mission.draft.points
+        self.tasks.ready = not (self.tasks.empty or self.refused)
         self.tasks.held = session.robot_stop.latched
         self._send.may_send = int(mine and missions and session.mission.state == "draft")
         if not missions:

@@ -1,0 +1,104 @@
+"""Points on the map while they are drawn: bad ones are red and say why, and Start sends what is drawn."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from bridge.msgs.arrays import Int8Array
+from bridge.msgs.geometry_msgs import Point, Pose
+from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
+from bridge.msgs.pilothouse_msgs import RobotInfo
+from tests.app.fakes import FakeRobot
+from tests.app.glass import Glass
+
+GRID = OccupancyGrid(
+    info=MapMetaData(resolution=0.5, width=40, height=40, origin=Pose(Point(-10.0, -10.0))),
+    data=Int8Array(
+        bytes(100 if column == 20 and row < 20 else 0 for row in range(40) for column in range(40))
+    ),
+)
+"""20 m by 20 m with a wall from the middle of its lower edge to its middle."""
+FREE, IN_WALL = (5.0, 5.0), (0.2, -3.0)
+
+
+@pytest.fixture
+def mission(driving: Glass, robot: FakeRobot) -> Any:
+    """Points are drawn on the map of a robot that has told its walls."""
+    robot.publish("/robot/info", RobotInfo(name="Fake-1", kind="wheels", max_speed=0.8, radius=0.2))
+    robot.publish("/map", GRID)
+    driving.app.show("mission")
+    screen = driving.app.screens["mission"]
+    driving.until(lambda: screen.map.grid is not None, "no map")
+    driving.until(lambda: driving.app.session.robot.info.radius, "no size")
+    screen.mode = "points"
+    return screen
+
+
+def services(robot: FakeRobot) -> list[str]:
+    return [name for name in robot.services() if name in ("/mission/set", "/task/start")]
+
+
+def start_of(mission: Any) -> Any:
+    """The button that starts."""
+    return next(one for one in mission.panel.tasks.walk() if getattr(one, "text", "").startswith("Start"))
+
+
+def test_a_point_in_a_wall_is_red_says_why_and_start_is_not_lit_until_it_is_moved(
+    driving: Glass, mission: Any
+) -> None:
+    for place in (FREE, IN_WALL):
+        mission.map.dispatch("on_add", *place)
+    driving.until(lambda: not mission.panel.tasks.disabled, "nothing can be asked")
+    said = "Point 2 at (0.2, -3.0) is in a wall or another obstacle."
+    assert list(mission.map.refused) == [(*IN_WALL, "in a wall")]
+    assert (mission.panel._send.note, mission.selection.trouble) == (said, said)
+    driving.stage.frames(8)
+    assert not mission.panel.tasks.inviting
+    assert "in a wall" in mission.map._layers[0][1].texts
+    mission.map.dispatch("on_move", 1, 3.0, -3.0)
+    driving.stage.run_for(0.3)
+    assert list(mission.map.refused) == []
+    assert mission.panel.tasks.inviting
+
+
+def test_start_sends_the_points_that_are_drawn_and_then_starts(
+    driving: Glass, robot: FakeRobot, mission: Any
+) -> None:
+    mission.map.dispatch("on_add", *FREE)
+    button = start_of(mission)
+    driving.until(lambda: not button.disabled, "cannot start")
+    driving.tap(button)
+    driving.until(lambda: "/task/start" in robot.services(), robot.services())
+    assert services(robot) == ["/mission/set", "/task/start"]
+    (sent,) = [request.mission for name, request in robot.asked if name == "/mission/set"]
+    assert [(point.x, point.y) for point in sent.waypoints] == [FREE]
+
+
+def test_nothing_starts_where_the_robot_does_not_take_the_points_and_its_reason_is_said_whole(
+    driving: Glass, robot: FakeRobot, mission: Any
+) -> None:
+    reason = (
+        "Point 1 at (5.0, 5.0) is on the flower bed, where nobody goes before the gardener has been there."
+    )
+    robot.refusals["/mission/set"] = reason
+    mission.map.dispatch("on_add", *FREE)
+    button = start_of(mission)
+    driving.until(lambda: not button.disabled, "cannot start")
+    driving.tap(button)
+    driving.until(lambda: mission.panel._send.note.endswith(reason), mission.panel._send.note)
+    driving.until(lambda: any(text.endswith(reason) for text in driving.banners()), driving.banners())
+    driving.stage.run_for(0.5)
+    assert services(robot) == ["/mission/set"]
+    note = mission.panel._send.ids.note
+    assert (note.shorten, note.height) == (False, note.texture_size[1])
+
+
+def test_without_points_start_cannot_be_pressed(driving: Glass, mission: Any) -> None:
+    button = start_of(mission)
+    driving.until(lambda: not mission.panel.tasks.disabled, "nothing can be asked")
+    driving.stage.run_for(0.3)
+    assert button.disabled
+    mission.map.dispatch("on_add", *FREE)
+    driving.until(lambda: not button.disabled, "cannot start")
