@@ -164,13 +164,13 @@ def test_no_room_is_too_full(package):
     assert not {room: count for room, count in rooms.items() if count > MAX_MODULES}
 
 
-THREADED_WIDGET = "widgets/map/tile_reader.py"
-"""Decodes files beside the loop that draws; no widget is called from its thread."""
+THREADED_WIDGETS = {"widgets/map/tile_reader.py", "widgets/map/grid_worker.py"}
+"""Decode files and prepare grids beside the loop that draws; no widget is called from their threads."""
 
 
 @looped("path", _sources("widgets"))
 def test_a_widget_knows_of_no_network_no_thread_and_no_app(path):
     found = set(imported_names(path))
     foreign = {module.split(".")[0] for module in found} & {"asyncio", "socket", "threading"}
-    assert foreign == ({"threading"} if _path(path) == THREADED_WIDGET else set())
+    assert foreign == ({"threading"} if _path(path) in THREADED_WIDGETS else set())
     assert "kivy.app.App" not in found or _path(path) in {"widgets/__main__.py", "widgets/gallery.py"}

@@ -11,6 +11,7 @@ import pytest
 
 from widgets.core import canvas_ink as ink
 from widgets.instruments import horizon
+from widgets.map import grid_picture
 from widgets.plots import trace_ink
 from widgets.sensors import video
 
@@ -45,6 +46,7 @@ def compiled(vertex: str, fragment: str) -> str:
 KIVYS = (GLSL / "default.vs").read_text()
 PAIRS = {
     "ink": (ink.VERTEX, ink.FRAGMENT),
+    "grid": (KIVYS, grid_picture.FRAGMENT),
     "horizon": (KIVYS, horizon.FRAGMENT),
     "traces": (trace_ink.VERTEX, trace_ink.FRAGMENT),
     "video": (KIVYS, video.FRAGMENT),

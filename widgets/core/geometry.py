@@ -37,7 +37,6 @@ __all__ = [
     "nearest",
     "nice_floor",
     "not_exceeded_by",
-    "occupancy_pixels",
     "rounded",
     "scan_points",
     "scan_reach",
@@ -341,15 +340,3 @@ def spread(points: Iterable[tuple[float, float]]) -> Points:
     """Pairs as an array of shape (n, 2), without those that have a NaN in them."""
     array = np.array([*points], dtype=np.float64).reshape(-1, 2)
     return array[np.isfinite(array).all(axis=1)]
-
-
-def occupancy_pixels(
-    cells: NDArray[np.int8], free: Sequence[float], occupied: Sequence[float], unknown: Sequence[float]
-) -> NDArray[np.uint8]:
-    """Grid `cells` (-1 unknown, 0 free to 100 occupied) as RGBA bytes, by a table of 256 colours."""
-    share = np.linspace(0.0, 1.0, 101)[:, None]
-    table = np.empty((256, 4))
-    table[:101] = np.asarray(free) * (1 - share) + np.asarray(occupied) * share
-    table[101:128] = occupied
-    table[128:] = unknown
-    return (table * 255 + 0.5).astype(np.uint8)[cells.view(np.uint8)]

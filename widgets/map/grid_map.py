@@ -12,12 +12,10 @@ from collections.abc import Callable, Iterator
 from typing import Any, ClassVar
 
 import numpy as np
-from kivy.graphics import Color, PopMatrix, PushMatrix, Rectangle, Rotate, Scale, Translate
-from kivy.graphics.texture import Texture
+from kivy.graphics import Color, Rectangle
 from kivy.metrics import dp
 from kivy.properties import NumericProperty, ObjectProperty
 from kivy.uix.widget import Widget
-from numpy.typing import NDArray
 
 from bridge.core.camera_frames import MAX_PIXELS, MAX_SIDE
 from bridge.msgs import Msg
@@ -34,10 +32,11 @@ from bridge.msgs.geometry_msgs import (
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
 from bridge.msgs.pilothouse_msgs import Limits
 from widgets.core.canvas_ink import Ink, Word, tint
-from widgets.core.geometry import Points, occupancy_pixels, screen_angle, spread, tween
+from widgets.core.geometry import Points, spread, tween
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.map.beneath import Beneath, Ground, attribution_word
+from widgets.map.grid_picture import GridPicture
 from widgets.map.map_marks import grid_lines, outlined
 from widgets.map.map_overlay import MapOverlay
 
@@ -46,8 +45,8 @@ __all__ = ["GridMap", "fenced", "patrol", "samples"]
 log = logging.getLogger(__name__)
 
 
-FREE_OVER_GROUND = 0.25
-"""Opacity of what is free where pictures lie beneath the grid."""
+UNKNOWN = {"dark": 0.0, "sunlight": 0.16, "night": 0.0}
+"""How far what is unknown lies from the window's colour towards that of muted words."""
 
 
 class GridMap(MapOverlay):
@@ -67,28 +66,17 @@ class GridMap(MapOverlay):
         self._beneath = Beneath()
         self._squares = Ink()
         self._ground = Rectangle()
-        self._ground_colour, self._grid_colour = Color(), Color(0, 0, 0, 0)
-        self._cells = Rectangle(size=(0, 0))
-        self._shift, self._turn, self._scale = Translate(), Rotate(axis=(0, 0, 1)), Scale(1.0)
-        self._texture: Texture | None = None
-        self._texture_look: tuple[object, ...] = ()
+        self._ground_colour = Color()
+        self.picture = GridPicture(changed=self._grid_drawn)
+        """The grid as it is drawn."""
         self._too_large = False
         """The last grid was not shown for its size."""
         super().__init__(**kwargs)
-        placing = (
-            PushMatrix(),
-            self._shift,
-            self._turn,
-            self._scale,
-            self._grid_colour,
-            self._cells,
-            PopMatrix(),
-        )
         for part in (
             self._ground_colour,
             self._ground,
             self._beneath.canvas,
-            *placing,
+            self.picture.canvas,
             self._squares,
         ):
             self.canvas.before.add(part)
@@ -114,6 +102,26 @@ class GridMap(MapOverlay):
         self.grid = msg if len(msg.data) == wide * high > 0 else None
         self._fit_until_touched()
 
+    def on_opacity(self, *_: object) -> None:
+        """The grid has a shader of its own, which knows nothing of opacity."""
+        self.picture.see(self.opacity)
+
+    def on_grid(self, *_: object) -> None:
+        """Have it made ready and drawn."""
+        self.picture.show(self.grid)
+
+    def _grid_drawn(self) -> None:
+        self.redraw()
+
+    def finish_pictures(self) -> None:
+        """Wait until the grid and the pictures in sight are there: for whoever draws a picture of the map."""
+        self.picture.finish()
+
+    def close(self) -> None:
+        """End the work on a grid that came."""
+        self.picture.close()
+        super().close()
+
     def on_ground(self, *_: object) -> None:
         """Have it drawn."""
         self._beneath.lay(self.ground)
@@ -131,11 +139,10 @@ class GridMap(MapOverlay):
     def _corners(self) -> Points:
         if self.grid is None:
             return spread([])
-        info = self.grid.info
-        known = np.argwhere(_numbers(self.grid) >= 0)
-        if not len(known):
+        info, known = self.grid.info, self.picture.known
+        if known is None:
             return spread([])
-        (low_row, low_column), (row, column) = known.min(axis=0), known.max(axis=0) + 1
+        low_column, low_row, column, row = known
         yaw = info.origin.orientation.yaw
         ahead = info.resolution * complex(math.cos(yaw), math.sin(yaw))
         origin = complex(info.origin.position.x, info.origin.position.y)
@@ -145,40 +152,13 @@ class GridMap(MapOverlay):
     def draw_ground(self) -> None:
         """Bring the ground, the grid and the squares up to date."""
         self._ground.pos, self._ground.size = self.pos, self.size
-        self._ground_colour.rgba = tween(theme.bg, theme.surface, 0.6)
+        self._ground_colour.rgba = tween(theme.bg, theme.muted, UNKNOWN[theme.name])
         self._beneath.draw(self.view, (*self.pos, *self.size), self.ground_opacity)
         shapes = Shapes()
         grid_lines(shapes, self.view, (*self.pos, *self.size), tint(theme.muted, 0.13))
         self._squares.fill(shapes)
-        if self.grid is None:
-            self._grid_colour.a = 0.0
-            return
-        self._colour_grid(self.grid)
-        self._place_grid(self.grid.info)
-
-    def _place_grid(self, info: MapMetaData) -> None:
-        view = self.view
-        position = info.origin.position
-        self._shift.xy = view.to_screen(position.x, position.y)
-        self._turn.angle = screen_angle(view.turn + info.origin.orientation.yaw)
-        self._scale.x = self._scale.y = view.scale * info.resolution
-        self._cells.size = info.width, info.height
-
-    def _colour_grid(self, grid: OccupancyGrid) -> None:
-        look = (id(grid), theme.name, self._beneath.shown)
-        if look == self._texture_look:
-            return
-        self._texture_look = look
-        numbers = _numbers(grid)
-        free = tint(theme.surface, FREE_OVER_GROUND if self._beneath.shown else 1.0)
-        unknown = tint(theme.bg, 0.0)
-        pixels = occupancy_pixels(numbers, free, tween(theme.line, theme.muted, 0.45), unknown)
-        size = (numbers.shape[1], numbers.shape[0])
-        if self._texture is None or self._texture.size != size:
-            self._texture = Texture.create(size=size, colorfmt="rgba")
-            self._cells.texture = self._texture
-        self._texture.blit_buffer(pixels.reshape(-1), colorfmt="rgba", bufferfmt="ubyte")
-        self._grid_colour.rgba = 1, 1, 1, 1
+        self.picture.colour(over_pictures=self._beneath.shown)
+        self.picture.place(self.view)
 
 
 def _parking_lot() -> OccupancyGrid:
@@ -192,10 +172,6 @@ def _parking_lot() -> OccupancyGrid:
             cells[row + 2 : row + 40, column + 2 : column + 16] = 84
     info = MapMetaData(resolution=0.1, width=360, height=240, origin=Pose(Point(-18.0, -12.0)))
     return OccupancyGrid(info=info, data=Int8Array(cells.tobytes()))
-
-
-def _numbers(grid: OccupancyGrid) -> NDArray[np.int8]:
-    return np.frombuffer(grid.data, np.int8).reshape(grid.info.height, grid.info.width)
 
 
 def patrol(map_: MapOverlay) -> None:

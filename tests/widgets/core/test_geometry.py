@@ -173,13 +173,6 @@ def test_points_that_are_not_known_are_left_out():
     assert geometry.spread([]).shape == (0, 2)
 
 
-def test_a_grid_is_coloured_from_free_to_occupied_with_unknown_apart():
-    cells = np.array([0, 50, 100, -1, 110], dtype=np.int8)
-    pixels = geometry.occupancy_pixels(cells, (0, 0, 0, 1), (1, 0, 0, 1), (0, 0, 1, 0))
-    assert pixels[:, 0].tolist() == [0, 128, 255, 0, 255]
-    assert pixels[3].tolist() == [0, 0, 255, 0]
-
-
 def test_a_thinned_line_keeps_its_ends_and_loses_no_bend():
     line = np.array([[x / 10, 0.0] for x in range(101)] + [[10.0, y / 10] for y in range(1, 101)])
     thin = geometry.thinned(line, 1.0)

@@ -137,9 +137,9 @@ def test_a_grid_lies_where_its_origin_says(map_, stage):
     map_.show(grid([0, 100], 2))
     map_.set_view(View.centred(0, 0, at=(200, 150), scale=10))
     stage.frames()
-    assert map_._shift.xy == near(180, 160)
-    assert map_._scale.x == pytest.approx(5)
-    assert map_._cells.size == (2, 1)
+    assert map_.picture.shift.xy == near(180, 160)
+    assert map_.picture.scale.x == pytest.approx(5)
+    assert map_.picture.known == (0, 0, 2, 1)
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.5])
@@ -156,8 +156,8 @@ def test_a_grid_is_turned_as_its_origin_says_and_as_the_map_is(map_, stage, yaw,
     far = map_.view.to_screen(
         origin.x + 2 * resolution * math.cos(yaw), origin.y + 2 * resolution * math.sin(yaw)
     )
-    angle, long = math.radians(map_._turn.angle), 2 * map_._scale.x
-    left, low = map_._shift.xy
+    angle, long = math.radians(map_.picture.turn.angle), 2 * map_.picture.scale.x
+    left, low = map_.picture.shift.xy
     corner = left + long * math.cos(angle), low + long * math.sin(angle)
     assert corner == pytest.approx(far, abs=1e-3)
 
