@@ -17,10 +17,24 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-__all__ = ["FOLDER", "LANGUAGES", "PSEUDO", "Language", "Tongue", "figure", "language", "mark", "tr", "trn"]
+__all__ = [
+    "FOLDER",
+    "LANGUAGES",
+    "PSEUDO",
+    "VARIABLE",
+    "Language",
+    "Tongue",
+    "figure",
+    "language",
+    "mark",
+    "tr",
+    "trn",
+]
 
 FOLDER = Path(__file__).parents[1] / "languages"
 """One `NAME.mo` for each language but English, made of `NAME.po`."""
+VARIABLE = "PILOTHOUSE_LANGUAGE"
+"""Environment variable by which a process of the app is told the language."""
 PSEUDO = "en_XA"
 """No language of people: English with accents, 40 % longer and in brackets, by which one sees what is not translated or cut."""
 DASH = "—"

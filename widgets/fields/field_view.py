@@ -30,6 +30,7 @@ from kivy.uix.widget import Widget
 import widgets.parts.labels  # noqa: F401 - its rules draw the rows
 from bridge.msgs import Msg
 from widgets.core.base import RobotWidget, age_text
+from widgets.core.language import tr
 from widgets.core.theme import theme
 from widgets.fields.field_row import FieldRow, line_width, text_width, whole_height
 from widgets.fields.message_fields import ARRAY, BRANCH, DASH, LEAF, Path, Row, describe, rows, unit
@@ -136,8 +137,8 @@ class FieldView(RobotWidget, FloatLayout):
 
     def _notice(self) -> str:
         if self.message is None:
-            return "" if self.lines else "No message received yet."
-        return "" if self.lines else "This message has no fields."
+            return "" if self.lines else tr("No message received yet.")
+        return "" if self.lines else tr("This message has no fields.")
 
     notice = AliasProperty(_notice, bind=["message", "lines"], cache=True)
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from bridge.msgs import Msg
 from bridge.msgs.std_msgs import Duration, Time
+from widgets.core.language import tr
 
 __all__ = [
     "ARRAY",
@@ -306,7 +307,7 @@ def _whole(text: str) -> str:
     shown = "".join(text[:MAX_LETTERS].splitlines(keepends=True)[:MAX_LINES])
     rest = len(text) - len(shown)
     lines = shown.expandtabs(4).splitlines()
-    return "\n".join([*lines, f"… and {number(rest)} more letters"] if rest else lines)
+    return "\n".join([*lines, tr("… and {rest} more letters").format(rest=number(rest))] if rest else lines)
 
 
 def _is_figures(parts: list[Any]) -> bool:

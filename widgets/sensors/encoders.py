@@ -19,6 +19,7 @@ from bridge.msgs.arrays import Float64Array
 from bridge.msgs.sensor_msgs import JointState
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import DASH
+from widgets.core.language import tr
 from widgets.core.sensor_geometry import wheel_name
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -46,7 +47,7 @@ class EncodersView(Gauge):
     """Speed of a full bar [rad/s]: the fastest that was seen."""
 
     def __init__(self, **kwargs: Any) -> None:
-        super().__init__(**{"title": "Encoders", **kwargs})
+        super().__init__(**{"title": tr("Encoders"), **kwargs})
 
     def show(self, msg: JointState) -> None:
         """Show the newest angles and speeds."""

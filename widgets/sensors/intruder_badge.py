@@ -22,6 +22,7 @@ from bridge.msgs.std_msgs import Header, Time
 from widgets.core.base import age_text
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words
 from widgets.core.icons import icon
+from widgets.core.language import tr, trn
 from widgets.core.sensor_geometry import ago_text, away_text, side_text
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -109,10 +110,14 @@ class IntruderBadge(Drawing):
     def counted(self) -> str:
         """The first line."""
         if self.count < 0:
-            return "Intruders: not reported"
+            return tr("Intruders: not reported")
         if self.count == 0 and self.seen > 0 and self.state != "stale":
-            return f"{self.seen} seen, not counted"
-        return "No intruders" if self.count == 0 else f"{self.count} intruder{'s' * (self.count > 1)}"
+            return tr("{seen} seen, not counted").format(seen=self.seen)
+        return (
+            tr("No intruders")
+            if self.count == 0
+            else trn("{count} intruder", "{count} intruders", self.count)
+        )
 
     def details(self) -> tuple[str, ...]:
         """The second line, longest first."""
@@ -126,8 +131,10 @@ class IntruderBadge(Drawing):
         brief = [part for part in (away, ago.removesuffix(" ago").removesuffix(" old")) if part]
         whole = " · ".join(parts)
         if not parts:
-            return ("distance unknown", "not known")
-        return tuple(text for text in (f"last: {whole}", whole, " · ".join(brief), away) if text)
+            return (tr("distance unknown"), tr("not known"))
+        return tuple(
+            text for text in (tr("last: {what}").format(what=whole), whole, " · ".join(brief), away) if text
+        )
 
     def draw(self) -> None:
         """Bring ground, arrow and words up to date."""

@@ -21,6 +21,7 @@ from bridge.msgs.sensor_msgs import LaserScan
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, ground, tint
 from widgets.core.geometry import DASH, Points, length_text, not_exceeded_by, scan_points, scan_reach
 from widgets.core.icons import icon
+from widgets.core.language import mark, tr
 from widgets.core.quantities import said
 from widgets.core.shapes import Shapes
 from widgets.core.surfaces import Glass
@@ -45,7 +46,7 @@ class LaserScanView(Glass, Drawing):
 
     scan: ObjectProperty[LaserScan | None] = ObjectProperty(None, allownone=True, force_dispatch=True)
     """The newest LaserScan; None before the first."""
-    title = StringProperty("Laser")
+    title = StringProperty(mark("Laser"))
     """Name of the sensor."""
     rate = NumericProperty(math.nan)
     """Sweeps a second [Hz]; NaN when not known."""
@@ -187,9 +188,9 @@ class LaserScanView(Glass, Drawing):
         """The title and the rate behind it, or below it in a low card, where the rings begin."""
         rate = "" if math.isnan(self.rate) else f"{self.rate:.0f} HZ"
         lines = (
-            [self.title.upper(), rate]
+            [tr(self.title).upper(), rate]
             if self._low()
-            else [" · ".join(filter(None, (self.title.upper(), rate)))]
+            else [" · ".join(filter(None, (tr(self.title).upper(), rate)))]
         )
         for number, line in enumerate(filter(None, lines)):
             y = self.top - dp(19) - sp(16) * number

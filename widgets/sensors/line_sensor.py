@@ -19,6 +19,7 @@ from bridge.msgs.arrays import Float32Array
 from bridge.msgs.pilothouse_msgs import LineSensor
 from widgets.core.canvas_ink import Word
 from widgets.core.geometry import DASH, tween
+from widgets.core.language import tr
 from widgets.core.sensor_geometry import MIN_CONTRAST, contrast_of, line_offset
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -54,7 +55,7 @@ class LineSensorView(Gauge):
     """Where the line is from the middle, positive to the left [m, or cells without a spacing]; NaN without a line."""
 
     def __init__(self, **kwargs: Any) -> None:
-        super().__init__(**{"title": "Line", **kwargs})
+        super().__init__(**{"title": tr("Line"), **kwargs})
 
     def show(self, msg: LineSensor) -> None:
         """Show the newest reading."""
@@ -70,10 +71,10 @@ class LineSensorView(Gauge):
             return (DASH,)
         if contrast < MIN_CONTRAST:
             bright = sum(value for value in self.values if value >= 0) > len(self.values) / 2
-            return ("all bright", "bright") if bright else ("no line", "none")
+            return (tr("all bright"), "bright") if bright else ("no line", "none")
         metric = math.isfinite(self.spacing)
         if abs(self.offset) < CENTRED * (self.spacing if metric else 1.0):
-            return ("in the middle", "middle")
+            return (tr("in the middle"), "middle")
         side = "left" if self.offset > 0 else "right"
         away = f"{abs(self.offset) * 1000:.0f} mm" if metric else f"{abs(self.offset):.1f} cells"
         return (f"{away} {side}", f"{away} {side[0].upper()}", side)

@@ -23,6 +23,7 @@ from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import DASH, Points, length_text, not_exceeded_by, scan_reach
 from widgets.core.icons import icon
+from widgets.core.language import tr
 from widgets.core.sensor_geometry import away_text, side_text
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -95,7 +96,7 @@ class SonarRingView(Gauge):
 
     def __init__(self, **kwargs: Any) -> None:
         self._reach = 0.0
-        super().__init__(**{"title": "Sonars", **kwargs})
+        super().__init__(**{"title": tr("Sonars"), **kwargs})
 
     def show(self, msg: SonarRing | Bumper) -> None:
         """Take the newest ring, or the bumper's report."""
@@ -124,14 +125,14 @@ class SonarRingView(Gauge):
         """Which way the nearest is, as in `45° left`; `all around` where all is clear."""
         if self.nearest < 0:
             return ""
-        return "all around" if self.figure == "clear" else side_text(float(self.echoes[0][self.nearest]))
+        return tr("all around") if self.figure == "clear" else side_text(float(self.echoes[0][self.nearest]))
 
     @property
     def bump(self) -> str:
         """The bumper's state, as in `bump 45° left`, `no contact`; empty before its first report."""
         if math.isnan(self.pressed):
             return ""
-        return f"bump {side_text(self.contact)}".strip() if self.touched else "no contact"
+        return f"bump {side_text(self.contact)}".strip() if self.touched else tr("no contact")
 
     def role(self, away: float) -> str:
         """Role of the colour of a distance [m]."""

@@ -19,6 +19,7 @@ from bridge.msgs.sensor_msgs import Range
 from bridge.msgs.std_msgs import Header, Time
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import DASH
+from widgets.core.language import tr
 from widgets.core.sensor_geometry import aim, away_text, side_text
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -69,7 +70,7 @@ class UltrasoundView(Gauge):
 
     def __init__(self, **kwargs: Any) -> None:
         self._stamps: dict[str, float] = {}
-        super().__init__(**{"title": "Ultrasound", **kwargs})
+        super().__init__(**{"title": tr("Ultrasound"), **kwargs})
 
     def show(self, msg: Range) -> None:
         """Take the newest echo of one ranger; the others' stay."""
@@ -179,7 +180,9 @@ class UltrasoundView(Gauge):
         if not far:
             left = self.center_x + shift - wide(text, size, bold=True) / 2 - dp(9)
             shapes.polygon(arrow(left, y, aim(frame) + AHEAD, dp(13)), colour)
-        names = ("all around", "clear") if far else (f"echo {side_text(aim(frame))}", side_text(aim(frame)))
+        names = (
+            (tr("all around"), "clear") if far else (f"echo {side_text(aim(frame))}", side_text(aim(frame)))
+        )
         under = first_fitting(names, sp(11), self.width - 2 * self.edge)
         yield Word(under, self.center_x, low, sp(11), theme.muted)
 

@@ -32,6 +32,7 @@ from widgets.core.base import VEIL, fitting_size, text_texture
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, shader, tint
 from widgets.core.geometry import contain, cover
 from widgets.core.icons import icon
+from widgets.core.language import tr
 from widgets.core.rounded import Rounded
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -164,7 +165,9 @@ class Video(Drawing):
         """
         if len(rgba) != width * height * 4:
             raise ValueError(
-                f"a picture of {width} x {height} has {width * height * 4} bytes, not {len(rgba)}"
+                tr("a picture of {width} x {height} has {width2} bytes, not {rgba}").format(
+                    width=width, height=height, width2=width * height * 4, rgba=len(rgba)
+                )
             )
         if self._texture is None or self._texture.size != (width, height):
             self._texture = Texture.create(size=(width, height), colorfmt="rgba")
@@ -265,10 +268,10 @@ class Video(Drawing):
                 theme.muted,
                 font=theme.icons,
             )
-            yield self._refused(self.center_y - dp(16), theme.muted, "No picture yet")
+            yield self._refused(self.center_y - dp(16), theme.muted, tr("No picture yet"))
         elif self.state == "stale":
-            age = "" if math.isnan(self.age) else f" {self.age:.0f} s ago"
-            words = f"Last picture{age}"
+            told = tr("Last picture") if math.isnan(self.age) else tr("Last picture {age:.0f} s ago")
+            words = told.format(age=self.age)
             size = fitting_size([words], sp(17), self.width - dp(16), bold=True)
             low = min(self.center_y, self.below - dp(20))
             middle = low if low >= self.y + dp(16) else self.center_y

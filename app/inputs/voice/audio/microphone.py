@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from app.inputs.voice.audio.noise import RATE
 from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
+from widgets.core.language import mark, tr
 
 __all__ = ["AudioSource", "Microphone", "audio_library"]
 
@@ -26,9 +27,11 @@ SILENCE_TIMEOUT = 2.0
 """A microphone that gives nothing for so long was pulled out [s]."""
 SILENT_DEVICES = ("Discard all samples", "NULL Capture")
 """How devices that make nothing but silence begin to be called."""
-NONE = "There is no microphone. Plug one in, or command by touch, switches or keys."
-REFUSED = "The microphone cannot be opened: {}. Another program may hold it, or the system forbids it: the next press to talk tries again."
-GONE = "The microphone gives nothing any more. Plug it in again: the next press to talk opens it."
+NONE = mark("There is no microphone. Plug one in, or command by touch, switches or keys.")
+REFUSED = mark(
+    "The microphone cannot be opened: {}. Another program may hold it, or the system forbids it: the next press to talk tries again."
+)
+GONE = mark("The microphone gives nothing any more. Plug it in again: the next press to talk opens it.")
 
 
 class AudioSource(Protocol):
@@ -78,14 +81,14 @@ class Microphone:
                 str(self._device.backend).lower() == "null"
             ):  # miniaudio's own silence where there is no device
                 self.stop()
-                raise VoiceTrouble(NONE)
+                raise VoiceTrouble(tr(NONE))
             pump = self._pump()
             next(pump)
             self._device.start(pump)
         except audio.MiniaudioError as problem:
             self.stop()
             raise VoiceTrouble(
-                NONE if _nothing_there(audio) else REFUSED.format(problem.args[0])
+                tr(NONE) if _nothing_there(audio) else tr(REFUSED).format(problem.args[0])
             ) from problem
 
     def read(self, timeout: float) -> tuple[NDArray[np.float32], float] | None:
@@ -95,7 +98,7 @@ class Microphone:
         except queue.Empty:
             if self._device is not None and self._now() - self._heard > SILENCE_TIMEOUT:
                 self.stop()
-                raise VoiceTrouble(GONE) from None
+                raise VoiceTrouble(tr(GONE)) from None
             return None
         self._heard = self._now()
         return np.frombuffer(raw, "<i2").astype(np.float32) / 32768.0, at
@@ -133,7 +136,7 @@ def audio_library() -> Any:
         import miniaudio
     except (ImportError, OSError) as problem:
         raise VoiceTrouble(
-            f"Without the package miniaudio no microphone can be heard: {problem}."
+            tr("Without the package miniaudio no microphone can be heard: {problem}.").format(problem=problem)
         ) from problem
     return miniaudio
 

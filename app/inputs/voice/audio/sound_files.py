@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from app.inputs.voice.audio.noise import RATE
 from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
+from widgets.core.language import tr
 
 __all__ = ["CHUNK", "FileAudioSource", "Samples", "chunks", "read"]
 
@@ -28,9 +29,11 @@ def read(path: Path) -> Samples:
     try:
         return _wave(path) if path.suffix.lower() == ".wav" else _packed(path)
     except FileNotFoundError as problem:
-        raise VoiceTrouble(f"There is no recording {path}.") from problem
+        raise VoiceTrouble(tr("There is no recording {path}.").format(path=path)) from problem
     except (OSError, ValueError, EOFError, wave.Error, struct.error, ArithmeticError) as problem:
-        raise VoiceTrouble(f"{path} cannot be read as a recording: {problem}.") from problem
+        raise VoiceTrouble(
+            tr("{path} cannot be read as a recording: {problem}.").format(path=path, problem=problem)
+        ) from problem
 
 
 def chunks(samples: Samples, began: float = 0.0) -> Iterator[tuple[Samples, float]]:
@@ -59,9 +62,13 @@ def _wave(path: Path) -> Samples:
         width, rate, channels = file.getsampwidth(), file.getframerate(), file.getnchannels()
         raw = file.readframes(file.getnframes())
     if not RATES[0] <= rate <= RATES[1]:
-        raise ValueError(f"{rate} samples a second, where {RATES[0]} to {RATES[1]} are read")
+        raise ValueError(
+            tr("{rate} samples a second, where {rates} to {rates2} are read").format(
+                rate=rate, rates=RATES[0], rates2=RATES[1]
+            )
+        )
     if width != 2:
-        raise ValueError(f"samples of {8 * width} bits, where 16 are read")
+        raise ValueError(tr("samples of {width} bits, where 16 are read").format(width=8 * width))
     samples = np.frombuffer(raw, "<i2").astype(np.float32) / 32768.0
     return resampled(samples[: len(samples) // channels * channels].reshape(-1, channels).mean(axis=1), rate)
 
@@ -70,7 +77,9 @@ def _packed(path: Path) -> Samples:
     try:
         import miniaudio
     except ImportError as problem:
-        raise VoiceTrouble(f"To read {path.suffix or path} the package miniaudio is needed.") from problem
+        raise VoiceTrouble(
+            tr("To read {suffix} the package miniaudio is needed.").format(suffix=path.suffix or path)
+        ) from problem
     if not path.exists():
         raise FileNotFoundError(path)
     try:

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import math
 
+from widgets.core.language import mark, tr
+
 __all__ = [
     "ASK_TIMEOUT",
     "CHECK_PERIOD",
@@ -77,8 +79,25 @@ class LifeSigns:
     def why(self) -> str:
         """What is told as the reason."""
         if self._loads >= LOAD_TIMEOUT:
-            return f"it was not ready after {LOAD_TIMEOUT:.0f} s"
-        return f"it gave no sign for {self.silent:.0f} s"
+            return tr("it was not ready after {time:.0f} s").format(time=LOAD_TIMEOUT)
+        return tr("it gave no sign for {time:.0f} s").format(time=self.silent)
+
+
+AGAIN = {
+    "crashed": mark("Voice recognition crashed and is started again{because}"),
+    "hung": mark("Voice recognition hung and is started again{because}"),
+}
+TWICE = {
+    "crashed": mark(
+        "Voice recognition crashed, the second time within {minutes:.0f} min, and is off{because} "
+        "Switch it on again, or command by touch."
+    ),
+    "hung": mark(
+        "Voice recognition hung, the second time within {minutes:.0f} min, and is off{because} "
+        "Switch it on again, or command by touch."
+    ),
+}
+"""How voice broke down, to what is said of it where it is started again, and where it is off."""
 
 
 class Breakdowns:
@@ -91,13 +110,9 @@ class Breakdowns:
     def sentence(self, word: str, why: str, now: float) -> tuple[bool, str]:
         """It `crashed` or `hung` just now [s]: whether it may be started again, and what is said; `why` may be empty."""
         again, self._last = now - self._last >= RESTART_WINDOW, now
+        told = AGAIN if again else TWICE
         because = f": {why.rstrip('.')}." if why else "."
-        if again:
-            return True, f"Voice recognition {word} and is started again{because}"
-        return False, (
-            f"Voice recognition {word}, the second time within {RESTART_WINDOW / 60:.0f} min, and is off{because} "
-            "Switch it on again, or command by touch."
-        )
+        return again, tr(told[word]).format(because=because, minutes=RESTART_WINDOW / 60)
 
 
 def reason(text: str) -> str:

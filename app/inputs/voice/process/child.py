@@ -21,12 +21,14 @@ from app.inputs.voice.interfaces.speech_recognizer import Event, State, VoiceTro
 from app.inputs.voice.process.running import NOTE_PREFIX
 from app.inputs.voice.process.service import Service, judge_of
 from app.inputs.voice.process.wire import THERE, event_line, read_grammar
+from widgets.core.language import VARIABLE, language
 
 __all__ = ["main", "own_line"]
 
 
 def main(arguments: list[str], orders: TextIO, events: TextIO) -> int:
     """Serve until the orders end; `arguments` are the engine, as in `judge_of`, and, in place of the microphone, recordings."""
+    language.name = os.environ.get(VARIABLE, language.name)
     name, *recordings = arguments
     first = orders.readline()
     if not first:

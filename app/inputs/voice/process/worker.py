@@ -37,6 +37,7 @@ from app.inputs.voice.process.service import Service, judge_of
 from app.inputs.voice.process.wire import THERE, grammar_fields, read_event
 from app.inputs.voice.recognition.phrases import PHRASES
 from app.inputs.voice.recognition.vosk_judge import model_fault
+from widgets.core.language import VARIABLE, language, tr
 
 __all__ = ["PACKAGES", "InProcess", "InThread", "recognizer"]
 
@@ -231,12 +232,15 @@ class InProcess:
         environment = os.environ | {
             "PYTHONPATH": os.pathsep.join(filter(None, paths)),
             "PYTHONIOENCODING": "utf-8",
+            VARIABLE: language.name,
         }
         environment |= dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"), "1")
         try:
             process = Running(self._command, environment)
         except OSError as problem:
-            raise VoiceTrouble(f"The voice process cannot be started: {problem}.") from problem
+            raise VoiceTrouble(
+                tr("The voice process cannot be started: {problem}.").format(problem=problem)
+            ) from problem
         with self._lock:  # nobody's order may overtake the grammar, nor what it was told before
             self._send(process, grammar_fields(grammar))
             for order in self._said.values():

@@ -14,6 +14,7 @@ from app.inputs.voice.interfaces.speech_recognizer import Grammar, Hear, Level, 
 from app.inputs.voice.recognition.ctc import Acoustics, Found, Scorer
 from app.inputs.voice.recognition.rechecks import looks
 from app.inputs.voice.recognition.spotter import Spotted, Spotter
+from widgets.core.language import tr
 
 __all__ = ["SpeechPipeline", "Judge", "Phonemes"]
 
@@ -116,8 +117,12 @@ class SpeechPipeline:
         if self._meter.too_loud != self._told_loud:
             self._told_loud = self._meter.too_loud
             word = "too loud" if self._told_loud else "listening"
-            sentence = f"Too loud here for voice: speech is {self._meter.snr:.0f} dB over the noise."
-            self._tell(State(word, sentence if self._told_loud else "It is quiet enough for voice again."))
+            sentence = tr("Too loud here for voice: speech is {snr:.0f} dB over the noise.").format(
+                snr=self._meter.snr
+            )
+            self._tell(
+                State(word, sentence if self._told_loud else tr("It is quiet enough for voice again."))
+            )
 
     def _look(self, segment: Segment, at: float) -> None:
         """STOP is looked for even where it is too loud for anything else: it is never forbidden."""
@@ -146,12 +151,12 @@ class SpeechPipeline:
         again = spotted is not None and spotted.ended >= segment.began - SAME_STOP_TIME
         if not segment.whole:
             if not again:
-                self._tell(Rejected("That was too long for a command.", ended=segment.ended))
+                self._tell(Rejected(tr("That was too long for a command."), ended=segment.ended))
             return
         found = self._judge.judge(segment.samples, self._every)
         snr = self._meter.heard(segment.samples)
         if found is None:
-            self._tell(Rejected("Nothing was understood.", ended=segment.ended))
+            self._tell(Rejected(tr("Nothing was understood."), ended=segment.ended))
         elif (again and found.command in self._grammar.urgent) or (again and not found.accepted):
             return
         else:
@@ -163,16 +168,16 @@ class SpeechPipeline:
 
     def _verdict(self, found: Found, segment: Segment, snr: float) -> Result | Rejected:
         if not found.accepted:
-            reason = "That was no command."
+            reason = tr("That was no command.")
         elif found.command not in self.heeded:
             asked = found.command in self._grammar.asked
             reason = (
-                f"No question is open: “{found.phrase}” counts only as an answer."
+                tr("No question is open: “{phrase}” counts only as an answer.").format(phrase=found.phrase)
                 if asked
-                else (f"“{found.phrase}” does not count now.")
+                else (tr("“{phrase}” does not count now.").format(phrase=found.phrase))
             )
         elif self._too_loud(snr) and found.command not in self._grammar.urgent:
-            reason = "It is too loud here to be sure."
+            reason = tr("It is too loud here to be sure.")
         else:
             detail = {"explains": round(found.explains, 2), "rival": found.rival}
             return Result(

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
 from app.inputs.voice.recognition.conformer import Conformer, unpacked
+from widgets.core.language import tr
 
 __all__ = ["HamaModel", "chosen", "one_core"]
 
@@ -50,7 +51,9 @@ class HamaModel:
             TypeError,
             AttributeError,
         ) as problem:
-            raise VoiceTrouble(f"The phoneme recogniser cannot be loaded: {problem}.") from problem
+            raise VoiceTrouble(
+                tr("The phoneme recogniser cannot be loaded: {problem}.").format(problem=problem)
+            ) from problem
         one_core()
         self._hear = chosen(_ours, _engine, len(self.tokens))
 
@@ -72,7 +75,9 @@ def chosen(ours: Callable[[], Way], theirs: Callable[[], Way], signs: int) -> Wa
     engine, worse = _tried(theirs, wave, signs)
     if engine is None:
         if mine is None:
-            raise VoiceTrouble(f"The phoneme recogniser cannot be loaded: {worse}.") from worse
+            raise VoiceTrouble(
+                tr("The phoneme recogniser cannot be loaded: {worse}.").format(worse=worse)
+            ) from worse
         return mine.way
     if mine is not None and _alike(mine.said, engine.said):
         return mine.way if mine.cost < engine.cost else engine.way
@@ -110,7 +115,9 @@ def _tried(make: Callable[[], Way], wave: Floats, signs: int) -> tuple[_Tried | 
             said = way(wave)
             costs.append(time.thread_time() - began)
         if said.ndim != 2 or said.shape[1] != signs or not np.isfinite(said).all():
-            raise ValueError(f"it does not give a probability of each of {signs} signs")
+            raise ValueError(
+                tr("it does not give a probability of each of {signs} signs").format(signs=signs)
+            )
     except Exception as problem:  # noqa: BLE001 - foreign weights, a foreign library: there may be the other way
         return None, problem
     return _Tried(way, said, min(costs)), None

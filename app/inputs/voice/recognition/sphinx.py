@@ -18,6 +18,7 @@ from app.inputs.voice.interfaces.speech_recognizer import Grammar, VoiceTrouble
 from app.inputs.voice.recognition.ctc import Found
 from app.inputs.voice.recognition.lexicon import background, pronunciations
 from app.inputs.voice.recognition.spotter import Spotted
+from widgets.core.language import tr
 
 __all__ = ["Sphinx"]
 
@@ -43,12 +44,16 @@ class Sphinx:
 
             self._decoder: Any = Decoder(lm=None, loglevel="FATAL")
         except (ImportError, RuntimeError, OSError) as problem:
-            raise VoiceTrouble(f"The fallback recogniser cannot be loaded: {problem}.") from problem
+            raise VoiceTrouble(
+                tr("The fallback recogniser cannot be loaded: {problem}.").format(problem=problem)
+            ) from problem
         self._phrases = {phrase: command for command, said in grammar.phrases.items() for phrase in said}
         words = {word for phrase in self._phrases for word in phrase.split()}
         unknown = [word for word in sorted(words) if self._decoder.lookup_word(word) is None]
         if unknown:
-            raise VoiceTrouble(f"The fallback recogniser does not know the word {unknown[0]!r}.")
+            raise VoiceTrouble(
+                tr("The fallback recogniser does not know the word {unknown!r}.").format(unknown=unknown[0])
+            )
         self._urgent = frozenset(grammar.urgent)
         self._looked = -1.0
         starts = {sounds[:2] for said in self._phrases for sounds in pronunciations(said)}

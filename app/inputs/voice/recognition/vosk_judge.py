@@ -19,12 +19,13 @@ from app.inputs.voice.audio.noise import RATE
 from app.inputs.voice.interfaces.speech_recognizer import Grammar, VoiceTrouble
 from app.inputs.voice.recognition.ctc import Found
 from app.inputs.voice.recognition.spotter import Spotted
+from widgets.core.language import mark, tr
 
 __all__ = ["VoskJudge", "model_fault"]
 
 MODEL_FILES = ("am/final.mdl", "final.mdl")
 """One of these is in every model's folder."""
-NO_MODEL = "Vosk has no model yet: enter the folder of one."
+NO_MODEL = mark("Vosk has no model yet: enter the folder of one.")
 UNKNOWN_WORDS = "[unk]"
 """What a model writes for words that are none of the grammar's, where its dictionary has such an entry."""
 REJECTED = 0.2
@@ -40,12 +41,12 @@ MAX_SPOTTED = 1.2
 def model_fault(folder: str) -> str:
     """Why there is no model in `folder`, in one sentence; empty where there is one."""
     if not folder:
-        return NO_MODEL
+        return tr(NO_MODEL)
     path = Path(folder).expanduser()
     if not path.is_dir():
-        return f"There is no folder {folder}: enter the folder of a Vosk model."
+        return tr("There is no folder {folder}: enter the folder of a Vosk model.").format(folder=folder)
     if not any((path / name).is_file() for name in MODEL_FILES):
-        return f"The folder {folder} holds no Vosk model: enter the folder of one."
+        return tr("The folder {folder} holds no Vosk model: enter the folder of one.").format(folder=folder)
     return ""
 
 
@@ -62,12 +63,20 @@ class VoskJudge:
             vosk.SetLogLevel(-1)
             model: Any = vosk.Model(str(Path(folder).expanduser()))
         except Exception as problem:  # vosk raises no narrower kind
-            raise VoiceTrouble(f"The Vosk model in {folder} cannot be loaded: {problem}.") from problem
+            raise VoiceTrouble(
+                tr("The Vosk model in {folder} cannot be loaded: {problem}.").format(
+                    folder=folder, problem=problem
+                )
+            ) from problem
         self._phrases = {phrase: command for command, said in grammar.phrases.items() for phrase in said}
         words = {word for phrase in self._phrases for word in phrase.split()}
         unknown = [word for word in sorted(words) if model.vosk_model_find_word(word) < 0]
         if unknown:
-            raise VoiceTrouble(f"The Vosk model in {folder} does not know the word {unknown[0]!r}.")
+            raise VoiceTrouble(
+                tr("The Vosk model in {folder} does not know the word {unknown!r}.").format(
+                    folder=folder, unknown=unknown[0]
+                )
+            )
         phrases = json.dumps([*self._phrases, UNKNOWN_WORDS], ensure_ascii=False)
         self._recognizer: Any = vosk.KaldiRecognizer(model, RATE, phrases)
         self._recognizer.SetWords(True)
