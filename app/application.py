@@ -29,6 +29,7 @@ from app.layout.layout_choice import LayoutChoice
 from app.link.feeds import Post
 from app.network_side import NetworkSide
 from app.pages import LONE, Pages, lone_page, toggle_help
+from app.renewal import Renewal
 from app.robot_directory import RobotDirectory
 from app.robot_visit import RobotVisit
 from app.root import Root
@@ -131,6 +132,8 @@ class PilothouseApp(App):
         self.fleet = self.robot_list.fleet(self.client_id)
         self.corner = StopCorner(self, self.fleet, self.say)
         self.visit = self._make_visit()
+        self.renewal = Renewal(self)
+        self.preferences.on_anew = self.renewal.ask
         root.over = self.corner.layer
         self.pages.show_connect()
         return root
@@ -182,6 +185,7 @@ class PilothouseApp(App):
     def on_stop(self) -> None:
         """Leave the robot at rest, end every thread and the simulator."""
         self._idle.close()
+        self.renewal.close()
         self.methods.close()
         self.inputs.close()
         self.timers.close()

@@ -48,7 +48,9 @@ class Pages:
         self, root: Root, connect: ConnectScreen, make_lone: Callable[[str], LonePage], first_screen: str
     ) -> None:
         """`make_lone` is called when a page of `LONE` is first shown; `first_screen` is the screen that is shown of the first robot."""
-        self.root, self._connect, self._make_lone = root, connect, make_lone
+        self.root, self._make_lone = root, make_lone
+        self.connect = connect
+        """The connect page."""
         self._lone: dict[str, LonePage] = {}
         self.shell: Shell | None = None
         """The frame round the robot's screens; None while no robot is on the glass."""
@@ -66,6 +68,23 @@ class Pages:
         session.events.shown = True
         self.show(self.screen)
         shell.tick()  # nothing comes onto the glass that says less than is known
+
+    def replace(self, shell: Shell, screen: str) -> None:
+        """Put other screens of the same robot in the place of those on the glass, which are closed."""
+        self.shell = shell
+        self.root.show_page(shell)
+        self.show(screen)
+        shell.tick()
+
+    def forget_lone(self) -> tuple[str, object] | None:
+        """Let go of the pages that are there without a robot; the name of the one on the glass and what was open there, if any."""
+        pages, self._lone = self._lone, {}
+        kept = None
+        for name, page in pages.items():
+            if page.parent is not None:
+                kept = name, page.screen.keep()
+            page.screen.leave()
+        return kept
 
     def show(self, screen: str) -> None:
         """Put `mission`, `drive`, `tasks`, `topics` or `inputs` of the robot on the glass; KeyError for another."""
@@ -89,7 +108,7 @@ class Pages:
     @property
     def screens(self) -> Mapping[str, Any]:
         """Every screen there is now by its name: `connect`, and those of the robot, each made when it is looked up."""
-        connect: dict[str, Any] = {"connect": self._connect}
+        connect: dict[str, Any] = {"connect": self.connect}
         if self.shell is None:
             return connect
         return ChainMap(connect, cast("dict[str, Any]", self.shell.screens))
@@ -108,7 +127,7 @@ class Pages:
 
     def show_connect(self) -> None:
         """Put the connect page on the glass."""
-        self.root.show_page(self._connect)
+        self.root.show_page(self.connect)
 
     def close_question(self) -> bool:
         """Close the question that is over the page; False where there is none."""

@@ -121,6 +121,10 @@ class RobotDirectory:
             self._save()
         self._unproven = ""
 
+    def refresh(self) -> None:
+        """Show what is known on a connect page that was made anew."""
+        self._app.connect.show_entries(self._entries(), self.client_name)
+
     def forget(self, url: str) -> None:
         """Take a saved address off the list; a paired robot is not paired any more, which a tap takes back."""
         kept = self.robots.remove(url)

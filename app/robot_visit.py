@@ -48,7 +48,9 @@ class RobotVisit:
         `ask_to_pair` gets the address of a robot that does not let this handheld in, and why.
         `pacer` gives what knows whether a frame is being drawn: a picture is shown when none is. It knows as well whether drawing is slow.
         """
-        self._pages, self._connect, self._records = pages, connect, records
+        self._pages, self._records = pages, records
+        self.connect = connect
+        """The connect page."""
         self._connector, self._make_shell = connector, make_shell
         self._rest, self._on_cut, self._on_left = rest, on_cut, on_left
         self._ask_to_pair, self._pacer = ask_to_pair, pacer
@@ -66,7 +68,7 @@ class RobotVisit:
         self.leave()
         self.session = self._connector().session(url, wants_control=wants_control)
         self.session.on_rest = on_rest
-        self._connect.say(f"Connecting to {url} …", "info", self.leave)
+        self.connect.say(f"Connecting to {url} …", "info", self.leave)
 
     def suspend(self) -> None:
         """The app is put away: let go of the robot, and keep what is known of it."""
@@ -90,7 +92,7 @@ class RobotVisit:
         self.session = None
         self._records.frame = None
         self._pictures.forget()
-        self._connect.say("")
+        self.connect.say("")
         self._records.stop()
         self._pages.show_connect()
         self._on_left()
@@ -134,16 +136,16 @@ class RobotVisit:
             self.leave()
             self._ask_to_pair(url, why)
             return
-        self._connect.say(*connecting_words(session), self.leave)
+        self.connect.say(*connecting_words(session), self.leave)
         if has_failed(session):
             self.leave()
-            self._connect.say(session.link_state.sentence, "danger")
+            self.connect.say(session.link_state.sentence, "danger")
 
     def enter(self) -> None:
         """The robot has answered: put its screens on the glass."""
         if self.session is not None:
             self._pictures.watch(self.session)  # the first is on its way while the screen is made
-            self._connect.say("")
+            self.connect.say("")
             self._pages.enter(self._make_shell(self.session), self.session)
 
     def toggle_recording(self) -> None:

@@ -30,6 +30,10 @@ class MissionDrafts:
         self._pending: Mission | None = None
         """The robot's mission, received before its name."""
 
+    def deaf(self) -> None:
+        """Nobody listens any more but these: the screens are left."""
+        self.editor.on_change = self._save
+
     def on_introduced(self) -> None:
         """The robot's name came: restore its draft once, before its mission is compared with it.
 

@@ -71,8 +71,13 @@ class Profile:
         tell()
 
 
-def robot_shell(app: Host, session: Session, layouts: LayoutChoice, **kwargs: Any) -> Shell:
-    """The frame with every screen in it; `layouts` give the drive screen of a robot's model and kind."""
+def robot_shell(
+    app: Host, session: Session, layouts: LayoutChoice, before: Shell | None = None, **kwargs: Any
+) -> Shell:
+    """The frame with every screen in it; `layouts` give the drive screen of a robot's model and kind.
+
+    `before` is the one in whose place it comes, None for the first: what that was told is known here too.
+    """
     profile = Profile(app, session, layouts)
 
     given: dict[str, object] = {"app": app, "session": session}
@@ -81,6 +86,9 @@ def robot_shell(app: Host, session: Session, layouts: LayoutChoice, **kwargs: An
         return lambda: bring(entry.maker)(**{name: given[name] for name in entry.needs})
 
     makers = {entry.name: maker(entry) if entry.maker else profile.screen for entry in SCREENS}
-    shell = Shell(ScreenSet(makers, session.now), app=app, session=session, **kwargs)
+    screens = ScreenSet(makers, session.now)
+    if before is not None:
+        screens.take_over(before.screens)
+    shell = Shell(screens, app=app, session=session, **kwargs)
     profile.follow(shell)
     return shell

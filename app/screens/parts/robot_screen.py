@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from kivy.uix.floatlayout import FloatLayout
 
 from app.layout.arrange import Body, Rect
@@ -47,6 +49,13 @@ class RobotScreen(FloatLayout):
 
     def tick(self) -> None:
         """Bring up to date what time changes; ten times a second while it is on the glass."""
+
+    def keep(self) -> object:
+        """What an operator opened or typed here, for the screen that is made in the place of this one; None for nothing."""
+        return None
+
+    def take_up(self, kept: Any) -> None:
+        """Go on where the screen that gave `kept` ended; never called with None."""
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
         """A camera frame came; `rate` [Hz] and `latency` [s] are NaN while they are not known."""

@@ -53,13 +53,19 @@ PANES: dict[str, Pane] = {
         lambda _: tr(SYSTEMS[quantities.system]),
     ),
     "language": Pane(
-        "text_fields",
+        "group",
         mark("Language"),
         "app.screens.setup.panes.language_pane:LanguagePane",
         lambda _: language.tongue.own_name,
     ),
     "looks": Pane(
         "light_mode", mark("Theme and gloves"), "app.screens.setup.panes.looks_pane:LooksPane", _looks
+    ),
+    "text": Pane(
+        "text_fields",
+        mark("Size of text"),
+        "app.screens.setup.panes.text_pane:TextPane",
+        lambda app: f"{app.preferences.text * 100:.0f} %",
     ),
     "inputs": Pane(
         "sports_esports",

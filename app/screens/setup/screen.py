@@ -114,6 +114,14 @@ class SetupScreen(RobotScreen):
             return True
         return False
 
+    def keep(self) -> object:
+        """What is open."""
+        return self.chosen
+
+    def take_up(self, kept: Any) -> None:
+        """Open it again."""
+        self.chosen = kept
+
     def open(self, name: str) -> None:
         """Open the pane of this handheld of that name; nothing for one that there is not."""
         if name in self.panes:

@@ -26,8 +26,12 @@ class ScreenSet(Mapping[str, RobotScreen]):
         self._makers, self._now = dict(makers), now
         self._made: dict[str, RobotScreen] = {}
         self._missed: dict[str, deque[tuple[int, Post]]] = {}
-        """What came, numbered in its order, for as long as a screen is not made."""
+        """What came, numbered in its order: the newest of each channel, and of some more."""
         self._count = itertools.count()
+
+    def take_over(self, other: ScreenSet) -> None:
+        """Know what `other` was told, so that screens made here begin where those there ended."""
+        self._missed, self._count = other._missed, other._count
 
     def __getitem__(self, name: str) -> RobotScreen:
         """Make it where it is not made yet; KeyError where there is none of that name."""
@@ -58,11 +62,9 @@ class ScreenSet(Mapping[str, RobotScreen]):
 
     def on_post(self, channel: str, post: Post) -> None:
         """Something came from the robot or its link: told to each screen now, or when it is made."""
-        if len(self._made) < len(self._makers):
-            kept = self._missed.setdefault(channel, deque(maxlen=MAX_MISSED.get(channel, 1)))
-            kept.append((next(self._count), post))
-        else:
-            self._missed.clear()
+        # kept when all are made as well: they may be made anew in another language or size of text
+        kept = self._missed.setdefault(channel, deque(maxlen=MAX_MISSED.get(channel, 1)))
+        kept.append((next(self._count), post))
         for screen in list(self._made.values()):
             screen.on_post(channel, post)
 

@@ -166,6 +166,7 @@ class Shell(FloatLayout):
             self.session.listeners.remove(self._hear)
         self.session.tasking.deaf()
         self.session.missions.deaf()
+        self.session.drafts.deaf()
         self.session.logbook.listeners.clear()
         self.cards.close()
         self.wishes.close()

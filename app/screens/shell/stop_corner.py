@@ -59,13 +59,28 @@ class StopCorner:
         """Called when STOP ALL was pressed and is on its way."""
         self.layer = FloatLayout()
         """To be put over the whole glass."""
-        self.button = StopAll(size_hint=(None, None))
-        self.button.bind(on_command=lambda _: self.press())
+        self.button = self._made_button()
         self._list: StopList | None = None
         self._spread = False
         """The operator wants to see all of the list, whatever it lies over."""
         self._arranging = Clock.create_trigger(self._place, -1)
         self.layer.bind(size=self._arranging)
+
+    def _made_button(self) -> StopAll:
+        button = StopAll(size_hint=(None, None))
+        button.bind(on_command=lambda _: self.press())
+        return button
+
+    def renew(self) -> None:
+        """Make button and list anew, as in another size of text; what is sent goes on being sent, and is seen where it was."""
+        listed = self._list is not None and self._list.parent is not None
+        for widget in (self.button, self._list):
+            if widget is not None:
+                self._show(widget, shown=False)
+        self.button, self._list = self._made_button(), None
+        if listed:
+            self._show(self.list, shown=True)
+        self.tick()
 
     @property
     def list(self) -> StopList:

@@ -233,6 +233,21 @@ class TasksScreen(RobotScreen):
         self.detail = detail
         self._lay()
 
+    def keep(self) -> object:
+        """The tab, and the order that is being written."""
+        return self.tab, self.detail, self.pane.order if self.detail == "order" else None
+
+    def take_up(self, kept: Any) -> None:
+        """Go on with them."""
+        self.tab, detail, order = kept
+        if order is not None and order.task:
+            self.begin(order.task, tuple(order.places))
+            numbers = {"speed": order.speed, "at_height": order.height, "duration": order.duration}
+            self.pane.form.set(heading=order.heading, throttle=order.throttle, **numbers)
+            self.pane.form.set(message=order.message, recipient_tag=order.recipient_tag)
+        elif detail in ("settings", "order"):
+            self.open(detail)
+
     def close(self) -> None:
         """Back to the lists."""
         self.rest()

@@ -14,6 +14,7 @@ from app.screens.setup.panes.language_pane import LanguagePane
 from app.screens.setup.panes.looks_pane import LooksPane
 from app.screens.setup.panes.name_pane import NamePane
 from app.screens.setup.panes.settings_pane import SettingsPane
+from app.screens.setup.panes.text_pane import TextPane
 from app.screens.setup.panes.units_pane import UnitsPane
 from app.screens.setup.screen import HANDHELD
 from tests.app.glass import Glass
@@ -26,6 +27,7 @@ CLASSES: dict[str, type[SettingsPane]] = {
     "units": UnitsPane,
     "language": LanguagePane,
     "looks": LooksPane,
+    "text": TextPane,
     "inputs": InputsPane,
 }
 
