@@ -117,7 +117,7 @@ class RobotDirectory:
         url = session.robot.url
         self.trust.on_answer(session)
         if self._unproven == url:
-            self.robots.add(url)
+            self.robots.add(url, met=True)
             self._save()
         self._unproven = ""
 

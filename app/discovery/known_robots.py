@@ -137,6 +137,8 @@ class Entry:
     trust: str = ""
     """`paired`, `stranger` (its link is protected, and this handheld is not paired with it), `open` (what is said to it
     can be read and changed on its way) or empty within this machine."""
+    met: bool = True
+    """A robot was met there, now or on an earlier day; an address that somebody typed may be a slip of the pen."""
 
     @property
     def state(self) -> str:
@@ -241,16 +243,22 @@ class KnownRobots:
         if url in self._heard or url in self._saved:
             self._latency[url] = latency
 
-    def add(self, text: str) -> str:
-        """Save an address that somebody typed; returns its url. ValueError with a sentence when it is none."""
+    def add(self, text: str, *, met: bool = False) -> str:
+        """Save an address that somebody typed; returns its url. ValueError with a sentence when it is none.
+
+        `met` says that a robot has answered there.
+        """
         url = check_address(text)
-        self._saved.setdefault(url, dict.fromkeys(_KEPT, ""))
+        kept = self._saved.setdefault(url, dict.fromkeys(_KEPT, ""))
+        if met:
+            kept["met"] = _MET
         return url
 
     def name(self, url: str, name: str, kind: str, description: str, icon: str = "") -> None:
         """Remember what a saved address turned out to be."""
         if url in self._saved:
-            self._saved[url] = {"name": name, "kind": kind, "description": description, "icon": icon}
+            told = {"name": name, "kind": kind, "description": description, "icon": icon}
+            self._saved[url] = {**told, "met": _MET}
 
     def remove(self, url: str) -> dict[str, str] | None:
         """Forget a saved address; a robot that says HELLO is listed all the same. What was known of it, for `restore`."""
@@ -295,6 +303,7 @@ class KnownRobots:
                 latency=self._latency.get(url, math.nan),
                 saved=True,
                 kept=True,
+                met=bool(kept["name"] or kept["met"]),
             )
             for url, kept in self._saved.items()
             if url not in self._heard
@@ -336,11 +345,14 @@ class KnownRobots:
         return ""
 
 
-_KEPT = ("name", "kind", "description", "icon")
+_KEPT = ("name", "kind", "description", "icon", "met")
+"""What is saved with an address; `met` is `yes` once a robot has answered there, whatever it told of itself."""
+_MET = "yes"
 
 
 def _kept(hello: Hello) -> dict[str, str]:
-    return {key: getattr(hello, key) for key in _KEPT}
+    told = {key: getattr(hello, key) for key in ("name", "kind", "description", "icon")}
+    return {**told, "met": _MET}
 
 
 def plain_name(name: str) -> str:

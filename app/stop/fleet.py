@@ -90,6 +90,10 @@ class Connected(Protocol):
         """The link stands."""
 
     @property
+    def ever_connected(self) -> bool:
+        """A robot has answered there: the address is no slip of the pen."""
+
+    @property
     def robot(self) -> Identity:
         """Who it is."""
 
@@ -146,6 +150,8 @@ class _Robot:
     lane: Lane | None = None
     """None while its own link stops it, and before the network thread has made it."""
     task: asyncio.Task[None] | None = None
+    met: bool = False
+    """A robot was met at that address, by us or on an earlier day; else STOP goes there, and nothing is counted."""
     last: Row | None = None
     """What was known while its own link stopped it."""
     begun: bool = False
@@ -196,7 +202,9 @@ class Fleet:
         self.untried = 0
         """Robots that were too many."""
         self.rows: list[Row] = []
-        """One for each robot, in the order in which they were listed."""
+        """One for each robot that was ever met, in the order in which they were listed."""
+        self.unmet = 0
+        """Addresses that STOP is sent to and where nothing was ever met: they are not counted as robots."""
 
     # what the UI thread calls
 
@@ -235,6 +243,7 @@ class Fleet:
             time.sleep(0)  # lets the network thread send it before anything is done here
             self._linked = connected.robot.url
             self._robot(connected.robot.url, "", connected.robot.name).begun = False
+            self._meet(connected)
         for entry in self._chosen(list(entries)):
             self._add(entry)
         for robot in self._robots.values():
@@ -253,6 +262,7 @@ class Fleet:
         if owed and url != self._linked:
             alone = url not in self._robots or self._robots[url].left is not None
             robot = self._robot(url, "", connected.robot.name)
+            self._meet(connected)
             robot.left = connected.link if alone else None
             self._press([robot])
         self.update(None)
@@ -265,8 +275,9 @@ class Fleet:
         """
         if connected is not None:
             self._give_back(connected)
+            self._meet(connected)
         if not self.active:
-            self.rows = []
+            self.rows, self.unmet = [], 0
             return
         url = "" if connected is None else connected.robot.url
         if self._linked and self._linked != url:
@@ -275,7 +286,9 @@ class Fleet:
             connected.stop()
             self._close_lane(self._robots[url])
             self._linked = url
-        self.rows = self._same.counted([self._seen(robot, connected) for robot in self._robots.values()])
+        seen = [(robot, self._seen(robot, connected)) for robot in self._robots.values()]
+        self.rows = self._same.counted([one for robot, one in seen if robot.met])
+        self.unmet = sum(not robot.met for robot in self._robots.values())
 
     def since(self, entries: Iterable[Entry]) -> int:
         """How many of `entries` STOP ALL was not meant for: they came after it was pressed."""
@@ -317,13 +330,21 @@ class Fleet:
     def _add(self, entry: Entry) -> None:
         robot = self._robot(entry.url, entry.key, "")
         robot.name, robot.boot = entry.name or entry.address, entry.boot or robot.boot
+        robot.met = robot.met or entry.met
         robot.heard = "" if entry.silent <= HEARD else _not_heard(entry.silent)
 
     def _robot(self, url: str, key: str, name: str) -> _Robot:
         robot = self._robots.setdefault(url, _Robot(url, name, ""))
         if robot.credentials is None and robot.lane is None:
             robot.credentials = self._credentials(url, key)
+        robot.met = robot.met or robot.credentials is not None
         return robot
+
+    def _meet(self, connected: Connected) -> None:
+        """Who answered over a link is a robot, whatever becomes of the link."""
+        robot = self._robots.get(connected.robot.url)
+        if robot is not None:
+            robot.met = robot.met or connected.ever_connected
 
     def _press(self, robots: list[_Robot], head_start: float = 0.0) -> None:
         if robots and self._network is None:
@@ -391,6 +412,7 @@ class Fleet:
 
         lane = robot.lane  # once: the network thread takes it away
         report = lane.report if lane is not None else Report("sent")
+        robot.met = robot.met or report.reached
         if connected is not None and robot.url == self._linked:
             robot.boot_by_link = connected.boot or robot.boot_by_link
             robot.proven_by_link = connected.fingerprint
@@ -415,12 +437,14 @@ class Fleet:
 
 
 def known(entries: Iterable[Entry], connected: Connected | None) -> int:
-    """How many robots there are, one that says to be the same at two addresses counted once.
+    """How many robots there are, one that says to be the same at two addresses counted once; none where none was ever met.
 
     Those that are saved or paired are never counted as another: what they say may be a stranger's claim.
     """
-    found = {entry.url: entry.url if entry.kept else entry.boot or entry.url for entry in entries}
-    if connected is not None:
+    found = {
+        entry.url: entry.url if entry.kept else entry.boot or entry.url for entry in entries if entry.met
+    }
+    if connected is not None and connected.ever_connected:
         found[connected.robot.url] = connected.boot or connected.robot.url
     return len(set(found.values()))
 

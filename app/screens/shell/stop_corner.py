@@ -128,14 +128,24 @@ class StopCorner:
         button.stopped, button.total = fleet.stopped, fleet.total
         least = 2 if self._app.shell is not None else 1
         # by address: that two of them are one robot is what somebody says, and takes STOP ALL away from nobody
-        addresses = {entry.url for entry in entries} | ({session.robot.url} if session is not None else set())
+        # and an address where nothing was ever met is no robot
+        addresses = {entry.url for entry in entries if entry.met}
+        if session is not None and session.ever_connected:
+            addresses.add(session.robot.url)
         self._show(button, shown=fleet.active or len(addresses) >= least)
         if not fleet.active:
             if self._list is not None:
                 self._show(self._list, shown=False)
         elif self.list.parent is not None:
             since = fleet.since(entries)
-            self.list.update(fleet.rows, fleet.stopped, fleet.total, untried=fleet.untried, since=since)
+            self.list.update(
+                fleet.rows,
+                fleet.stopped,
+                fleet.total,
+                untried=fleet.untried,
+                since=since,
+                unmet=fleet.unmet,
+            )
         elif not fleet.sending:
             self._finish()
         self._place()

@@ -257,3 +257,17 @@ def test_a_robot_that_its_centre_has_lost_is_lost_though_the_centre_says_hello()
     robots = KnownRobots(lambda: 100.0)
     robots.heard(Hello(name="North", url="ws://10.0.0.3:9090", reached=False), 100.0, "10.0.0.3")
     assert robots.entries()[0].state == "lost"
+
+
+def test_an_address_is_no_robot_until_one_was_met_there_and_stays_one_over_the_end_of_the_app(robots, clock):
+    url, other = robots.add("10.0.0.8"), robots.add("10.0.0.9", met=True)
+    assert [(one.url, one.met) for one in robots.entries()] == [(url, False), (other, True)]
+    again = KnownRobots(clock, robots.save())
+    assert [one.met for one in again.entries()] == [False, True]
+    again.name(url, "Boat", "boat", "")
+    assert [one.met for one in KnownRobots(clock, again.save()).entries()] == [True, True]
+
+
+def test_a_name_saved_by_an_earlier_version_says_that_the_robot_was_met(clock):
+    saved = [{"url": "ws://10.0.0.8:9090", "name": "Boat"}, {"url": "ws://10.0.0.9:9090", "name": ""}]
+    assert [one.met for one in KnownRobots(clock, saved).entries()] == [True, False]

@@ -87,7 +87,7 @@ class Link:
         info = RobotInfo(name="Linked", model="patrol")
         self.robot = SimpleNamespace(url=url, name="Linked", foreign=foreign, info=info)
         self.boot, self.fingerprint, self.control_status = "", "", ControlStatus()
-        self.link, self.connected = object(), True
+        self.link, self.connected, self.ever_connected = object(), True, True
         self.robot_stop = LinkStop()
         self.stops = 0
 

@@ -187,6 +187,7 @@ def test_a_lane_that_the_network_thread_takes_away_meanwhile_was_there_or_not(fl
         """Its lane is gone when it is looked at again."""
 
         url, name, heard, boot, boot_by_link, last, credentials = A, "Boat", "", "", "", None, None
+        met = True
 
         def __init__(self) -> None:
             self.lanes = [Lane(Lanes(), A)]
@@ -362,3 +363,69 @@ def test_a_stop_pressed_after_a_release_and_left_at_once_is_not_taken_for_releas
     link.stop()
     assert fleet.leave(link)
     until(lambda: A in lanes.open, "nobody stops it any more")
+
+
+# what is no robot
+
+
+def mistyped(url: str) -> Entry:
+    """An address that was saved and where nothing ever answered."""
+    return Entry(url, "", saved=True, kept=True, met=False)
+
+
+def test_an_address_where_nothing_was_ever_met_gets_stop_and_is_not_counted(
+    fleet: Fleet, lanes: Lanes
+) -> None:
+    entries = [heard(A, "Boat"), mistyped(B)]
+    assert known(entries, None) == 1
+    fleet.press(entries)
+    until(lambda: set(lanes.open) == {A, B}, "not tried")
+    lanes.reports = {A: Report("stopped", reached=True), B: Report("no_answer", "No reply.")}
+    assert phases(fleet) == {"Boat": "stopped"}
+    assert (fleet.stopped, fleet.total, fleet.unmet, fleet.sending) == (1, 1, 1, False)
+
+
+def test_who_answers_at_such_an_address_is_a_robot_from_then_on(fleet: Fleet, lanes: Lanes) -> None:
+    fleet.press([mistyped(B)])
+    until(lambda: B in lanes.open, "not tried")
+    lanes.reports[B] = Report("sent", reached=True, name="Boat")
+    fleet.update(None)
+    assert (fleet.total, fleet.unmet) == (1, 0)
+    lanes.reports[B] = Report("no_answer", "No reply.")
+    fleet.update(None)
+    assert (fleet.total, fleet.unmet) == (1, 0), "it is lost, and still a robot"
+
+
+@pytest.mark.parametrize(
+    "entry",
+    [
+        Entry(B, "Boat", saved=True, kept=True),
+        replace(heard(B, "Boat", 3600.0), saved=True),
+        heard(B, "Boat", 40.0),
+    ],
+    ids=["of an earlier day", "silent for an hour", "silent and not saved"],
+)
+def test_a_robot_that_was_met_and_is_lost_is_tried_and_counted(
+    fleet: Fleet, lanes: Lanes, entry: Entry
+) -> None:
+    assert known([entry], None) == 1
+    fleet.press([entry])
+    until(lambda: B in lanes.open, "not tried")
+    lanes.reports[B] = Report("no_answer", "No reply.")
+    assert phases(fleet) == {"Boat": "no_answer"}
+    assert (fleet.stopped, fleet.total, fleet.unmet) == (0, 1, 0)
+
+
+def test_a_link_to_a_mistyped_address_is_told_and_not_counted_until_a_robot_answers(fleet: Fleet) -> None:
+    link = Link(A)
+    link.ever_connected = link.connected = False
+    assert known([], link) == 0
+    fleet.press([], link)
+    fleet.update(link)
+    assert (link.stops, fleet.total, fleet.unmet) == (1, 0, 1)
+    link.ever_connected = link.connected = True
+    fleet.update(link)
+    assert (fleet.total, fleet.unmet) == (1, 0)
+    link.connected = False
+    fleet.update(link)
+    assert (fleet.total, fleet.unmet) == (1, 0)

@@ -20,7 +20,7 @@ from kivy.uix.widget import Widget
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from widgets.controls.hold_progress import Hold
 from widgets.core.base import Control
-from widgets.core.language import mark, tr
+from widgets.core.language import mark, tr, trn
 from widgets.parts.buttons import QuietButton
 
 __all__ = ["WORDS", "StopList", "StopRow"]
@@ -240,9 +240,19 @@ class StopList(Control, BoxLayout):
         self._measure()
 
     def update(
-        self, robots: Iterable[Stopped], stopped: int, total: int, *, untried: int = 0, since: int = 0
+        self,
+        robots: Iterable[Stopped],
+        stopped: int,
+        total: int,
+        *,
+        untried: int = 0,
+        since: int = 0,
+        unmet: int = 0,
     ) -> None:
-        """Take over what is known, worst first; `untried` were too many, `since` came after the press."""
+        """Take over what is known, worst first; `untried` were too many, `since` came after the press.
+
+        STOP goes to `unmet` addresses as well, where no robot was ever met: they are none of `total`.
+        """
         robots = sorted(robots, key=lambda robot: _WORST.index(robot.phase))
         while len(self._rows) > len(robots):
             self.ids.column.remove_widget(self._rows.pop())
@@ -256,7 +266,7 @@ class StopList(Control, BoxLayout):
         self.worst = f"{worst.name}: {WORDS[worst.phase][0]}" if worst is not None else ""
         held = sum(robot.foreign for robot in robots)
         open_ones = sum(robot.phase not in ("stopped", "released") for robot in robots)
-        self.footnote = _footnote(open_ones, held, untried, since) or tr(HINT)
+        self.footnote = _footnote(open_ones, held, untried, since, unmet) or tr(HINT)
         self.offer = tr("Hold to stop sending") if open_ones or held else ""
 
     def _measure(self, *_: object) -> None:
@@ -284,12 +294,18 @@ class StopList(Control, BoxLayout):
 HINT = mark("To release one: connect to it, take control, hold STOP.")
 
 
-def _footnote(open_ones: int, held: int, untried: int, since: int) -> str:
+def _footnote(open_ones: int, held: int, untried: int, since: int, unmet: int) -> str:
     parts = []
     if since:
         parts.append(tr("{since} more found since: press STOP ALL again.").format(since=since))
     if untried:
         parts.append(tr("{untried} more not tried: too many at once.").format(untried=untried))
+    if unmet:
+        one, many = (
+            "{count} address that never answered is not counted; STOP is sent there too.",
+            "{count} addresses that never answered are not counted; STOP is sent there too.",
+        )
+        parts.append(trn(one, many, unmet).format(count=unmet))
     if open_ones:
         parts.append(tr("STOP is sent until every robot rests."))
     if held:
