@@ -18,6 +18,7 @@ from bridge.client.credentials import Credentials
 from bridge.discovery.hello import is_loopback
 from bridge.trust.pairing import SCHEME, BadPairing, PairLink, split_code
 from bridge.trust.robot_link import RobotLink, read_link
+from widgets.core.language import mark, tr
 
 if TYPE_CHECKING:
     from app.screens.trust.pair_dialog import PairDialog  # when somebody pairs, for a quick start
@@ -25,8 +26,12 @@ if TYPE_CHECKING:
 
 __all__ = ["RobotTrust"]
 
-NO_ROBOT = "A code is of one robot: choose that robot's card first, or paste its link."
-ROLES = {"watch": "may watch it", "drive": "may drive it", "manage": "may drive and manage it"}
+NO_ROBOT = mark("A code is of one robot: choose that robot's card first, or paste its link.")
+ROLES = {
+    "watch": mark("may watch it"),
+    "drive": mark("may drive it"),
+    "manage": mark("may drive and manage it"),
+}
 
 
 class Host(Protocol):
@@ -110,7 +115,7 @@ class RobotTrust:
         key = self.key_for(url)
         if key is not None:
             self.keys.forget(key.fingerprint)
-            said = f"{key.name} is no longer paired with this handheld. Tap to undo."
+            said = tr("{name} is no longer paired with this handheld. Tap to undo.").format(name=key.name)
 
             def undo() -> None:
                 self.keys.restore(key)
@@ -137,10 +142,14 @@ class RobotTrust:
     def _doubt(self, name: str, link: PairLink | None) -> str:
         """What speaks against pairing with the robot of that name; empty for nothing."""
         if link is not None and self.keys.get(link.fingerprint) is not None:
-            return "This handheld is paired with it already. Pair again only if the robot removed it."
+            return tr("This handheld is paired with it already. Pair again only if the robot removed it.")
         called = plain_name(link.name if link is not None else name)
         other = next((key for key in self.keys if called and plain_name(key.name) == called), None)
-        return f"This is not the {other.name} that you paired: another robot uses its name." if other else ""
+        return (
+            tr("This is not the {name} that you paired: another robot uses its name.").format(name=other.name)
+            if other
+            else ""
+        )
 
     def open_link(self, text: str) -> None:
         """Somebody opened a robot's link: ask whether to pair, or to connect by one without a secret."""
@@ -192,7 +201,7 @@ class RobotTrust:
         else:
             split_code(text)
             if not self._url:
-                raise BadPairing(NO_ROBOT)
+                raise BadPairing(tr(NO_ROBOT))
             self._number = self.attempts.by_code(f"wss://{place_of(self._url)}", text)
         if self.dialog is not None:
             self.dialog.busy = True
@@ -233,4 +242,9 @@ class RobotTrust:
             self.dialog = None
             dialog.close()
             self._app.open(url)
-            self._app.say(f"Paired with {key.name}. This handheld {ROLES[key.role]}.", "ok")
+            self._app.say(
+                tr("Paired with {name}. This handheld {roles}.").format(
+                    name=key.name, roles=tr(ROLES[key.role])
+                ),
+                "ok",
+            )

@@ -16,6 +16,7 @@ from app.session.connecting import connecting_words, has_failed
 from app.session.picture_feed import PictureFeed
 from app.session.recordings import Recordings
 from bridge.core.link_state import LinkFault
+from widgets.core.language import tr
 
 if TYPE_CHECKING:
     from app.screens.shell.shell import Shell  # made when there is a robot, for a quick start
@@ -68,7 +69,7 @@ class RobotVisit:
         self.leave()
         self.session = self._connector().session(url, wants_control=wants_control)
         self.session.on_rest = on_rest
-        self.connect.say(f"Connecting to {url} …", "info", self.leave)
+        self.connect.say(tr("Connecting to {url} …").format(url=url), "info", self.leave)
 
     def suspend(self) -> None:
         """The app is put away: let go of the robot, and keep what is known of it."""

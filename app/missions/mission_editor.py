@@ -10,6 +10,7 @@ from typing import Any
 import msgspec
 
 from bridge.msgs.pilothouse_msgs import MAX_DWELL, MAX_LAPS, MOTIONS, REACTIONS, Mission, Waypoint
+from widgets.core.language import tr
 
 __all__ = ["Draft", "MissionEditor"]
 
@@ -186,7 +187,11 @@ class MissionEditor:
         """
         for what, value, known in (("motion", motion, MOTIONS), ("reaction", on_intruder, REACTIONS)):
             if value is not None and value not in known:
-                raise ValueError(f"The {what} is one of {', '.join(known)}, not {value!r}.")
+                raise ValueError(
+                    tr("The {what} is one of {known}, not {value!r}.").format(
+                        what=what, known=", ".join(known), value=value
+                    )
+                )
         changes: dict[str, Any] = {"motion": motion, "on_intruder": on_intruder}
         changes["dwell"] = None if dwell is None else min(max(dwell, 0.0), MAX_DWELL)
         changes["laps"] = None if laps is None else min(max(laps, 0), MAX_LAPS)
@@ -293,4 +298,4 @@ class MissionEditor:
 
 def _check_place(x: float, y: float) -> None:
     if not (math.isfinite(x) and math.isfinite(y)):
-        raise ValueError(f"A place needs two numbers, not ({x}, {y}).")
+        raise ValueError(tr("A place needs two numbers, not ({x}, {y}).").format(x=x, y=y))

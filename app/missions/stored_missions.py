@@ -8,6 +8,7 @@ from typing import Any, Protocol
 from app.link.commands import Outcome
 from app.missions.mission_editor import Draft, MissionEditor
 from bridge.msgs.pilothouse_msgs import KeptMission
+from widgets.core.language import tr
 
 __all__ = ["MAX_NAME_LENGTH", "StoredMissions", "Robot"]
 
@@ -68,7 +69,7 @@ class StoredMissions:
         """What is missing before the points on the map can be kept under a name, as a sentence; empty when nothing."""
         if not self._robot.mission.draft.points:
             return "There are no points on the map to save; set some on the mission screen."
-        return "" if name.strip() else "Enter a name."
+        return "" if name.strip() else tr("Enter a name.")
 
     # what comes in
 
@@ -100,7 +101,8 @@ class StoredMissions:
         if not accepted or before is None:
             return
         self.on_recalled(
-            outcome.reason or f"{outcome.fields['name']} is the mission now.", lambda: self._undo(*before)
+            outcome.reason or tr("{fields} is the mission now.").format(fields=outcome.fields["name"]),
+            lambda: self._undo(*before),
         )
         self.ask()
 

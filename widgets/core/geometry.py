@@ -18,6 +18,7 @@ from bridge.core.units import heading_from_yaw, yaw_from_heading
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import Imu
+from widgets.core.language import tr
 from widgets.core.quantities import quantities, to_shown, unit_of
 
 __all__ = [
@@ -317,7 +318,7 @@ def not_exceeded_by(values: NDArray[np.float64], share: float) -> float:
     As numpy's percentile, which loads a megabyte for masked arrays when it is first asked.
     """
     if not len(values):
-        raise ValueError("There are no values of which a share could be taken.")
+        raise ValueError(tr("There are no values of which a share could be taken."))
     ordered = np.sort(values)
     place = (len(ordered) - 1) * share
     low = math.floor(place)

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from widgets.core.language import tr
 from widgets.core.quantities import said
 
 __all__ = ["aim", "ago_text", "away_text", "contrast_of", "line_offset", "side_text", "wheel_name"]
@@ -91,7 +92,11 @@ def ago_text(seconds: float) -> str:
         return "now"
     if seconds < 59.5:
         return f"{seconds:.0f} s ago"
-    return f"{seconds / 60:.0f} min ago" if seconds < 3570 else f"{seconds / 3600:.0f} h ago"
+    return (
+        tr("{seconds:.0f} min ago").format(seconds=seconds / 60)
+        if seconds < 3570
+        else f"{seconds / 3600:.0f} h ago"
+    )
 
 
 def wheel_name(joint: str) -> str:

@@ -24,7 +24,7 @@ from kivy.properties import (
 from kivy.utils import get_color_from_hex
 
 from widgets.core.icons import ICONS
-from widgets.core.language import language
+from widgets.core.language import language, tr
 
 __all__ = ["PALETTES", "Theme", "contrast", "theme"]
 
@@ -240,6 +240,6 @@ theme = Theme()
 """The one theme of this process; kv knows it under the same name."""
 language.follow(lambda: _take_font(language.tongue.font))
 _take_font(language.tongue.font)
-global_idmap.update(theme=theme, icons=ICONS)
+global_idmap.update(theme=theme, icons=ICONS, tr=tr)
 for name, module in {"Rounded": "rounded", "Outline": "visible", "Tinted": "visible"}.items():
     Factory.register(name, module=f"widgets.core.{module}")

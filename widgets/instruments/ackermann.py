@@ -20,6 +20,7 @@ from bridge.msgs.pilothouse_msgs import AckermannState
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import DASH, Points, rounded
+from widgets.core.language import tr
 from widgets.core.quantities import said
 from widgets.core.sensor_geometry import away_text
 from widgets.core.shapes import Shapes
@@ -74,7 +75,7 @@ class AckermannView(Gauge):
     """Name, angle [rad] and speed at the rim [m/s] of each; NaN for what is not measured."""
 
     def __init__(self, **kwargs: Any) -> None:
-        super().__init__(**{"title": "Steering", **kwargs})
+        super().__init__(**{"title": tr("Steering"), **kwargs})
 
     def show(self, msg: AckermannState) -> None:
         """Show the newest state."""
@@ -132,7 +133,7 @@ class AckermannView(Gauge):
         y, size = low + sp(6), sp(13)
         yield Word(self.speed_words, left, y, size, theme.text, bold=True, anchor=(0, 0.5))
         room = right - left - wide(self.speed_words, size, bold=True) - dp(10)
-        turn = "no turn" if self.radius_words == "none" else f"radius {self.radius_words}"
+        turn = tr("no turn") if self.radius_words == "none" else f"radius {self.radius_words}"
         brief = "" if self.radius_words in ("none", DASH) else f"r {self.radius_words}"
         yield Word(first_fitting((turn, brief), size, room), right, y, size, theme.muted, anchor=(1, 0.5))
 
@@ -143,7 +144,11 @@ class AckermannView(Gauge):
         step = height / lines
         size = sp(22 if height >= dp(170) else 17)
         turned = self.alarmed and dp(16)  # an alarm has its sign in the corner
-        figures = (("Speed", self.speed_words), ("Steer", self.steer_words), ("Radius", self.radius_words))
+        figures = (
+            ("Speed", self.speed_words),
+            (tr("Steer"), self.steer_words),
+            (tr("Radius"), self.radius_words),
+        )
         for number, (name, text) in enumerate(figures[:lines]):
             top = low + height - number * step
             value, _, unit = text.partition(" ") if text[0] not in "sn" else (text, "", "")

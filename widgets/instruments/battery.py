@@ -18,6 +18,7 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.sensor_msgs import BatteryState
 from widgets.core.base import RobotWidget, age_text
+from widgets.core.language import tr
 from widgets.parts.labels import Chip
 
 __all__ = ["Battery", "BatteryChip", "charge_role", "time_left_text"]
@@ -96,9 +97,9 @@ def time_left_text(hours: float) -> str:
     if not math.isfinite(hours) or hours < 0:
         return ""
     minutes = round(hours * 60)
-    return (
-        f"about {minutes // 60} h {minutes % 60} min left" if minutes >= 60 else f"about {minutes} min left"
-    )
+    if minutes < 60:
+        return tr("about {minutes} min left").format(minutes=minutes)
+    return tr("about {hours} h {minutes} min left").format(hours=minutes // 60, minutes=minutes % 60)
 
 
 class BatteryCell(Widget):
@@ -142,7 +143,7 @@ class _Charge(RobotWidget):
 
     def _sentence(self) -> str:
         if self.state in {"never", "stale"}:
-            return "no data yet" if self.state == "never" else ""
+            return tr("no data yet") if self.state == "never" else ""
         return "charging" if self.charging else time_left_text(self.hours_left) or "battery"
 
     sentence = AliasProperty(_sentence, bind=["state", "charging", "hours_left"], cache=True)

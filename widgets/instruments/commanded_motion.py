@@ -18,6 +18,7 @@ from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from widgets.core.canvas_ink import Word
 from widgets.core.geometry import DASH
+from widgets.core.language import mark, tr
 from widgets.core.quantities import said
 from widgets.core.shapes import Shapes
 from widgets.core.task_words import heading_of
@@ -29,15 +30,15 @@ from widgets.parts.sensor_card import Gauge, first_fitting, wide
 __all__ = ["CommandedMotion", "Figure", "samples"]
 
 KINDS = {
-    "twist": "Speeds",
-    "steer": "Steered",
-    "course": "On course",
-    "tilt": "Tilted",
-    "hover": "Holding",
-    "take_off": "Taking off",
-    "land": "Landing",
-    "surface": "Surfacing",
-    "rest": "At rest",
+    "twist": mark("Speeds"),
+    "steer": mark("Steered"),
+    "course": mark("On course"),
+    "tilt": mark("Tilted"),
+    "hover": mark("Holding"),
+    "take_off": mark("Taking off"),
+    "land": mark("Landing"),
+    "surface": mark("Surfacing"),
+    "rest": mark("At rest"),
 }
 """Kind of manoeuvre to what people say of it."""
 NARROW, MIN_ROW_HEIGHT, GAP = 68, 40, 12
@@ -75,7 +76,7 @@ class CommandedMotion(Gauge):
     def __init__(self, **kwargs: Any) -> None:
         self._order: Manoeuvre | None = None
         self._aside: set[str] = set()
-        super().__init__(**{"title": "Commanded", **kwargs})
+        super().__init__(**{"title": tr("Commanded"), **kwargs})
         for name in ("target", "under_water"):
             self.fbind(name, self._read)
         self._read()
@@ -89,12 +90,12 @@ class CommandedMotion(Gauge):
     @property
     def word(self) -> str:
         """The kind in a word; as the message says it where it is not known."""
-        return KINDS.get(self.kind, self.kind.replace("_", " ").capitalize())
+        return tr(KINDS.get(self.kind, self.kind.replace("_", " ").capitalize()))
 
     def _read(self, *_: object) -> None:
         order = self._order
         if order is None:
-            told = [_speed("Surge", math.nan), _speed("Heave", math.nan), _rate("Yaw", math.nan)]
+            told = [_speed(tr("Surge"), math.nan), _speed(tr("Heave"), math.nan), _rate(tr("Yaw"), math.nan)]
         else:
             told = [*getattr(self, f"_of_{order.kind}" if order.kind in KINDS else "_of_nothing")(order)]
         height = math.nan if order is None else order.height
@@ -109,29 +110,29 @@ class CommandedMotion(Gauge):
         if math.isnan(held):
             return []
         if self.under_water:
-            return [Figure("Target depth", *said(-held, "height", 1), "plan")]
-        return [Figure("Target height", *said(held, "height", 1), "plan")]
+            return [Figure(tr("Target depth"), *said(-held, "height", 1), "plan")]
+        return [Figure(tr("Target height"), *said(held, "height", 1), "plan")]
 
     def _of_twist(self, order: Manoeuvre) -> Iterator[Figure]:
         """Ahead, up and round always; aside, roll and pitch from when they were first asked for."""
         linear, angular = order.twist.linear, order.twist.angular
         more = {"Sway": linear.y, "Roll": angular.x, "Pitch": angular.y}
         self._aside |= {name for name, value in more.items() if abs(value) > MIN_SPEED}
-        yield _speed("Surge", linear.x)
+        yield _speed(tr("Surge"), linear.x)
         if "Sway" in self._aside:
             yield _speed("Sway", linear.y)
-        yield _speed("Heave", linear.z)
+        yield _speed(tr("Heave"), linear.z)
         for name in ("Roll", "Pitch"):
             if name in self._aside:
                 yield _rate(name, more[name])
-        yield _rate("Yaw", angular.z)
+        yield _rate(tr("Yaw"), angular.z)
 
     def _of_rest(self, _: Manoeuvre) -> Iterator[Figure]:
         yield from self._of_twist(Manoeuvre())
 
     def _of_steer(self, order: Manoeuvre) -> Iterator[Figure]:
         yield from _push(order)
-        yield _angle("Steer", order.steering)
+        yield _angle(tr("Steer"), order.steering)
 
     def _of_course(self, order: Manoeuvre) -> Iterator[Figure]:
         yield from _push(order)
@@ -142,8 +143,8 @@ class CommandedMotion(Gauge):
             yield from _push(order)
         yield _angle("Pitch", order.pitch)
         yield _angle("Roll", order.roll)
-        yield _speed("Heave", order.twist.linear.z)
-        yield _rate("Yaw", order.twist.angular.z)
+        yield _speed(tr("Heave"), order.twist.linear.z)
+        yield _rate(tr("Yaw"), order.twist.angular.z)
 
     def _of_hover(self, order: Manoeuvre) -> Iterator[Figure]:
         yield _heading(order.yaw)
@@ -235,15 +236,15 @@ def _angle(name: str, value: float) -> Figure:
 
 
 def _heading(yaw: float) -> Figure:
-    return Figure("Heading", heading_of(yaw) if math.isfinite(yaw) else "as now", role="plan")
+    return Figure(tr("Heading"), heading_of(yaw) if math.isfinite(yaw) else tr("as now"), role="plan")
 
 
 def _push(order: Manoeuvre) -> Iterator[Figure]:
     """How it goes ahead: by a speed or by a throttle."""
     if math.isfinite(order.throttle) and not math.isfinite(order.speed):
-        yield Figure("Throttle", figure(order.throttle * 100, 0), "%")
+        yield Figure(tr("Throttle"), figure(order.throttle * 100, 0), "%")
     else:
-        yield _speed("Surge", order.speed)
+        yield _speed(tr("Surge"), order.speed)
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

@@ -20,6 +20,7 @@ from bridge.msgs.pilothouse_msgs import ControlStatus, Manoeuvre
 from bridge.msgs.sensor_msgs import FluidPressure
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import DASH, Points, nice_floor
+from widgets.core.language import tr
 from widgets.core.quantities import said, to_shown, unit_of
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -69,7 +70,7 @@ class DepthGauge(Gauge):
     """The depth as written, in the operator's unit."""
 
     def __init__(self, **kwargs: Any) -> None:
-        super().__init__(**{"title": "Depth", **kwargs})
+        super().__init__(**{"title": tr("Depth"), **kwargs})
         for name in ("depth", "wanted"):
             self.fbind(name, self._fit)
         self._fit()
@@ -119,7 +120,9 @@ class DepthGauge(Gauge):
         yield from self._value(self.words, left, middle, size, "text")
         y = middle - size * 0.62 - sp(16)
         if self.rises:
-            told = first_fitting(("stopped, floats up", "floats up"), sp(13), room, bold=True) or "rises"
+            told = (
+                first_fitting((tr("stopped, floats up"), tr("floats up")), sp(13), room, bold=True) or "rises"
+            )
             yield Word(told, left, y, sp(13), theme.warn, bold=True, anchor=(0, 0.5))
         elif math.isfinite(self.wanted):
             yield Word("TARGET", left, y, sp(11.5), theme.plan, anchor=(0, 0.5))
@@ -127,7 +130,7 @@ class DepthGauge(Gauge):
             small = self._fitting(told, f" {unit_of('height')}", room, min(size * 0.7, sp(26)))
             yield from self._value(told, left, y - sp(8) - small * 0.6, small, "plan")
         else:
-            texts = ("held where it is", "held") if self.held else ("no target depth", "no target")
+            texts = (tr("held where it is"), "held") if self.held else (tr("no target depth"), "no target")
             role = "plan" if self.held else "muted"
             yield Word(
                 first_fitting(texts, sp(12), room), left, y, sp(12), theme.roles[role], anchor=(0, 0.5)
@@ -209,7 +212,7 @@ class DepthGauge(Gauge):
         if self.words == DASH:
             return (" depth", "")
         if self.rises:
-            return (f" {unit}, floats up", f" {unit}, rises", f" {unit}")
+            return (tr(" {unit}, floats up").format(unit=unit), f" {unit}, rises", f" {unit}")
         if math.isfinite(self.wanted) and self.wanted > 0:
             told = said(self.wanted, "height", 1).text
             return (f" {unit}, holds {told}", f" {unit} → {told}", f" → {told}")

@@ -19,6 +19,7 @@ from bridge.msgs.pilothouse_msgs import ControlStatus, FlightState
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import DASH, nice_floor
+from widgets.core.language import mark, tr
 from widgets.core.quantities import from_shown, said, to_shown, unit_of
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -34,9 +35,9 @@ TIGHT = 130
 """Lower than this the phase stands where else its name is [dp]."""
 STEADY = 0.05
 """Climbing or sinking slower than this is neither [m/s]."""
-SHORT = {"taking_off": "Rising"}
+SHORT = {"taking_off": mark("Rising")}
 """A phase in a shorter word, where there is no room for its own."""
-HOVERS = "Hovers"
+HOVERS = mark("Hovers")
 """What is stopped in the air does this."""
 
 
@@ -70,7 +71,7 @@ class HeightTape(Gauge):
     """The height as written, in the operator's unit."""
 
     def __init__(self, **kwargs: Any) -> None:
-        super().__init__(**{"title": "Height", **kwargs})
+        super().__init__(**{"title": tr("Height"), **kwargs})
 
     def show(self, msg: FlightState | ControlStatus) -> None:
         """Show height, climb and phase, NaN is a dash; or take over whether STOP is pressed."""
@@ -84,7 +85,7 @@ class HeightTape(Gauge):
     @property
     def phase_words(self) -> str:
         """The phase in words; `Hovers` for what is stopped in the air."""
-        return HOVERS if self.hovers else self.phase.replace("_", " ").capitalize()
+        return tr(HOVERS) if self.hovers else self.phase.replace("_", " ").capitalize()
 
     @property
     def hovers(self) -> bool:
@@ -117,7 +118,7 @@ class HeightTape(Gauge):
         left, bottom, room, high = box
         y = bottom + high - sp(10)
         role = "warn" if self.hovers else PHASES.get(self.phase, "muted")
-        short = self.phase_words if self.hovers else SHORT.get(self.phase, self.phase_words)
+        short = self.phase_words if self.hovers else tr(SHORT.get(self.phase, self.phase_words))
         said = first_fitting((self.phase_words,), sp(13), room, bold=True) or short
         size = fitting_size([said], sp(13), room, bold=True)
         yield Word(said, left, y, size, theme.roles[role], bold=True, anchor=(0, 0.5))
@@ -131,7 +132,7 @@ class HeightTape(Gauge):
             yield Word(unit, behind, middle - size * 0.16, small, theme.muted, anchor=(0, 0.5))
         elif self.phase:
             yield Word(
-                first_fitting(("out of reach",), sp(12), room),
+                first_fitting((tr("out of reach"),), sp(12), room),
                 left,
                 middle - sp(18),
                 sp(12),
@@ -241,7 +242,7 @@ class HeightTape(Gauge):
         room, size = self.width - 2 * self.edge, min(sp(24), self.height * 0.5)
         if self.phase == "landed":
             yield Word(
-                first_fitting(("Landed",), sp(15), room, bold=True),
+                first_fitting((tr("Landed"),), sp(15), room, bold=True),
                 *self.center,
                 sp(15),
                 theme.text,

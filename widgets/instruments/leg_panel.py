@@ -22,6 +22,7 @@ from bridge.msgs.sensor_msgs import JointState
 from widgets.core.canvas_ink import Word
 from widgets.core.geometry import DASH, dial_point
 from widgets.core.icons import icon
+from widgets.core.language import tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.readout import figure
@@ -78,7 +79,7 @@ class LegPanel(Gauge):
     """The leg with the warmest motor; empty while none is known."""
 
     def __init__(self, **kwargs: Any) -> None:
-        super().__init__(**{"title": "Legs", **kwargs})
+        super().__init__(**{"title": tr("Legs"), **kwargs})
 
     def show(self, msg: JointState | MotorArray) -> None:
         """Take the angles, or the temperatures, of those joints or motors that are legs; the others are left alone."""

@@ -22,6 +22,7 @@ from bridge.msgs.std_msgs import Header, Time
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import DASH, Points
+from widgets.core.language import mark, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.parts.sensor_card import Gauge, first_fitting, wide
@@ -60,8 +61,8 @@ class _View:
 
 
 VIEWS = (
-    _View("roll", STERN, math.pi / 2, ("right", "left")),
-    _View("pitch", SIDE, 0.0, ("bow down", "bow up")),
+    _View("roll", STERN, math.pi / 2, (mark("right"), mark("left"))),
+    _View("pitch", SIDE, 0.0, (mark("bow down"), mark("bow up"))),
 )
 
 
@@ -86,7 +87,7 @@ class RollPitch(Gauge):
 
     def __init__(self, **kwargs: Any) -> None:
         self._past: deque[tuple[int, list[float], list[float]]] = deque(maxlen=SPAN + 2)
-        super().__init__(**{"title": "Lie", **kwargs})
+        super().__init__(**{"title": tr("Lie"), **kwargs})
 
     def show(self, msg: Compass) -> None:
         """Show the newest angles."""
@@ -111,7 +112,7 @@ class RollPitch(Gauge):
         if not math.isfinite(angle):
             return DASH, ""
         degrees = math.degrees(angle)
-        positive, negative = next(view.words for view in VIEWS if view.name == name)
+        positive, negative = map(tr, next(view.words for view in VIEWS if view.name == name))
         side = "level" if abs(degrees) < LEVEL else positive if degrees > 0 else negative
         return f"{abs(degrees):.0f}°", side
 

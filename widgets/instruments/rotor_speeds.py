@@ -20,6 +20,7 @@ from bridge.msgs.pilothouse_msgs import MotorArray
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import DASH, Points
 from widgets.core.icons import icon
+from widgets.core.language import tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.readout import figure
@@ -56,7 +57,7 @@ class RotorSpeeds(Gauge):
     """From here on it must rest [degC]."""
 
     def __init__(self, **kwargs: Any) -> None:
-        super().__init__(**{"title": "Rotors", **kwargs})
+        super().__init__(**{"title": tr("Rotors"), **kwargs})
 
     def show(self, msg: MotorArray) -> None:
         """Show the newest speeds and temperatures."""
@@ -150,7 +151,9 @@ class RotorSpeeds(Gauge):
         known = [abs(speed) for _, speed, _ in self.rotors if math.isfinite(speed)]
         room = self.width - 2 * self.edge
         if trouble:
-            text = first_fitting((f"a rotor is {trouble}", trouble), sp(14), room, bold=True)
+            text = first_fitting(
+                (tr("a rotor is {trouble}").format(trouble=trouble), trouble), sp(14), room, bold=True
+            )
             return Word(text, *self.center, sp(14), theme.roles[role], bold=True)
         if not known:
             return Word(DASH, *self.center, sp(14), theme.muted)

@@ -13,6 +13,7 @@ import numpy as np
 from bridge.core.fence import Border, FenceGeometry
 from bridge.msgs.pilothouse_msgs import Limits
 from widgets.core.geometry import Points
+from widgets.core.language import tr
 
 __all__ = ["GOAL_ROOM", "MAX_CORNERS", "Border", "Fence"]
 
@@ -50,16 +51,20 @@ class Fence(FenceGeometry):
         if key not in self._judged:
             if len(self._judged) >= MAX_JUDGED:
                 self._judged.clear()
-            self._judged[key] = bool(self.fault("It", x, y, radius))
+            self._judged[key] = bool(self.fault(tr("It"), x, y, radius))
         return self._judged[key]
 
     def fault(self, name: str, x: float, y: float, radius: float) -> str:
         """Why a robot of `radius` [m] would not go to a place that is called `name`, as one sentence; empty when it would."""
         if not self or not (math.isfinite(x) and math.isfinite(y)):
             return ""
-        where, need, here = f"{name} at ({x:.1f}, {y:.1f})", radius + GOAL_ROOM, np.array([[x, y]])
+        where, need, here = (
+            tr("{name} at ({x:.1f}, {y:.1f})").format(name=name, x=x, y=y),
+            radius + GOAL_ROOM,
+            np.array([[x, y]]),
+        )
         if not self.allows(here)[0]:
-            return f"{where} is outside the robot's fence."
+            return tr("{where} is outside the robot's fence.").format(where=where)
         room = float(self.border.distance(here)[0])
         if room < need:
             return f"{where} is {room:.2f} m from the robot's fence; the robot needs {need:.2f} m."

@@ -15,6 +15,7 @@ from widgets.core.base import text_texture
 from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import Points, View
 from widgets.core.icons import icon
+from widgets.core.language import mark, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.map.fence import Border, Fence
@@ -32,7 +33,7 @@ LEGEND_ROW = 20
 """Height of a line of the legend [dp]."""
 SWATCH = 22
 """Width of a sign of the legend [dp]."""
-STAYS, NEVER = "Stays in", "Keeps out"
+STAYS, NEVER = mark("Stays in"), mark("Keeps out")
 
 
 def fence_lines(shapes: Shapes, view: View, fence: Fence, box: Box) -> None:
@@ -112,7 +113,7 @@ def legend(shapes: Shapes, fence: Fence, left: float, bottom: float, room: float
     """What the lines mean, side by side where `room` [px] is enough for that, else upwards from `bottom` [px]."""
     if fence.too_large:
         word = Word(
-            "The fence is too large to draw.", left, bottom + dp(9), sp(13), theme.warn, anchor=(0, 0.5)
+            tr("The fence is too large to draw."), left, bottom + dp(9), sp(13), theme.warn, anchor=(0, 0.5)
         )
         ground(shapes, word, tint(theme.bg, 0.85))
         yield word
@@ -131,7 +132,7 @@ def legend_width(fence: Fence) -> float:
 
 
 def _entry_width(name: str) -> float:
-    return float(dp(SWATCH) + dp(5) + text_texture(name, round(sp(13), 1)).width + dp(12))
+    return float(dp(SWATCH) + dp(5) + text_texture(tr(name), round(sp(13), 1)).width + dp(12))
 
 
 def _entry(shapes: Shapes, name: str, left: float, y: float) -> Word:
@@ -149,4 +150,4 @@ def _entry(shapes: Shapes, name: str, left: float, y: float) -> Word:
         line = Border(np.array([[left, y + dp(3)]]), np.array([[left + wide, y + dp(3)]]))
         shapes.segments(line.starts, line.ends, dp(2.4), theme.warn)
         shapes.segments(*teeth(View(1 + 0j), line, (left, y, wide, high)), dp(2.0), theme.warn)
-    return Word(name, left + wide + dp(5), y, sp(13), theme.text, anchor=(0, 0.5))
+    return Word(tr(name), left + wide + dp(5), y, sp(13), theme.text, anchor=(0, 0.5))

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from kivy.core.image import ImageData
 
+from widgets.core.language import tr
 from widgets.map.tile_pictures import TilePictures
 from widgets.map.tile_reader import TileReader
 
@@ -51,10 +52,14 @@ def metadata(path: Path) -> dict[str, str]:
                 str(name): str(value) for name, value in file.execute("SELECT name, value FROM metadata")
             }
     except sqlite3.Error as cause:
-        raise ValueError(f"{path} cannot be read as an MBTiles file ({cause}).") from cause
+        raise ValueError(
+            tr("{path} cannot be read as an MBTiles file ({cause}).").format(path=path, cause=cause)
+        ) from cause
     missing = {"format", "minzoom", "maxzoom"} - about.keys()
     if missing:
-        raise ValueError(f"{path} does not say its {', '.join(sorted(missing))}.")
+        raise ValueError(
+            tr("{path} does not say its {missing}.").format(path=path, missing=", ".join(sorted(missing)))
+        )
     if about["format"] not in FORMATS:
         raise ValueError(f"{path} holds {about['format']} tiles; only png, jpg and webp can be shown.")
     return about
@@ -81,5 +86,9 @@ def _box(path: Path, about: dict[str, str]) -> tuple[float, float, float, float]
     except ValueError:
         west = south = east = north = math.nan
     if not (-180 <= west <= 180 and -180 <= east <= 180 and -90 <= south <= north <= 90):
-        raise ValueError(f"{path} says that it reaches to {about['bounds']:.60}, which are no four angles.")
+        raise ValueError(
+            tr("{path} says that it reaches to {about:.60}, which are no four angles.").format(
+                path=path, about=about["bounds"]
+            )
+        )
     return west, south, east, north

@@ -13,6 +13,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.parts.buttons  # noqa: F401 - its rules draw what can be done about a toast
+from widgets.core.language import mark, tr
 from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
 from widgets.parts.labels import SectionLabel, Text, ValueUnit
@@ -64,7 +65,7 @@ Builder.load_string("""
     height: max(theme.target + dp(8), self.minimum_height)
     padding: dp(14), 0, dp(4), 0
     QuietButton:
-        text: root.action
+        text: tr(root.action)
         icon: root.action_icon
         size_hint_x: None
         width: dp(112)
@@ -171,7 +172,7 @@ class ActionToast(Toast):
 
     __events__ = ("on_act",)
 
-    action = StringProperty("Undo")
+    action = StringProperty(mark("Undo"))
     action_icon = StringProperty("undo")
     kept = BooleanProperty(False)
     """An operator may need longer to reach it than it stays; afterwards it stays as long again."""
@@ -259,13 +260,13 @@ def _card(**kwargs: Any) -> Card:
     card = Card(size_hint=(None, None), size=("240dp", "120dp"), **kwargs)
     card.add_widget(SectionLabel(title="Speed"))
     card.add_widget(ValueUnit(value="0.62", unit="m/s"))
-    card.add_widget(Text(text="by the wheels", role="muted"))
+    card.add_widget(Text(text=tr("by the wheels"), role="muted"))
     return card
 
 
 def _sheet() -> Sheet:
     sheet = Sheet(size_hint_x=None, width="400dp", detents=[160.0, 240.0])
-    sheet.add_widget(Text(text="Pull me up by the upper edge."))
+    sheet.add_widget(Text(text=tr("Pull me up by the upper edge.")))
     sheet.add_widget(Widget())
     return sheet
 

@@ -16,6 +16,7 @@ from kivy.properties import DictProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import ControlStatus
+from widgets.core.language import mark, tr
 from widgets.parts.choices import Toggle
 from widgets.parts.listing import Listing
 from widgets.parts.rows import ListRow
@@ -37,19 +38,19 @@ class Option:
 OPTIONS = {
     "follow_link": Option(
         "speed",
-        "Speed follows the link",
-        "Slows down from 200 ms round trip, crawls at 400 ms.",
-        "Full speed on any link.",
+        mark("Speed follows the link"),
+        mark("Slows down from 200 ms round trip, crawls at 400 ms."),
+        mark("Full speed on any link."),
     ),
     "lost_link_stops_task": Option(
         "link_off",
-        "A lost link pauses the task",
-        "The task pauses when the handheld in control is lost.",
-        "The task continues when the handheld in control is lost.",
+        mark("A lost link pauses the task"),
+        mark("The task pauses when the handheld in control is lost."),
+        mark("The task continues when the handheld in control is lost."),
     ),
 }
 """Name of each setting at the robot to its words."""
-ASKED = "Sent to the robot …"
+ASKED = mark("Sent to the robot …")
 
 Builder.load_string("""
 <OptionList>:
@@ -71,7 +72,7 @@ class OptionList(Listing):
         super().__init__(**kwargs)
         self._rows: dict[str, tuple[ListRow, Toggle]] = {}
         for name, option in OPTIONS.items():
-            row, toggle = ListRow(icon=option.icon, title=option.title, whole=True), Toggle()
+            row, toggle = ListRow(icon=option.icon, title=tr(option.title), whole=True), Toggle()
             toggle.pos_hint = {"center_y": 0.5}
             row.add_widget(toggle)
             row.bind(on_release=lambda _, name=name: self.ask(name))
@@ -109,9 +110,11 @@ class OptionList(Listing):
             toggle.active = bool(self.values.get(name))
             toggle.disabled = row.disabled = not known or self.disabled or name in self.asked
             words = (
-                (option.on if self.values[name] else option.off) if known else "Not reported by the robot."
+                tr(option.on if self.values[name] else option.off)
+                if known
+                else tr("Not reported by the robot.")
             )
-            row.detail = ASKED if name in self.asked else words
+            row.detail = tr(ASKED) if name in self.asked else words
             row.role = "accent" if toggle.active else "muted"
 
 

@@ -14,13 +14,14 @@ import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.discovery.simulator_options import SimulationChoice, SimulatorOptions
 from app.screens.connect.connect import robot_icon
 from app.screens.parts.dialogs import Question
+from widgets.core.language import mark, tr
 from widgets.parts.labels import Icon
 from widgets.parts.rows import ListRow
 
 __all__ = ["SimulatorDialog"]
 
 WORLD = "map"
-ASKING = "Looking which robots and worlds there are …"
+ASKING = mark("Looking which robots and worlds there are …")
 
 Builder.load_string("""
 <SimulatorDialog>:
@@ -85,7 +86,7 @@ Builder.load_string("""
                 on_release: root.close()
             PrimaryButton:
                 id: start
-                text: root.action
+                text: tr(root.action)
                 disabled: not root.offered
                 opacity: 1 if root.offered else .4
                 on_release: root.answer()
@@ -107,7 +108,7 @@ class SimulatorDialog(Question):
     world_height = NumericProperty(0)
     """The same of the worlds [px]."""
     sentence = StringProperty(ASKING)
-    action = StringProperty("Start")
+    action = StringProperty(mark("Start"))
 
     def __init__(
         self, choice: SimulationChoice, on_answer: Callable[[SimulationChoice], object], **kwargs: Any
@@ -175,17 +176,19 @@ class SimulatorDialog(Question):
 
     def _tell(self, *_: object) -> None:
         count = len(self.choice.robots)
-        self.action = f"Start {count} robots" if count > 1 and self.offered else "Start"
+        self.action = (
+            tr("Start {count} robots").format(count=count) if count > 1 and self.offered else tr("Start")
+        )
         if self.problem or self.offered is None:
-            self.sentence = self.problem or ASKING
+            self.sentence = self.problem or tr(ASKING)
             return
-        ends = " The one that runs now ends." if self.running else ""
-        self.sentence = f"One robot, or several that meet in one world.{ends}"
+        ends = tr(" The one that runs now ends.") if self.running else ""
+        self.sentence = tr("One robot, or several that meet in one world.{ends}").format(ends=ends)
         fitting = {world.name for world in self.offered.fitting(self.choice.robots)}
         for world in self.offered.worlds:
             row = self.row("world", world.name)
             row.disabled = row.faded = world.name not in fitting
-            row.detail = "Not for the robots that are chosen." if row.disabled else world.description
+            row.detail = tr("Not for the robots that are chosen.") if row.disabled else world.description
         for (what, name), row in self._rows.items():
             row.chosen = name in self.choice.robots if what == "robot" else name == self.choice.world
             row.role = "accent" if row.chosen else "muted"

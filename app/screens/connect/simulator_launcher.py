@@ -10,6 +10,7 @@ from app.discovery import simulator_process as simulator
 from app.discovery.simulator_options import SimulationChoice, SimulatorOptions
 from app.link.feeds import Mailbox, Post
 from app.screens.connect.connect import ConnectScreen
+from widgets.core.language import mark, tr
 
 if TYPE_CHECKING:
     # when it is asked for, for a quick start
@@ -21,9 +22,9 @@ __all__ = ["CHANNEL", "SimulatorLauncher"]
 CHANNEL = "simulator"
 """Of the mailbox, on which its threads tell."""
 IDLE, STARTING, RUNNING = (
-    "Start the built-in simulator",
-    "Starting the simulator …",
-    "Start another simulation",
+    mark("Start the built-in simulator"),
+    mark("Starting the simulator …"),
+    mark("Start another simulation"),
 )
 
 
@@ -124,7 +125,7 @@ class SimulatorLauncher:
             robots=self._count,
             after=self.current,
         )
-        self._show(STARTING, busy=True)
+        self._show(tr(STARTING), busy=True)
         self._app.connect.say("")
         self.current.start()
 
@@ -144,13 +145,15 @@ class SimulatorLauncher:
                 self.dialog.problem = text
         elif what == "failed":
             self.current = None
-            self._show(IDLE, busy=False)
+            self._show(tr(IDLE), busy=False)
             self._say(text, "danger")
         elif self.current is not None and self.current.url == text:
-            self._show(RUNNING, busy=bool(self._command))
+            self._show(tr(RUNNING), busy=bool(self._command))
             self._pair(self.current.links, text if self._count == 1 and self._app.session is None else "")
             if self._count > 1:
-                self._app.connect.say(f"{self._count} simulated robots are ready.", "ok")
+                self._app.connect.say(
+                    tr("{count} simulated robots are ready.").format(count=self._count), "ok"
+                )
 
     def close(self) -> None:
         """End what runs."""
@@ -170,7 +173,7 @@ class SimulatorLauncher:
         try:
             self._offered = SimulatorOptions.read(text)
         except ValueError:
-            self.on_report("not offered", "What the simulator offers is not to be understood.")
+            self.on_report("not offered", tr("What the simulator offers is not to be understood."))
             return
         self._inquiry = None
         if self.dialog is not None:

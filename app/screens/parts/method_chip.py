@@ -10,6 +10,7 @@ from kivy.properties import BooleanProperty, ListProperty
 from kivy.uix.boxlayout import BoxLayout
 
 from app.screens.parts.method_signs import METHOD_SIGNS
+from widgets.core.language import mark
 from widgets.core.surfaces import Pressable
 from widgets.core.theme import theme
 from widgets.parts.kit import Icon, Text
@@ -59,7 +60,7 @@ class MethodSign(Icon):
 class InputsChip(Pressable, BoxLayout):
     """Dispatches `on_release`."""
 
-    scan_words = "Inputs"
+    scan_words = mark("Inputs")
     brief = BooleanProperty(False)
     """It has room for one icon and a number."""
     methods = ListProperty()

@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from widgets.core.language import mark
+
 __all__ = ["MAX_TABS", "MORE", "SCREENS", "Entry", "beyond", "names", "tabs"]
 
 MAX_TABS = 5
 """So many stand side by side on a phone, the one to all others included."""
 MORE = "more"
 """Name of the screen that leads to all others."""
-
-
-def mark(text: str) -> str:
-    """As `widgets.core.language.mark`, without Kivy: the command line reads this table before that is set up."""
-    return text
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from app.core.checked_settings import CheckedSettings
 from app.core.settings_store import Settings
-from widgets.core.language import mark
+from widgets.core.language import mark, tr
 from widgets.core.theme import theme
 
 __all__ = ["THEMES", "TITLES", "Themes"]
 
 THEMES = {
-    "dark": ("light_mode", "Sunlight", "sunlight"),
-    "sunlight": ("bedtime", "Night", "night"),
-    "night": ("dark_mode", "Dark", "dark"),
+    "dark": ("light_mode", mark("Sunlight"), "sunlight"),
+    "sunlight": ("bedtime", mark("Night"), "night"),
+    "night": ("dark_mode", mark("Dark"), "dark"),
 }
 """Name of each to the icon and the text of the button that leads on from it, and to the theme that comes next."""
 TITLES = {"dark": mark("Dark"), "sunlight": mark("Sunlight"), "night": mark("Night")}
@@ -26,7 +26,7 @@ class Themes:
         """Begin with the remembered theme, or with `override`, which is not remembered."""
         self._settings = settings
         kept = CheckedSettings(
-            {"theme": settings.get("theme")} if settings.get("theme") else None, "the glass"
+            {"theme": settings.get("theme")} if settings.get("theme") else None, tr("the glass")
         )
         remembered = kept.word("theme", THEMES, usual="dark")
         self.sentence = kept.sentence

@@ -11,6 +11,7 @@ from app.intents.method_permits import LOOKS
 from app.screens.parts.method_signs import METHOD_SIGNS
 from app.screens.shell.notices import Notices
 from widgets import IntentCard
+from widgets.core.language import tr
 
 __all__ = ["IntentPrompts", "heard_words"]
 
@@ -24,7 +25,7 @@ EYES_FREE_METHODS = ("voice", "shake", "switches")
 
 def heard_words(heard: Heard) -> str:
     """Who understood what, and how surely, as in `Voice, “go home”: 82 % sure.`"""
-    name = METHOD_SIGNS[heard.method][1] if heard.method in METHOD_SIGNS else heard.method.capitalize()
+    name = tr(METHOD_SIGNS[heard.method][1]) if heard.method in METHOD_SIGNS else heard.method.capitalize()
     what = f", “{heard.said}”" if heard.said else ""
     guess = heard.method not in PRESSED and not math.isnan(heard.confidence)
     sure = f": {heard.confidence * 100:.0f} % sure." if guess else "."

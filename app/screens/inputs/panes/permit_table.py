@@ -38,7 +38,7 @@ class TablePane(BoxLayout):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(orientation="vertical", spacing="8dp", **kwargs)
         self.choice = Segmented(
-            options=[(method, METHOD_SIGNS[method][1]) for method in TELLS], value=self.method
+            options=[(method, tr(METHOD_SIGNS[method][1])) for method in TELLS], value=self.method
         )
         self.choice.bind(on_choose=lambda _, method: setattr(self, "method", method))
         self.remark = Remark(text="")
@@ -67,9 +67,7 @@ class TablePane(BoxLayout):
             row.switch.active = table.allowed(self.method, intent)
             row.faded = not row.switch.active
         self.usual.disabled = table.usual(self.method)
-        self.usual.text = tr("{method_signs}: reset to default").format(
-            method_signs=METHOD_SIGNS[self.method][1]
-        )
+        self.usual.text = tr("{method}: reset to default").format(method=tr(METHOD_SIGNS[self.method][1]))
         self.remark.text = table.problem or tr("A forbidden command is refused with a sentence.")
 
     def _fill(self, *_: object) -> None:
