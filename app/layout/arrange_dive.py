@@ -5,7 +5,8 @@ Pure arithmetic in the window's pixels, origin at the lower left.
 
 from __future__ import annotations
 
-from app.layout.rects import Rect, StopPlace, between, crowded, stop_place, stop_tall
+from app.layout.arrange_phone import phone_dive
+from app.layout.rects import Rect, StopPlace, between, stop_place, stop_tall
 
 __all__ = ["dive"]
 
@@ -17,16 +18,19 @@ LARGEST = 1.45
 """How much larger at most."""
 
 
-def dive(body: Rect, shape: str, dp: float = 1.0) -> tuple[dict[str, Rect], StopPlace]:
+def dive(
+    body: Rect, shape: str, dp: float = 1.0, *, pulled: bool = False, sensed: bool = False
+) -> tuple[dict[str, Rect], StopPlace]:
     """Of the dive screen: what is seen of the robot in `legs`, `compass` and `horizon` on their `panel`, the `video` with
     `corner` and `motion`, `stick`, `lift` and `tilt`, which have a card `hands` on a tablet, and the column of `actions`;
     and where STOP is, at the foot of the column.
 
     `senses` is the strip of the small sensors and `senses_open` where it unfolds. `notice` is for what is said, `notice_low` for what holds on until it is dealt with.
+    On a phone's side the picture is the screen, and `pulled` and `sensed` as of `phone_dive`.
     """
     if shape == "tall":
         return _tall(body, dp)
-    return _wide(body, dp) if shape == "wide" else _short(body, dp)
+    return _wide(body, dp) if shape == "wide" else phone_dive(body, dp, pulled=pulled, sensed=sensed)
 
 
 def _wide(body: Rect, dp: float) -> tuple[dict[str, Rect], StopPlace]:
@@ -53,30 +57,6 @@ def _wide(body: Rect, dp: float) -> tuple[dict[str, Rect], StopPlace]:
     places |= _sensors(video, places["corner"], dp)
     free = between(video.x, video.y, video.right, places["corner"].y)
     return places | _notices(free, dp), stop
-
-
-def _short(body: Rect, dp: float) -> tuple[dict[str, Rect], StopPlace]:
-    """A phone on its side: what is commanded lies on the picture."""
-    gap = 10 * dp
-    low, top = body.y + gap, body.top - gap
-    left = Rect(body.x + gap, low, 180 * dp, top - low)
-    right = Rect(body.right - gap - 190 * dp, low, 190 * dp, top - low)
-    middle = between(left.right + gap, low, right.x - gap, top)
-    high = 152 if crowded(body) else 92
-    stop = stop_place(Rect(right.x, right.y, right.width, high * dp), body, dp)
-    legs = between(left.x, top - 128 * dp, left.right, top)
-    panel = between(left.x, low, left.right, legs.y - gap)
-    size = 142 * dp
-    stick = Rect(middle.x, low, size, size)
-    tilt = Rect(middle.right - size, low, size, size)
-    lift = Rect((stick.right + tilt.x) / 2 - 31 * dp, low, 62 * dp, size)
-    video = between(middle.x, low + size + gap, middle.right, top)
-    actions = between(right.x, stop.head + gap, right.right, top)
-    places = {"legs": legs, "panel": panel, "video": video, "actions": actions}
-    places |= {"stick": stick, "lift": lift, "tilt": tilt} | _stacked(panel, 6 * dp)
-    seen = _on_video(video, dp)
-    free = between(video.x, seen["motion"].top - 4 * dp, video.right, video.top)
-    return places | seen | _notices(free, dp), stop
 
 
 def _tall(body: Rect, dp: float) -> tuple[dict[str, Rect], StopPlace]:

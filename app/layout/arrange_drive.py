@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from app.layout.arrange_phone import phone_drive
 from app.layout.rects import ALL, Rect, StopPlace, between, crowded, stop_place
 
 __all__ = ["drive", "two_sticks"]
@@ -20,65 +21,43 @@ CHIP = 200
 """Width of a phone's glass that the picture's size and rate need [dp]."""
 
 
-def drive(body: Rect, shape: str, dp: float = 1.0, *, switch: bool = False) -> dict[str, Rect]:
+def drive(
+    body: Rect, shape: str, dp: float = 1.0, *, switch: bool = False, pulled: bool = False
+) -> dict[str, Rect]:
     """Of the drive screen: `video` behind all, the slots `top_left`, `top`, `top_right`, `readouts`, and the controls.
 
     `badge` says what was found, `senses` is the strip or card of the small sensors and `senses_open` where the strip
     unfolds. `notice_low` is for what holds on until it is dealt with, from its lower edge upwards. `switch` chooses between
-    two controls in the place of `stick`; it has none without.
+    two controls in the place of `stick`; it has none without. `pulled` as of `phone_drive`.
     """
     if shape == "tall":
         return _drive_tall(body, dp, switch)
-    wide = shape == "wide"
-    least = (SWITCH + 12 if switch else 0) + 590 if wide else 364
+    if shape == "short":
+        return phone_drive(body, dp, switch=switch, pulled=pulled)
+    least = (SWITCH + 12 if switch else 0) + 590
     dp = dp * min(1.0, body.height / (least * dp))
-    gap = (16 if wide else 10) * dp
-    room = Rect(
-        body.right - gap - (210 if wide else 150) * dp, body.y + gap, *_pair(wide, (210, 180), (150, 156), dp)
-    )
+    gap = 16 * dp
+    room = Rect(body.right - gap - 210 * dp, body.y + gap, 210 * dp, 180 * dp)
     stop = stop_place(room, body, dp)
-    size = (242 if wide else 176) * dp
-    stick = Rect(body.x + gap, body.y + gap, size, size)
-    slider = Rect(stick.right + (38 if wide else 12) * dp, stick.y, *_pair(wide, (96, 238), (80, 176), dp))
-    actions = Rect(
-        room.x - 16 * dp - (150 if wide else 132) * dp, room.y, (150 if wide else 132) * dp, room.height
-    )
+    stick = Rect(body.x + gap, body.y + gap, 242 * dp, 242 * dp)
+    slider = Rect(stick.right + 38 * dp, stick.y, 96 * dp, 238 * dp)
+    actions = Rect(room.x - 16 * dp - 150 * dp, room.y, 150 * dp, room.height)
     places = {"video": body, "stop": stop, "stick": stick, "slider": slider, "actions": actions}
-    places |= _instruments(body, gap, dp, wide=wide)
-    if switch and wide:
-        places["switch"] = Rect(stick.x, stick.top + 12 * dp, slider.right - stick.x, SWITCH * dp)
-    places |= _senses_wide(places, dp) if wide else _senses_short(places, dp)
+    places |= _instruments(body, gap, dp)
     if switch:
-        places |= (_switch_wide if wide else _switch_short)(places, dp)
-    return places
+        places["switch"] = Rect(stick.x, stick.top + 12 * dp, slider.right - stick.x, SWITCH * dp)
+    places |= _senses_wide(places, dp)
+    return places | (_switch_wide(places, dp) if switch else {})
 
 
-def _instruments(body: Rect, gap: float, dp: float, *, wide: bool) -> dict[str, Rect]:
+def _instruments(body: Rect, gap: float, dp: float) -> dict[str, Rect]:
     """Along the upper edge."""
-    left = Rect(
-        body.x + gap, body.top - gap - (228 if wide else 148) * dp, *_pair(wide, (326, 228), (212, 148), dp)
-    )
-    right_size = _pair(wide, (194, 194), (128, 128), dp)
-    right = Rect(body.right - gap - right_size[0], body.top - gap - right_size[1], *right_size)
-    tape_width = min((420 if wide else 260) * dp, 2 * (body.x + body.width / 2 - left.right - gap))
+    left = Rect(body.x + gap, body.top - gap - 228 * dp, 326 * dp, 228 * dp)
+    right = Rect(body.right - gap - 194 * dp, body.top - gap - 194 * dp, 194 * dp, 194 * dp)
+    tape_width = min(420 * dp, 2 * (body.x + body.width / 2 - left.right - gap))
     tape = Rect(body.x + (body.width - tape_width) / 2, body.top - gap - 52 * dp, tape_width, 52 * dp)
-    readouts_size = _pair(wide, (194, 116), (116, 128), dp)
-    readouts = Rect(right.right - readouts_size[0], right.y - 12 * dp - readouts_size[1], *readouts_size)
-    if not wide:
-        readouts = Rect(right.x - gap - readouts_size[0], right.y, *readouts_size)
-        tape = Rect(left.right + gap, tape.y, readouts.x - gap - left.right - gap, 52 * dp)
+    readouts = Rect(right.x, right.y - 12 * dp - 116 * dp, 194 * dp, 116 * dp)
     return {"top_left": left, "top": tape, "top_right": right, "readouts": readouts}
-
-
-def _switch_short(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
-    """Over what is said beside the slider, or over the instrument in the corner where that is too narrow."""
-    low, card = places["notice_low"], places["top_left"]
-    if low.width >= 180 * dp:
-        chosen = Rect(low.x, low.top - SWITCH * dp, low.width, SWITCH * dp)
-        return {"switch": chosen, "notice_low": between(low.x, low.y, low.right, chosen.y - 8 * dp)}
-    chosen = Rect(card.x, card.top - SWITCH * dp, card.width, SWITCH * dp)
-    smaller = between(card.x, card.y, card.right, chosen.y - 8 * dp)
-    return {"switch": chosen, "top_left": smaller}
 
 
 def _senses_wide(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
@@ -96,35 +75,6 @@ def _senses_wide(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
         "notice_low": Rect(left, slider.y, right - left, places["actions"].height),
         "notice": between(tape.x, slider.top + 8 * dp, tape.right, badge.y - 32 * dp),
     }
-
-
-def _senses_short(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
-    """A strip between slider and buttons, or above them where that is too narrow; the badge above STOP."""
-    tape, slider, actions, right = places["top"], places["slider"], places["actions"], places["top_right"]
-    low = places["readouts"].x
-    badge = between(low, actions.top + 8 * dp, right.right, right.y - 8 * dp)
-    notice = between(tape.x, slider.top + 8 * dp, tape.right, tape.y - 8 * dp)
-    left, wide = slider.right + 12 * dp, actions.x - slider.right - 24 * dp
-    if wide >= 180 * dp:
-        strip = Rect(left, slider.y, wide, STRIP * dp)
-        above = between(left, strip.top + 8 * dp, left + wide, slider.top)
-    else:
-        strip = Rect(notice.x, notice.y, notice.width, min(STRIP * dp, notice.height / 2))
-        above = between(notice.x, strip.top + 4 * dp, notice.right, notice.top)
-    return {
-        "badge": badge,
-        "senses": strip,
-        "senses_open": places["top_left"],
-        "notice_low": above,
-        "notice": notice,
-    }
-
-
-def _pair(
-    wide: bool, large: tuple[float, float], small: tuple[float, float], dp: float
-) -> tuple[float, float]:
-    width, height = large if wide else small
-    return width * dp, height * dp
 
 
 def _drive_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
@@ -195,11 +145,15 @@ def _senses_tall(video: Rect, cards: Rect, tape: Rect, least: float, dp: float) 
     }
 
 
-def two_sticks(body: Rect, shape: str, dp: float = 1.0, *, switch: bool = False) -> dict[str, Rect]:
+def two_sticks(
+    body: Rect, shape: str, dp: float = 1.0, *, switch: bool = False, pulled: bool = False
+) -> dict[str, Rect]:
     """As `drive`, with a control under the right thumb as well: `right_stick`, left of STOP, and `confirm` for slides."""
     if shape == "tall":
         return _two_tall(body, dp, switch)
-    return _two_wide(body, dp, switch) if shape == "wide" else _two_short(body, dp, switch)
+    if shape == "short":
+        return phone_drive(body, dp, two=True, switch=switch, pulled=pulled)
+    return _two_wide(body, dp, switch)
 
 
 def _two_wide(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
@@ -220,38 +174,6 @@ def _two_wide(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
         "actions": actions,
         "notice": between(left, low, tape.right, badge.y - 32 * scale),
         "notice_low": between(slider.right + gap, actions.top + 12 * scale, right.x - gap, confirm.top),
-    }
-
-
-def _two_short(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
-    """The slides between the thumbs, what is done once in a row below the tape."""
-    scale = dp * min(1.0, body.height / (364 * dp))
-    places, gap = drive(body, "short", scale), 10 * scale
-    stop, slider, stick, tape = places["stop"], places["slider"], places["stick"], places["top"]
-    right = Rect(stop.x - gap - stick.width, stick.y, stick.width, stick.height)
-    left, width = slider.right + gap, right.x - slider.right - 2 * gap
-    slides = Rect(left, stick.y, width, 2 * 53 * scale + 8 * scale)
-    strip = Rect(left, slides.top + 8 * scale, width, STRIP * scale)
-    tape = between(tape.x, tape.y + 12 * scale, tape.right, tape.top)
-    actions = Rect(tape.x, tape.y - 8 * scale - STRIP * scale, tape.width, STRIP * scale)
-    middle = between(tape.x, strip.top + 8 * scale, tape.right, actions.y - 8 * scale)
-    card, room = places["top_right"], Rect(stop.x, stick.y, body.right - gap - stop.x, 156 * scale)
-    if switch:  # above the thumb; the instrument over it is lower
-        seen = places["top_left"]
-        chosen = Rect(seen.x, stick.top + 8 * scale, seen.width, SWITCH * scale)
-        places |= {
-            "switch": chosen,
-            "top_left": between(seen.x, chosen.top + 8 * scale, seen.right, seen.top),
-        }
-    return places | {
-        "top": tape,
-        "badge": between(room.x, room.top + 8 * scale, body.right - gap, card.y - 8 * scale),
-        "right_stick": right,
-        "confirm": slides,
-        "actions": actions,
-        "senses": strip,
-        "notice": middle,
-        "notice_low": between(tape.x, strip.top + 4 * scale, tape.right, actions.y - 4 * scale),
     }
 
 

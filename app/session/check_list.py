@@ -37,6 +37,11 @@ class CheckListState:
         return not (self.ready or self._moved) if self._chosen is None else self._chosen
 
     @property
+    def moved(self) -> bool:
+        """The robot has moved since it was met."""
+        return self._moved
+
+    @property
     def over(self) -> bool:
         """The robot has moved and nothing on the list is bad: it need not lie over a picture any longer."""
         told: Checklist | None = self._feeds.latest("/checklist")

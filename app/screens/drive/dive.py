@@ -5,7 +5,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from kivy.clock import Clock
+from kivy.metrics import dp as dp_of
+
 from app.layout.arrange_dive import dive
+from app.layout.arrange_phone import whole
 from app.layout.layout import Layout
 from app.layout.rects import Rect, StopPlace
 from app.screens.drive.driving_base import Driving
@@ -45,6 +49,7 @@ class DiveScreen(Driving):
             if hasattr(widget, "card"):
                 widget.card = False
         self.place("video", self.video)
+        self.add_widget(self.sheet)
         self.place("panel", self.panel)
         self.place("hands", self.ground)
         for slot, widget in zip(SEEN, left, strict=False):
@@ -55,6 +60,8 @@ class DiveScreen(Driving):
                     self.place(slot, widget)
         self.place("actions", self.column)
         self.add_widget(self.senses)
+        anew = Clock.create_trigger(lambda _: self.settle() if "handle" in self.arranged else None, -1)
+        self.senses.bind(opacity=anew)  # in the drawer of a phone they have a place only while there are any
         self.ids.update({"video": self.video, "column": self.column})
 
     def _act(self, what: str) -> None:
@@ -94,15 +101,22 @@ class DiveScreen(Driving):
 
     def arrange(self, body: Rect, form: str, dp: float) -> StopPlace:
         """Put everything into its place; returns where STOP goes."""
+        if form != "short":
+            self.handle.pulled = False
         places, stop = dive(body, form, dp)
+        if form == "short":
+            out = dive(body, form, dp, pulled=True, sensed=bool(self.senses.shown))[0]
+            places = whole(out, places) if self.handle.pulled else whole(places, out)
         self.arranged = places
+        self.place_drawer(form)
         wide = form == "wide"
         column, self.notice = self.column, places["notice"]
         column.framed = column.titled = wide
         column.inset = (12 if wide else 0) * dp
         column.foot = stop.head - stop.y + 8 * dp if wide else 0
-        column.across = 1 if form != "tall" else max(1, int(places["actions"].width // (104 * dp)))
-        self.video.corner = 0 if form == "tall" else 14 * dp
+        column.across = 1 if wide else max(1, int(places["actions"].width // (104 * dp)))
+        self.video.corner = 14 * dp if wide else 0
+        self.checks.pos_hint = {"x": 0} if form == "short" else {"center_x": 0.5}
         for slot, found in self.places.items():
             for widget in found:
                 put(widget, places.get(slot, Rect(AWAY_X, 0, 1, 1)))
@@ -126,6 +140,14 @@ class DiveScreen(Driving):
             lids.append(unfolded)
         below = self.video.top - strip.y if self.senses.shown else 0
         self.video.insets = [self.arranged["corner"].right - self.video.x, 0, 0, below]
+        if "handle" in self.arranged:  # on a phone's side, below the figures
+            corner = self.arranged["corner"]
+            self.video.insets = [
+                self.arranged["stick"].x - dp_of(8) - self.video.x,
+                0,
+                0,
+                self.video.top - corner.y,
+            ]
         self.hide_chip([*lids, *self.checks_place])
         for slot in HIDES:
             place = self.arranged[slot]

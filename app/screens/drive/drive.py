@@ -9,6 +9,7 @@ from kivy.uix.widget import Widget
 
 from app.layout import arrange
 from app.layout.arrange import Rect
+from app.layout.arrange_phone import whole
 from app.layout.layout import Layout
 from app.layout.rects import between
 from app.screens.drive.action_buttons import ActionButtons
@@ -26,6 +27,8 @@ HIDES = ("top_left", "top_right", "top")
 """Places of instruments that may lie under the unfolded sensors, or under what is said."""
 MIN_HEIGHT, FIGURES = 110.0, 52.0
 """Of an instrument, and of the figures in one row, less height shows nothing that can be read [dp]."""
+SLIDE = 52
+"""Height of a slide over the picture [dp]."""
 
 
 class DriveScreen(Driving):
@@ -38,6 +41,7 @@ class DriveScreen(Driving):
         self.actions = ActionButtons(layout, self.does)
         self.sight = IntruderOverlay(self.session, self.video, self.dashboard)
         self.place("video", self.video)
+        self.add_widget(self.sheet)
         places = dict(self.instruments.places)
         self._figures = places.pop("readouts", [])
         card = self._figures_card = Card(floating=True, padding=("12dp", "8dp"))
@@ -95,37 +99,55 @@ class DriveScreen(Driving):
     def arrange(self, body: Rect, form: str, dp: float) -> Rect:
         """Put everything into its place; returns where STOP goes."""
         self._take_up()
+        if form != "short":
+            self.handle.pulled = False
+        self._form, self._dp = form, dp
         places = self.arranged = self._arrange(body, form, dp)
+        self.place_drawer(form)
         for slot, found in self.places.items():
             for widget, place in zip(found, _beside(places[slot], found, dp), strict=True):
                 put(widget, place)
+        self._show_slides()
         self._choose()
         tall, row = form == "tall", places["actions"]
         self.actions.across = row.width > 2 * row.height
         self.actions.tick()
-        self._form, self._dp = form, dp
         self.notice, low = places["notice"], places["notice_low"]
         touched = (places[slot] for slot in ("switch", "actions") if slot in places)
         over = (one.y for one in touched if one.y > low.y and one.x < low.right and low.x < one.right)
         beside = self._two and tall  # beside the picture's own words; unfolded it takes the tape's room
-        self.checks.pos_hint = {"right": 1} if beside else {"center_x": 0.5}
+        self.checks.pos_hint = {"right": 1} if beside else {"x": 0} if form == "short" else {"center_x": 0.5}
         self.place_checks(low, self.video.top if beside else min([places["top"].y, *over]), dp)
         self._strip = Rect(0, 0, 0, 0)
         self.sight.place(places["badge"], to_right=form != "wide")
         start, chip = self.notice.x, places["badge" if form == "wide" else "top"].y
-        if (
-            self._two and form == "short"
-        ):  # under the tape is what is done once, under the instrument room for a line
-            start, chip = places["top_left"].x, places["top_left"].y + 7 * dp
+        if form == "short":
+            start, chip = places["stick"].x, places["drawer" if self.handle.pulled else "readouts"].y
         aside = max(0.0, body.right - self.notice.right - 8 * dp)
         self.video.insets = [start - 8 * dp - body.x, 0, aside, body.top - chip]
         self.uncover()
         return places["stop"]
 
     def _arrange(self, body: Rect, form: str, dp: float) -> dict[str, Rect]:
-        if self._two:
-            return arrange.two_sticks(body, form, dp, switch=bool(self.hands.choices))
-        return arrange.drive(body, form, dp, switch=bool(self.hands.choices))
+        how, switch = arrange.two_sticks if self._two else arrange.drive, bool(self.hands.choices)
+        if form != "short":
+            return how(body, form, dp, switch=switch)
+        closed, out = (how(body, form, dp, switch=switch, pulled=pulled) for pulled in (False, True))
+        return whole(out, closed) if self.handle.pulled else whole(closed, out)
+
+    def _show_slides(self) -> None:
+        """On a phone's side only what can be confirmed now lies over the picture: of what takes off and lands, one."""
+        found = self.places.get("confirm", [])
+        if self._form != "short" or not found:
+            return
+        room = self.arranged["confirm"]
+        shown = [slide for slide in found if slide.state != "disabled"] or found[:1]
+        high = min(SLIDE * self._dp, room.height / 2)
+        for row, slide in enumerate(reversed(shown)):
+            put(slide, Rect(room.x, room.y + row * (room.height - high), room.width, high))
+        for slide in found:
+            if slide not in shown:
+                put(slide, off(room))
 
     def _choose(self, *_: object) -> None:
         """Of two controls in one place one is on the glass; what is no stick needs no slider and takes its room too."""
@@ -135,9 +157,10 @@ class DriveScreen(Driving):
         stick, slider = self.arranged["stick"], self.arranged["slider"]
         alone = not isinstance(self.hands.choices[self.hands.chosen], Stick)
         low, top = min(stick.y, slider.y), max(stick.top, slider.top)
-        whole = Rect(stick.x, low, slider.right - stick.x, top - low) if alone else stick
+        both = Rect(stick.x, low, slider.right - stick.x, top - low) if alone else stick
+        room = self.arranged.get("alone", both) if alone else stick
         for widget in self.hands.choices.values():
-            put(widget, whole if self.hands.shown(widget) else off(whole))
+            put(widget, room if self.hands.shown(widget) else off(room))
         for widget in self.places.get("slider", ()):
             put(widget, off(slider) if alone else slider)
 
@@ -192,7 +215,7 @@ class DriveScreen(Driving):
         """In columns, and as many of them, as the place has room for."""
         dp, tall = self._dp, self._form == "tall"
         roomy = self._form == "wide" or place.width >= 330 * dp
-        narrow = self._form == "short" or place.width < 160 * dp
+        narrow = self._form != "short" and place.width < 160 * dp
         self.readouts.cols = 1 if narrow else 4 if roomy and tall else 2
         self._figures_card.padding = 12 * dp, (8 if place.height >= 62 * dp or narrow else 2) * dp
         self._trim(roomy or place.height >= 200 * dp)
@@ -215,6 +238,7 @@ class DriveScreen(Driving):
         super().tick()
         self.sight.tick()
         self.actions.tick()
+        self._show_slides()
 
 
 def _left(place: Rect, lids: list[Rect], least: float, gap: float) -> Rect | None:

@@ -15,10 +15,12 @@ from app.layout.rects import Rect
 from app.link.camera_decoder import Picture
 from app.link.channels import CAPABILITIES
 from app.link.feeds import Post
+from app.screens.drive.drawer import DrawerGround, DrawerHandle
 from app.screens.drive.drive_blocked import DriveBlocked
 from app.screens.drive.drive_controls import DriveControls
 from app.screens.drive.instruments import Instruments
 from app.screens.drive.small_sensors import SmallSensors
+from app.screens.parts.placing import AWAY_X, off, put
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.shell.check_card import CheckCard
 from app.screens.shell.screen_host import ScreenHost
@@ -68,13 +70,9 @@ class Driving(RobotScreen):
         for make, topics in self.instruments.senses:
             self.senses.add(make, topics)
         self.senses.bind(open=self._cover_up, opacity=self._cover_up)
+        self.sheet, self.handle = DrawerGround(), DrawerHandle()
         self.fill(layout)
-        self.low = BoxLayout(orientation="vertical", spacing="8dp", size_hint=(None, None))
-        """For cards that hold on until they are dealt with, each with a height of its own; they grow upwards."""
-        self.low.bind(minimum_height=self.low.setter("height"), height=self._cover_up)
-        self.add_widget(self.low)
-        self.checks = CheckCard(session, self.dashboard, brief=True, pos_hint={"center_x": 0.5})
-        self.low.add_widget(self.checks)
+        self._add_front()
         self.dashboard.bind(
             self.video,
             "/detections",
@@ -82,6 +80,17 @@ class Driving(RobotScreen):
             fresh=False,
             empty=Detection2DArray(),
         )
+
+    def _add_front(self) -> None:
+        """What lies over everything else: what pulls the drawer of a phone on its side, and cards."""
+        self.handle.bind(on_pull=lambda _, out: self.pull(out=out))
+        self.add_widget(self.handle)
+        self.low = BoxLayout(orientation="vertical", spacing="8dp", size_hint=(None, None))
+        """For cards that hold on until they are dealt with, each with a height of its own; they grow upwards."""
+        self.low.bind(minimum_height=self.low.setter("height"), height=self._cover_up)
+        self.add_widget(self.low)
+        self.checks = CheckCard(self.session, self.dashboard, brief=True, pos_hint={"center_x": 0.5})
+        self.low.add_widget(self.checks)
 
     # what a screen of its kind says
 
@@ -96,11 +105,45 @@ class Driving(RobotScreen):
     def meet(self) -> None:
         """The robot said what it is, or what it offers."""
 
+    def back(self) -> bool:
+        """Push the drawer back; False where it is not out."""
+        out = bool(self.handle.pulled)
+        self.pull(out=False)
+        return out
+
     def settle(self) -> None:
         """Have the frame put everything into its place anew: other controls are on the glass."""
         shell = self.app.shell
         if shell is not None:
             shell.settle()
+
+    def pull(self, *, out: bool) -> None:
+        """Pull the drawer of a phone on its side out, or push it back: what is in it lets go."""
+        if out != self.handle.pulled:
+            self.handle.pulled = out
+            self.settle()
+
+    def place_drawer(self, form: str) -> None:
+        """Put ground and handle into their places, which other forms have none of; over the picture sticks are bare."""
+        for widget, slot in ((self.sheet, "drawer"), (self.handle, "handle")):
+            put(widget, self.arranged.get(slot, Rect(AWAY_X, 0, 1, 1)))
+        short = form == "short"
+        if not short:
+            self.handle.pulled = False
+        for found in self.places.values():
+            for widget in found:
+                if isinstance(widget, Stick):
+                    widget.bare = short
+        self.checks.tight = short
+
+    def _yield_to(self, cover: Rect | None) -> None:
+        """What is said comes before what is in the drawer."""
+        if (
+            cover is not None
+            and self.handle.pulled
+            and cover.overlaps(Rect(*self.sheet.pos, *self.sheet.size))
+        ):
+            self.pull(out=False)
 
     # what the inputs look at
 
@@ -129,6 +172,7 @@ class Driving(RobotScreen):
     def clear(self, cover: Rect | None) -> None:
         """Take away what would be seen only in part behind what is said over the screen."""
         self.cover = cover
+        self._yield_to(cover)
         self._cover_up()
 
     def on_post(self, channel: str, post: Post) -> None:
@@ -151,6 +195,7 @@ class Driving(RobotScreen):
     def leave(self) -> None:
         """Leave the glass."""
         self.rest()
+        self.pull(out=False)
         self.dashboard.leave()
 
     def rest(self) -> None:
@@ -187,11 +232,16 @@ class Driving(RobotScreen):
 
     def hide_checks(self) -> bool:
         """Take the checks away once they are over, or where something is said over them, or sensors unfolded; whether they are away."""
-        lids = [self.cover, self.arranged["senses_open"] if self.senses.covers else None]
+        lids = [self.cover, self.arranged["senses_open"] if self.senses.covers else None, self._drawn]
         low = Rect(*self.low.pos, *self.low.size)
         under = self.session.checks.over or any(lid.overlaps(low) for lid in lids if lid is not None)
         self.low.opacity, self.low.disabled = float(not under), under
         return under
+
+    @property
+    def _drawn(self) -> Rect | None:
+        """Where the drawer is; None while it is not out."""
+        return self.arranged["drawer"] if self.handle.pulled else None
 
     @property
     def checks_place(self) -> list[Rect]:
@@ -199,7 +249,8 @@ class Driving(RobotScreen):
         wide, low = self.checks.shown_width, self.low
         if low.disabled or not wide:
             return []
-        x = low.right - wide if "right" in self.checks.pos_hint else low.center_x - wide / 2
+        hint = self.checks.pos_hint
+        x = low.right - wide if "right" in hint else low.x if "x" in hint else low.center_x - wide / 2
         return [Rect(x, low.y, wide, low.height)]
 
     def hide_chip(self, lids: list[Rect]) -> None:
@@ -208,8 +259,15 @@ class Driving(RobotScreen):
         row = Rect(left, top - dp(CHIP[1]), max(self.video.right - left, 1.0), dp(CHIP[1]))
         ends = min((max(lid.x - dp(8), left) for lid in lids if lid.overlaps(row)), default=self.video.right)
         self.video.chip_room = ends - left
-        self.video.show_chip = bool(self.video.chip_room >= dp(CHIP[0]))
+        self.video.show_chip = bool(self.video.chip_room >= dp(CHIP[0])) and self._drawn is None
 
     def _cover_up(self, *_: object) -> None:
         if self.arranged:
             self.uncover()
+            self._uncover_handle()
+
+    def _uncover_handle(self) -> None:
+        """What is said is dealt with first: no part of the handle is seen or touched beside it."""
+        place = self.arranged.get("handle")
+        if place is not None:
+            put(self.handle, off(place) if self.cover is not None and self.cover.overlaps(place) else place)

@@ -15,20 +15,31 @@ TARGET = 52.9
 """14 mm at 96 dots an inch [px]."""
 ON_THE_PICTURE = {"corner", "motion", "senses", "senses_open", "notice", "notice_low"}
 HOLDS = {"panel": ("compass", "horizon"), "hands": ("stick", "lift", "tilt"), "actions": ("stop",)}
+HOLDS["drawer"] = ("legs", "panel", "horizon", "senses", "actions")
 """Cards to what lies on them."""
 
 
-def places(size: tuple[int, int], *, crowded: bool) -> tuple[Body, dict[str, Rect], StopPlace]:
+def places(
+    size: tuple[int, int], *, crowded: bool, pulled: bool = False
+) -> tuple[Body, dict[str, Rect], StopPlace]:
     room = arrange.shell(*size)["body"]
     body = Body(room.x, room.y, room.width, room.height, crowded)
-    found, stop = dive(body, arrange.form(*size))
+    found, stop = dive(body, arrange.form(*size), pulled=pulled, sensed=pulled)
     return body, found | {"stop": stop}, stop
 
 
+def touched(found: dict[str, Rect]) -> list[str]:
+    """What fingers reach: on a phone's side what is done once is in the drawer."""
+    return [name for name in ("stick", "lift", "tilt", "stop", "actions", "handle") if name in found]
+
+
+@pytest.mark.parametrize("pulled", [False, True], ids=["", "pulled"])
 @pytest.mark.parametrize("crowded", [False, True], ids=["alone", "with STOP ALL"])
 @pytest.mark.parametrize("size", SIZES, ids=str)
-def test_nothing_lies_over_anything_else(size: tuple[int, int], crowded: bool) -> None:
-    body, found, _ = places(size, crowded=crowded)
+def test_nothing_lies_over_anything_else(size: tuple[int, int], crowded: bool, pulled: bool) -> None:
+    body, found, _ = places(size, crowded=crowded, pulled=pulled)
+    if arrange.form(*size) == "short":
+        found.pop("video")  # all of it lies over the picture
     for name, place in found.items():
         assert body.holds(place), name
     for (one, place), (other, that) in combinations(found.items(), 2):
@@ -46,16 +57,18 @@ def test_nothing_lies_over_anything_else(size: tuple[int, int], crowded: bool) -
 def test_everything_that_is_touched_is_large_enough_and_stop_large(
     size: tuple[int, int], crowded: bool
 ) -> None:
-    _, found, stop = places(size, crowded=crowded)
-    for name in ("stick", "lift", "tilt", "stop", "actions"):
-        assert min(found[name].width, found[name].height) >= TARGET, name
-    assert stop.width * stop.height >= 1.4 * 2 * TARGET * TARGET
+    for pulled in (False, True):
+        _, found, stop = places(size, crowded=crowded, pulled=pulled)
+        for name in touched(found):
+            least = 40 if name == "handle" else TARGET
+            assert min(found[name].width, found[name].height) >= least, name
+        assert stop.width * stop.height >= 1.4 * 2 * TARGET * TARGET
     assert found["actions"].height >= 2 * TARGET
 
 
 @pytest.mark.parametrize("size", SIZES, ids=str)
 def test_what_is_said_covers_nothing_that_is_touched(size: tuple[int, int]) -> None:
     _, found, _ = places(size, crowded=False)
-    for name in ("stick", "lift", "tilt", "stop", "actions"):
-        assert not found["senses_open"].overlaps(found[name])
+    for name in touched(found):
+        assert "senses_open" not in found or not found["senses_open"].overlaps(found[name])
         assert not found["notice"].overlaps(found[name])

@@ -100,16 +100,20 @@ class Joystick(Captioned):
         """The pad, its arrows, the way from the middle to the knob, the knob."""
         shapes, radius, (x, y) = Shapes(), min(self.size) / 2 - dp(1), self.center
         pushed = self.forward or self.left
-        shapes.disc(x, y, radius, tint(theme.surface, 0.88))
-        shapes.ring(x, y, radius - dp(0.75), dp(1.5), theme.line)
-        shapes.ring(x, y, radius * 0.6, dp(1.5), theme.line, dashes=36)
+        if self.bare:
+            shapes.ring(x, y, radius - dp(2), dp(4), tint(theme.surface, 0.3))
+        else:
+            shapes.disc(x, y, radius, tint(theme.surface, 0.88))
+            shapes.ring(x, y, radius * 0.6, dp(1.5), theme.line, dashes=36)
+        rim = theme.text if self.bare else theme.line
+        shapes.ring(x, y, radius - dp(0.75 if not self.bare else 2), dp(1.5), self.glassy(rim))
         for index, share in enumerate((self.forward, self.left, -self.forward, -self.left)):
-            shapes.polygon(self._arrow(index, radius), theme.accent if share > DEAD_ZONE else theme.muted)
+            ink = theme.accent if share > DEAD_ZONE else self.glassy(rim if self.bare else theme.muted)
+            shapes.polygon(self._arrow(index, radius), ink)
         knob = self.knob_pos
         if pushed:
             shapes.line(np.array([self.center, knob]), dp(5), theme.accent)
-        shapes.disc(*knob, self.knob_radius, theme.accent)
-        shapes.ring(*knob, self.knob_radius - dp(6), dp(2), tint(theme.knob, 0.6))
+        self.draw_knob(shapes, knob, self.knob_radius, theme.accent)
         self._ink.fill(shapes)
 
     def _arrow(self, index: int, radius: float) -> list[tuple[float, float]]:
@@ -144,5 +148,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "gamepad drives": make(0.7, 0.2, gamepad="drives"),
         "gamepad silent": make(gamepad="silent"),
         "gamepad must be let go": make(gamepad="let go"),
+        "bare": make(bare=True),
+        "bare, pushed": make(0.8, -0.35, bare=True),
+        "bare, disabled": make(bare=True, state="disabled"),
         "small": lambda: Joystick(size_hint=(None, None), size=("140dp", "140dp")),
     }

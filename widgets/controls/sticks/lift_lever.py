@@ -18,6 +18,7 @@ from bridge.msgs.geometry_msgs import Twist, Vector3
 from widgets.controls.sticks.stick import DEAD_ZONE
 from widgets.controls.sticks.stick_caption import Captioned
 from widgets.core.canvas_ink import tint
+from widgets.core.geometry import Points
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 
@@ -79,21 +80,31 @@ class LiftLever(Captioned):
         shapes, (x, y), radius = Shapes(), self.center, self.width / 2 - dp(1)
         up = self.height / 2 - radius - dp(1)
         ends = np.array([(x, y - up), (x, y + up)])
-        for width, colour in ((radius * 2, theme.line), (radius * 2 - dp(3), theme.surface)):
-            shapes.line(ends, width, colour)
-            for _, end in ends:
-                shapes.disc(x, end, width / 2, colour)
-        shapes.line(np.array([(x - radius * 0.4, y), (x + radius * 0.4, y)]), dp(1.5), theme.line)
+        if self.bare:
+            self._rail(shapes, ends, radius)
+        else:
+            for width, colour in ((radius * 2, theme.line), (radius * 2 - dp(3), theme.surface)):
+                shapes.line(ends, width, colour)
+                for _, end in ends:
+                    shapes.disc(x, end, width / 2, colour)
+        line = self.glassy(theme.text) if self.bare else theme.line
+        shapes.line(np.array([(x - radius * 0.4, y), (x + radius * 0.4, y)]), dp(1.5), line)
         for sign, share in ((1.0, self.forward), (-1.0, -self.forward)):
             tip, size = y + sign * (self.height / 2 - dp(8)), radius * 0.26
             corners = [(x, tip), (x - size, tip - sign * size * 1.3), (x + size, tip - sign * size * 1.3)]
-            shapes.polygon(corners, theme.accent if share > DEAD_ZONE else theme.muted)
+            rest = self.glassy(theme.text) if self.bare else theme.muted
+            shapes.polygon(corners, theme.accent if share > DEAD_ZONE else rest)
         knob = self.knob_pos
         if self.forward:
             shapes.line(np.array([self.center, knob]), dp(5), theme.accent)
-        shapes.disc(*knob, self.knob_radius, theme.accent)
-        shapes.ring(*knob, self.knob_radius - dp(5), dp(2), tint(theme.knob, 0.6))
+        self.draw_knob(shapes, knob, self.knob_radius, theme.accent)
         self._ink.fill(shapes)
+
+    def _rail(self, shapes: Shapes, ends: Points, radius: float) -> None:
+        """The way of the knob over a picture: a faint line."""
+        for width, colour in ((dp(4), tint(theme.surface, 0.3)), (dp(1.5), self.glassy(theme.text))):
+            for side in (-radius, radius):
+                shapes.line(ends + np.array((side * 0.8, 0.0)), width, colour)
 
 
 def samples() -> dict[str, Callable[[], Widget]]:
@@ -113,5 +124,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "down": make(-1.0),
         "captioned": make(caption="climb"),
         "disabled": make(state="disabled"),
+        "bare": make(bare=True),
+        "bare, up": make(0.7, bare=True),
         "small": make(size=("60dp", "120dp")),
     }

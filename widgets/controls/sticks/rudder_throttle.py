@@ -18,7 +18,7 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RudderState
 from widgets.controls.sticks.stick import DEAD_ZONE, Stick
-from widgets.core.canvas_ink import Word, tint
+from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import HULL, Points, rounded
 from widgets.core.language import tr
 from widgets.core.shapes import Shapes
@@ -85,6 +85,16 @@ class RudderThrottle(Stick, Gauge):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.veil_radius = theme.radius
+
+    def on_bare(self, *_: object) -> None:
+        """The card is a ground too."""
+        self.card = not self.bare
+
+    @property
+    def hides(self) -> list[tuple[float, float, float, float]]:
+        """The figures too."""
+        rows = [(self.x, self.top - dp(24), self.width, dp(24))] if self.bare else []
+        return [*super().hides, *rows]
 
     @property
     def roomy(self) -> bool:
@@ -154,19 +164,19 @@ class RudderThrottle(Stick, Gauge):
         left, low, width, height = self.pad
         (x, y), (across, up) = self.middle, self.travel
         rim = rounded(left, low, width, height, dp(9))
-        shapes.polygon([(a, b) for a, b in rim], tint(theme.raised, 0.9))
-        shapes.line(np.array([*rim, rim[0]]), dp(1.2), theme.line)
+        if not self.bare:
+            shapes.polygon([(a, b) for a, b in rim], tint(theme.raised, 0.9))
+        shapes.line(np.array([*rim, rim[0]]), dp(1.2), theme.text if self.bare else theme.line)
         cross = np.array([[x, low], [left, y]]), np.array([[x, low + height], [left + width, y]])
-        shapes.segments(*cross, dp(1), theme.line)
+        shapes.segments(*cross, dp(1), self.glassy(theme.text) if self.bare else theme.line)
         self._boat(shapes)
         self._scale(shapes, (left - dp(6), y), (0.0, up), (self.forward, _known(self.throttle, self.most)))
         turned = _known(self.angle, self.max_steering)
         self._scale(shapes, (x, low - dp(6)), (-across, 0.0), (self.left, turned))
         if self.forward or self.left:
             shapes.line(np.array([[x, y], self.knob_pos]), dp(4), theme.accent)
-        shapes.disc(*self.knob_pos, self.knob_radius, theme.accent)
-        shapes.ring(*self.knob_pos, self.knob_radius - dp(5), dp(2), tint(theme.knob, 0.6))
-        yield from self._figures()
+        self.draw_knob(shapes, self.knob_pos, self.knob_radius, theme.accent)
+        yield from self._figures(shapes)
 
     def _boat(self, shapes: Shapes) -> None:
         """From above, as long as the pad is high, with its rudder as it is."""
@@ -203,7 +213,7 @@ class RudderThrottle(Stick, Gauge):
             for width, ink in ((dp(7), theme.surface), (dp(4), theme.text)):
                 shapes.line(np.stack([mark - aside * 1.35, mark + aside * 1.35]), width, ink)
 
-    def _figures(self) -> Iterator[Word]:
+    def _figures(self, shapes: Shapes) -> Iterator[Word]:
         left, top = self.x + self.edge, self.top - self.edge
         right = self.right - self.edge - (dp(18) if self.alarmed else 0)
         colour = theme.plan if self._has_report else theme.text
@@ -215,8 +225,13 @@ class RudderThrottle(Stick, Gauge):
             top, size = top - sp(18), sp(18)
         throttle, rudder, size = self._fitting(right - left - dp(8), size)
         y = top - size * 0.6
-        yield Word(throttle, left, y, size, colour, bold=True, anchor=(0, 0.5))
-        yield Word(rudder, right, y, size, colour, bold=True, anchor=(1, 0.5))
+        for word in (
+            Word(throttle, left, y, size, colour, bold=True, anchor=(0, 0.5)),
+            Word(rudder, right, y, size, colour, bold=True, anchor=(1, 0.5)),
+        ):
+            if self.bare:
+                ground(shapes, word, tint(theme.surface, 0.7))
+            yield word
 
     def _fitting(self, room: float, size: float) -> tuple[str, str, float]:
         """Words for throttle and rudder, and their size [px], so that both fit into `room` [px]."""
@@ -270,6 +285,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "small": make((0.75, 0.6), (0.7, 0.2), (176, 176)),
         "small at rest": make(size=(176, 176)),
         "smallest": make((-1.0, -1.0), (-0.8, -0.5), (140, 140)),
+        "bare": make((0.2, 0.1), (0.1, 0.1), (176, 176), bare=True),
+        "bare at rest": make(size=(176, 176), bare=True),
         "large": make((0.75, -0.6), (0.7, -0.2), (326, 242)),
         "a task steers": make(told=(0.86, -0.45), led=True),
         "small, a task steers": make(told=(0.86, -0.45), size=(176, 176), led=True),

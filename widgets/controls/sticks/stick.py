@@ -7,19 +7,21 @@ class Lever(Stick):
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, ClassVar
 
 from kivy.graphics.texture import Texture
 from kivy.lang import Builder
 from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, NumericProperty, OptionProperty
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty
 
 from bridge.msgs import Msg
 from widgets.controls.finger_grip import Grip
 from widgets.core.base import text_texture
-from widgets.core.canvas_ink import Drawing, Ink
+from widgets.core.canvas_ink import Drawing, Ink, tint
 from widgets.core.icons import icon
 from widgets.core.language import tr
+from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 
 __all__ = ["DEAD_ZONE", "MIN_PUSH", "Stick"]
@@ -79,6 +81,14 @@ class Stick(Grip, Drawing):
     left = NumericProperty(0.0)
     """How far it is pushed to the left, -1 to 1."""
 
+    bare = BooleanProperty(False)
+    """Over a picture that shall be seen: no ground below it, faint lines, and a full knob only while it is pushed."""
+
+    knob_pos: Any
+    """The knob's middle [px]."""
+    knob_radius: Any
+    """Of the knob [px]."""
+
     gamepad = OptionProperty("none", options=list(GAMEPAD))
     """A gamepad drives the stick too: `none`, `ready`, `drives`, `silent`, which commands nothing, or `let go`, which is pushed and
     commands nothing before it was let go; `keys` where keys drive it."""
@@ -118,6 +128,38 @@ class Stick(Grip, Drawing):
         if not hasattr(self, "_ink"):  # a gauge has its own, below its words
             self._ink = Ink()
             self.canvas.add(self._ink)
+        for name in ("bare", "state"):
+            self.fbind(name, self.redraw)
+
+    def _veil(self) -> list[float]:
+        """None that would hide the picture: of a bare stick the colour of the knob says what it would say."""
+        return [*theme.surface[:3], 0.0] if self.bare else super()._veil()
+
+    veil = AliasProperty(_veil, bind=["state", "bare"])
+
+    def glassy(self, colour: Sequence[float], alpha: float = 1.0) -> tuple[float, ...]:
+        """`colour` as it is drawn with so much `alpha`, 0 to 1: of a bare stick only a little of it."""
+        return tint(colour, alpha * (0.45 if self.bare else 1.0))
+
+    def draw_knob(
+        self, shapes: Shapes, place: tuple[float, float], radius: float, colour: Sequence[float]
+    ) -> None:
+        """The knob at `place`, in `colour`; of a bare stick at rest only its rim, grey while it is disabled."""
+        if self.bare and not (self.forward or self.left):
+            rim = theme.muted if self.state == "disabled" else colour
+            shapes.disc(*place, radius, tint(theme.surface, 0.25))
+            shapes.ring(*place, radius - dp(1.5), dp(3), tint(rim, 0.9))
+            return
+        shapes.disc(*place, radius, colour)
+        shapes.ring(*place, radius - dp(6), dp(2), tint(theme.knob, 0.6))
+
+    @property
+    def hides(self) -> list[tuple[float, float, float, float]]:
+        """Left, low, width and height of what of a picture behind it cannot be seen [px]."""
+        if not self.bare:
+            return [(*self.pos, *self.size)]
+        (x, y), radius = self.knob_pos, self.knob_radius
+        return [(x - radius, y - radius, 2 * radius, 2 * radius)]
 
     @property
     def order(self) -> Msg:

@@ -85,9 +85,9 @@ class TiltCircle(TiltStick, Gauge):
             if self.missing and self.needs_hold and self.state == "live" and not led
             else self.state
         )
-        return [*theme.surface[:3], self.veils.get(state, 0.0)]
+        return [*theme.surface[:3], 0.0 if self.bare else self.veils.get(state, 0.0)]
 
-    veil = AliasProperty(_veil, bind=["state", "missing", "needs_hold", "forward", "left"])
+    veil = AliasProperty(_veil, bind=["state", "missing", "needs_hold", "forward", "left", "bare"])
 
     @property
     def wide(self) -> bool:
@@ -142,16 +142,20 @@ class TiltCircle(TiltStick, Gauge):
     def marks(self, shapes: Shapes) -> Iterator[Word]:
         """The pad, the neutral ring, the circle, and what it commands in words."""
         x, y, radius = self.round
-        shapes.disc(x, y, radius, tint(theme.raised, 0.92))
-        shapes.ring(x, y, radius - dp(0.75), dp(1.5), theme.line)
-        shapes.ring(x, y, radius * 0.5, dp(1.2), theme.line, dashes=40)
+        if self.bare:
+            shapes.ring(x, y, radius - dp(2), dp(4), tint(theme.surface, 0.3))
+            shapes.ring(x, y, radius - dp(2), dp(1.5), self.glassy(theme.text))
+        else:
+            shapes.disc(x, y, radius, tint(theme.raised, 0.92))
+            shapes.ring(x, y, radius - dp(0.75), dp(1.5), theme.line)
+            shapes.ring(x, y, radius * 0.5, dp(1.2), theme.line, dashes=40)
         cross = np.array([[x - radius, y], [x, y - radius]]), np.array([[x + radius, y], [x, y + radius]])
         shapes.segments(*cross, dp(1), tint(theme.muted, 0.35))
         level = not (self.roll or self.pitch)
         idle = self.needs_hold and (not self.held or bool(self.opened)) and not (self.forward or self.left)
         knob = self.knob_pos
-        if idle:
-            rim = theme.muted if self.missing else theme.danger
+        if idle or (self.bare and level and not (self.forward or self.left)):
+            rim = theme.muted if self.missing or (self.bare and self.state == "disabled") else theme.danger
             shapes.ring(*knob, self.knob_radius - dp(1.5), dp(3), rim)
         else:
             shapes.disc(*knob, self.knob_radius, theme.danger)
@@ -277,7 +281,9 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "large level": make(size=(326, 228), card=True, title="Tablet tilt"),
         "gamepad": make(5, 12, gamepad="drives"),
         "tall": make(5, 12, size=(228, 326), card=True, title="Tablet tilt"),
-        "bare": make(5, 12, title=""),
+        "untitled": make(5, 12, title=""),
+        "over a picture": make(bare=True, title=""),
+        "over a picture, leaned": make(5, 12, bare=True, title=""),
         "stale": make(5, 12, state="stale", age=2.0),
         "alarm": make(5, 12, state="alarm", card=True),
         "disabled": make(state="disabled"),

@@ -96,7 +96,9 @@ def visible(widget: Any) -> bool:
 def screens(walk: Walk) -> Iterator[tuple[str, Callable[[], object]]]:
     """Name to what brings it onto the glass, in an order in which each follows from the one before."""
     app, robot = walk.app, walk.robot
-    for name in ("drive", "mission", "tasks", "topics"):
+    yield "drive", lambda: app.show("drive")
+    yield "its drawer", lambda: app.screens["drive"].pull(out=True)
+    for name in ("mission", "tasks", "topics", "more"):
         yield name, lambda name=name: app.show(name)
     yield "a topic", lambda: app.screens["topics"].open("/battery_state")
     yield from of_setup(walk)
