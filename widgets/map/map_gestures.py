@@ -34,9 +34,9 @@ class Grip:
     """What a finger holds, and where it has brought it."""
 
     what: str
-    """`waypoint`, `home`, `robot` or `turn`."""
+    """`waypoint`, `home`, `robot`, `turn` or `measured`."""
     index: int
-    """Of the waypoint; -1 for the others."""
+    """Of the waypoint or the measured place; -1 for the others."""
     x: float
     """[m]"""
     y: float
@@ -51,9 +51,9 @@ class MapGestures(Widget):
 
     view: ObjectProperty[View] = ObjectProperty(View())
     """How the world lies on the screen, a `View`."""
-    mode = OptionProperty("view", options=("view", "points", "home", "place", "place_robot"))
+    mode = OptionProperty("view", options=("view", "points", "home", "place", "place_robot", "measure"))
     """What a tap or a drag means: look only; add, select and move waypoints; set home; make and open named places;
-    say where the robot is."""
+    say where the robot is; measure."""
     waypoints: ListProperty[tuple[float, float]] = ListProperty()
     """Places to pass in order, (x, y) in `map` [m]."""
     selected: NumericProperty[int] = NumericProperty(-1)
@@ -212,7 +212,9 @@ class MapGestures(Widget):
             if index >= 0:
                 x, y = places[index][:2]
                 at = complex(*self.view.to_screen(x, y))
-                return Grip(what, index if what == "waypoint" else -1, x, y, at - complex(px, py))
+                return Grip(
+                    what, index if what in ("waypoint", "measured") else -1, x, y, at - complex(px, py)
+                )
         return None
 
     def _things(self) -> list[tuple[str, list[Any]]]:

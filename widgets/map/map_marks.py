@@ -27,6 +27,8 @@ __all__ = [
     "home_mark",
     "intruder_marks",
     "laser_dots",
+    "north_mark",
+    "outline_mark",
     "outlined",
     "handle_reach",
     "place_handle",
@@ -51,6 +53,8 @@ ARROW = ((0.60, 0.0), (-0.42, 0.44), (-0.22, 0.0), (-0.42, -0.44))
 """Corners of the robot's arrow, which points along x, in disc radii."""
 SHORT = 16
 """Letters of a place's name on the map."""
+UPRIGHT = math.radians(0.5)
+"""Of a map that is turned less, north is up."""
 GAP = 1.0
 """Nothing drives so far between two poses [m]: it was carried, restarted, or not heard for a while."""
 
@@ -254,6 +258,27 @@ def robot_mark(
     shapes.disc(x, y, radius + dp(1), ring)
     shapes.disc(x, y, radius - dp(2), theme.muted if faded else theme.accent)
     shapes.polygon(arrow(x, y, yaw, radius), theme.ink_accent)
+
+
+def outline_mark(shapes: Shapes, corners: Points, *, faded: bool, alarm: bool) -> None:
+    """The outline of a robot to scale; `corners` on the glass [px]."""
+    colour = theme.danger if alarm else theme.muted if faded else theme.accent
+    around = np.concatenate([corners, corners[:1]])
+    shapes.line(around, dp(6), tint(theme.bg, 0.5))
+    shapes.polygon([(float(x), float(y)) for x, y in corners], tint(colour, 0.45))
+    shapes.line(around, dp(2.4), colour)
+
+
+def north_mark(shapes: Shapes, x: float, y: float, turn: float) -> Word:
+    """Where north is on a map that is turned by `turn` [rad]: a needle round an upright letter."""
+    radius, way = dp(19), math.pi / 2 + turn
+    shapes.disc(x, y, radius, tint(theme.bg, 0.85))
+    shapes.ring(x, y, radius, dp(1.4), theme.muted)
+    cos, sin = math.cos(way), math.sin(way)
+    tip, base, half = radius + dp(7), radius - dp(3), dp(6)
+    corners = [(tip, 0.0), (base, half), (base, -half)]
+    shapes.polygon([(x + cos * u - sin * v, y + sin * u + cos * v) for u, v in corners], theme.danger)
+    return Word("N", x, y, sp(14), theme.text, bold=True)
 
 
 def ghost_mark(shapes: Shapes, view: View, pose: tuple[float, float, float], radius: float) -> None:

@@ -29,24 +29,21 @@ from bridge.msgs.pilothouse_msgs import IntruderArray, Limits
 from bridge.msgs.sensor_msgs import LaserScan
 from widgets.core.base import VEIL
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, ground, tint
-from widgets.core.geometry import Points, Trail, View, nice_floor, scan_points, spread
+from widgets.core.geometry import Points, View, nice_floor, scan_points, spread
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.map import fence_marks
 from widgets.map import map_marks as marks
 from widgets.map.fence import Fence
-from widgets.map.map_viewport import MapViewport
+from widgets.map.map_measure import measure_marks
+from widgets.map.map_robot import MapRobot
 
 __all__ = ["MapOverlay"]
 
 NOTHING = np.zeros((0, 2))
-SEEN, SEEN_TURN = 0.25, math.radians(0.25)
-"""A shift [px] and a turn [rad] of the robot that are less are not seen."""
-MAX_UNSEEN = 0.05
-"""Greatest shift that is left out on a small map [m]."""
 
 
-class MapOverlay(MapViewport, Drawing):
+class MapOverlay(MapRobot, Drawing):
     """The robot and its task on a map. Everything is in the `map` frame: x east, y north [m]."""
 
     accepts: ClassVar[tuple[type[Msg], ...]] = (
@@ -61,12 +58,9 @@ class MapOverlay(MapViewport, Drawing):
     drawn_from: ClassVar[tuple[str, ...]] = (
         "view", "waypoints", "selected", "home", "placed", "grip", "mode", "robot", "robot_radius", "camera_fov",
         "plan", "places", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets", "fence", "foot", "refused",
+        "footprint", "measured",
     )  # fmt: skip
 
-    robot_radius = NumericProperty(0.2)
-    """Of the robot itself [m]; its disc never gets smaller than that on the map."""
-    camera_fov = NumericProperty(math.nan)
-    """Horizontal field of view of its camera [rad]; NaN draws none."""
     plan: ObjectProperty[Points] = ObjectProperty(NOTHING, force_dispatch=True)
     """The way it means to take, shape (n, 2) [m]."""
     intruders: ListProperty[tuple[float, float, str]] = ListProperty()
@@ -102,7 +96,6 @@ class MapOverlay(MapViewport, Drawing):
     """From where to where along that top nothing lies, x [px]; zeros for all of it."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self._trail = Trail()
         self.over_ground = InstructionGroup()
         """Drawn above the ground and below the marks; for a subclass to fill."""
         self._fence_ink = Ink()
@@ -138,36 +131,12 @@ class MapOverlay(MapViewport, Drawing):
         else:
             super().show(msg)
 
-    def _show_pose(self, msg: PoseWithCovarianceStamped) -> None:
-        pose, first = msg.pose.pose, not self.located
-        place = [pose.position.x, pose.position.y, pose.orientation.yaw]
-        if not (self.located and self._looks_alike(place)):
-            self.robot = place
-        if not self.located:
-            return
-        self._trail.add(*self.robot[:2])
-        if self.follow:
-            self._centre(*self.robot[:2])
-        elif first:
-            self._fit_until_touched()
-
-    def _looks_alike(self, place: Sequence[float]) -> bool:
-        """The robot there could not be told from where it is shown: no reason to draw the map anew 20 times a second."""
-        step = min(SEEN / self.view.scale, MAX_UNSEEN)
-        x, y, yaw = self.robot
-        return math.dist(place[:2], (x, y)) < step and abs(place[2] - yaw) < SEEN_TURN
-
     def _show_scan(self, msg: LaserScan) -> None:
         if not (self.show_laser and self.located):
             return
         _, _, points = scan_points(msg.ranges, msg.angle_min, msg.angle_increment)
         x, y, yaw = self.robot
         self.laser = View.centred(0, 0, at=(x, y), scale=1.0, turn=yaw).many_to_screen(spread(points))
-
-    @property
-    def trail(self) -> Points:
-        """Where it has been, oldest first, shape (n, 2) [m]; the newest 2,000 points are kept."""
-        return self._trail.points
 
     def extent(self) -> Points:
         """Everything worth seeing, shape (n, 2) [m]."""
@@ -261,6 +230,7 @@ class MapOverlay(MapViewport, Drawing):
             word, _ = marks.place_handle(shapes, self.view, pose, self.mark_radius, self.handle_reach())
             marks.ghost_mark(shapes, self.view, pose, self._robot_disc())
             yield word
+        yield from self._tools(shapes)
         if math.isnan(self.foot):
             return
         x, y, wide, _ = self.free_box
@@ -273,6 +243,13 @@ class MapOverlay(MapViewport, Drawing):
         else:
             yield from fence_marks.legend(shapes, self.fence, left, low + dp(30), 0.0)
 
+    def _tools(self, shapes: Shapes) -> Iterator[Word]:
+        """What is measured, and where north is while it is not up."""
+        yield from measure_marks(shapes, self.view, self.measured_now())
+        if abs(self.view.turn) > marks.UPRIGHT:
+            x, y, wide, high = self.free_box
+            yield marks.north_mark(shapes, x + wide - dp(30), y + high - dp(30), self.view.turn)
+
     def _alarms(self, shapes: Shapes) -> Iterator[Word]:
         """The intruders, above the waypoints and below the robot."""
         marked = [*self._places(), *([self._home_place()] if self._home_place() else [])]
@@ -282,14 +259,6 @@ class MapOverlay(MapViewport, Drawing):
             shapes, self.view, self.intruders, self.mark_radius, box=self.free_box, taken=taken,
             faded=self.state == "stale",
         )  # fmt: skip
-
-    def _robot_disc(self) -> float:
-        return float(max(self.mark_radius * 1.1, self.robot_radius * self.view.scale))
-
-    def _robot_shapes(self, shapes: Shapes, pose: tuple[float, float, float], *, faded: bool) -> None:
-        alarm = self.state == "alarm"
-        fov = math.nan if faded else self.camera_fov
-        marks.robot_mark(shapes, self.view, pose, self._robot_disc(), fov=fov, faded=faded, alarm=alarm)
 
     def _places(self) -> list[tuple[float, float]]:
         """The waypoints, with the one in a finger's grip where the finger is."""

@@ -13,7 +13,7 @@ from kivy.properties import (
 )
 
 from widgets.core.geometry import Points, View
-from widgets.map.map_gestures import MapGestures
+from widgets.map.map_measure import MeasuringMap
 
 __all__ = ["MapViewport"]
 
@@ -25,7 +25,7 @@ MAX_FITTED_SCALE = 60.0
 """Greatest scale that `fit` chooses [dp/m]."""
 
 
-class MapViewport(MapGestures):
+class MapViewport(MeasuringMap):
     """A map whose view fits all that is worth seeing until an operator moves it, or follows the robot."""
 
     robot: ListProperty[float] = ListProperty([math.nan] * 3)
@@ -137,6 +137,8 @@ class MapViewport(MapGestures):
     def on_mode(self, *_: object) -> None:
         """Let go of what was held; bring up the robot to be placed, at its pose or in the middle."""
         self.let_go()
+        if self.mode != "measure":
+            self.measured = []
         if self.mode != "place_robot":
             self.placed = []
         elif self.located:
