@@ -15,7 +15,7 @@ import msgspec
 from bridge.core.codes import Code
 from bridge.msgs import Msg
 from bridge.msgs.diagnostic_msgs import KeyValue
-from bridge.msgs.geometry_msgs import Point, Pose, Quaternion, Twist
+from bridge.msgs.geometry_msgs import Point, Point32, Pose, Quaternion, Twist
 from bridge.msgs.pilothouse_msgs import Event, Manoeuvre, Place, RobotInfo
 from sim.core.order_limits import check, cut
 from sim.payloads import PAYLOADS, laden, mount
@@ -267,6 +267,7 @@ def info_of(vehicle: Vehicle, world: World, *, camera: bool) -> RobotInfo:
         max_steering=parameters.max_steering,
         min_radius=parameters.min_radius,
         laser_x=vehicle.laser_x,
+        footprint=[Point32(x, y) for x, y in parameters.footprint],
     )
 
 

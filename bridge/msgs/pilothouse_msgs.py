@@ -12,7 +12,7 @@ from bridge.msgs.arrays import Float32Array, Float64Array, Int32Array
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.diagnostic_msgs import KeyValue
-from bridge.msgs.geometry_msgs import Point, Polygon, Twist
+from bridge.msgs.geometry_msgs import Point, Point32, Polygon, Twist
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
@@ -1491,6 +1491,7 @@ class RobotInfo(Msg, frozen=True, gc=False):
         "string[]",
         "bool",
         "bool",
+        "geometry_msgs/Point32[]",
     )
     UNITS: ClassVar[dict[str, str]] = {
         "max_speed": "m/s",
@@ -1504,6 +1505,7 @@ class RobotInfo(Msg, frozen=True, gc=False):
         "max_tilt": "rad",
         "max_steering": "rad",
         "min_radius": "m",
+        "footprint": "m",
     }
     name: str = ""
     """Name for people, as in Patrol-1."""
@@ -1559,6 +1561,8 @@ class RobotInfo(Msg, frozen=True, gc=False):
     """It keeps a depth, which orders give in place of a height, and may lie any way up."""
     flies: bool = False
     """It takes off and lands."""
+    footprint: list[Point32] = []
+    """Corners of its outline in base_link, in order [m]; empty for a round one, of which radius tells all."""
 
 
 class RudderState(Msg, frozen=True, gc=False):

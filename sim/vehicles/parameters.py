@@ -13,7 +13,7 @@ from sim.physics.motors import MotorParameters
 from sim.sensors.battery import BatteryParameters
 from sim.sensors.imu import ImuParameters
 
-__all__ = ["Parameters", "load"]
+__all__ = ["Parameters", "load", "outline"]
 
 
 class Parameters(Table, frozen=True, kw_only=True):
@@ -31,6 +31,11 @@ class Parameters(Table, frozen=True, kw_only=True):
     def radius(self) -> float:
         """Of the circle round `base_link` that the body fits in [m]."""
         raise NotImplementedError
+
+    @property
+    def footprint(self) -> tuple[tuple[float, float], ...]:
+        """Corners of its outline in `base_link`, x ahead and y left, anticlockwise [m]; empty for a round one."""
+        return ()
 
     @property
     def deck(self) -> tuple[float, float, float]:
@@ -65,6 +70,12 @@ class Parameters(Table, frozen=True, kw_only=True):
     def min_radius(self) -> float:
         """Of the tightest turn that it drives [m]; 0 for what turns where it stands."""
         return 0.0
+
+
+def outline(length: float, width: float, ahead: float = 0.0) -> tuple[tuple[float, float], ...]:
+    """Corners of a rectangle whose middle is `ahead` of `base_link` [m]."""
+    front, back, side = ahead + length / 2, ahead - length / 2, width / 2
+    return ((back, -side), (front, -side), (front, side), (back, side))
 
 
 P = TypeVar("P", bound=Parameters)

@@ -216,3 +216,16 @@ def test_it_knows_the_places_of_its_world_that_have_names():
 def test_closing_twice_does_nothing(robot):
     robot.close()
     robot.close()
+
+
+@pytest.mark.parametrize("name", sorted(ROBOTS))
+def test_info_tells_the_outline_which_fits_the_circle_round_the_body(name):
+    parameters = ROBOTS[name].parameters
+    corners = parameters.footprint
+    assert bool(corners) == (name not in ("patrol", "scout"))
+    reach = max((math.hypot(*corner) for corner in corners), default=parameters.radius)
+    assert reach <= parameters.radius + 1e-9
+    assert reach >= 0.8 * parameters.radius
+    around = zip(corners, (*corners[1:], *corners[:1]), strict=True)
+    area = sum(a[0] * b[1] - b[0] * a[1] for a, b in around)
+    assert area > 0 or not corners

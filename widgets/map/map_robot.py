@@ -11,17 +11,20 @@ from kivy.metrics import dp
 from kivy.properties import BooleanProperty, ListProperty, NumericProperty
 
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
+from bridge.msgs.pilothouse_msgs import RobotInfo
 from widgets.core.geometry import Points, Trail, View
 from widgets.core.shapes import Shapes
 from widgets.map import map_marks as marks
 from widgets.map.map_viewport import MapViewport
 
-__all__ = ["MapRobot", "turned"]
+__all__ = ["MapRobot", "corners", "turned"]
 
 SEEN, SEEN_TURN = 0.25, math.radians(0.25)
 """A shift [px] and a turn [rad] of the robot that are less are not seen."""
 MAX_UNSEEN = 0.05
 """Greatest shift that is left out on a small map [m]."""
+MAX_CORNERS = 64
+"""Of an outline that is drawn."""
 MIN_LENGTH = 26.0
 """Least length of the outline on the glass [dp]; where the map is smaller than that, a disc stands for the robot."""
 
@@ -118,6 +121,13 @@ class MapRobot(MapViewport):
             marks.outline_mark(shapes, outline, faded=faded, alarm=alarm)
             disc = min(disc, self.mark_radius * 1.1, float(np.ptp(outline, axis=0).min()) * 0.4)
         marks.robot_mark(shapes, self.view, pose, disc, fov=fov, faded=faded, alarm=alarm)
+
+
+def corners(info: RobotInfo) -> list[tuple[float, float]]:
+    """The outline that a robot tells of itself [m]; empty for a round one, and for what is no outline."""
+    found = [(corner.x, corner.y) for corner in info.footprint]
+    sound = 3 <= len(found) <= MAX_CORNERS and all(math.isfinite(value) for pair in found for value in pair)
+    return found if sound else []
 
 
 def turned(corners: Sequence[tuple[float, float]], pose: tuple[float, float, float]) -> Points:

@@ -10,6 +10,7 @@ from app.screens.mission.mission_maps import MissionMaps
 from app.screens.mission.mission_panel import MissionPanel
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import RobotInfo, TaskStatus
+from widgets.map.map_robot import corners
 
 __all__ = ["MissionOnMap"]
 
@@ -59,6 +60,7 @@ class MissionOnMap:
         area = self._maps.shown
         area.robot_radius = info.radius or DEFAULT_RADIUS
         area.camera_fov = info.camera_fov
+        area.footprint = corners(info)
         self.show_draft()
 
     def show_task(self, status: TaskStatus) -> None:

@@ -16,7 +16,7 @@ from sim.dynamics.swimmer import SwimmerBody, SwimmerLimits
 from sim.sensors.compass import CompassParameters
 from sim.sensors.depth import DepthParameters
 from sim.sensors.reckoning import ReckoningParameters
-from sim.vehicles.parameters import Parameters, load
+from sim.vehicles.parameters import Parameters, load, outline
 
 __all__ = ["PARAMETERS", "AquaParameters"]
 
@@ -36,6 +36,11 @@ class AquaParameters(Parameters, frozen=True, kw_only=True):
     def radius(self) -> float:
         """Of the circle that body and fins fit in [m]."""
         return math.hypot(self.body.length / 2, self.fins.aside + self.fins.length / 2)
+
+    @property
+    def footprint(self) -> tuple[tuple[float, float], ...]:
+        """Of body and fins [m]."""
+        return outline(self.body.length, 2 * self.fins.aside + self.fins.length)
 
     @property
     def deck(self) -> tuple[float, float, float]:

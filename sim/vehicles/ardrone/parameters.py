@@ -15,7 +15,7 @@ from sim.core.parameters import CameraParameters
 from sim.dynamics.quadrotor import QuadrotorBody, QuadrotorLimits, RotorParameters
 from sim.sensors.height import HeightParameters
 from sim.sensors.reckoning import ReckoningParameters
-from sim.vehicles.parameters import Parameters, load
+from sim.vehicles.parameters import Parameters, load, outline
 
 __all__ = ["PARAMETERS", "ArdroneParameters"]
 
@@ -39,6 +39,11 @@ class ArdroneParameters(Parameters, frozen=True, kw_only=True):
     def radius(self) -> float:
         """Of the circle that the body fits in [m]."""
         return self.body.width / math.sqrt(2)
+
+    @property
+    def footprint(self) -> tuple[tuple[float, float], ...]:
+        """Of the hull of foam [m]."""
+        return outline(self.body.width, self.body.width)
 
     @property
     def deck(self) -> tuple[float, float, float]:

@@ -15,7 +15,7 @@ from sim.dynamics.ackermann import AckermannBody, AckermannLimits, Axles
 from sim.sensors.gps import GpsParameters
 from sim.sensors.laser import LaserParameters
 from sim.sensors.odometry import OdometryParameters
-from sim.vehicles.parameters import Parameters, load
+from sim.vehicles.parameters import Parameters, load, outline
 
 __all__ = ["PARAMETERS", "CommanderParameters"]
 
@@ -36,6 +36,11 @@ class CommanderParameters(Parameters, frozen=True, kw_only=True):
     def radius(self) -> float:
         """From the middle of the rear axle to the farthest corner [m]."""
         return math.hypot(self.body.length / 2 + abs(self.body.ahead), self.body.width / 2)
+
+    @property
+    def footprint(self) -> tuple[tuple[float, float], ...]:
+        """Of the body [m]."""
+        return outline(self.body.length, self.body.width, ahead=self.body.ahead)
 
     @property
     def mass(self) -> float:

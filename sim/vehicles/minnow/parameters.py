@@ -16,7 +16,7 @@ from sim.dynamics.hull import HullParameters
 from sim.sensors.compass import CompassParameters
 from sim.sensors.gps import GpsParameters
 from sim.sensors.reckoning import ReckoningParameters
-from sim.vehicles.parameters import Parameters, load
+from sim.vehicles.parameters import Parameters, load, outline
 
 __all__ = ["PARAMETERS", "MinnowParameters"]
 
@@ -36,6 +36,11 @@ class MinnowParameters(Parameters, frozen=True, kw_only=True):
     def radius(self) -> float:
         """Of the circle that the hull fits in [m]."""
         return math.hypot(self.hull.length, self.hull.beam) / 2
+
+    @property
+    def footprint(self) -> tuple[tuple[float, float], ...]:
+        """Of its two floats [m]."""
+        return outline(self.hull.length, self.hull.beam)
 
     @property
     def deck(self) -> tuple[float, float, float]:

@@ -5,9 +5,11 @@ import math
 import numpy as np
 import pytest
 
+from bridge.msgs.geometry_msgs import Point32
+from bridge.msgs.pilothouse_msgs import RobotInfo
 from tests.widgets.map.watched_map import near, pose
 from widgets.map.geo_map import GeoMap
-from widgets.map.map_robot import turned
+from widgets.map.map_robot import corners, turned
 
 TRUCK = [(3.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (3.0, -1.0)]
 CENTRE = (200, 150)
@@ -82,6 +84,15 @@ def test_an_outline_is_drawn_to_scale_whatever_the_turn(map_, turn):
     sides = np.hypot(*np.diff(outline, axis=0).T)
     assert sides == pytest.approx([40, 20, 40])
     assert outline[0] == pytest.approx(seen(map_, *turned(TRUCK[:1], (1.0, 2.0, 0.4))[0]))
+
+
+@pytest.mark.parametrize("told", [[], TRUCK[:2], [*TRUCK[:2], (math.nan, 0.0)], TRUCK * 17])
+def test_what_is_no_outline_is_not_drawn(told):
+    assert corners(RobotInfo(footprint=[Point32(x, y) for x, y in told])) == []
+
+
+def test_an_outline_is_taken_over_from_the_robot():
+    assert corners(RobotInfo(footprint=[Point32(x, y) for x, y in TRUCK])) == TRUCK
 
 
 def test_an_outline_too_small_to_see_gives_way_to_the_disc(map_):
