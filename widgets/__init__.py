@@ -16,8 +16,12 @@ if TYPE_CHECKING:
     from widgets.controls.goals.goal_pad import GoalPad as GoalPad
     from widgets.controls.heading_dial import HeadingDial as HeadingDial
     from widgets.controls.motion_selector import MotionSelector as MotionSelector
+    from widgets.controls.signals.momentary_button import MomentaryButton as MomentaryButton
+    from widgets.controls.signals.tick_box import TickBox as TickBox
+    from widgets.controls.signals.toggle_switch import ToggleSwitch as ToggleSwitch
     from widgets.controls.slide_confirm import SlideToConfirm as SlideToConfirm
     from widgets.controls.speed_cap import SpeedCap as SpeedCap
+    from widgets.controls.sticks.d_pad import DPad as DPad
     from widgets.controls.sticks.joystick import Joystick as Joystick
     from widgets.controls.sticks.lift_lever import LiftLever as LiftLever
     from widgets.controls.sticks.rudder_throttle import RudderThrottle as RudderThrottle
@@ -36,6 +40,7 @@ if TYPE_CHECKING:
     from widgets.instruments.heading_tape import HeadingTape as HeadingTape
     from widgets.instruments.height_tape import HeightTape as HeightTape
     from widgets.instruments.horizon import ArtificialHorizon as ArtificialHorizon
+    from widgets.instruments.lamp import Lamp as Lamp
     from widgets.instruments.leg_panel import LegPanel as LegPanel
     from widgets.instruments.link_quality import LinkQuality as LinkQuality
     from widgets.instruments.readout import Readout as Readout
@@ -140,6 +145,11 @@ CATALOGUE: dict[str, str] = {
     "UltrasoundView": "widgets.sensors.ultrasound",
     "Video": "widgets.sensors.video",
     "WhenPicker": "widgets.tasks.when_picker",
+    "DPad": "widgets.controls.sticks.d_pad",
+    "ToggleSwitch": "widgets.controls.signals.toggle_switch",
+    "TickBox": "widgets.controls.signals.tick_box",
+    "MomentaryButton": "widgets.controls.signals.momentary_button",
+    "Lamp": "widgets.instruments.lamp",
 }
 """Class name of each widget to the module that holds it; the module's `samples()` shows its states."""
 

@@ -29,6 +29,7 @@ class LiftLever(Captioned):
     """Dispatches `on_command(twist)` at every change: a climb and nothing else."""
 
     sends = (Twist,)
+    specificity: ClassVar = 0.5
     drawn_from: ClassVar[tuple[str, ...]] = ("forward", "left", "max_climb")
 
     max_climb = NumericProperty(0.3)

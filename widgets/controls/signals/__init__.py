@@ -1,0 +1,1 @@
+"""Signals: controls that send a bool, switched over or held."""
