@@ -301,11 +301,12 @@ def _footnote(open_ones: int, held: int, untried: int, since: int, unmet: int) -
     if untried:
         parts.append(tr("{untried} more not tried: too many at once.").format(untried=untried))
     if unmet:
-        one, many = (
+        words = trn(
             "{count} address that never answered is not counted; STOP is sent there too.",
             "{count} addresses that never answered are not counted; STOP is sent there too.",
+            unmet,
         )
-        parts.append(trn(one, many, unmet).format(count=unmet))
+        parts.append(words)
     if open_ones:
         parts.append(tr("STOP is sent until every robot rests."))
     if held:
