@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from app.core.command_origin import NOBODY, Origin
+from app.core.robot_sentences import sentence
 from bridge.core.codes import Code
 from bridge.core.errors import BridgeError, NoReply, NotConnected, Refused
 from bridge.msgs import Msg
@@ -350,7 +351,9 @@ class Commands:
             else:
                 phase = "accepted" if answer.success else "refused"
                 took = self._now() - started
-                reason = tr(OWN_WORDS.get(getattr(answer, "code", ""), "")) or answer.message
+                code = getattr(answer, "code", "")
+                said = sentence(code, getattr(answer, "parameters", ()), answer.message)
+                reason = tr(OWN_WORDS.get(code, "")) or said
                 return replace(outcome, phase=phase, reason=reason, latency=took, answer=answer)
 
     async def stop(self, origin: Origin = NOBODY) -> None:

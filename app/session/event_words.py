@@ -10,6 +10,7 @@ from collections.abc import Mapping
 
 from msgspec.structs import replace
 
+from app.core.robot_sentences import sentence
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Event, TaskStatus
 from widgets.core.language import mark, tr
@@ -38,7 +39,8 @@ def own_event(event: Event, own_id: str, gave_stop: str = "") -> Event:
     """
     words = tr(_EVENTS.get(event.code, "")) if own_id and event.actor_id == own_id else ""
     if not words:
-        return event
+        said = sentence(event.code, event.parameters, event.text)
+        return event if said == event.text else replace(event, text=said)
     if event.code == Code.STOP_PRESSED:
         words = gave_stop or words
     # its STOP is the alarm; that it paused the task takes nobody's eye from that
@@ -48,4 +50,6 @@ def own_event(event: Event, own_id: str, gave_stop: str = "") -> Event:
 def own_reason(status: TaskStatus, own_id: str) -> TaskStatus:
     """`status` with its reason as it reads on the handheld that the robot publishes by `own_id`."""
     words = tr(_REASONS.get(status.code, "")) if own_id and status.actor_id == own_id else ""
-    return replace(status, reason=words) if words else status  # (status, reason=words)
+    return replace(
+        status, reason=words or sentence(status.code, status.parameters, status.reason)
+    )  # (status, reason=words)
