@@ -23,7 +23,8 @@ class IntruderResponse:
     def on_intruder(self, intruder: Intruder) -> None:
         """A new one was found."""
         x, y = intruder.position.x, intruder.position.y
-        text = f"Intruder {intruder.id}: a {intruder.class_id} at ({x:.1f}, {y:.1f})."
+        what = "something unknown" if intruder.class_id == "unknown" else f"a {intruder.class_id}"
+        text = f"Intruder {intruder.id}: {what} at ({x:.1f}, {y:.1f})."
         found = Notice(Code.INTRUDER_FOUND, text, id=intruder.id, kind=intruder.class_id, x=x, y=y)
         self._say("intruder", found, "alarm", at=(x, y))
         mission = self._records.missions.current

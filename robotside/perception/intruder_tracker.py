@@ -17,6 +17,9 @@ SAME_DISTANCE = 1.2
 MIN_SIGHTINGS = 3
 """Sightings before something is reported."""
 
+SURE_SCORE = 0.6
+"""A thing that looks less like a cone than this, 0 to 1, is an intruder of no known class."""
+
 FORGET_AFTER = 20.0
 """A thing not yet reported is forgotten when it was not seen for this long [s]."""
 
@@ -28,6 +31,8 @@ class _Suspect:
     weight: float
     first: float
     last: float
+    score: float = 1.0
+    """Of its class, the mean of all sightings."""
     sightings: int = 1
     number: int = 0
     """The intruder's id; 0 while it is not reported."""
@@ -46,14 +51,18 @@ class IntruderTracker:
         reported = [suspect for suspect in self._suspects if suspect.number]
         return [_intruder(suspect) for suspect in sorted(reported, key=lambda suspect: suspect.number)]
 
-    def update(self, x: float, y: float, distance: float, now: float) -> Intruder | None:
-        """Take in one sighting at (x, y) [m], from `distance` [m]; the intruder when it has just become one."""
+    def update(self, x: float, y: float, distance: float, now: float, score: float = 1.0) -> Intruder | None:
+        """Take in one sighting at (x, y) [m], from `distance` [m]; the intruder when it has just become one.
+
+        `score` says how sure the detector is that it is a cone, 0 to 1.
+        """
         self._suspects = [s for s in self._suspects if s.number or now - s.last < FORGET_AFTER]
         suspect = min(self._suspects, key=lambda s: math.hypot(x - s.x, y - s.y), default=None)
         weight = 1.0 / max(distance, 0.5) ** 2
         if suspect is None or math.hypot(x - suspect.x, y - suspect.y) > SAME_DISTANCE:
-            self._suspects.append(_Suspect(x, y, weight, now, now))
+            self._suspects.append(_Suspect(x, y, weight, now, now, score))
             return None
+        suspect.score += (score - suspect.score) / (suspect.sightings + 1)
         _add(suspect, x, y, weight, now)
         if suspect.number or suspect.sightings < MIN_SIGHTINGS:
             return None
@@ -76,4 +85,5 @@ def _add(suspect: _Suspect, x: float, y: float, weight: float, now: float) -> No
 
 def _intruder(suspect: _Suspect) -> Intruder:
     place = Point(suspect.x, suspect.y, 0.0)
-    return Intruder(suspect.number, "cone", place, Time.at(suspect.first), suspect.sightings)
+    kind = "cone" if suspect.score >= SURE_SCORE else "unknown"
+    return Intruder(suspect.number, kind, place, Time.at(suspect.first), suspect.sightings)

@@ -123,7 +123,7 @@ class IntruderWatch:
             return None
         place = Point(distance * math.cos(bearing), distance * math.sin(bearing), 0.0)
         if pose is not None and whole and distance < MAX_DISTANCE:
-            self._place(pose, place, distance, stamp)
+            self._place(pose, place, distance, stamp, sighting.score)
         what = ObjectHypothesis("cone", sighting.score)
         box = BoundingBox2D(
             Pose2D(Point2D(sighting.centre * size[0], (sighting.top + sighting.bottom) / 2 * size[1])),
@@ -148,9 +148,9 @@ class IntruderWatch:
         fits = (np.abs(bearings - bearing) < half) & (np.abs(ranges - ground) < 0.35 * ground + 0.3)
         return float(ranges[fits].min()) + 0.05 if fits.any() else ground
 
-    def _place(self, pose: Pose2, place: Point, distance: float, stamp: float) -> None:
+    def _place(self, pose: Pose2, place: Point, distance: float, stamp: float, score: float) -> None:
         there = pose.then(Pose2(self._mount.x + place.x, place.y, 0.0))
-        fresh = self.intruders.update(there.x, there.y, distance, stamp)
+        fresh = self.intruders.update(there.x, there.y, distance, stamp, score)
         if fresh is None:
             return
         self._publish("/intruders", IntruderArray(Header(Time.at(stamp), "map"), self.intruders.known))

@@ -20,16 +20,19 @@ from kivy.properties import (
     NumericProperty,
     ObjectProperty,
     OptionProperty,
+    StringProperty,
 )
 
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Path
-from bridge.msgs.pilothouse_msgs import IntruderArray, Limits
+from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray, Limits
 from bridge.msgs.sensor_msgs import LaserScan
 from widgets.core.base import VEIL
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, ground, tint
+from widgets.core.detected import kind_word
 from widgets.core.geometry import Points, View, nice_floor, scan_points, spread
+from widgets.core.language import tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.map import fence_marks
@@ -58,7 +61,7 @@ class MapOverlay(MapRobot, Drawing):
     drawn_from: ClassVar[tuple[str, ...]] = (
         "view", "waypoints", "selected", "home", "placed", "grip", "mode", "robot", "robot_radius", "camera_fov",
         "plan", "places", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets", "fence", "foot", "refused",
-        "footprint", "measured",
+        "footprint", "measured", "unplaced",
     )  # fmt: skip
 
     plan: ObjectProperty[Points] = ObjectProperty(NOTHING, force_dispatch=True)
@@ -92,6 +95,8 @@ class MapOverlay(MapRobot, Drawing):
     badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "free_box", "badge_span"], cache=True)
     """The age stands at the top of what is free."""
 
+    unplaced = StringProperty("")
+    """What is said while no pose has come: other news of the robot's place than a pose may have come already; empty for the usual words."""
     badge_span: ListProperty[float] = ListProperty([0, 0])
     """From where to where along that top nothing lies, x [px]; zeros for all of it."""
 
@@ -122,7 +127,7 @@ class MapOverlay(MapRobot, Drawing):
         elif isinstance(msg, Path):
             self.plan = spread((p.pose.position.x, p.pose.position.y) for p in msg.poses)
         elif isinstance(msg, IntruderArray):
-            self.intruders = [(i.position.x, i.position.y, f"Intruder {i.id}") for i in msg.intruders]
+            self.intruders = [(i.position.x, i.position.y, _intruder_words(i)) for i in msg.intruders]
         elif isinstance(msg, LaserScan):
             self._show_scan(msg)
         elif isinstance(msg, Limits):
@@ -221,7 +226,8 @@ class MapOverlay(MapRobot, Drawing):
             self._robot_shapes(shapes, (x, y, yaw), faded=self.state == "stale")
         else:
             x, y = self._free_middle()
-            word = Word("No position received yet", x, y, sp(16), theme.text)
+            words = self.unplaced or tr("Its place on this map is not known yet")
+            word = Word(words, x, y, sp(16), theme.text)
             ground(shapes, word, tint(theme.bg, 0.85))
             yield word
         if self.placed:
@@ -270,3 +276,7 @@ class MapOverlay(MapRobot, Drawing):
     def _home_place(self) -> list[float]:
         grip = self.grip
         return [grip.x, grip.y] if grip is not None and grip.what == "home" else self.home
+
+
+def _intruder_words(intruder: Intruder) -> str:
+    return tr("Intruder {id} · {kind}").format(id=intruder.id, kind=kind_word(intruder.class_id))

@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
+from kivy.properties import AliasProperty, BooleanProperty, ListProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
@@ -21,6 +21,7 @@ from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray
 from bridge.msgs.std_msgs import Header, Time
 from widgets.core.base import age_text
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words
+from widgets.core.detected import things_words
 from widgets.core.icons import icon
 from widgets.core.language import tr, trn
 from widgets.core.sensor_geometry import ago_text, away_text, side_text
@@ -46,8 +47,8 @@ class IntruderBadge(Drawing):
 
     count = NumericProperty(-1)
     """Intruders known; -1 before the robot reports them."""
-    seen = NumericProperty(0)
-    """Things that are marked in the picture now, which the robot may not count as long as it does not watch."""
+    seen: ListProperty[str] = ListProperty()
+    """What is marked in the picture now, a word of `kind_word` for each thing; the robot may not count it as long as it does not watch."""
     away = NumericProperty(math.nan)
     """To the last one [m]; NaN while the robot does not know where it is."""
     angle = NumericProperty(math.nan)
@@ -111,8 +112,8 @@ class IntruderBadge(Drawing):
         """The first line."""
         if self.count < 0:
             return tr("Intruders: not reported")
-        if self.count == 0 and self.seen > 0 and self.state != "stale":
-            return tr("{seen} seen, not counted").format(seen=self.seen)
+        if self.count == 0 and self.seen and self.state != "stale":
+            return tr("Seen, not counted: {things}").format(things=things_words(self.seen))
         return (
             tr("No intruders")
             if self.count == 0
@@ -224,7 +225,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     return {
         "never": made(state="never"),
         "none": made(state="live"),
-        "none counted": made(state="live", seen=1),
+        "none counted": made(state="live", seen=["cone"]),
         "one": made((3.4, 2.4), state="live"),
         "two": made(*two, state="live"),
         "behind": made((-6.0, 0.2), state="live"),

@@ -30,6 +30,7 @@ from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
 from widgets.core.base import VEIL, fitting_size, text_texture
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, shader, tint
+from widgets.core.detected import kind_word
 from widgets.core.geometry import contain, cover
 from widgets.core.icons import icon
 from widgets.core.language import tr
@@ -234,7 +235,9 @@ class Video(Drawing):
             x1, x2 = max(x1, self.x + dp(2)), min(x2, self.right - dp(2))
             y1, y2 = min(y1, self.top - dp(2)), max(y2, self.y + dp(2))
             if x2 - x1 > 1 and y1 - y2 > 1:
-                yield draw_box(shapes, (x1, y2, x2, y1), f"{label} {score:.2f}", frame, small=small)
+                yield draw_box(
+                    shapes, (x1, y2, x2, y1), f"{kind_word(label, score)} {score:.2f}", frame, small=small
+                )
 
     def _pointers(self, shapes: Shapes) -> Iterator[Word]:
         """Over what is in the picture and not boxed there; at the edge, which way to turn for the rest."""

@@ -13,6 +13,7 @@ from app.screens.parts.placing import put
 from app.session.dashboard import AGE_STEP, Dashboard
 from app.session.session import Session
 from widgets import IntruderBadge, Video
+from widgets.core.detected import kind_word
 from widgets.core.sensor_geometry import away_text
 
 __all__ = ["IntruderOverlay"]
@@ -47,7 +48,9 @@ class IntruderOverlay(IntruderBadge):
         feeds: Feeds = self._session.feeds
         self.told = feeds.latest(FOUND) is not None
         self._show()
-        self.seen = len(self._video.boxes)
+        seen = [kind_word(label, score) for label, score, *_ in self._video.boxes]
+        if seen != self.seen:
+            self.seen = seen
         self._grow_old(feeds)
         fov, first = self._session.robot.info.camera_fov, self._session.cameras.shows_first
         self._video.field_of_view = fov if fov > 0 and first else math.nan

@@ -8,8 +8,10 @@ from app.missions.refusals import summary
 from app.screens.mission.map_pointing import MapPointing
 from app.screens.mission.mission_maps import MissionMaps
 from app.screens.mission.mission_panel import MissionPanel
+from app.screens.shell import status_text
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import RobotInfo, TaskStatus
+from widgets.core.language import tr
 from widgets.map.map_robot import corners
 
 __all__ = ["MissionOnMap"]
@@ -45,6 +47,19 @@ class MissionOnMap:
         """Bring up to date what time changes: where ways lead to depends on where the robot is."""
         if self._session.now() - self._judged >= JUDGE_PERIOD:
             self.judge()
+        if not self._maps.shown.located:
+            self._maps.shown.unplaced = self._unplaced()
+
+    def _unplaced(self) -> str:
+        """What is known of where the robot is while it has told no place on the map; empty for nothing."""
+        told, role = status_text.fix(self._session)
+        if role != "ok":
+            return ""
+        if not told.startswith("±"):
+            return tr("It has a satellite fix; its place on this map is not known yet")
+        return tr("By satellite it is known to {accuracy}; its place on this map is not yet").format(
+            accuracy=told
+        )
 
     def judge(self) -> None:
         """Say anew what the robot would refuse."""

@@ -32,6 +32,16 @@ def test_a_thing_is_reported_with_its_third_sighting_and_never_again() -> None:
     assert intruders.known[0].sightings == 20
 
 
+@pytest.mark.parametrize(("scores", "kind"), [((0.9, 0.9, 0.4), "cone"), ((0.4, 0.5, 0.7), "unknown")])
+def test_what_hardly_looks_like_a_cone_is_an_intruder_of_no_known_class(
+    scores: tuple[float, ...], kind: str
+) -> None:
+    tracker = IntruderTracker()
+    found = [tracker.update(1.0, 2.0, 3.0, 0.1 * n, score) for n, score in enumerate(scores)]
+    assert found[-1] is not None
+    assert found[-1].class_id == kind
+
+
 def test_two_things_are_numbered_in_the_order_of_their_reports() -> None:
     intruders = IntruderTracker()
     for n in range(MIN_SIGHTINGS):

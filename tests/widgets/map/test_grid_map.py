@@ -70,8 +70,8 @@ def test_a_plan_is_taken_over_and_an_empty_one_takes_it_away(map_):
 
 
 def test_intruders_are_called_as_in_the_log(map_):
-    map_.show(IntruderArray(intruders=[Intruder(id=1, position=Point(3, 4)), Intruder(id=2)]))
-    assert list(map_.intruders) == [(3, 4, "Intruder 1"), (0, 0, "Intruder 2")]
+    map_.show(IntruderArray(intruders=[Intruder(id=1, position=Point(3, 4)), Intruder(id=2, class_id="")]))
+    assert list(map_.intruders) == [(3, 4, "Intruder 1 · cone"), (0, 0, "Intruder 2 · unknown")]
 
 
 def word_box(word):

@@ -52,9 +52,9 @@ def test_that_there_is_none_is_said_quietly(stage, badge):
 
 def test_it_does_not_say_none_beside_one_that_is_marked_in_the_picture(stage, badge):
     badge.show(found())
-    badge.seen = 1
+    badge.seen = ["cone", "unknown", "cone"]
     stage.frames(2)
-    assert badge.texts[1:] == ["1 seen, not counted"]
+    assert badge.texts[1:] == ["Seen, not counted: 2 × cone, unknown"]
     badge.show(found((4.0, 0.0, 100.0)))
     stage.frames(2)
     assert badge.texts[1] == "1 intruder"

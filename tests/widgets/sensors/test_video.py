@@ -138,10 +138,10 @@ def test_a_live_picture_says_nothing(video):
 def test_boxes_that_lie_outside_the_cut_picture_are_not_drawn(video, stage):
     video.show_frame(64, 48, FRAME)
     video.state = "live"
-    video.boxes = [("left", 0.5, 0, 10, 6, 10), ("middle", 0.5, 30, 10, 6, 10)]
+    video.boxes = [("left", 0.9, 0, 10, 6, 10), ("middle", 0.9, 30, 10, 6, 10)]
     from widgets.core.shapes import Shapes
 
-    assert [word.text for word in video._box_marks(Shapes())] == ["middle 0.50"]
+    assert [word.text for word in video._box_marks(Shapes())] == ["middle 0.90"]
 
 
 def marked(stage, *marks, **more):

@@ -7,9 +7,11 @@ from typing import Any
 import pytest
 
 from bridge.msgs.arrays import Int8Array
-from bridge.msgs.geometry_msgs import Point, Pose
+from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
 from bridge.msgs.pilothouse_msgs import RobotInfo
+from bridge.msgs.sensor_msgs import NavSatFix, NavSatStatus
+from bridge.msgs.std_msgs import Header
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 
@@ -102,3 +104,28 @@ def test_without_points_start_cannot_be_pressed(driving: Glass, mission: Any) ->
     assert button.disabled
     mission.map.dispatch("on_add", *FREE)
     driving.until(lambda: not button.disabled, "cannot start")
+
+
+def test_the_map_does_not_say_that_nothing_is_known_of_its_place_beside_a_satellite_fix(
+    driving: Glass, robot: FakeRobot, mission: Any
+) -> None:
+    def said() -> str:
+        driving.stage.frames(2)
+        return next(text for text in mission.map._layers[1][1].texts if "place on this map" in text)
+
+    assert said() == "Its place on this map is not known yet"
+    fix = NavSatFix(
+        header=Header(frame_id="gps"),
+        status=NavSatStatus(status=0),
+        latitude=45.0,
+        longitude=7.0,
+        position_covariance=[0.64, *[0.0] * 8],
+        position_covariance_type=1,
+    )
+    robot.publish("/fix", fix)
+    wanted = "By satellite it is known to ±0.8 m; its place on this map is not yet"
+    driving.until(lambda: said().replace("\u00a0", " ") == wanted, "the fix is not told of")
+    robot.publish("/pose", PoseWithCovarianceStamped(pose=PoseWithCovariance(pose=Pose(Point(2.0, 3.0)))))
+    driving.until(lambda: mission.map.located, "no pose")
+    driving.stage.frames(2)
+    assert not any("place on this map" in text for text in mission.map._layers[1][1].texts)
