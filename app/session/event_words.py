@@ -50,6 +50,5 @@ def own_event(event: Event, own_id: str, gave_stop: str = "") -> Event:
 def own_reason(status: TaskStatus, own_id: str) -> TaskStatus:
     """`status` with its reason as it reads on the handheld that the robot publishes by `own_id`."""
     words = tr(_REASONS.get(status.code, "")) if own_id and status.actor_id == own_id else ""
-    return replace(
-        status, reason=words or sentence(status.code, status.parameters, status.reason)
-    )  # (status, reason=words)
+    words = words or sentence(status.code, status.parameters, status.reason)
+    return status if words == status.reason else replace(status, reason=words)
