@@ -15,7 +15,7 @@ from app.core.client_identity import client_identity
 from app.core.notifications import notify
 from app.core.preferences import Preferences
 from app.core.settings_store import Settings
-from app.device import device_name, is_android, own_folder
+from app.device import device_name, own_folder
 from app.discovery.known_robots import KnownRobots
 from app.garbage_collector import Collector
 from app.idle_work import get_ready
@@ -26,6 +26,7 @@ from app.intents.intent_executor import IntentExecutor
 from app.intents.intents import Intents
 from app.intents.method_permits import MethodPermits
 from app.layout.layout_choice import LayoutChoice
+from app.leaving import Leaving
 from app.link.feeds import Post
 from app.network_side import NetworkSide
 from app.pages import LONE, Pages, lone_page, toggle_help
@@ -131,7 +132,7 @@ class PilothouseApp(App):
         self.methods = Methods(self)
         self.fleet = self.robot_list.fleet(self.client_id)
         self.corner = StopCorner(self, self.fleet, self.say)
-        self.visit = self._make_visit()
+        self.visit, self.leaving = self._make_visit(), Leaving(self)
         self.renewal = Renewal(self)
         self.preferences.on_anew = self.renewal.ask
         root.over = self.corner.layer
@@ -215,13 +216,8 @@ class PilothouseApp(App):
         self.visit.resume()
 
     def back(self) -> bool:
-        """Back closes a question, then leaves the robot; on the connect screen it is left to the system."""
-        if self.pages.close_question() or self.pages.back():
-            return True
-        if self.session is not None:
-            self.leave()
-            return True
-        return not is_android()
+        """As `Leaving.back`."""
+        return self.leaving.back()
 
     # what comes in
 

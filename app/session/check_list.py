@@ -54,12 +54,14 @@ class CheckListState:
 
     def update(self) -> None:
         """Fold it when the robot first moves and when all has become good; called as time passes."""
-        moves, ready = self._moved or self._moves(), self.ready
+        moves, ready = self._moved or self.moves, self.ready
         if moves != self._moved or (ready and not self._was_ready):
             self._chosen = None
         self._moved, self._was_ready = moves, ready
 
-    def _moves(self) -> bool:
+    @property
+    def moves(self) -> bool:
+        """The robot is on its way or turns, by its odometry; without any, a task runs."""
         told: Odometry | None = self._feeds.latest("/odom")
         if told is None:
             return self._running()

@@ -108,7 +108,7 @@ class MoreScreen(RobotScreen):
             "theme": app.themes.choose_next,
             "people": app.shell.show_people,
             "help": lambda: toggle_help(app),
-            "leave": app.leave,
+            "leave": app.leaving.leave,
         }
         acts[name]()
 

@@ -69,6 +69,13 @@ class Visit(Protocol):
         """Start recording, or finish the one that runs."""
 
 
+class Leaving(Protocol):
+    """The ways out, as far as the frame needs them."""
+
+    def leave(self, then: Callable[[], object] | None = None) -> None:
+        """Leave the robot, where it moves after a question, and do `then`."""
+
+
 class ShellHost(Protocol):
     """The app, as far as the frame of a robot's screens needs it."""
 
@@ -80,8 +87,9 @@ class ShellHost(Protocol):
     def visit(self) -> Visit:
         """The visit to the robot."""
 
-    def leave(self) -> None:
-        """Back to the connect screen."""
+    @property
+    def leaving(self) -> Leaving:
+        """The ways out."""
 
     def show(self, screen: str) -> None:
         """Put the screen of that name on the glass."""
@@ -143,7 +151,7 @@ class Shell(FloatLayout):
     def _build_frame(self) -> None:
         """Bar, navigation, STOP and what is said over them; the ids of their parts are found here too."""
         self.bar, self.nav, self.notices = TopBar(), Rail(), Notices()
-        self.bar.bind(on_back=lambda _: self.app.leave(), on_control=lambda _: self.toggle_control())
+        self.bar.bind(on_back=lambda _: self.app.leaving.leave(), on_control=lambda _: self.toggle_control())
         self.bar.bind(on_people=lambda _: self.show_people(), on_more=lambda _: self.app.show(MORE))
         self.bar.bind(on_record=lambda _: self.app.visit.toggle_recording())
         self.bar.bind(on_mode=lambda _: self.cards.ask_mode(), on_inputs=lambda _: self.app.show_inputs())
