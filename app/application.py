@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -43,6 +44,7 @@ from app.timers import TICK_EVERY, Timers
 from widgets import CATALOGUE
 
 if TYPE_CHECKING:
+    from app.maps.maps import Maps
     from app.screens.shell.shell import Shell  # made when there is a robot, for a quick start
     from app.session.session import Session
 
@@ -110,6 +112,13 @@ class PilothouseApp(App):
     def robots(self) -> KnownRobots:
         """Every robot that is heard or saved."""
         return self.robot_list.robots
+
+    @cached_property
+    def maps(self) -> Maps:
+        """Maps of the operator's choice; made when they are first asked for, which needs what the first frame does not."""
+        from app.maps.maps import Maps
+
+        return Maps(self.settings, self.settings.path.parent)
 
     # life
 
@@ -193,6 +202,8 @@ class PilothouseApp(App):
         self.leave()
         self.fleet.close()
         self.records.stop()
+        if "maps" in vars(self):
+            self.maps.close()
         self._network.close()
         self.simulating.close()
         self.settings.close()

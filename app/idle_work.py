@@ -63,6 +63,8 @@ SOON = (
     "app.screens.mission.map_corner",
     "app.screens.mission.mission_panel",
     "app.screens.mission.mission",
+    "widgets.map.ground",
+    "widgets.map.tiles.tile_pictures",
 )
 """Modules that a robot needs, in the order in which they are imported before there is one; a screen that is seldom shown
 is not among them."""

@@ -164,7 +164,7 @@ def test_no_room_is_too_full(package):
     assert not {room: count for room, count in rooms.items() if count > MAX_MODULES}
 
 
-THREADED_WIDGETS = {"widgets/map/tile_reader.py", "widgets/map/grid_worker.py"}
+THREADED_WIDGETS = {"widgets/map/tiles/tile_reader.py", "widgets/map/grid_worker.py"}
 """Decode files and prepare grids beside the loop that draws; no widget is called from their threads."""
 
 

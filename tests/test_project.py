@@ -216,6 +216,7 @@ def test_the_widgets_of_the_documentation_are_a_program_of_the_examples():
 
 
 NAMED_OTHERWISE = {
+    "ruamel": "ruamel.yaml",
     "hibari": "hibari-tts",
     "PIL": "pillow",
     "paho": "paho-mqtt",

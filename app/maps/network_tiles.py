@@ -19,7 +19,7 @@ from app.maps.tile_address import TileAddress
 from app.maps.tile_queue import TileQueue
 from app.maps.tile_server import MAX_CONNECTIONS, NoAnswer, Tile
 from app.maps.tile_store import Stored
-from widgets.map.tile_reader import MAX_AHEAD, Key, decoded
+from widgets.map.tiles.tile_reader import MAX_AHEAD, Key, decoded
 
 __all__ = ["Kept", "NetworkTiles", "Server"]
 
@@ -49,7 +49,7 @@ class Kept(Protocol):
 
 
 class NetworkTiles:
-    """A `widgets.map.tile_pictures.Reader`. Its threads start when there is work and end when there is none."""
+    """A `widgets.map.tiles.tile_pictures.Reader`. Its threads start when there is work and end when there is none."""
 
     def __init__(
         self,

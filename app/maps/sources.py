@@ -24,7 +24,7 @@ AUTOMATIC, NO_MAP = "automatic", "none"
 MAX_SOURCES = 32
 LEAST_CACHE, USUAL_CACHE, GREATEST_CACHE = 20.0, 200.0, 4000.0
 """Of tiles that are kept [MB]."""
-USUAL_OPACITY = 0.8
+USUAL_OPACITY = 0.6
 NAME = "maps"
 
 

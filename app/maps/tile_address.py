@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from urllib.parse import urlsplit
 
 from widgets.core.language import tr
-from widgets.map.tile_reader import Key
+from widgets.map.tiles.tile_reader import Key
 
 __all__ = ["MAX_LENGTH", "TileAddress"]
 

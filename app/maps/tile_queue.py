@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from widgets.map.tile_reader import Key
+from widgets.map.tiles.tile_reader import Key
 
 __all__ = ["FIRST_PAUSE", "GREATEST_PAUSE", "TileQueue"]
 

@@ -24,7 +24,7 @@ from kivy.core.image import ImageData
 from app.maps.tile_address import TileAddress
 from app.maps.tile_store import Stored
 from widgets.core.language import tr
-from widgets.map.tile_reader import Key, decoded
+from widgets.map.tiles.tile_reader import Key, decoded
 
 __all__ = ["AGENT", "MAX_CONNECTIONS", "MAX_TILE_BYTES", "NoAnswer", "Tile", "TileServer"]
 
@@ -207,10 +207,26 @@ def _pool(own: Callable[[socket.socket], None]) -> Any:
     """urllib3's, whose every socket is told to `own`."""
     import certifi
     import urllib3
-    from urllib3.connection import HTTPConnection, HTTPSConnection
-    from urllib3.connectionpool import HTTPConnectionPool, HTTPSConnectionPool
 
     logging.getLogger("urllib3").setLevel(logging.ERROR)  # its words hold whole addresses
+    pool = urllib3.PoolManager(
+        num_pools=4,
+        maxsize=MAX_CONNECTIONS,
+        block=True,
+        timeout=urllib3.Timeout(connect=CONNECT_TIMEOUT, read=READ_TIMEOUT),
+        retries=urllib3.Retry(
+            MAX_REDIRECTS, connect=0, read=0, status=0, other=0, redirect=MAX_REDIRECTS,
+            respect_retry_after_header=False,
+        ),
+        ca_certs=certifi.where(),
+    )  # fmt: skip
+    pool.pool_classes_by_scheme = _pools(own)
+    return pool
+
+
+def _pools(own: Callable[[socket.socket], None]) -> dict[str, Any]:
+    from urllib3.connection import HTTPConnection, HTTPSConnection
+    from urllib3.connectionpool import HTTPConnectionPool, HTTPSConnectionPool
 
     class Plain(HTTPConnection):
         def connect(self) -> None:
@@ -228,24 +244,7 @@ def _pool(own: Callable[[socket.socket], None]) -> Any:
     class SecurePool(HTTPSConnectionPool):
         ConnectionCls = Secure
 
-    pool = urllib3.PoolManager(
-        num_pools=4,
-        maxsize=MAX_CONNECTIONS,
-        block=True,
-        timeout=urllib3.Timeout(connect=CONNECT_TIMEOUT, read=READ_TIMEOUT),
-        retries=urllib3.Retry(
-            total=MAX_REDIRECTS,
-            connect=0,
-            read=0,
-            status=0,
-            other=0,
-            redirect=MAX_REDIRECTS,
-            respect_retry_after_header=False,
-        ),
-        ca_certs=certifi.where(),
-    )
-    pool.pool_classes_by_scheme = {"http": PlainPool, "https": SecurePool}
-    return pool
+    return {"http": PlainPool, "https": SecurePool}
 
 
 def _why(fault: Exception, host: str) -> str:

@@ -12,7 +12,7 @@ import threading
 from dataclasses import dataclass
 from pathlib import Path
 
-from widgets.map.tile_reader import Key
+from widgets.map.tiles.tile_reader import Key
 
 __all__ = ["LOOKED_PERIOD", "Stored", "TileStore"]
 

@@ -167,7 +167,7 @@ def test_a_coarse_tile_stands_in_for_finer_ones_the_right_way_round(stage, tmp_p
 def test_pictures_beneath_a_map_turn_with_it(stage, tmp_path, turn):
     from scripts.make_mbtiles import Mercator
     from widgets.map.ground import TileGround
-    from widgets.map.mbtiles import MBTiles
+    from widgets.map.tiles.mbtiles import MBTiles
 
     grid = Mercator(DATUM, 19)
     column, row, west, north = next(grid.tiles(0.1))

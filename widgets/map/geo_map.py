@@ -25,7 +25,7 @@ from widgets.map.grid_map import fenced, patrol
 from widgets.map.ground import TileGround
 from widgets.map.map_marks import outlined
 from widgets.map.map_overlay import MapOverlay
-from widgets.map.mbtiles import MBTiles
+from widgets.map.tiles.mbtiles import MBTiles
 
 __all__ = ["GeoMap", "samples"]
 

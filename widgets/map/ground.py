@@ -21,7 +21,7 @@ from widgets.core.canvas_ink import tint
 from widgets.core.geometry import View
 from widgets.core.theme import theme
 from widgets.map.beneath import Box, Ground
-from widgets.map.tile_pictures import TilePictures
+from widgets.map.tiles.tile_pictures import TilePictures
 
 __all__ = ["PictureGround", "TileGround"]
 

@@ -30,9 +30,9 @@ class MapTools:
     """One column of buttons, as many as there is room for."""
 
     def __init__(
-        self, session: Session, look: Callable[[str], object], change_map: Callable[[], object]
+        self, session: Session, look: Callable[[str], object], show_layers: Callable[[], object]
     ) -> None:
-        """`look` calls the method of that name of the map on the glass; `change_map` shows the other map."""
+        """`look` calls the method of that name of the map on the glass; `show_layers` asks what lies beneath it."""
         self._session = session
         self.buttons: dict[str, IconButton] = {}
         """By name, in the order of the column."""
@@ -41,7 +41,7 @@ class MapTools:
             ("zoom_out", "remove", lambda: look("zoom_out")),
             ("centre", "my_location", lambda: look("centre_on_robot")),
             ("fit", "fit_screen", lambda: look("fit")),
-            ("layers", "layers", change_map),
+            ("layers", "layers", show_layers),
             ("undo", "undo", session.mission.undo),
             ("redo", "redo", session.mission.redo),
         ):
@@ -53,9 +53,9 @@ class MapTools:
         self.buttons["undo"].disabled = not self._session.mission.can_undo
         self.buttons["redo"].disabled = not self._session.mission.can_redo
 
-    def arrange(self, floats: FloatLayout, rect: Rect, dp: float, *, tall: bool, has_pictures: bool) -> None:
-        """Put them into `rect`; on a phone there are fewer, and the layers only where `has_pictures`."""
-        names = self._wanted(tall=tall, has_pictures=has_pictures)
+    def arrange(self, floats: FloatLayout, rect: Rect, dp: float, *, tall: bool, has_layers: bool) -> None:
+        """Put them into `rect`; on a phone there are fewer, and the layers only where `has_layers`."""
+        names = self._wanted(tall=tall, has_layers=has_layers)
         side = rect.width
         fit = max(1, int((rect.height + 8 * dp) // (side + 6 * dp)))
         if len(names) > fit:  # two fingers do as well
@@ -67,10 +67,10 @@ class MapTools:
                 step = (rect.height - side) / max(1, min(fit, len(names)) - 1)
                 float_over(floats, button, Rect(rect.x, rect.top - side - index * step, side, side))
 
-    def _wanted(self, *, tall: bool, has_pictures: bool) -> list[str]:
+    def _wanted(self, *, tall: bool, has_layers: bool) -> list[str]:
         names = ["centre", "layers", "undo", "redo"] if tall else list(self.buttons)
         if self._session.robot.lacks_tasks:
             names = [name for name in names if name not in ("undo", "redo")]
-        if not has_pictures:
+        if not has_layers:
             names = ["fit" if name == "layers" else name for name in names if name != "layers" or tall]
         return names

@@ -83,7 +83,7 @@ class MissionScreen(RobotScreen):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.dashboard = Dashboard(self.session.feeds)
-        self._maps = MissionMaps(self.session, self.dashboard)
+        self._maps = MissionMaps(self.session, self.dashboard, self.app.maps)
         self.video = Video(fit="cover")
         self.compass = Compass(transparent=True)
         self.panel = MissionPanel(self.session, self.dashboard)
@@ -95,7 +95,7 @@ class MissionScreen(RobotScreen):
         self.corner = self._corner.box
         """Over the map: what is selected and the check list, one above the other."""
         self.card = MapCard(self)
-        self._tools = MapTools(self.session, self._look, self.change_map)
+        self._tools = MapTools(self.session, self._look, lambda: self._maps.toggle_card(self))
         self._form, self._body, self._dp = "wide", Rect(0, 0, 1, 1), 1.0
         self._build()
         self._bind_map()
@@ -106,7 +106,7 @@ class MissionScreen(RobotScreen):
 
     @property
     def map(self) -> MapOverlay:
-        """The map on the glass: the robot's own, or the one over aerial pictures."""
+        """The map on the glass."""
         return self._maps.shown
 
     def _chain(self, first: Callable[[], object]) -> Callable[[], None]:
@@ -154,20 +154,6 @@ class MissionScreen(RobotScreen):
             empty=Detection2DArray(),
         )
 
-    def change_map(self) -> None:
-        """Change between the robot's own map and the aerial pictures; what is drawn on it stays."""
-        if not self._maps.change():
-            return
-        self.ids.ground.clear_widgets()
-        self.ids.ground.add_widget(self.map)
-        self.ids["map"] = self.map
-        self.map.mode = self.mode
-        self._rearrange()
-        self.dashboard.enter()
-        self._drawing.show_draft()
-        self._show_info(self.session.robot.info)
-        self.map.fit()
-
     # what the shell calls
 
     def arrange(self, body: Rect, form: str, dp: float) -> Rect:
@@ -189,9 +175,7 @@ class MissionScreen(RobotScreen):
         put(self.ids.handle, places.get("handle", Rect(-100, -100, 1, 1)))
         self.ids.handle.opacity = 1 if tall else 0
         self._place_tasks(places.get("tasks"))
-        self._tools.arrange(
-            self.ids.floats, places["tools"], dp, tall=tall, has_pictures=self._maps.pictures() is not None
-        )
+        self._tools.arrange(self.ids.floats, places["tools"], dp, tall=tall, has_layers=self._maps.offered)
         self._place_floats(places)
         self.notice = places["notice"]
         self._pointing.show()
@@ -299,6 +283,8 @@ class MissionScreen(RobotScreen):
         self.panel.tick()
         self.checks.tick()
         self._tools.tick()
+        if self._maps.tick(self):
+            self._rearrange()
         self._pointing.tick()
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:

@@ -1,76 +1,75 @@
-"""The map on the glass: the robot's own or the one over aerial pictures; both show the same."""
+"""The map on the glass, and what lies beneath its grid: what the operator chose and what covers the robot."""
 
 from __future__ import annotations
 
-import math
-from pathlib import Path
-
-import widgets
-from app.screens.mission.map_pointing import MapPointing
+from app.maps.ground_keeper import GroundKeeper
+from app.maps.maps import Maps
+from app.screens.mission.layers_card import LayersCard
+from app.screens.mission.map_pointing import EditedMap, MapPointing
 from app.session.dashboard import Dashboard
 from app.session.session import Session
-from bridge.core.geo import Datum
 from widgets import GridMap
-from widgets.map.map_overlay import MapOverlay
 
 __all__ = ["MissionMaps"]
 
-PICTURES = Path(widgets.__file__).parent / "data"
-"""Aerial pictures, one MBTiles file a world."""
-
 
 class MissionMaps:
-    """One map or two, of which one is shown."""
+    """One map, and the keeper of its ground."""
 
-    def __init__(self, session: Session, dashboard: Dashboard) -> None:
-        self._session, self._dashboard = session, dashboard
-        self.shown: MapOverlay = GridMap()
+    def __init__(self, session: Session, dashboard: Dashboard, maps: Maps) -> None:
+        self._dashboard = dashboard
+        self.shown = GridMap()
         """The map on the glass."""
-        self._other: MapOverlay | None = None
-        self._pointing: MapPointing | None = None
+        self.keeper = GroundKeeper(self.shown, maps, session.feeds.latest)
+        """Keeps tiles or a picture beneath it."""
+
+        self._maps, self._offered = maps, False
+        self._card: LayersCard | None = None
 
     def follow(self, pointing: MapPointing) -> None:
-        """Let the maps show what the robot says, and `pointing` do what fingers on them ask for."""
-        self._pointing = pointing
-        self._bind(self.shown, pointing)
-
-    def _bind(self, one: MapOverlay, pointing: MapPointing) -> None:
-        bind = self._dashboard.bind
+        """Let the map show what the robot says, and `pointing` do what fingers on it ask for."""
+        bind, one = self._dashboard.bind, self.shown
         pointing.follow(one)
         bind(one, "/places", lambda msg: pointing.places.show(one, msg), fresh=False)
         bind(one, "/pose", always=True)
-        for topic in (
-            "/plan",
-            "/intruders",
-            "/scan",
-            "/limits",
-            *(["/map"] if isinstance(one, GridMap) else []),
-        ):
+        for topic in ("/plan", "/intruders", "/scan", "/limits", "/map"):
             bind(one, topic, fresh=False)
 
-    def pictures(self) -> Path | None:
-        """The file with aerial pictures of this robot's world; None when there is none or its place is unknown."""
-        info = self._session.robot.info
-        path = PICTURES / f"{info.world}.mbtiles"
-        return path if math.isfinite(info.latitude) and info.world and path.is_file() else None
+    @property
+    def offered(self) -> bool:
+        """There is something to be chosen to lie beneath the map."""
+        return self.keeper.place.datum is not None or bool(self.keeper.covering())
+
+    def tick(self, screen: EditedMap) -> bool:
+        """Bring what lies beneath the map up to date, and say once where that goes wrong; True where `offered` changed."""
+        self.keeper.look()
+        if self._card is not None and self._card.parent is not None:
+            self._card.tick()
+        shell = screen.app.shell
+        if shell is not None and (trouble := self.keeper.news()):
+            shell.say(trouble, "warn", about="map")
+        before, self._offered = self._offered, self.offered
+        return self._offered != before
+
+    def toggle_card(self, screen: EditedMap) -> None:
+        """Ask on a card what lies beneath the map, or do not any more."""
+        if self._card is None:
+            card = self._card = LayersCard(self._maps, self.keeper, lambda: self.shown)
+            card.bind(on_shut=lambda _: screen.show_card(None), on_setup=lambda _: _set_up(screen))
+        if self._card.parent is not None:
+            screen.show_card(None)
+            return
+        self._card.open()
+        screen.show_card(self._card)
 
     def end(self) -> None:
-        """End the thread that reads aerial pictures."""
-        for one in (self.shown, self._other):
-            if one is not None:
-                one.close()
+        """End the reading of what lies beneath the map."""
+        self.keeper.close()
+        self.shown.close()
 
-    def change(self) -> bool:
-        """Show the other map; False when there is only one."""
-        pictures = self.pictures()
-        if self._other is None and pictures is not None and self._pointing is not None:
-            from widgets import GeoMap
 
-            info = self._session.robot.info
-            other = self._other = GeoMap(tiles=str(pictures), datum=Datum(info.latitude, info.longitude))
-            self._bind(other, self._pointing)
-        if self._other is None:
-            return False
-        self.shown.let_go()
-        self.shown, self._other = self._other, self.shown
-        return True
+def _set_up(screen: EditedMap) -> None:
+    """Where maps are added and taken away."""
+    screen.show_card(None)
+    screen.app.show("setup")
+    screen.app.screens["setup"].open("maps")

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from app.inputs.methods import Methods
+from app.maps.maps import Maps
 from app.screens.shell.shell import Shell, Visit
 from app.session.recordings import Recordings
 
@@ -17,6 +18,7 @@ class ScreenHost(Protocol):
 
     methods: Methods
     records: Recordings
+    maps: Maps
 
     @property
     def visit(self) -> Visit:

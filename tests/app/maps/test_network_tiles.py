@@ -10,7 +10,7 @@ from app.maps.tile_address import TileAddress
 from app.maps.tile_queue import FIRST_PAUSE
 from app.maps.tile_server import MAX_CONNECTIONS, NoAnswer, Tile
 from app.maps.tile_store import Stored
-from widgets.map.tile_reader import MAX_AHEAD
+from widgets.map.tiles.tile_reader import MAX_AHEAD
 
 A, B = (3, 1, 2), (3, 2, 2)
 ADDRESS = TileAddress("https://a.org/{z}/{x}/{y}.png")

@@ -11,7 +11,7 @@ from kivy.core.image import ImageData
 from kivy.graphics.texture import Texture
 from kivy_garden.mapview.source import MapSource
 
-from widgets.map.tile_reader import Key
+from widgets.map.tiles.tile_reader import Key
 
 __all__ = ["MAX_TILES_PER_FRAME", "Reader", "TilePictures"]
 
@@ -77,6 +77,11 @@ class TilePictures(MapSource):
         self._waiting: list[Any] = []
         self._closed = False
         self._next_frame = Clock.create_trigger(lambda _: self._serve(), poll_period)
+
+    @property
+    def reader(self) -> Reader:
+        """Where its tiles come from."""
+        return self._reader
 
     @property
     def refused(self) -> int:

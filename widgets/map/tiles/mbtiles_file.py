@@ -1,47 +1,19 @@
-"""Tiles of an MBTiles file for mapview: read by one thread, without a download and without a folder of copies.
-
-mapview 1.0.6 has a source of its own that fails on a file with `bounds` and shows one file's tiles for
-another's; this one does neither.
-"""
+"""What an MBTiles file says about itself; no map is drawn here, and nothing of mapview is imported."""
 
 from __future__ import annotations
 
 import math
 import sqlite3
-from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 
-from kivy.core.image import ImageData
-
 from widgets.core.language import tr
-from widgets.map.tile_pictures import TilePictures
-from widgets.map.tile_reader import TileReader
 
-__all__ = ["MBTiles", "metadata"]
+__all__ = ["box_of", "metadata", "zooms_of"]
 
 WORLD = (-180.0, -85.0, 180.0, 85.0)
 MAX_ZOOM = 24
 FORMATS = ("png", "jpg", "jpeg", "webp")
-
-
-class MBTiles(TilePictures):
-    """One file. ValueError, in one sentence, when it is not there or holds no pictures."""
-
-    def __init__(self, path: Path, decode: Callable[[object], ImageData] | None = None) -> None:
-        """`decode` makes pixels of a tile's file, in the thread that reads; Kivy's own decoder unless given."""
-        self.path = path
-        about = metadata(path)
-        zooms = _zooms(path, about)
-        super().__init__(
-            TileReader(path, decode),
-            name=str(path),
-            zooms=zooms,
-            image_ext="png" if about["format"] == "png" else "jpg",
-            attribution=about.get("attribution", ""),
-        )
-        self.box = _box(path, about)
-        """West, south, east, north of what it shows [deg]."""
 
 
 def metadata(path: Path) -> dict[str, str]:
@@ -65,7 +37,8 @@ def metadata(path: Path) -> dict[str, str]:
     return about
 
 
-def _zooms(path: Path, about: dict[str, str]) -> tuple[int, int]:
+def zooms_of(path: Path, about: dict[str, str]) -> tuple[int, int]:
+    """Its first and its last zoom level; ValueError for what is none."""
     try:
         least, most = int(about["minzoom"]), int(about["maxzoom"])
     except ValueError:
@@ -78,7 +51,8 @@ def _zooms(path: Path, about: dict[str, str]) -> tuple[int, int]:
     return least, most
 
 
-def _box(path: Path, about: dict[str, str]) -> tuple[float, float, float, float]:
+def box_of(path: Path, about: dict[str, str]) -> tuple[float, float, float, float]:
+    """West, south, east and north of what it covers [deg]; ValueError for what is none."""
     if "bounds" not in about:
         return WORLD
     try:

@@ -15,7 +15,7 @@ from kivy.core.image import ImageData, ImageLoader
 from bridge.core.camera_frames import picture_size
 from bridge.core.errors import ProtocolError
 
-__all__ = ["MAX_AHEAD", "MAX_TILE_SIDE", "Key", "TileReader", "decoded", "tile_size"]
+__all__ = ["MAX_AHEAD", "MAX_TILE_SIDE", "Key", "TileReader", "decoded", "pixels_of", "tile_size"]
 
 log = logging.getLogger(__name__)
 
@@ -135,7 +135,11 @@ def decoded(data: object) -> ImageData:
     kind, columns, rows = tile_size(data)
     if max(columns, rows) > MAX_TILE_SIDE:
         raise ProtocolError(f"A tile has at most {MAX_TILE_SIDE} px a side, not {columns} x {rows}.")
-    ext = {"png": "png", "webp": "webp"}.get(kind, "jpg")
+    return pixels_of(data, {"png": "png", "webp": "webp"}.get(kind, "jpg"))
+
+
+def pixels_of(data: bytes, ext: str = "png") -> ImageData:
+    """Pixels of a picture whose size was looked at, by Kivy's own decoder, in any thread; it raises what it likes."""
     able = next(each for each in ImageLoader.loaders if each.can_load_memory() and ext in each.extensions())
     loaded = able(f"tile.{ext}", ext=ext, rawdata=io.BytesIO(data), inline=True, nocache=True, keep_data=True)
     pixels: ImageData = loaded._data[0]  # noqa: SLF001 - the public way makes a texture, which only the UI thread may

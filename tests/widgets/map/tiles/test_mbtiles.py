@@ -11,11 +11,11 @@ import pytest
 from kivy.core.image import ImageData
 from PIL import Image
 
-from widgets.map.mbtiles import MBTiles
-from widgets.map.tile_pictures import MAX_TILES_PER_FRAME
-from widgets.map.tile_reader import MAX_AHEAD, MAX_TILE_SIDE, decoded, tile_size
+from widgets.map.tiles.mbtiles import MBTiles
+from widgets.map.tiles.tile_pictures import MAX_TILES_PER_FRAME
+from widgets.map.tiles.tile_reader import MAX_AHEAD, MAX_TILE_SIDE, decoded, tile_size
 
-SHIPPED = Path(__file__).parents[3] / "widgets/data/parking_lot.mbtiles"
+SHIPPED = Path(__file__).parents[4] / "widgets/data/parking_lot.mbtiles"
 PLAIN = {"format": "png", "minzoom": "3", "maxzoom": "5"}
 
 

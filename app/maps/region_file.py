@@ -1,0 +1,115 @@
+"""The file of one offline region: MBTiles, as any other program reads it, with what is needed to go on with its download."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import sqlite3
+import threading
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TypeVar
+
+from app.maps.map_source import Box, Source
+from app.maps.tile_store import Stored
+from widgets.map.tiles.mbtiles_file import metadata
+from widgets.map.tiles.tile_reader import Key
+
+__all__ = ["GOOD_FOR", "RegionFile"]
+
+P = TypeVar("P")
+
+GOOD_FOR = 30 * 86400.0
+"""How long a tile of a region is shown without asking the server for a newer one [s]."""
+TABLES = """
+CREATE TABLE metadata (name TEXT PRIMARY KEY, value TEXT);
+CREATE TABLE tiles (zoom_level INTEGER, tile_column INTEGER, tile_row INTEGER, tile_data BLOB,
+  PRIMARY KEY (zoom_level, tile_column, tile_row)) WITHOUT ROWID;
+CREATE TABLE pilothouse_gaps (zoom_level INTEGER, tile_column INTEGER, tile_row INTEGER,
+  PRIMARY KEY (zoom_level, tile_column, tile_row)) WITHOUT ROWID;
+"""
+
+
+class RegionFile:
+    """Every method may be called from any thread."""
+
+    def __init__(self, path: Path, about: Mapping[str, str]) -> None:
+        self.path, self.about = path, about
+        self._lock = threading.Lock()
+
+    @classmethod
+    def made(cls, path: Path, source: Source, name: str, plan: object) -> RegionFile:
+        """A new file with nothing in it; sqlite3.Error or OSError where it cannot be."""
+        box, least, most = plan.box, plan.least, plan.most  # type: ignore[attr-defined]
+        about = {
+            "name": name,
+            "format": "png",
+            "minzoom": str(least),
+            "maxzoom": str(most),
+            "bounds": ",".join(f"{side:.7f}" for side in box),
+            "attribution": source.attribution,
+            "type": "baselayer",
+            "pilothouse_source": source.id,
+            "pilothouse_box": json.dumps(box),
+        }
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with contextlib.closing(sqlite3.connect(path)) as file, file:
+            file.executescript(TABLES)
+            file.executemany("INSERT INTO metadata VALUES (?, ?)", about.items())
+        return cls(path, about)
+
+    @classmethod
+    def opened(cls, path: Path) -> RegionFile:
+        """A file of an earlier session; ValueError or KeyError for one that is none of ours."""
+        about = metadata(path)
+        _ = about["name"], about["pilothouse_source"], _box(about)
+        return cls(path, about)
+
+    def plan(self, make: Callable[[Box, int, int], P]) -> P:
+        """What it is to hold."""
+        return make(_box(self.about), int(self.about["minzoom"]), int(self.about["maxzoom"]))
+
+    def keys(self) -> set[Key]:
+        """The tiles that are here, or that the server does not have."""
+        columns = "zoom_level, tile_column, tile_row"
+        with self._open() as file:
+            rows = file.execute(f"SELECT {columns} FROM tiles UNION SELECT {columns} FROM pilothouse_gaps")  # noqa: S608
+            return {(zoom, column, row) for zoom, column, row in rows}
+
+    def count(self) -> int:
+        """How many those are."""
+        with self._open() as file:
+            both = "SELECT (SELECT COUNT(*) FROM tiles) + (SELECT COUNT(*) FROM pilothouse_gaps)"
+            return int(file.execute(both).fetchone()[0])
+
+    def put(self, tile: Key, data: bytes | None) -> None:
+        """Keep a tile, or that there is none."""
+        with self._lock, self._open() as file, file:
+            if data is None:
+                file.execute("INSERT OR REPLACE INTO pilothouse_gaps VALUES (?, ?, ?)", tile)
+            else:
+                file.execute("INSERT OR REPLACE INTO tiles VALUES (?, ?, ?, ?)", (*tile, data))
+
+    def get(self, tile: Key) -> Stored | None:
+        """That tile; None where it is not here."""
+        where = "zoom_level=? AND tile_column=? AND tile_row=?"
+        try:
+            with self._open() as file:
+                row = file.execute(f"SELECT tile_data FROM tiles WHERE {where}", tile).fetchone()  # noqa: S608
+            fetched = self.path.stat().st_mtime
+        except (sqlite3.Error, OSError):
+            return None  # deleted, or damaged: the network has it
+        return Stored(bytes(row[0]), expires=fetched + GOOD_FOR) if row else None
+
+    def delete(self) -> None:
+        """Delete the file."""
+        with self._lock, contextlib.suppress(OSError):
+            self.path.unlink()
+
+    def _open(self) -> contextlib.closing[sqlite3.Connection]:
+        return contextlib.closing(sqlite3.connect(f"{self.path.absolute().as_uri()}?mode=rw", uri=True))
+
+
+def _box(about: Mapping[str, str]) -> Box:
+    west, south, east, north = (float(side) for side in json.loads(about["pilothouse_box"]))
+    return west, south, east, north

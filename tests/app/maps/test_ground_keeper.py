@@ -1,0 +1,148 @@
+from __future__ import annotations
+
+import math
+import shutil
+import threading
+from pathlib import Path
+
+import pytest
+
+import widgets
+from app.core.settings_store import Settings
+from app.maps.ground_keeper import GroundKeeper
+from app.maps.maps import KeptTiles, Maps, described
+from app.maps.sources import NO_MAP
+from app.maps.tile_store import Stored
+from bridge.msgs.pilothouse_msgs import RobotInfo
+from tests.app.maps.test_floor_plan import write as write_plan
+from widgets.map.ground import PictureGround, TileGround
+
+SHIPPED = Path(widgets.__file__).parent / "data" / "parking_lot.mbtiles"
+HERE = RobotInfo(latitude=45.5069, longitude=-73.579)
+
+
+class Map:
+    ground = None
+    ground_opacity = 1.0
+
+
+@pytest.fixture
+def maps(tmp_path, stage):
+    before = threading.active_count()
+    settings = Settings(tmp_path)
+    made = Maps(settings, tmp_path)
+    yield made
+    made.close()
+    settings.close()
+    assert threading.active_count() == before
+
+
+@pytest.fixture
+def told():
+    return {}
+
+
+@pytest.fixture
+def keeper(maps, told):
+    made = GroundKeeper(Map(), maps, told.get)
+    yield made
+    made.close()
+
+
+def read(keeper):
+    keeper.look()
+    while keeper._reading is not None:
+        keeper.look()
+
+
+def test_nothing_lies_beneath_a_map_before_it_is_known_where_it_is(keeper, told):
+    keeper.look()
+    assert (keeper.source, keeper._map.ground) == (None, None)
+    told["/robot/info"] = HERE
+    keeper.look()
+    assert isinstance(keeper._map.ground, TileGround)
+    first = keeper._map.ground
+    keeper.look()
+    assert keeper._map.ground is first, "nothing changed"
+
+
+def test_nothing_is_asked_of_the_network_before_an_operator_gave_an_address(keeper, told, maps, monkeypatch):
+    monkeypatch.setattr(maps.server, "fetch", lambda *_: pytest.fail("a tile was asked for"))
+    told["/robot/info"] = HERE
+    keeper.look()
+    keeper._map.ground.finish()
+    assert not maps.folder.exists(), "and nothing is kept"
+
+
+def test_a_robot_that_comes_to_be_elsewhere_has_the_map_of_that_place(keeper, told):
+    told["/robot/info"] = HERE
+    keeper.look()
+    ground = keeper._map.ground
+    told["/robot/info"] = RobotInfo(latitude=47.0, longitude=8.0)
+    keeper.look()
+    assert keeper._map.ground is None
+    assert ground.source.reader._closed
+
+
+def test_a_floor_plan_is_read_in_a_thread_and_lies_in_the_frame_of_the_map(keeper, maps, tmp_path):
+    maps.sources.put(described(write_plan(tmp_path)))
+    read(keeper)
+    assert isinstance(keeper._map.ground, PictureGround)
+    assert keeper._map.ground.corners[1] == (1.0, 2.0)
+    assert keeper.trouble == ""
+
+
+def test_a_file_that_went_away_is_said_once(keeper, maps, told, tmp_path):
+    told["/robot/info"] = HERE
+    copy = shutil.copy(SHIPPED, tmp_path / "town.mbtiles")
+    maps.sources.put(described(copy))
+    copy.unlink()
+    keeper.look()
+    assert keeper._map.ground is None
+    assert "cannot be read as an MBTiles file" in keeper.news()
+    keeper.look()
+    assert keeper.news() == ""
+    assert "cannot be read" in keeper.trouble
+
+
+def test_a_plan_that_was_damaged_since_it_was_added_is_said(keeper, maps, tmp_path):
+    path = write_plan(tmp_path)
+    maps.sources.put(described(path))
+    (tmp_path / "a.pgm").write_bytes(b"words")
+    read(keeper)
+    assert "is no PGM, PNG or JPEG picture" in keeper.news()
+
+
+def test_what_is_chosen_and_how_plainly_it_is_seen_holds_at_the_next_look(keeper, maps, told):
+    told["/robot/info"] = HERE
+    maps.sources.set_opacity(0.3)
+    keeper.look()
+    assert keeper._map.ground_opacity == 0.3
+    maps.sources.choose(NO_MAP)
+    keeper.look()
+    assert keeper._map.ground is None
+
+
+def test_a_file_is_described_by_what_it_holds(tmp_path):
+    source = described(SHIPPED)
+    assert (source.kind, source.min_zoom, source.max_zoom) == ("mbtiles", 17, 22)
+    assert source.covers(45.5069, -73.579)
+    assert not source.covers(47.0, 8.0)
+    plan = described(write_plan(tmp_path))
+    assert (plan.kind, plan.name, plan.covers(math.nan, math.nan)) == ("map_server", "a", True)
+    with pytest.raises(ValueError, match=r"notes.txt is no map: .mbtiles, .tif"):
+        described(tmp_path / "notes.txt")
+
+
+def test_a_tile_of_an_offline_region_is_there_without_the_network_and_a_newer_one_wins(maps):
+    class Region:
+        class file:
+            @staticmethod
+            def get(tile):
+                return Stored(b"region", expires=100.0)
+
+    kept = KeptTiles("s", maps.store, [Region])
+    assert kept.get((1, 0, 0), 50.0).data == b"region"
+    kept.put((1, 0, 0), Stored(b"newer", expires=80.0), 50.0)
+    assert kept.get((1, 0, 0), 50.0).data == b"newer"
+    assert kept.get((1, 0, 0), 90.0).data == b"region"

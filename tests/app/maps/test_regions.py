@@ -1,0 +1,161 @@
+from __future__ import annotations
+
+import sqlite3
+import threading
+from contextlib import closing
+
+import pytest
+
+from app.maps.map_source import URL, Source
+from app.maps.regions import MAX_FAILED_IN_ROW, MAX_TILES, RegionPlan, Regions
+from app.maps.tile_server import NoAnswer, Tile
+from app.maps.tile_store import Stored
+
+STREETS = Source("s", URL, "Streets", "https://a.org/{z}/{x}/{y}.png", "© A")
+PLAN = RegionPlan((8.0, 47.0, 8.05, 47.05), 10, 13)
+
+
+class Server:
+    """Answers with a tile, as often as it may; then it hangs until it may again."""
+
+    def __init__(self) -> None:
+        self.may = threading.Semaphore(10_000)
+        self.asked: list[tuple[int, int, int]] = []
+        self.faults: list[NoAnswer] = []
+        self.gaps: set[tuple[int, int, int]] = set()
+
+    def fetch(self, address, tile, kept=None):
+        self.may.acquire()
+        self.asked.append(tile)
+        if self.faults:
+            raise self.faults.pop()
+        return Tile(Stored(None if tile in self.gaps else b"picture"), None)
+
+
+@pytest.fixture
+def waits():
+    return []
+
+
+@pytest.fixture
+def regions(tmp_path, waits):
+    def wait(stop, seconds):
+        waits.append(seconds)
+        return stop.is_set()
+
+    made = Regions(tmp_path, wait)
+    yield made
+    made.close()
+
+
+def test_a_plan_has_the_tiles_of_the_box_level_by_level():
+    assert list(RegionPlan((-180.0, -85.0, 180.0, 85.0), 0, 1).tiles()) == [
+        (0, 0, 0), (1, 0, 0), (1, 0, 1), (1, 1, 0), (1, 1, 1)
+    ]  # fmt: skip
+    assert PLAN.count == len(list(PLAN.tiles())) == len(set(PLAN.tiles()))
+    assert PLAN.size == PLAN.count * PLAN.bytes_each
+
+
+def test_a_plan_may_cross_the_date_line():
+    tiles = list(RegionPlan((179.0, -1.0, -179.0, 1.0), 8, 8).tiles())
+    assert {column for _, column, _ in tiles} == {255, 0}
+
+
+def test_more_tiles_than_are_polite_are_refused_in_one_sentence(regions):
+    plan = RegionPlan((8.0, 47.0, 8.5, 47.5), 10, 18)
+    with pytest.raises(
+        ValueError, match=rf"These are {plan.count} tiles; a region has at most {MAX_TILES}\. Choose"
+    ):
+        regions.begin(STREETS, "All", plan, Server())
+    assert regions.all == []
+
+
+def test_a_download_becomes_an_mbtiles_file_that_any_program_reads(regions, stage):
+    from widgets.map.tiles.mbtiles import MBTiles
+
+    server = Server()
+    region = regions.begin(STREETS, "Harbour & more", PLAN, server)
+    region.wait()
+    assert (region.state, region.done, region.problem) == ("done", PLAN.count, "")
+    assert region.file.path.name.startswith("harbour-more-")
+    tiles = MBTiles(region.file.path)
+    assert (tiles.min_zoom, tiles.max_zoom, tiles.attribution) == (10, 13, "© A")
+    with closing(sqlite3.connect(region.file.path)) as file:
+        assert file.execute("SELECT COUNT(*) FROM tiles").fetchone() == (PLAN.count,)
+    tiles.close()
+    assert region.file.get(next(PLAN.tiles())).data == b"picture"
+    assert region.file.get((3, 1, 1)) is None
+
+
+def test_a_pause_keeps_what_is_here_and_a_restart_goes_on_from_there(regions, tmp_path, waits):
+    server = Server()
+    server.may = threading.Semaphore(5)
+    region = regions.begin(STREETS, "Harbour", PLAN, server)
+    while region.done < 5:
+        pass
+    region.pause()
+    assert region.state == "paused"
+    server.may.release()  # the tile at work
+    region.wait()
+    again = Regions(tmp_path)
+    (kept,) = again.of("s")
+    assert (kept.name, kept.state, kept.done) == ("Harbour", "paused", 6)
+    other = Server()
+    kept.resume(STREETS, other)
+    kept.wait()
+    assert (kept.state, len(other.asked)) == ("done", PLAN.count - 6)
+    assert Regions(tmp_path).all[0].state == "done"
+
+
+def test_a_tile_that_fails_is_tried_again_later_with_longer_and_longer_pauses(regions, waits):
+    server = Server()
+    server.faults = [NoAnswer("Slow.", 50.0), NoAnswer("Slow."), NoAnswer("Slow.")]
+    region = regions.begin(STREETS, "Harbour", PLAN, server)
+    region.wait()
+    assert region.state == "done"
+    assert waits == [2.0, 4.0, 50.0]
+
+
+def test_a_server_that_goes_on_failing_stops_the_download_which_says_why_and_can_go_on(regions):
+    server = Server()
+    server.faults = [NoAnswer("It is gone.")] * MAX_FAILED_IN_ROW
+    region = regions.begin(STREETS, "Harbour", PLAN, server)
+    region.wait()
+    assert (region.state, region.problem) == ("failed", "It is gone.")
+    region.resume(STREETS, server)
+    region.wait()
+    assert (region.state, region.problem) == ("done", "")
+
+
+def test_tiles_that_a_server_does_not_have_count_as_done_and_are_not_asked_for_again(regions, tmp_path):
+    server = Server()
+    server.gaps = set(PLAN.tiles())
+    region = regions.begin(STREETS, "Sea", PLAN, server)
+    region.wait()
+    assert Regions(tmp_path).all[0].state == "done"
+    assert region.file.get(next(PLAN.tiles())) is None
+
+
+def test_deleting_takes_the_file_away_even_in_the_middle_of_a_download(regions):
+    server = Server()
+    server.may = threading.Semaphore(2)
+    region = regions.begin(STREETS, "Harbour", PLAN, server)
+    while region.done < 2:
+        pass
+    regions.delete(region)
+    server.may.release(10_000)
+    region.wait()
+    assert regions.all == []
+    assert not region.file.path.exists()
+
+
+def test_a_file_that_is_no_region_is_left_out(regions, tmp_path, caplog):
+    (tmp_path / "x.mbtiles").write_text("no database")
+    assert regions.all == []
+    assert "is no offline region" in caplog.text
+
+
+def test_where_nothing_can_be_kept_it_is_one_sentence(tmp_path):
+    (tmp_path / "regions").write_text("a file where the folder should be")
+    with pytest.raises(ValueError, match="The region cannot be kept"):
+        Regions(tmp_path / "regions").begin(STREETS, "Harbour", PLAN, Server())

@@ -1,0 +1,1 @@
+"""Tiles of maps: read, decoded and made into textures."""
