@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from widgets.instruments.readout import Readout as Readout
     from widgets.instruments.roll_pitch import RollPitch as RollPitch
     from widgets.instruments.rotor_speeds import RotorSpeeds as RotorSpeeds
+    from widgets.instruments.turn_tape import TurnTape as TurnTape
     from widgets.map.geo_map import GeoMap as GeoMap
     from widgets.map.grid_map import GridMap as GridMap
     from widgets.parts.option_list import OptionList as OptionList
@@ -58,6 +59,7 @@ if TYPE_CHECKING:
     from widgets.sensors.ultrasound import UltrasoundView as UltrasoundView
     from widgets.sensors.video import Video as Video
     from widgets.status.check_list import CheckList as CheckList
+    from widgets.status.diagnostics_tree import DiagnosticsTree as DiagnosticsTree
     from widgets.status.event_log import EventLog as EventLog
     from widgets.status.handover_card import HandoverCard as HandoverCard
     from widgets.status.intent_card import IntentCard as IntentCard
@@ -150,6 +152,8 @@ CATALOGUE: dict[str, str] = {
     "TickBox": "widgets.controls.signals.tick_box",
     "MomentaryButton": "widgets.controls.signals.momentary_button",
     "Lamp": "widgets.instruments.lamp",
+    "TurnTape": "widgets.instruments.turn_tape",
+    "DiagnosticsTree": "widgets.status.diagnostics_tree",
 }
 """Class name of each widget to the module that holds it; the module's `samples()` shows its states."""
 
