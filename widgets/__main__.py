@@ -7,6 +7,8 @@ import os
 import sys
 from pathlib import Path
 
+from widgets.core.language import LANGUAGES, language
+
 OFFSCREEN = {
     "SDL_VIDEODRIVER": "offscreen",
     "SDL_AUDIODRIVER": "dummy",
@@ -28,7 +30,11 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument(
         "--pictures", "--out", type=Path, metavar="DIR", help="folder for PNG files and index.html"
     )
+    parser.add_argument(
+        "--language", default="en", choices=LANGUAGES, help="of what the widgets say; en_XA is longer English"
+    )
     options = parser.parse_args(arguments)
+    language.name = options.language
     prepare(offscreen=options.pictures is not None)
     from widgets import gallery
 

@@ -45,13 +45,15 @@ MIN_AGE_SIDE = 110
 MIN_FONT_SIZE = 14.0
 """Smallest type that anything is written in [sp]."""
 
+STOP = "STOP"
+"""The same in every language, as on the buttons of machines."""
 PHASES = {
-    "ready": ("STOP", "", "pan_tool_fill"),
-    "sent": ("STOP", mark("sent, not confirmed"), "pan_tool_fill"),
+    "ready": (STOP, "", "pan_tool_fill"),
+    "sent": (STOP, mark("sent, not confirmed"), "pan_tool_fill"),
     "stopped": (mark("STOPPED"), mark("hold to release"), "lock"),
-    "moves": ("STOP", mark("pressed, still moving"), "warning"),
-    "no_answer": ("STOP", mark("no answer, sending again"), "signal_disconnected"),
-    "lost": ("STOP", mark("no link, was STOPPED"), "signal_disconnected"),
+    "moves": (STOP, mark("pressed, still moving"), "warning"),
+    "no_answer": (STOP, mark("no answer, sending again"), "signal_disconnected"),
+    "lost": (STOP, mark("no link, was STOPPED"), "signal_disconnected"),
 }
 """Phase to its word, its sentence and its icon."""
 LOCAL = {
@@ -164,7 +166,8 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
     icon = AliasProperty(_icon, bind=["phase"], cache=True)
 
     def _word(self) -> str:
-        return spaced(tr(PHASES[self.phase][0]))
+        word = PHASES[self.phase][0]
+        return spaced(word if word == STOP else tr(word))
 
     word = AliasProperty(_word, bind=["phase"], cache=True)
 
