@@ -135,7 +135,8 @@ def place_marks(
         inner = [(px + (cx - px) * 0.84, py + (cy - py) * 0.84) for cx, cy in corners]
         shapes.polygon(inner, theme.bg)
         sign = KINDS.get(kind, KINDS["place"])[0]
-        yield Word(icon(sign), px, py, size * 1.35, theme.accent, font=theme.icons)
+        if kind:  # one without a kind has a waypoint's number over it
+            yield Word(icon(sign), px, py, size * 1.35, theme.accent, font=theme.icons)
         label, low = name if len(name) <= SHORT else f"{name[: SHORT - 1]}…", py - size - dp(9)
         half = text_texture(label, round(sp(13), 1), bold=True).width / 2 + dp(3)
         if all(abs(px - ox) > half + wide or abs(low - oy) > dp(17) for ox, oy, wide in named):

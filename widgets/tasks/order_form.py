@@ -13,9 +13,7 @@ from collections.abc import Callable
 from typing import Any
 
 from kivy.lang import Builder
-from kivy.properties import (
-    StringProperty,
-)
+from kivy.properties import BooleanProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
@@ -88,10 +86,12 @@ class OrderForm(OrderDraft, BoxLayout):
     """
 
     accepts = (TaskOrder, PlaceArray, Mission, PoseWithCovarianceStamped)
-    __events__ = ("on_react",)
+    __events__ = ("on_react", "on_map")
 
     picking = StringProperty("")
     """The field that a place is being chosen for; empty for none."""
+    has_map = BooleanProperty(False)
+    """A map can be opened to choose places on: there is a button for it, which dispatches `on_map`."""
 
     def __init__(self, **kwargs: Any) -> None:
         self.list = PlaceList()
@@ -105,7 +105,7 @@ class OrderForm(OrderDraft, BoxLayout):
         self._roll = self.ids.roll.__self__
         self.list.bind(on_command=lambda _, place: self.pick(place))
         self.dial.bind(on_command=lambda _, yaw: self.set(heading=yaw))
-        self.bind(robot=self._build)
+        self.bind(robot=self._build, has_map=self._build)
         self._build()
 
     # what comes in
@@ -151,6 +151,27 @@ class OrderForm(OrderDraft, BoxLayout):
         field, self.picking = self.picking, ""
         self._put(field, place.name)
 
+    @property
+    def takes_places(self) -> bool:
+        """The task goes to places that have names."""
+        return any(field in ASKS for field in self._fields()) or "points" in self._fields()
+
+    def choose(self, place: Place) -> None:
+        """Take a place that was tapped on a map: for the field that is asked for, else the first open one, else the last."""
+        if self.picking:
+            self.pick(place)
+            return
+        slots = [field for field in self._fields() if field in SLOTS]
+        asked = [field for field in slots if field not in OPTIONAL] or slots
+        if asked:
+            names = [self.places[at] if at < len(self.places) else "" for at in range(len(asked))]
+            self._put(
+                next((field for field, name in zip(asked, names, strict=True) if not name), asked[-1]),
+                place.name,
+            )
+        elif self.takes_places:
+            self._put("stops", place.name)
+
     def _put(self, field: str, name: str) -> None:
         places = list(self.places)
         if field == "stops":
@@ -174,6 +195,9 @@ class OrderForm(OrderDraft, BoxLayout):
         self._build()
         return True
 
+    def on_map(self) -> None:
+        """A finger wants to choose on the map."""
+
     def on_react(self, reaction: str) -> None:
         """A finger chose what a patrol does about an intruder: `stop`, `report` or `circle`."""
 
@@ -193,6 +217,17 @@ class OrderForm(OrderDraft, BoxLayout):
         for field in self._fields():
             for widget in self._field(field):
                 column.add_widget(widget)
+            if self.has_map and field == self._last_of_places():
+                column.add_widget(self._map_button())
+
+    def _last_of_places(self) -> str:
+        found = [field for field in self._fields() if field in ASKS or field == "points"]
+        return found[-1] if found else ""
+
+    def _map_button(self) -> QuietButton:
+        button = QuietButton(text=tr("Choose on the map"), icon="map")
+        button.bind(on_release=lambda _: self.dispatch("on_map"))
+        return button
 
     def _build_picking(self) -> None:
         row = FormRow(title=tr(ASKS[self.picking][1]))

@@ -53,6 +53,8 @@ class MapPlaces:
         """The place whose position the next tap says; None for a new one."""
         self._mode = ""
         """What a finger did before that, and does again after it; empty where it does the same."""
+        self._choose: Callable[[Place], object] | None = None
+        """Gets the place that the next tap on one chooses; None while none is to be chosen."""
         self._card: PlaceCard | None = None
 
     @property
@@ -77,6 +79,8 @@ class MapPlaces:
     @property
     def asks(self) -> str:
         """What a tap on the map is wanted for, as a sentence; empty where it is for nothing in particular."""
+        if self._choose is not None:
+            return tr("Tap the place to choose.")
         return tr("Tap where {place} is.").format(place=self._moving.name) if self._moving is not None else ""
 
     # what comes in
@@ -112,7 +116,7 @@ class MapPlaces:
 
     def point(self, x: float, y: float) -> None:
         """A finger pointed at (x, y) in `map` [m]: there is a new place, or the one that is asked for or moved."""
-        if not self._session.robot.offers("/places/set"):
+        if self._choose is not None or not self._session.robot.offers("/places/set"):
             return
         if self.open:
             self.card.move_to(x, y)
@@ -129,6 +133,11 @@ class MapPlaces:
         if index >= len(self._told.places):
             return  # the one that is being made
         place = self._told.places[index]
+        if self._choose is not None:
+            chosen, self._choose = self._choose, None
+            self._screen.mode, self._mode = self._mode, ""
+            chosen(place)
+            return
         if self._moving is not None or (self.open and self.card.edited):
             self.point(place.x, place.y)  # a place may come to lie on another one's mark
         else:
@@ -138,13 +147,21 @@ class MapPlaces:
         """Let the next tap say where a place is."""
         if self._card is not None and self.open:
             self._card.leave()
-        self._moving, self._mode = place, self._screen.mode
+        self._moving, self._choose, self._mode = place, None, self._screen.mode
+        self._screen.mode = "place"
+        self._on_change()
+
+    def choose(self, on_chosen: Callable[[Place], object]) -> None:
+        """Let the next tap on a place choose it."""
+        if self._card is not None and self.open:
+            self._card.leave()
+        self._moving, self._choose, self._mode = None, on_chosen, self._screen.mode
         self._screen.mode = "place"
         self._on_change()
 
     def stay(self) -> None:
-        """The next tap says nothing of a place that was to be moved."""
-        self._moving, self._mode = None, ""
+        """The next tap says nothing of a place that was to be moved or chosen."""
+        self._moving, self._choose, self._mode = None, None, ""
 
     def _go(self, place: Place) -> None:
         self.card.leave()

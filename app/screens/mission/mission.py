@@ -306,6 +306,10 @@ class MissionScreen(RobotScreen):
         self.map.mode = self.mode
         self._pointing.mode_changed()
 
+    def choose_place(self, on_chosen: Callable[[Place], object]) -> None:
+        """Let the next tap on a place choose it."""
+        self._pointing.places.choose(on_chosen)
+
     def move_place(self, place: Place) -> None:
         """Let the next tap say where a place is."""
         self._pointing.places.move(place)

@@ -11,6 +11,7 @@ from app.link.commands import Outcome
 from app.screens.mission.mission_pane import MissionPane
 from app.screens.mission.place_pane import PlacePane
 from app.screens.tasks.order_pane import OrderPane
+from app.screens.tasks.place_chooser import PlaceChooser
 from app.screens.tasks.settings_pane import SettingsPane
 from app.session.dashboard import Dashboard
 from app.session.session import Session
@@ -39,6 +40,7 @@ class TaskPanes:
         """The pane of a place; None until it was needed."""
         self.made_settings: SettingsPane | None = None
         """The same of the settings."""
+        self._chooser: PlaceChooser | None = None
         for topic in ("/pose", "/places"):
             dashboard.bind(self.order.form, topic, fresh=False)
         for pane in (self.order, self.mission):
@@ -54,6 +56,17 @@ class TaskPanes:
             self._feed(pane.form, "/pose", pane.form.show)
             self._on_place(pane)
         return self.made_place
+
+    @property
+    def chooser(self) -> PlaceChooser:
+        """The map beside the form of an order, made when it is first asked for."""
+        if self._chooser is None:
+            self._chooser = PlaceChooser(self.order.form, self._session, self._dashboard)
+        return self._chooser
+
+    def has_map(self, shown: str) -> bool:
+        """The pane of that name is one beside which places are chosen on a map."""
+        return shown in ("order", "schedule") and self.order.form.takes_places and self._form != "tall"
 
     @property
     def settings(self) -> SettingsPane:
@@ -90,6 +103,7 @@ class TaskPanes:
         self.order.compact = form != "wide"
         self.order.closable = form == "tall"
         self.order.titled = form != "short"
+        self.order.form.has_map = form == "tall"
         self.mission.head.closable = form == "tall"
         for pane in self._made():
             pane.head.closable = form == "tall"
@@ -110,6 +124,8 @@ class TaskPanes:
     def rest(self) -> None:
         """Fingers let go of what they hold."""
         self.order.rest()
+        if self._chooser is not None:
+            self._chooser.rest()
         if self.made_place is not None:
             self.made_place.rest()
         self.mission.rest()

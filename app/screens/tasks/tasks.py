@@ -7,6 +7,7 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import ObjectProperty, StringProperty
+from kivy.uix.boxlayout import BoxLayout
 
 from app.layout import arrange
 from app.layout.arrange import Rect
@@ -87,6 +88,9 @@ class TasksScreen(RobotScreen):
         self._body, self._form, self._dp = Rect(0, 0, 1, 1), "", 1.0
         self._places: dict[str, Rect] = {}
         self._cover: Rect | None = None
+        self._beside = BoxLayout(spacing="12dp")
+        """A pane with the map beside it."""
+        self._takes_places = False
         self.notice = Rect(0, 0, 1, 1)
         self.acts = TaskActions(self)
         self.ids.update({**self.acts.by_name, "tabs": self.tabs})
@@ -101,6 +105,7 @@ class TasksScreen(RobotScreen):
             tab=lambda _, tab: setattr(self, "tab", tab), on_settings=lambda _: self._turn_settings()
         )
         self.pane.bind(complete=lambda *_: self.acts.tick())
+        self.pane.form.bind(task=self._task_changed, robot=self._task_changed, on_map=self._choose_on_map)
         self.bind(tab=self._tab_changed, detail=self._lay)
 
     def _bind_place(self, pane: PlacePane) -> None:
@@ -207,10 +212,12 @@ class TasksScreen(RobotScreen):
         area.clear_widgets()
         if not (tall and shown):
             below = [] if tall or self.tab == "now" else [self.acts.under]
-            for widget in (self.tabs, self.lists.of(self.tab), *below):
+            beside = self.panes.has_map(shown) and self._form == "short"
+            shown_list = [self.panes.chooser] if beside else [self.lists.of(self.tab), *below]
+            for widget in (self.tabs, *shown_list):
                 listed.add_widget(widget)
         if shown:
-            area.add_widget(self.panes.of(shown))
+            self._put_pane(area, shown)
         listed.opacity, area.opacity = float(not (tall and shown)), float(bool(shown))
         self.tabs.at_settings = shown == "settings"
         if self.panes.made_place is not None:
@@ -219,6 +226,35 @@ class TasksScreen(RobotScreen):
         (self.events.enter if self.events.parent is listed and self.dashboard.active else self.events.leave)()
         if self._places:
             self.acts.lay_for(self.tab, shown, form=self._form, stop=self._places["stop"])
+
+    def _put_pane(self, area: Any, shown: str) -> None:
+        """The pane, and on a tablet beside it the map where places are chosen on it."""
+        self._beside.clear_widgets()
+        pane = self.panes.of(shown)
+        if not (self.panes.has_map(shown) and self._form == "wide"):
+            area.add_widget(pane)
+            return
+        for widget in (pane, self.panes.chooser):
+            if widget.parent is not None:
+                widget.parent.remove_widget(widget)
+            self._beside.add_widget(widget)
+        area.add_widget(self._beside)
+
+    def _task_changed(self, *_: object) -> None:
+        """The map is beside the form where the task goes to places."""
+        takes = self.pane.form.takes_places
+        if takes != self._takes_places:
+            self._takes_places = takes
+            self._lay()
+
+    def _choose_on_map(self, *_: object) -> None:
+        """An upright phone has the mission's map for it."""
+        self.app.show("mission")
+        self.app.screens["mission"].choose_place(self._chosen_on_map)
+
+    def _chosen_on_map(self, place: Place) -> None:
+        self.app.show("tasks")
+        self.pane.form.choose(place)
 
     def _tab_changed(self, *_: object) -> None:
         self.detail = ""

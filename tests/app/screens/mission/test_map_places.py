@@ -151,10 +151,10 @@ def test_a_known_place_is_deleted_from_its_card_and_can_be_brought_back(
 def test_the_card_covers_neither_stop_nor_the_place_that_it_asks_of(
     driving: Glass, mission: Any, size: tuple[int, int]
 ) -> None:
-    window = driving.stage.window
+    window, root = driving.stage.window, driving.app.root
     before = tuple(window.size)
     try:
-        window.size = size
+        window.size = root.size = size
         driving.stage.frames(4)
         x, y, wide, high = mission.map.free_box
         place = mission.map.view.to_world(x + wide * 0.2, y + high * 0.3)
@@ -170,5 +170,5 @@ def test_the_card_covers_neither_stop_nor_the_place_that_it_asks_of(
         driving.stage.frames(3)
         assert mission.card.shown is None
     finally:
-        window.size = before
+        window.size = root.size = before
         driving.stage.frames(2)
