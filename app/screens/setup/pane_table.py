@@ -67,6 +67,7 @@ PANES: dict[str, Pane] = {
         "app.screens.setup.panes.text_pane:TextPane",
         lambda app: f"{app.preferences.text * 100:.0f} %",
     ),
+    "maps": Pane("map", mark("Maps"), "app.screens.setup.panes.maps_pane:MapsPane"),
     "inputs": Pane(
         "sports_esports",
         mark("Inputs"),
