@@ -90,11 +90,12 @@ class RobotDirectory:
 
     def show(self, nearby: BeaconListener) -> None:
         """Bring the cards up to date, and have `nearby` measure the robots on them."""
-        entries = self._entries()
+        entries = self.entries()
         self._app.connect.show_entries(entries, self.client_name)
         nearby.measure(entries)
 
-    def _entries(self) -> list[Entry]:
+    def entries(self) -> list[Entry]:
+        """All robots that can be connected to, and how each is reached."""
         return [replace(entry, trust=self.trust.standing(entry.url)) for entry in self.robots.entries()]
 
     def ask_address(self, address: str = "") -> None:
@@ -123,20 +124,20 @@ class RobotDirectory:
 
     def refresh(self) -> None:
         """Show what is known on a connect page that was made anew."""
-        self._app.connect.show_entries(self._entries(), self.client_name)
+        self._app.connect.show_entries(self.entries(), self.client_name)
 
     def forget(self, url: str) -> None:
         """Take a saved address off the list; a paired robot is not paired any more, which a tap takes back."""
         kept = self.robots.remove(url)
         self._save()
         self.trust.forget(url, lambda: self._restore(url, kept))
-        self._app.connect.show_entries(self._entries(), self.client_name)
+        self._app.connect.show_entries(self.entries(), self.client_name)
 
     def _restore(self, url: str, kept: dict[str, str] | None) -> None:
         if kept is not None:
             self.robots.restore(url, kept)
             self._save()
-        self._app.connect.show_entries(self._entries(), self.client_name)
+        self._app.connect.show_entries(self.entries(), self.client_name)
 
     def _connected(self) -> tuple[str, ...]:
         session = self._app.session

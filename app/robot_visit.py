@@ -13,6 +13,7 @@ from app.link.feeds import Post
 from app.pages import Pages
 from app.screens.connect.connect import ConnectScreen
 from app.session.connecting import connecting_words, has_failed
+from app.session.last_pictures import LastPictures
 from app.session.picture_feed import PictureFeed
 from app.session.recordings import Recordings
 from bridge.core.link_state import LinkFault
@@ -56,6 +57,8 @@ class RobotVisit:
         self._rest, self._on_cut, self._on_left = rest, on_cut, on_left
         self._ask_to_pair, self._pacer = ask_to_pair, pacer
         self._pictures = PictureFeed(now)
+        self.seen = LastPictures(now)
+        """The last picture of each robot that was on the glass."""
         self.session: Session | None = None
         """None while no robot is wanted."""
 
@@ -114,6 +117,8 @@ class RobotVisit:
             return  # the robot was left meanwhile
         if channel == PICTURE:
             self._pictures.show(post.value, post.received, self._pages.shell, of)
+            if of is not None:
+                self.seen.take(of.link.url, post.value)
         else:
             self._pictures.refuse(post.value)
 

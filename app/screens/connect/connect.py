@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
+from kivy.graphics.texture import Texture
 from kivy.lang import Builder
 from kivy.metrics import Metrics
 from kivy.properties import BooleanProperty, ListProperty, NumericProperty, ObjectProperty, StringProperty
@@ -15,12 +17,14 @@ from app.discovery.known_robots import Entry
 from app.layout.arrange import connect_columns
 from app.screens.parts.method_chip import InputsChip  # noqa: F401 - its rule draws what is used here
 from app.screens.parts.themes import THEMES
+from app.session.last_pictures import LastPictures, Thumb
 from widgets.core.icons import ICONS
+from widgets.core.language import tr
 from widgets.core.surfaces import EdgedBox  # noqa: F401 - its rule draws the bar
 from widgets.core.theme import theme
 from widgets.parts.kit import Banner, Card, Text
 
-__all__ = ["ConnectScreen", "RobotCard", "robot_icon"]
+__all__ = ["ConnectScreen", "RobotCard", "robot_icon", "same_named"]
 
 GENERIC_ICON = "smart_toy_fill"
 """Of a robot that names none, or one that this app cannot draw."""
@@ -57,6 +61,18 @@ Builder.load_string("""
             role: 'muted' if root.lost else 'accent'
             font_size: sp(44)
             pos_hint: {'center_y': .5}
+        Widget:
+            id: snapshot
+            size_hint: None, 1
+            width: dp(72) if root.snapshot else 0
+            canvas:
+                Color:
+                    rgba: (1, 1, 1, .5 if root.lost else 1) if root.snapshot else (0, 0, 0, 0)
+                RoundedRectangle:
+                    texture: root.snapshot
+                    pos: self.pos
+                    size: self.size
+                    radius: [dp(8)]
         BoxLayout:
             orientation: 'vertical'
             Text:
@@ -101,12 +117,22 @@ Builder.load_string("""
             opacity: 1 if root.saved else 0
             disabled: not root.saved
             on_release: root.dispatch('on_remove')
-    Remark:
-        text: root.warning
-        role: 'danger'
-        font_size: sp(15)
+    BoxLayout:
+        orientation: 'vertical'
         size_hint_y: None
-        height: self.texture_size[1] if root.warning else 0
+        height: self.minimum_height
+        Remark:
+            text: root.note
+            role: root.note_role
+            font_size: sp(15)
+            size_hint_y: None
+            height: self.texture_size[1] if root.note else 0
+        Remark:
+            text: root.warning
+            role: 'danger'
+            font_size: sp(15)
+            size_hint_y: None
+            height: self.texture_size[1] if root.warning else 0
     BoxLayout:
         size_hint_y: None
         height: dp(34)
@@ -239,6 +265,14 @@ def robot_icon(name: str) -> str:
     return name if name in ICONS else GENERIC_ICON
 
 
+def same_named(entries: Sequence[Entry]) -> set[str]:
+    """Names that more than one robot has."""
+    named = Counter(
+        name for name, _ in {(entry.name, entry.boot or entry.url) for entry in entries if entry.name}
+    )
+    return {name for name, count in named.items() if count > 1}
+
+
 class RobotCard(Card):
     """One robot: what it is, its battery, how far, who drives, and one big button."""
 
@@ -251,6 +285,11 @@ class RobotCard(Card):
     saved = BooleanProperty(False)
     warning = StringProperty("")
     """What is wrong with it, as a sentence; empty when nothing is known to be."""
+    note = StringProperty("")
+    """What it does, or by what it is told from others of its name; empty for nothing."""
+    note_role = StringProperty("muted")
+    snapshot = ObjectProperty(None, allownone=True)
+    """The last picture that this handheld has seen of it, as a texture; None without one."""
     quiet = BooleanProperty(False)
     """The button offers nothing to look forward to: it tries again."""
     battery_text = StringProperty("—")
@@ -283,6 +322,26 @@ class RobotCard(Card):
         self._show_battery(entry)
         self._show_link(entry)
         self._show_driver(entry, me)
+
+    def show_place(self, *, twin: bool) -> None:
+        """Say by what it is told from a robot that has its name too; nothing where none has."""
+        said = tr("Another robot has this name too. This one is at {address}.")
+        self.note = said.format(address=self.entry.address) if twin else ""
+        self.note_role = "warn" if twin else "muted"
+
+    def show_thumb(self, thumb: Thumb | None) -> None:
+        """Show the last picture of it; None for none."""
+        at = thumb.at if thumb is not None else math.nan
+        if thumb is None:
+            self.snapshot = None
+        elif at != self._seen_at:
+            texture = Texture.create(size=(thumb.width, thumb.height), colorfmt="rgba")
+            texture.blit_buffer(thumb.rgba, colorfmt="rgba", bufferfmt="ubyte")
+            texture.flip_vertical()
+            self.snapshot = texture
+        self._seen_at = at
+
+    _seen_at = math.nan
 
     def _show_battery(self, entry: Entry) -> None:
         known = not math.isnan(entry.battery) and not self.lost
@@ -333,8 +392,18 @@ class RobotList(Protocol):
         """Take a saved address off the list."""
 
 
+class Visit(Protocol):
+    """The visits to robots, as far as the cards need them."""
+
+    seen: LastPictures
+
+
 class Host(Protocol):
     """The app, as far as the cards need it; the bar's buttons are bound in kv."""
+
+    @property
+    def visit(self) -> Visit:
+        """The visits to robots."""
 
     @property
     def robot_list(self) -> RobotList:
@@ -393,8 +462,11 @@ class ConnectScreen(FloatLayout):
         """Bring the cards up to date; a card stays where it is while its robot is listed."""
         if [card.entry.url for card in self.cards] != [entry.url for entry in entries]:
             self._rebuild(entries)
+        double = same_named(entries)
         for card, entry in zip(self.cards, entries, strict=True):
             card.show_entry(entry, me)
+            card.show_place(twin=entry.name in double)
+            card.show_thumb(self.app.visit.seen.of(entry.url))
         live = sum(entry.state == "live" for entry in entries)
         self.nearby = f"{live} robot{'' if live == 1 else 's'} nearby" if live else "Looking for robots"
         self.nearby_short = f"{live} nearby" if live else "searching"

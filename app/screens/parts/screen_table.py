@@ -56,6 +56,13 @@ SCREENS = (
         about=mark("All that it publishes"),
     ),
     Entry(
+        "fleet",
+        "smart_toy",
+        mark("Fleet"),
+        "app.screens.fleet.fleet:FleetScreen",
+        about=mark("All robots, STOP ALL"),
+    ),
+    Entry(
         "setup",
         "tune",
         mark("Setup"),

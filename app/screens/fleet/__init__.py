@@ -1,0 +1,1 @@
+"""All robots that are known, while one of them is on the glass."""

@@ -1,0 +1,93 @@
+"""The fleet: the robot on the glass among all others, told apart where they have one name, and a tap to another."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from app.link.camera_decoder import Picture
+from app.screens.parts.leave_dialog import LeaveDialog
+from bridge.discovery.hello import Hello
+from bridge.msgs.geometry_msgs import Twist, TwistWithCovariance, Vector3
+from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.pilothouse_msgs import TaskStatus
+from tests.app.fakes import FakeRobot
+from tests.app.glass import Glass
+
+OTHER = "ws://192.168.1.7:9090"
+
+
+@pytest.fixture
+def fleet(driving: Glass) -> Any:
+    """The screen, with one more robot that says HELLO."""
+    hear(driving, OTHER, "Scout-1")
+    driving.app.show("fleet")
+    driving.until(lambda: OTHER in driving.app.screens["fleet"].cards, "not listed")
+    driving.stage.frames(3)
+    return driving.app.screens["fleet"]
+
+
+def hear(driving: Glass, url: str, name: str, **told: Any) -> None:
+    hello = Hello(url=url, name=name, kind="wheels", boot=url, **told)
+    driving.app.robots.heard(hello, driving.app.now())
+
+
+def own(driving: Glass) -> str:
+    return str(driving.app.session.link.url)
+
+
+def test_the_one_on_the_glass_comes_first_and_says_what_it_does(
+    driving: Glass, robot: FakeRobot, fleet: Any
+) -> None:
+    assert list(fleet.cards) == [own(driving), OTHER]
+    robot.publish("/task/status", TaskStatus(task_id=1, task="patrol", state="RUNNING"))
+    driving.until(lambda: "patrol" in fleet.cards[own(driving)].note, "its task is not told")
+    assert fleet.cards[own(driving)].driver_text == "you"
+
+
+def test_another_says_battery_and_driver_as_it_tells_them(driving: Glass, fleet: Any) -> None:
+    hear(driving, OTHER, "Scout-1", battery=0.42, driver="Bob")
+    card = fleet.cards[OTHER]
+    driving.until(lambda: card.battery_text == "42 %", "old")
+    assert "Bob" in card.driver_text
+
+
+def test_robots_of_one_name_are_told_apart_by_address_and_by_their_last_picture(
+    driving: Glass, fleet: Any
+) -> None:
+    name = driving.app.session.robot.name
+    assert not fleet.cards[OTHER].note
+    hear(driving, OTHER, name)
+    driving.app.robots.heard(Hello(url=own(driving), name=name, boot="own"), driving.app.now())
+    driving.until(lambda: "192.168.1.7" in fleet.cards[OTHER].note, "not told apart")
+    assert "127.0.0.1" in fleet.cards[own(driving)].note
+    assert fleet.cards[OTHER].snapshot is None
+    driving.app.visit.seen.take(OTHER, Picture(1, 0.0, 400, 200, bytes(4 * 400 * 200)))
+    driving.until(lambda: fleet.cards[OTHER].snapshot is not None, "no picture")
+    assert fleet.cards[OTHER].snapshot.width <= 160
+
+
+def test_a_tap_on_its_own_card_leads_to_the_drive_screen(driving: Glass, fleet: Any) -> None:
+    driving.tap(fleet.cards[own(driving)].ids.connect)
+    driving.until(lambda: driving.app.shell.screen == "drive", "not shown")
+
+
+def test_a_tap_on_another_goes_there_and_asks_before_a_robot_that_moves_is_left(
+    driving: Glass, robot: FakeRobot, fleet: Any
+) -> None:
+    opened: list[tuple[str, bool]] = []
+    driving.app.open = lambda url, *, watch=False: opened.append((url, watch))
+    robot.publish("/odom", Odometry(twist=TwistWithCovariance(Twist(Vector3(0.4), Vector3()))))
+    driving.until(lambda: driving.app.session.checks.moves, "at rest")
+    driving.tap(fleet.cards[OTHER].ids.connect)
+    driving.stage.frames(3)
+    (asked,) = [one for one in driving.app.root.children if isinstance(one, LeaveDialog)]
+    assert opened == []
+    driving.tap(asked.ids.leave)
+    driving.until(lambda: opened == [(OTHER, False)], "not gone there")
+    assert driving.app.session is None
+
+
+def test_stop_all_is_there_for_them(driving: Glass, fleet: Any) -> None:
+    driving.until(lambda: driving.app.corner.button.parent is not None, "no STOP ALL")
