@@ -20,6 +20,7 @@ from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets.core.language import tr, trn
 from widgets.core.task_words import TASKS
+from widgets.parts.column import Grid
 from widgets.parts.kit import Roll, Text
 
 __all__ = ["FleetScreen"]
@@ -32,11 +33,6 @@ Builder.load_string("""
     Area:
         id: listed
         spacing: dp(10)
-
-<FleetGrid@GridLayout>:
-    size_hint_y: None
-    height: self.minimum_height
-    spacing: dp(14)
 """)
 
 
@@ -60,11 +56,9 @@ class FleetScreen(RobotScreen):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        from kivy.factory import Factory
-
         self.ids.listed = self.ids.listed.__self__  # kv holds ids weakly
         self.head = Text(bold=True, font_size="19sp")
-        self.grid = Factory.FleetGrid()
+        self.grid = Grid(spacing="14dp")
         roll = Roll()
         roll.add_widget(self.grid)
         self.ids.listed.add_widget(self.head)

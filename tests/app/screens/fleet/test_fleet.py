@@ -91,3 +91,14 @@ def test_a_tap_on_another_goes_there_and_asks_before_a_robot_that_moves_is_left(
 
 def test_stop_all_is_there_for_them(driving: Glass, fleet: Any) -> None:
     driving.until(lambda: driving.app.corner.button.parent is not None, "no STOP ALL")
+
+
+def test_cards_of_one_row_stand_at_its_upper_end(driving: Glass, fleet: Any) -> None:
+    hear(driving, OTHER, driving.app.session.robot.name)
+    hear(driving, "ws://192.168.1.9:9090", "Scout-9")
+    driving.until(lambda: len(fleet.cards) == 3, "not listed")
+    driving.stage.frames(4)
+    columns = fleet.grid.cols
+    assert columns > 1
+    cards = list(fleet.cards.values())
+    assert len({round(card.top) for card in cards[:columns]}) == 1
