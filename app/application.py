@@ -31,6 +31,8 @@ from app.leaving import Leaving
 from app.link.feeds import Post
 from app.network_side import NetworkSide
 from app.pages import LONE, Pages, lone_page, toggle_help
+from app.profiles.profile_choice import ProfileChoice
+from app.profiles.profile_store import ProfileStore
 from app.renewal import Renewal
 from app.robot_directory import RobotDirectory
 from app.robot_visit import RobotVisit
@@ -126,6 +128,9 @@ class PilothouseApp(App):
         """Make the connect screen; the others are made when there is a robot to show."""
         folder = Path(self._settings_dir or own_folder(lambda: self.user_data_dir))
         self.settings = Settings(folder)
+        self.profiles = ProfileChoice(
+            self.layouts, ProfileStore(folder / "profiles", CATALOGUE), self.settings
+        )
         self.records = Recordings(folder, self.say)
         self.preferences = Preferences(self.settings)
         self.themes = Themes(self.settings, self._theme)
@@ -303,7 +308,7 @@ class PilothouseApp(App):
 
         self.methods.open_rest()  # none of them misses what a robot says
         self.robot_list.on_answer(session)
-        return robot_shell(self, session, self.layouts, size=self.pages.root.size, pos=self.pages.root.pos)
+        return robot_shell(self, session, self.profiles, size=self.pages.root.size, pos=self.pages.root.pos)
 
     def show(self, screen: str) -> None:
         """Put `mission`, `drive`, `tasks`, `topics` or `inputs` on the glass; KeyError for another."""

@@ -64,7 +64,7 @@ class Renewal:
         before.close()
         app.collector.expect(before)
         fresh = robot_shell(
-            app, session, app.layouts, before, size=app.pages.root.size, pos=app.pages.root.pos
+            app, session, app.profiles, before, size=app.pages.root.size, pos=app.pages.root.pos
         )
         app.pages.replace(fresh, screen)
         for name, state in kept.items():

@@ -40,14 +40,13 @@ DESKTOP_ONLY = (
     "pocketsphinx",
     "vosk",
     "espeakng_loader",
-    "segno",
 )
 """What the phone does not have. Neither has it cryptography, but a desktop's spake2 cannot be imported without."""
 
 OPTIONAL = {"PIL", "espeakng_loader", "hama", "hibari", "miniaudio", "pocketsphinx", "vosk", "zeroconf"}
 """Those of them that the handheld uses where they are installed, and runs without elsewhere."""
 
-ROBOT_SIDE = {"cryptography", "segno"}
+ROBOT_SIDE = {"cryptography"}
 """Of the robot alone: the handheld neither asks for them nor imports them."""
 
 NO_RECIPE = {

@@ -56,7 +56,8 @@ def _check_panel(check: Check, where: str, panel: Panel, known: Sequence[str]) -
     named = [check("topic", _check_topic, where, "topic", panel.topic)] if panel.topic else []
     named += [check("also", _check_topic, where, "also", name) for name in panel.also]
     check_hand_keys(check, where, panel)
-    if panel.field and not FIELD_PATH.fullmatch(panel.field):
+    paths = panel.field.split(",") if panel.widget == "Plot" else [panel.field]
+    if panel.field and not all(FIELD_PATH.fullmatch(path.strip()) for path in paths):
         check("field", refuse, f"{where}: field is a path as in twist.linear.x, not {shown(panel.field)}.")
     for form in FORMS:
         check(form, _check_place, where, form, panel.place(form))

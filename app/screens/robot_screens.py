@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol
 
 from app.core.optional_parts import bring
 from app.layout.layout import Layout
-from app.layout.layout_choice import LayoutChoice
 from app.link.feeds import Post
+from app.profiles.profile_choice import ProfileChoice
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.parts.screen_table import SCREENS, Entry
 from app.screens.shell.screen_host import ScreenHost
@@ -37,15 +38,14 @@ class Host(ShellHost, ScreenHost, Protocol):
 class Profile:
     """The drive screen that is made for the robot: as soon as that says what it is, and anew when it says something else."""
 
-    def __init__(self, app: Host, session: Session, layouts: LayoutChoice) -> None:
-        """`layouts` give the one of a robot's model and kind."""
-        self._app, self._session, self._layouts = app, session, layouts
+    def __init__(self, app: Host, session: Session, profiles: ProfileChoice) -> None:
+        """`profiles` give the robot's own, or the one of its model and kind."""
+        self._app, self._session, self._profiles = app, session, profiles
         self.layout = self._wanted()
         """The one that is on the glass."""
 
     def _wanted(self) -> Layout:
-        info = self._session.robot.info
-        return self._layouts.of(info.model, info.kind)
+        return self._profiles.of(self._session.robot.info)
 
     def screen(self) -> DriveScreen | DiveScreen:
         """Make its screen."""
@@ -58,29 +58,34 @@ class Profile:
         """Have `shell` show another one when the robot turns out to be something else, and say what is wrong with a layout."""
 
         def hear(channel: str, _: Post) -> None:
-            if channel == "/robot/info" and self._wanted() != self.layout:
-                self.layout = self._wanted()
+            if channel == "/robot/info":
+                look()
+
+        def look() -> None:
+            before, self.layout = self.layout, self._wanted()
+            if _drive_part(self.layout) != _drive_part(before):
                 shell.replace("drive")
                 tell()
 
         def tell() -> None:
-            if self._layouts.mistake:
-                shell.say(self._layouts.mistake, "warn")
+            if self._profiles.mistake:
+                shell.say(self._profiles.mistake, "warn")
 
         shell.follow(hear)
+        self._profiles.on_change = look
         tell()
 
 
 def robot_shell(
-    app: Host, session: Session, layouts: LayoutChoice, before: Shell | None = None, **kwargs: Any
+    app: Host, session: Session, profiles: ProfileChoice, before: Shell | None = None, **kwargs: Any
 ) -> Shell:
-    """The frame with every screen in it; `layouts` give the drive screen of a robot's model and kind.
+    """The frame with every screen in it; `profiles` give the drive screen of a robot and its views.
 
     `before` is the one in whose place it comes, None for the first: what that was told is known here too.
     """
-    profile = Profile(app, session, layouts)
+    profile = Profile(app, session, profiles)
 
-    given: dict[str, object] = {"app": app, "session": session}
+    given: dict[str, object] = {"app": app, "session": session, "profiles": profiles}
 
     def maker(entry: Entry) -> Callable[[], RobotScreen]:
         return lambda: bring(entry.maker)(**{name: given[name] for name in entry.needs})
@@ -92,3 +97,8 @@ def robot_shell(
     shell = Shell(screens, app=app, session=session, **kwargs)
     profile.follow(shell)
     return shell
+
+
+def _drive_part(layout: Layout) -> Layout:
+    """The layout without what the drive screen does not show."""
+    return replace(layout, name="", title="", robots=(), views=())

@@ -56,6 +56,14 @@ SCREENS = (
         about=mark("All that it publishes"),
     ),
     Entry(
+        "panels",
+        "dashboard",
+        mark("Panels"),
+        "app.screens.panels.panels:PanelsScreen",
+        ("app", "session", "profiles"),
+        about=mark("Screens of your own"),
+    ),
+    Entry(
         "fleet",
         "smart_toy",
         mark("Fleet"),

@@ -1,0 +1,90 @@
+"""Profiles of the operator's own on the disk: one layout file each, replaced as a whole, with the one before kept beside it."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+from app.layout.layout import Layout, LayoutError, LayoutFault, parse
+from app.layout.layout_text import text_of
+
+__all__ = ["MAX_BYTES", "ProfileStore", "file_name"]
+
+MAX_BYTES = 200_000
+"""Of a profile's file; a longer one is not read [bytes]."""
+BACKUP = ".bak"
+
+
+def file_name(title: str) -> str:
+    """A file's name of letters, digits and dashes for a profile with that title; never empty."""
+    return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")[:40] or "profile"
+
+
+class ProfileStore:
+    """The folder with the operator's profiles. Reading and writing is in the calling thread: the files are small."""
+
+    def __init__(self, folder: Path, widgets: Iterable[str]) -> None:
+        """`widgets` are the names of the catalogue."""
+        self.folder, self._widgets = folder, tuple(widgets)
+
+    def names(self) -> list[str]:
+        """Names of the profiles there are, faulty ones too."""
+        return sorted(path.stem for path in self.folder.glob("*.toml"))
+
+    def path(self, name: str) -> Path:
+        """The file of a profile."""
+        return self.folder / f"{name}.toml"
+
+    def load(self, name: str) -> Layout:
+        """The profile; LayoutError with all that is wrong with its file."""
+        return self.read(name, self.text(self.path(name)))
+
+    def read(self, name: str, text: str) -> Layout:
+        """The profile in a text of any origin; LayoutError with all that is wrong with it."""
+        if len(text.encode(errors="replace")) > MAX_BYTES:
+            raise LayoutError(f"Layout {name} has more than {MAX_BYTES // 1000} kB.")
+        return parse(name, text, self._widgets)
+
+    @staticmethod
+    def text(path: Path) -> str:
+        """Text of a file of any origin; LayoutError where it cannot be read."""
+        try:
+            with path.open("rb") as file:
+                content = file.read(MAX_BYTES + 1)
+            if len(content) > MAX_BYTES:
+                raise LayoutError(f"Layout {path.stem} has more than {MAX_BYTES // 1000} kB.")
+            return content.decode("utf-8")
+        except OSError as error:
+            raise LayoutError(f"Layout {path.stem} cannot be read: {error.strerror}.") from error
+        except UnicodeDecodeError as error:
+            line = content[: error.start].count(b"\n") + 1
+            sentence = f"Layout {path.stem}: is no UTF-8 text."
+            raise LayoutError(sentence, [LayoutFault(sentence, line)]) from error
+
+    def save(self, layout: Layout) -> None:
+        """Replace the profile's file as a whole; the one before is kept beside it, a faulty one for good. OSError where that fails."""
+        path, fresh = self.path(layout.name), self.path(layout.name).with_suffix(".new")
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with fresh.open("w", encoding="utf-8") as file:
+            file.write(text_of(layout))
+            file.flush()
+            os.fsync(file.fileno())
+        if path.exists():
+            self._set_aside(path)
+        fresh.replace(path)
+
+    def _set_aside(self, path: Path) -> None:
+        try:
+            self.load(path.stem)
+            aside = path.with_suffix(BACKUP)
+        except LayoutError:
+            numbers = (path.with_suffix(f".faulty{number or ''}") for number in range(1000))
+            aside = next((one for one in numbers if not one.exists()), path.with_suffix(BACKUP))
+        aside.write_bytes(path.read_bytes())
+
+    def unused(self, title: str) -> str:
+        """A name for a new profile with that title."""
+        name, taken = file_name(title), set(self.names())
+        return next(one for one in (name, *(f"{name}-{n}" for n in range(2, 1000))) if one not in taken)

@@ -1,0 +1,79 @@
+"""Offers of the panels screen: which widgets fit each topic of the robot, which controls there are, and how a panel is called."""
+
+from __future__ import annotations
+
+from app.layout.layout_tables import SLIDER
+from app.layout.sensible_view import panel_of
+from app.layout.views import Panel
+from app.link.capabilities import Capabilities
+from bridge.core.topics import TOPICS
+from widgets.core.language import mark, tr
+from widgets.fitting import COMMAND, Offer, offers
+
+__all__ = [
+    "CONTROLS",
+    "Offer",
+    "control_panel",
+    "offer_name",
+    "offers_for",
+    "panel_of",
+    "shown_topics",
+    "title_of",
+    "widget_name",
+]
+
+MAX_OFFERS = 12
+"""Ways to show one topic; any other field is set in the inspector."""
+CONTROLS = (
+    ("Joystick", mark("Stick")),
+    ("LiftLever", mark("Lever")),
+    ("TiltCircle", mark("Tilt")),
+    (SLIDER, mark("Speed limit")),
+)
+"""Controls that drive, with their names."""
+_NAMES = {
+    **dict(CONTROLS),
+    "FieldView": mark("Message"),
+    "ArtificialHorizon": mark("Horizon"),
+    "Readout": mark("Figure"),
+}
+_COMMANDS = frozenset(entry.name for entry in TOPICS if entry.to != "handheld")
+"""Topics that the robot listens to."""
+
+
+def offers_for(topic: str, kind: str) -> list[Offer]:
+    """Widgets for a topic of that type (its ROS 1 name), best first, at least one. What commands is no panel of a topic."""
+    found = [one for one in offers(kind, topic, commanded=False) if one.kind != COMMAND]
+    return found[:MAX_OFFERS]
+
+
+def shown_topics(offer: Capabilities) -> list[tuple[str, str]]:
+    """Names and types of the topics that a robot has and may publish, by name."""
+    return sorted((name, kind) for name, kind in offer.topics.items() if name not in _COMMANDS)
+
+
+def control_panel(widget: str) -> Panel:
+    """The panel with that control."""
+    if widget == "LiftLever":
+        return Panel(widget, forward="climb", left="", pad="")
+    return Panel(widget, pad="right" if widget == "TiltCircle" else "left")
+
+
+def widget_name(widget: str) -> str:
+    """A widget as people call it: `LaserScanView` is `Laser scan`."""
+    if widget in _NAMES:
+        return tr(_NAMES[widget])
+    spaced = "".join(f" {letter.lower()}" if letter.isupper() else letter for letter in widget).strip()
+    return spaced.removesuffix(" view").capitalize()
+
+
+def offer_name(offer: Offer) -> str:
+    """What an offer shows and how, as in `Linear x · plot`."""
+    name = widget_name(offer.widget)
+    return f"{tr(offer.title)} · {name.lower()}" if offer.field and offer.title else name
+
+
+def title_of(panel: Panel, *, brief: bool = False) -> str:
+    """What stands over a panel: its title or its widget's name, and unless it shall be `brief` the topic."""
+    own = tr(panel.title) if panel.title else widget_name(panel.widget)
+    return own if brief or not panel.topic else f"{own} · {panel.topic}"

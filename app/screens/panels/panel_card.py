@@ -1,0 +1,289 @@
+"""Card of a panel: its name over its widget, tabs where several lie in one place, and what an editor presses."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.metrics import dp, mm
+from kivy.properties import BooleanProperty, ListProperty, NumericProperty, ObjectProperty, StringProperty
+from kivy.uix.behaviors import ButtonBehavior
+from kivy.uix.floatlayout import FloatLayout
+from kivy.uix.label import Label
+from kivy.uix.widget import Widget
+
+import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
+from widgets.core.canvas_ink import Ink
+from widgets.core.geometry import Points
+from widgets.core.shapes import Shapes
+from widgets.core.surfaces import Outlined
+from widgets.core.theme import theme
+
+__all__ = ["CardTab", "Corner", "PanelCard", "dashed"]
+
+HEAD = 30
+"""Height of the name's row while nothing is edited [dp]."""
+DASH, PERIOD = 4.5, 8.0
+"""Of the border of a card that is edited [dp]."""
+MIN_BUTTON = 10.5
+"""Width of a button beside a name [mm]."""
+TITLE_ROOM = 56
+"""Least room for a name beside the buttons of its card [dp]."""
+
+Builder.load_string("""
+<PanelCard>:
+    size_hint: None, None
+    rim: '' if root.editing else 'line'
+    ground: 'surface'
+    corner: theme.radius
+    SectionLabel:
+        id: heading
+        title: '' if root.count > 1 else root.title if root.width - root.taken > dp(190) else root.brief
+        size_hint: None, None
+        x: root.x + dp(14)
+        y: root.top - dp(2) - (root.head + self.height) / 2
+        width: max(root.width - dp(24) - root.taken, dp(1))
+    BoxLayout:
+        id: stack
+        size_hint: None, None
+        height: root.head if root.count > 1 else 0
+        x: root.x + dp(8)
+        y: root.top - dp(2) - root.head
+        width: max(root.width - dp(16) - root.taken, dp(1))
+        spacing: dp(4)
+    FloatLayout:
+        id: place
+        size_hint: None, None
+        x: root.x + root.inset
+        y: root.y + root.inset
+        width: max(root.width - 2 * root.inset, dp(1))
+        height: max(root.height - root.head - root.inset - dp(4), dp(1))
+        opacity: .35 if root.away else 1
+    Text:
+        text: root.problem
+        role: 'muted'
+        font_size: sp(14)
+        halign: 'center'
+        size_hint: None, None
+        width: max(root.width - dp(24), dp(1))
+        center_x: root.center_x
+        center_y: place.center_y
+        opacity: 1 if root.problem else 0
+    BoxLayout:
+        id: buttons
+        size_hint: None, None
+        size: (root.button * 2 if root.roomy else 0), root.head
+        x: root.right - dp(4) - self.width
+        y: root.top - dp(2) - root.head
+        opacity: 1 if root.roomy else 0
+        disabled: not root.roomy
+        IconButton:
+            id: eye
+            icon: 'visibility_off' if root.away else 'visibility'
+            role: 'muted'
+            bare: True
+            size: root.button, root.head
+            on_release: root.dispatch('on_act', 'hide')
+        IconButton:
+            id: close
+            icon: 'close'
+            role: 'muted'
+            bare: True
+            size: root.button, root.head
+            on_release: root.dispatch('on_act', 'remove')
+    Icon:
+        id: grip
+        name: 'drag_pan'
+        role: 'muted'
+        font_size: sp(21)
+        x: buttons.x - self.width - dp(2)
+        y: root.top - dp(2) - (root.head + self.height) / 2
+        opacity: 1 if root.gripped else 0
+
+<CardTab>:
+    font_name: theme.font
+    font_size: sp(14)
+    bold: self.chosen
+    color: theme.text if self.chosen else theme.muted
+    disabled_color: self.color
+    shorten: True
+    text_size: self.width - dp(8), self.height
+    halign: 'center'
+    valign: 'middle'
+    canvas.before:
+        Rounded:
+            rgba: theme.raised if self.chosen else (0, 0, 0, 0)
+            pos: self.x, self.y + dp(3)
+            size: self.width, self.height - dp(6)
+            radius: [theme.corner]
+        Rounded:
+            rgba: theme.accent if self.chosen else (0, 0, 0, 0)
+            pos: self.x + dp(10), self.y + dp(3)
+            size: self.width - dp(20), dp(2.5)
+            radius: [dp(1.2)]
+
+<Corner>:
+    size_hint: None, None
+    size: theme.target, theme.target
+    canvas:
+        Color:
+            rgba: theme.accent
+        SmoothEllipse:
+            pos: self.center_x - dp(11), self.center_y - dp(11)
+            size: dp(22), dp(22)
+""")
+
+
+def dashed(points: Points, colour: Sequence[float], width: float) -> Shapes:
+    """A line in dashes through these points [px]."""
+    shapes = Shapes()
+    shapes.dashes(points, width, colour, period=dp(PERIOD), dash=dp(DASH))
+    return shapes
+
+
+class CardTab(ButtonBehavior, Label):
+    """One panel of a stack."""
+
+    chosen = BooleanProperty(False)
+
+
+class Corner(Widget):
+    """What the selected card is made larger or smaller by."""
+
+
+class PanelCard(Outlined, FloatLayout):
+    """Dispatches `on_act(what)` for `hide` and `remove`, and `on_tab(index)` for another panel of its stack."""
+
+    __events__ = ("on_act", "on_tab")
+
+    title = StringProperty("")
+    brief = StringProperty("")
+    """Its name where there is little room."""
+    problem = StringProperty("")
+    """Why its widget shows nothing, in one sentence; empty for none."""
+    editing = BooleanProperty(False)
+    selected = BooleanProperty(False)
+    """It is the one that the inspector is about."""
+    away = BooleanProperty(False)
+    """It is hidden while nothing is edited."""
+    count = NumericProperty(1)
+    """Panels in its stack."""
+    indices: ListProperty[int] = ListProperty()
+    """Of the panels of its stack in the view, the one in sight among them."""
+    shown = NumericProperty(-1)
+    """Index of the panel in sight."""
+    widget = ObjectProperty(None, allownone=True)
+    """What it shows."""
+    inset = NumericProperty("10dp")
+    head = NumericProperty(f"{HEAD}dp")
+    """Height of the row with its name [px]."""
+    roomy = BooleanProperty(False)
+    """It is edited, and has room for buttons beside its name."""
+    gripped = BooleanProperty(False)
+    """It is edited, and has room for a sign that it can be moved."""
+    button = NumericProperty(0)
+    """Width of one of its buttons [px]."""
+    taken = NumericProperty(0)
+    """What the buttons and that sign take of its width [px]."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        self._ink = Ink()
+        super().__init__(**kwargs)
+        self.canvas.after.add(self._ink)
+        self.ids.place.bind(pos=self._lay, size=self._lay)
+        self.bind(pos=self._draw, size=self._draw, editing=self._draw, selected=self._draw)
+        self.bind(width=self._fit, editing=self._fit, count=self._fit)
+        theme.bind(name=self._draw, target=self._fit)
+        self._fit()
+
+    def put(self, widget: Widget | None) -> None:
+        """Show that widget in the place of the one before."""
+        self.ids.place.clear_widgets()
+        self.widget = widget
+        if widget is not None:
+            self.ids.place.add_widget(widget)
+            self._lay()
+
+    def name_tabs(self, titles: Sequence[str], chosen: int) -> None:
+        """The panels of its stack by their names, and which of them is in sight."""
+        tabs = self.ids.stack
+        self.count = len(titles)
+        tabs.clear_widgets()
+        if len(titles) < 2:
+            return
+        for number, title in enumerate(titles):
+            tab = CardTab(text=title, chosen=number == chosen)
+            tab.bind(on_release=lambda _, number=number: self.dispatch("on_tab", number))
+            tabs.add_widget(tab)
+
+    def _fit(self, *_: object) -> None:
+        self.button = theme.target if theme.gloves else mm(MIN_BUTTON)
+        self.roomy = self.editing and self.width >= 2 * self.button + dp(TITLE_ROOM)
+        self.gripped = self.roomy and self.width >= 2 * self.button + dp(TITLE_ROOM + 60)
+        self.taken = (2 * self.button if self.roomy else 0) + (dp(26) if self.gripped else 0)
+        self.head = max(dp(HEAD), self.button) if self.roomy or self.count > 1 else dp(HEAD)
+
+    def _lay(self, *_: object) -> None:
+        """The widget fills its place, or stands in the middle where it has a height of its own."""
+        place, widget = self.ids.place, self.widget
+        if widget is None:
+            return
+        if widget.size_hint_y is None and getattr(widget, "own_height", False):
+            widget.width = place.width
+            widget.center_y, widget.x = place.center_y, place.x
+        else:
+            widget.size_hint = (None, None)
+            widget.pos, widget.size = place.pos, place.size
+
+    def _draw(self, *_: object) -> None:
+        if not self.editing:
+            self._ink.fill(Shapes())
+        elif self.selected:
+            shapes = Shapes()
+            shapes.line(self._outline(), dp(3.5), theme.accent)
+            self._ink.fill(shapes)
+        else:
+            self._ink.fill(dashed(self._outline(), theme.muted, dp(1.3)))
+
+    def _outline(self) -> Points:
+        """The border's middle, closed, its corners round [px]."""
+        import numpy as np
+
+        radius, rim = theme.radius, dp(1)
+        quarter = np.linspace(0.0, np.pi / 2, 6)
+        corners = []
+        for number, (x, y) in enumerate(
+            (
+                (self.right - radius, self.top - radius),
+                (self.x + radius, self.top - radius),
+                (self.x + radius, self.y + radius),
+                (self.right - radius, self.y + radius),
+            )
+        ):
+            turned = quarter + number * np.pi / 2
+            way = np.stack([np.cos(turned), np.sin(turned)], axis=1) * (radius - rim)
+            corners.append(way + np.array([x, y]))
+        outline = np.concatenate(corners)
+        return np.concatenate([outline, outline[:1]])
+
+    def on_touch_down(self, touch: Any) -> bool:
+        """While it is edited no finger reaches its widget: nothing there may drive."""
+        if not self.editing:
+            return bool(super().on_touch_down(touch))
+        if self.roomy and self.ids.buttons.collide_point(*touch.pos):
+            return bool(self.ids.buttons.dispatch("on_touch_down", touch))
+        tabs = self.ids.stack
+        if self.count > 1 and tabs.collide_point(*touch.pos):
+            return bool(tabs.dispatch("on_touch_down", touch))
+        return False
+
+    def let_go(self) -> None:
+        """Let go of the theme: it is on the glass no longer."""
+        theme.unbind(name=self._draw, target=self._fit)
+
+    def on_act(self, what: str) -> None:
+        """A button of its was pressed."""
+
+    def on_tab(self, index: int) -> None:
+        """Another panel of its stack was chosen."""
