@@ -88,14 +88,18 @@ class MapViewport(MeasuringMap):
             self._touched = self.follow = True
             self._centre(*self.robot[:2])
 
+    def centre_on(self, x: float, y: float) -> None:
+        """Bring (x, y) in `map` [m] into the middle of what is free; that ends `follow`."""
+        self._touched, self.follow = True, False
+        self._centre(x, y)
+
     def reveal(self, x: float, y: float) -> None:
         """Bring (x, y) in `map` [m] into what is free, where it is not in sight; that ends `follow`."""
         left, low, wide, high = self.free_box
         edge = min(2.2 * self.mark_radius, wide / 4, high / 4)
         px, py = self.view.to_screen(x, y)
         if not (left + edge <= px <= left + wide - edge and low + edge <= py <= low + high - edge):
-            self._touched, self.follow = True, False
-            self._centre(x, y)
+            self.centre_on(x, y)
 
     def fit(self) -> None:
         """Show everything, as large as it fits into what is free."""

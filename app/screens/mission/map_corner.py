@@ -9,6 +9,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from app.layout.arrange import Rect
+from app.screens.mission.intruder_card import IntruderCard
 from app.screens.mission.selection_bar import SelectionBar
 from app.screens.shell.check_card import CheckCard
 from widgets.map.map_overlay import MapOverlay
@@ -22,8 +23,8 @@ SCALE_HEIGHT = 64.0
 class MapCorner:
     """Hangs from the modes, or on a phone stands on its lower edge and lifts scale and legend."""
 
-    def __init__(self, selection: SelectionBar, checks: CheckCard) -> None:
-        self._selection, self._checks = selection, checks
+    def __init__(self, selection: SelectionBar, checks: CheckCard, intruder: IntruderCard) -> None:
+        self._selection, self._checks, self._intruder = selection, checks, intruder
         self.box = BoxLayout(orientation="vertical", spacing="8dp", size_hint=(None, None))
         """What is over the map."""
         self.cover: Rect | None = None
@@ -32,19 +33,34 @@ class MapCorner:
         self._bar = self._notice = Rect(0, 0, 1, 1)
         self._form, self._dp, self._sheet_up = "wide", 1.0, False
         self.settle_soon = Clock.create_trigger(self._settle, -1)
-        for listed in (selection, checks):
+        for listed in (selection, checks, intruder):
             listed.bind(height=self.settle_soon)
+        self._asked = False, True, False
+        intruder.bind(intruder=lambda *_: self._tell(), on_show=lambda *_: self._centre())
 
-    def show(self, *, selection: bool, checks: bool) -> None:
-        """Have each of them on the glass, or away."""
+    def show(self, *, selection: bool, looks: bool, covered: bool) -> None:
+        """Have on the glass what there is to say: what is `selection`, and where the map is only looked at, which `looks` says,
+        the check list, whose place an intruder takes; nothing where a card has `covered` the map."""
+        self._asked = selection, looks, covered
+        alarm = self._intruder.intruder is not None and (looks or self._form == "wide")
         wanted: list[Widget] = [self._selection] if selection else []
-        if checks:
-            wanted.append(self._checks)
+        wanted += [self._intruder] if alarm else [self._checks] if looks else []
+        if covered:
+            wanted = []
         if list(reversed(self.box.children)) != wanted:
             self.box.clear_widgets()
             for widget in wanted:
                 self.box.add_widget(widget)
         self.settle_soon()
+
+    def _tell(self) -> None:
+        selection, looks, covered = self._asked
+        self.show(selection=selection, looks=looks, covered=covered)
+
+    def _centre(self) -> None:
+        place = self._intruder.place
+        if self._map is not None and place is not None:
+            self._map.centre_on(*place)
 
     def arrange(
         self, area: MapOverlay, bar: Rect, notice: Rect, form: str, dp: float, *, sheet_up: bool
@@ -83,4 +99,5 @@ class MapCorner:
     def _covers(self) -> bool:
         """What is in the corner has more to say than fits beside scale and legend."""
         unfolded = self._checks.unfolded and self._checks.parent is self.box
+        unfolded = unfolded or self._intruder.parent is self.box
         return unfolded or (bool(self._selection.trouble) and self._selection.parent is self.box)

@@ -15,6 +15,7 @@ from app.link.camera_decoder import Picture
 from app.link.channels import CAPABILITIES, EVENT, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
+from app.screens.mission.intruder_card import IntruderCard
 from app.screens.mission.map_card import MapCard, map_insets
 from app.screens.mission.map_corner import MapCorner
 from app.screens.mission.map_pointing import MODES, MapPointing
@@ -90,8 +91,9 @@ class MissionScreen(RobotScreen):
         self._pointing = MapPointing(self, self.session)
         self.selection = self._pointing.bar
         self.checks = CheckCard(self.session, self.dashboard)
+        self.intruder = IntruderCard(self.session, self.dashboard)
         self._drawing = MissionOnMap(self.session, self._maps, self.panel, self._pointing)
-        self._corner = MapCorner(self.selection, self.checks)
+        self._corner = MapCorner(self.selection, self.checks, self.intruder)
         self.corner = self._corner.box
         """Over the map: what is selected and the check list, one above the other."""
         self.card = MapCard(self)
@@ -195,8 +197,7 @@ class MissionScreen(RobotScreen):
 
     def show_selection(self, shown: bool) -> None:
         """Have the bar that says what is selected on the glass, or away; the map that is edited is not covered by more."""
-        covered = self.card.open
-        self._corner.show(selection=shown and not covered, checks=self.mode == "view" and not covered)
+        self._corner.show(selection=shown, looks=self.mode == "view", covered=self.card.open)
 
     def show_card(self, card: Widget | None) -> None:
         """Have a card over the map, beside which what it asks of is seen; None takes it away."""
@@ -282,6 +283,7 @@ class MissionScreen(RobotScreen):
         self._drawing.tick()
         self.panel.tick()
         self.checks.tick()
+        self.intruder.tick()
         self._tools.tick()
         if self._maps.tick(self):
             self._rearrange()
@@ -289,6 +291,7 @@ class MissionScreen(RobotScreen):
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
         """A decoded camera frame; `rate` [Hz] and `latency` [s] are said on it, NaN for unknown."""
+        self.intruder.keep(picture)
         self.video.show_frame(picture.width, picture.height, picture.rgba, picture.taken)
         self.video.rate, self.video.latency = rate, latency
 
