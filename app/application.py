@@ -205,6 +205,7 @@ class PilothouseApp(App):
         self.inputs.close()
         self.timers.close()
         self.leave()
+        self.pages.close_lone()
         self.fleet.close()
         self.records.stop()
         if "maps" in vars(self):
@@ -327,6 +328,10 @@ class PilothouseApp(App):
         )
         if pane and screen is not None:
             screen.open(pane)
+
+    def show_replay(self) -> None:
+        """Put the recordings on the glass, with a robot or without one."""
+        self._show_anywhere("replay")
 
     def _show_anywhere(self, name: str) -> None:
         if self.shell is not None:

@@ -69,8 +69,8 @@ class NetworkSide:
             self.drain()
 
     def _on_frame(self, frame: Frame, received: float) -> None:
-        """In the network thread: keep the frame for a snapshot and have it decoded."""
-        self._records.frame = frame
+        """In the network thread: keep the frame for a snapshot and for what is recorded, and have it decoded."""
+        self._records.see(frame)
         self._camera.show(frame, received)
 
     def close(self) -> None:

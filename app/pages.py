@@ -22,6 +22,7 @@ __all__ = ["LONE", "Pages", "lone_page", "toggle_help"]
 LONE = {
     "inputs": (mark("Inputs"), "app.screens.inputs.screen:InputsScreen"),
     "setup": (mark("Setup"), "app.screens.setup.screen:SetupScreen"),
+    "replay": (mark("Replay"), "app.screens.replay.screen:ReplayScreen"),
 }
 """Screens that are there without a robot too, by name: the title of their page, and what makes them."""
 
@@ -124,6 +125,11 @@ class Pages:
         if shell is not None:
             shell.close()
         return shell
+
+    def close_lone(self) -> None:
+        """Let go of what the pages without a robot hold."""
+        for page in self._lone.values():
+            page.end()
 
     def show_connect(self) -> None:
         """Put the connect page on the glass."""

@@ -48,6 +48,7 @@ KIT = {
     "NoiseMeter": "widgets.inputs.noise_meter",
     "ReactionTest": "widgets.inputs.reaction_test",
     "ScanKeyboard": "widgets.inputs.scan_keyboard",
+    "TimeLine": "widgets.plots.time_line",
     "ScanPad": "widgets.inputs.scan_pad",
     "ShakeLesson": "widgets.inputs.shake_lesson",
 }

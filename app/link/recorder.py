@@ -22,6 +22,8 @@ __all__ = ["Recorder", "schema"]
 
 log = logging.getLogger(__name__)
 
+PIECE = 256 * 1024
+"""So much is gathered before it is written, packed [byte]: what a power cut takes, and what is read for one moment of it."""
 WAITING = 2000
 """Messages that may wait for the disk; beyond that the newest are dropped, counted and said."""
 
@@ -52,10 +54,17 @@ def _size(path: Path) -> int:
 class Recorder:
     """Writes in a thread of its own; `put` never waits."""
 
-    def __init__(self, path: Path, *, wall: Callable[[], float] = time.time, waiting: int = WAITING) -> None:
+    def __init__(
+        self,
+        path: Path,
+        *,
+        wall: Callable[[], float] = time.time,
+        waiting: int = WAITING,
+        piece: int = PIECE,
+    ) -> None:
         """Start a file at `path`; OSError when it cannot be written or is there. `wall` is the time of day [s].
 
-        At most `waiting` messages wait for the disk.
+        At most `waiting` messages wait for the disk; `piece` is how much is written at once [byte].
         """
         from mcap.writer import Writer
 
@@ -67,7 +76,7 @@ class Recorder:
         """One sentence when the disk failed; empty when all is well."""
         self._wall = wall
         self._file = path.open("xb")
-        self._writer = Writer(self._file)
+        self._writer = Writer(self._file, chunk_size=piece)
         self._writer.start(library="pilothouse")
         self._channels: dict[str, int] = {}
         self._queue: queue.Queue[tuple[str, Msg, float] | None] = queue.Queue(waiting)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -12,6 +13,8 @@ from app.link.channels import EVENT
 from bridge.core.camera_frames import Frame
 from bridge.core.topics import TOPICS
 from bridge.msgs import Msg
+from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.msgs.std_msgs import Header, Time
 from widgets.core.language import tr
 
 if TYPE_CHECKING:
@@ -20,6 +23,10 @@ if TYPE_CHECKING:
 
 __all__ = ["Recordings"]
 
+PICTURES = "/camera/image/compressed"
+"""Topic that the camera's frames are recorded as."""
+PICTURE_PERIOD = 0.2
+"""Between two recorded frames [s]: all of them would fill the disk with what no eye tells apart."""
 NAME = "%Y-%m-%d_%H-%M-%S"
 """Files are called by the time of day; where one is called so already, `_2` and so on follow."""
 
@@ -37,6 +44,7 @@ class Recordings:
         """`say` gets one sentence and its level; `wall` is the time of day [s], `now` a clock nobody sets [s]."""
         self._folder, self._say, self._wall, self._now = folder, say, wall, now
         self._began = now()
+        self._pictured = -math.inf
         self.recorder: Recorder | None = None
         """The recording that runs; None when none does."""
         self.frame: Frame | None = None
@@ -92,6 +100,23 @@ class Recordings:
             if session is not None and entry.latched:
                 self.put(entry.name, session.feeds.latest(entry.name))
         return True
+
+    @property
+    def files(self) -> list[Path]:
+        """What has been recorded, the newest first; the one that is being written is not among them."""
+        running = self.recorder.path if self.recorder is not None else None
+        found = (path for path in (self._folder / "recordings").glob("*.mcap") if path != running)
+        return sorted(found, key=lambda path: path.name, reverse=True)
+
+    def see(self, frame: Frame) -> None:
+        """A camera frame came, in the network thread: kept for a snapshot, and recorded now and then."""
+        self.frame = frame
+        recorder, now = self.recorder, self._now()
+        if recorder is None or now - self._pictured < PICTURE_PERIOD:
+            return
+        self._pictured = now
+        stamp = Time(math.floor(frame.stamp), int(frame.stamp % 1 * 1e9)) if frame.stamp > 0 else Time()
+        recorder.put(PICTURES, CompressedImage(Header(stamp, "camera"), "jpeg", frame.jpeg))
 
     def put(self, channel: str, message: object) -> None:
         """Record what came, where a recording runs."""

@@ -168,6 +168,13 @@ class Trail:
         """Oldest first, shape (n, 2) [m]."""
         return self._buffer[self._first : self._end]
 
+    def replace(self, points: Points) -> None:
+        """Have been at these places instead, shape (n, 2) [m], oldest first; of too many each so-many-th and the last."""
+        step = max(1, -(-len(points) // self._most))
+        kept = points[(len(points) - 1) % step :: step]
+        self._first, self._end = 0, len(kept)
+        self._buffer[: self._end] = kept
+
     def add(self, x: float, y: float) -> bool:
         """Go on to (x, y) [m]; False when that is too near to tell, or not a place."""
         if not (math.isfinite(x) and math.isfinite(y)):

@@ -50,6 +50,11 @@ class MapRobot(MapViewport):
         """Where it has been, oldest first, shape (n, 2) [m]; the newest 2,000 points are kept."""
         return self._trail.points
 
+    def retrace(self, places: Points) -> None:
+        """Have the trail lead through these places instead, oldest first, shape (n, 2) [m]."""
+        self._trail.replace(places)
+        self.property("robot").dispatch(self)  # what draws it follows the robot
+
     def centre_on_robot(self) -> None:
         """Bring the robot into the middle of what is free and keep it there; nothing while it is not located."""
         super().centre_on_robot()

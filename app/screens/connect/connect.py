@@ -225,7 +225,7 @@ Builder.load_string("""
                     spacing: dp(18)
             Grid:
                 id: actions
-                cols: 3 if root.columns > 1 else 1
+                cols: root.across
                 spacing: dp(18)
                 QuietButton:
                     id: add
@@ -250,6 +250,13 @@ Builder.load_string("""
                     disabled: not root.can_simulate or root.simulating
                     opacity: 1 if root.can_simulate else 0
                     on_release: root.app.simulating.ask()
+                QuietButton:
+                    id: recordings
+                    icon: 'history'
+                    text: tr('Recordings')
+                    size_hint_x: None
+                    width: root.action_width
+                    on_release: root.app.show_replay()
             Widget:
 """)
 
@@ -425,6 +432,8 @@ class ConnectScreen(FloatLayout):
     edge = NumericProperty("26dp")
     keep_free = ListProperty([0.0, 0.0])
     """What is left to STOP ALL: height along the lower edge, or width beside the ways to get to others [px]."""
+    across = NumericProperty(4)
+    """So many ways to get to others stand side by side."""
     action_width = NumericProperty("300dp")
     """[px]"""
     theme_icon = StringProperty("light_mode")
@@ -452,7 +461,7 @@ class ConnectScreen(FloatLayout):
         self.columns = connect_columns(self.width, dp)
         self.edge = (26 if self.width > 600 * dp else 14) * dp
         self.card_width = (self.width - 2 * self.edge - (self.columns - 1) * 18 * dp) / self.columns
-        across = 3 if self.columns > 1 else 1
+        across = self.across = 4 if self.columns > 1 else 1
         room = self.width - 2 * self.edge - (across - 1) * 18 * dp - self.keep_free[1]
         self.action_width = room / across
         for card in self.cards:

@@ -75,6 +75,12 @@ class LonePage(FloatLayout):
             self._leave()
         return True
 
+    def end(self) -> None:
+        """Let go of what the screen holds, for good."""
+        if self._screen is not None:
+            self._screen.leave()
+            self._screen.end()
+
     def _leave(self) -> None:
         self.screen.leave()
         self.app.root.show_page(self.app.connect)

@@ -71,6 +71,14 @@ SCREENS = (
         about=mark("All robots, STOP ALL"),
     ),
     Entry(
+        "replay",
+        "history",
+        mark("Replay"),
+        "app.screens.replay.screen:ReplayScreen",
+        ("app",),
+        about=mark("Recordings, moment by moment"),
+    ),
+    Entry(
         "setup",
         "tune",
         mark("Setup"),

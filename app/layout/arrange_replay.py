@@ -1,0 +1,84 @@
+"""Places of the replay screen: what is seen of a moment, the line of time, its buttons, and STOP of the robot of now."""
+
+from __future__ import annotations
+
+from app.layout.arrange import CORNER, more
+from app.layout.rects import Body, Rect, StopPlace, crowded
+
+__all__ = ["panes", "replay", "replay_alone"]
+
+BUTTONS = 252
+"""Width of the buttons of the line of time [dp]."""
+BUTTONS_HEIGHT = 118
+"""Greatest height of the buttons beside STOP on an upright screen, above which STOP ALL may be [dp]."""
+LINE_HEIGHT = 56
+"""Height of the line of time where it has a row of its own [dp]."""
+
+
+def replay(body: Body, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+    """With a robot: `main`, `line`, `buttons`, `stop` and `notice`."""
+    gap = 12 * dp
+    places = more(body, shape, dp)
+    stop = places["stop"]
+    beside = stop.left if shape != "tall" and isinstance(stop, StopPlace) else stop.x
+    high = min(stop.height, BUTTONS_HEIGHT * dp) if shape == "tall" else stop.height
+    left = Rect(body.x + gap, stop.y, beside - body.x - 2 * gap, high)
+    low = places["list"].y
+    if shape == "tall":
+        line = Rect(body.x + gap, low, body.width - 2 * gap, LINE_HEIGHT * dp)
+        main = Rect(body.x + gap, line.top + 4 * dp, line.width, body.top - 8 * dp - line.top - 4 * dp)
+        return {"main": main, "line": line, "buttons": left, "stop": stop, "notice": main}
+    main = Rect(body.x + gap, low, body.width - 2 * gap, body.top - 8 * dp - low)
+    return {"main": main, **_row(left, dp), "stop": stop, "notice": main}
+
+
+def replay_alone(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+    """Where no robot is connected: the same without `stop`, above STOP ALL where that is there."""
+    gap = 12 * dp
+    low = body.y + (CORNER * dp if crowded(body) else gap)
+    if shape == "tall":
+        buttons = Rect(body.x + gap, low, body.width - 2 * gap, 60 * dp)
+        line = Rect(buttons.x, buttons.top + 4 * dp, buttons.width, LINE_HEIGHT * dp)
+        main = Rect(line.x, line.top + 4 * dp, line.width, body.top - 8 * dp - line.top - 4 * dp)
+        return {"main": main, "line": line, "buttons": buttons, "notice": main}
+    row = Rect(body.x + gap, low, body.width - 2 * gap, 64 * dp)
+    main = Rect(row.x, row.top + 4 * dp, row.width, body.top - 8 * dp - row.top - 4 * dp)
+    return {"main": main, **_row(row, dp), "notice": main}
+
+
+def _row(row: Rect, dp: float) -> dict[str, Rect]:
+    """Buttons and line beside each other."""
+    wide = min(BUTTONS * dp, row.width * 0.6)
+    x = row.x + wide + 8 * dp
+    return {
+        "buttons": Rect(row.x, row.y, wide, row.height),
+        "line": Rect(x, row.y, row.right - x, row.height),
+    }
+
+
+def panes(main: Rect, shape: str, dp: float, *, pictures: bool, chosen: str) -> dict[str, Rect]:
+    """What is seen in `main`: of `video`, `map`, `plots` and `events` those that have a place; on a phone the `chosen` one."""
+    gap = 8 * dp
+    if shape == "wide":
+        left = Rect(main.x, main.y, main.width * 0.46, main.height)
+        x = left.right + gap
+        right = Rect(x, main.y, main.right - x, main.height)
+        events = Rect(right.x, right.y, right.width, min(right.height * 0.34, 260 * dp))
+        plots = Rect(right.x, events.top + gap, right.width, right.top - events.top - gap)
+        found = {"plots": plots, "events": events, "map": left}
+        if pictures:
+            high = (left.height - gap) / 2
+            found["map"] = Rect(left.x, left.y, left.width, high)
+            found["video"] = Rect(left.x, left.y + high + gap, left.width, high)
+        return found
+    if not pictures:
+        return {chosen: main}
+    if shape == "tall":
+        high = min(main.width * 0.62, main.height * 0.42)
+        video = Rect(main.x, main.top - high, main.width, high)
+        return {"video": video, chosen: Rect(main.x, main.y, main.width, main.height - high - gap)}
+    half = (main.width - gap) / 2
+    return {
+        "video": Rect(main.x, main.y, half, main.height),
+        chosen: Rect(main.x + half + gap, main.y, half, main.height),
+    }

@@ -1,0 +1,1 @@
+"""Recordings of the past: read piece by piece, indexed, and played."""

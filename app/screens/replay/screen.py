@@ -1,0 +1,386 @@
+"""The replay screen: the list of recordings, and the one that is open at a moment of it.
+
+It is given no session: what is played can reach no robot. STOP beside it is that of the robot of now.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from pathlib import Path
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.properties import NumericProperty, ObjectProperty, OptionProperty, StringProperty
+
+from app.layout.arrange import Body, Rect
+from app.layout.arrange_replay import replay, replay_alone
+from app.replay.player import Player
+from app.replay.recording_list import Glimpse, RecordingList
+from app.screens.parts.field_chooser import FieldChooser
+from app.screens.parts.placing import Area, put  # noqa: F401 - a rule names the area
+from app.screens.parts.robot_screen import RobotScreen
+from app.screens.replay.moment_view import MomentView
+from app.screens.replay.transport import Transport
+from widgets.core.language import mark, tr
+from widgets.fields.message_fields import size_text
+from widgets.parts.kit import Column, ListRow, Remark, Roll
+from widgets.plots.time_line import TimeLine, length_text
+
+__all__ = ["ReplayScreen"]
+
+TABS = (("map", mark("Map")), ("plots", mark("Plots")), ("events", mark("Events")))
+NONE_YET = mark("No recording yet. Record is in the bar of a robot's screens.")
+CHOOSER = 380
+"""Width of the list of numbers [dp]."""
+
+Builder.load_string("""
+<ReplayScreen>:
+    canvas.after:
+        Color:
+            rgba: theme.plan if root.opened else (0, 0, 0, 0)
+        Line:
+            rectangle: self.x + dp(1), self.y + dp(1), self.width - dp(2), self.height - dp(2)
+            width: dp(1.5)
+    Area:
+        id: listed
+    BoxLayout:
+        id: head
+        size_hint: None, None
+        spacing: dp(8)
+        IconButton:
+            id: back
+            icon: 'arrow_back'
+            bare: True
+            pos_hint: {'center_y': .5}
+            on_release: root.back()
+        BoxLayout:
+            size_hint: None, None
+            size: self.minimum_size
+            padding: dp(10), dp(5)
+            spacing: dp(6)
+            pos_hint: {'center_y': .5}
+            canvas.before:
+                Rounded:
+                    rgba: theme.plan
+                    pos: self.pos
+                    size: self.size
+                    radius: [theme.corner * .8]
+            Icon:
+                name: 'history'
+                role: 'ink_plan'
+                font_size: sp(18)
+                size_hint: None, None
+                size: self.texture_size
+                pos_hint: {'center_y': .5}
+            Label:
+                text: root.badge
+                font_name: theme.font
+                bold: True
+                font_size: sp(14)
+                color: theme.ink_plan
+                disabled_color: self.color
+                size_hint: None, None
+                size: self.texture_size
+                pos_hint: {'center_y': .5}
+        Text:
+            id: title
+            text: root.title
+            role: 'muted'
+            font_size: sp(14)
+            size_hint_y: 1
+            text_size: self.size
+            valign: 'middle'
+            shorten: True
+        QuietButton:
+            id: choose
+            icon: 'timeline'
+            text: root.choose_words if root.form == 'wide' else ''
+            size_hint_x: None
+            width: dp(170) if root.form == 'wide' else theme.target
+            pos_hint: {'center_y': .5}
+    Segmented:
+        id: tabs
+        size_hint: None, None
+        options: root.tabs
+        value: root.tab
+        font_size: sp(15)
+        on_choose: root.tab = args[1]
+""")
+
+
+class ReplayScreen(RobotScreen):
+    """The same with a robot, in its frame, and without one, on a page of its own."""
+
+    app = ObjectProperty()
+    opened = StringProperty("")
+    """Name of the file of the recording that is open; empty for the list."""
+    badge = StringProperty("REPLAY")
+    title = StringProperty("")
+    form = OptionProperty("wide", options=["wide", "short", "tall"])
+    tab = StringProperty("map")
+    """What a phone shows of the moment."""
+    speed = NumericProperty(1.0)
+
+    def __init__(self, **kwargs: Any) -> None:
+        self.tabs = [(name, tr(words)) for name, words in TABS]
+        self.choose_words = tr("Plot a number")
+        super().__init__(**kwargs)
+        for name in ("listed", "head", "tabs"):  # kv holds ids weakly
+            self.ids[name] = self.ids[name].__self__
+        self.player: Player | None = None
+        self.recordings = RecordingList(lambda: self.app.records.files)
+        self.recordings.on_change = self._show_list
+        self.view, self.line, self.transport = MomentView(), TimeLine(), Transport()
+        self.chooser: FieldChooser | None = None
+        self.rows: dict[str, ListRow] = {}
+        """By the name of the file."""
+        self._places: dict[str, Rect] = {}
+        self._dp = 1.0
+        self._kept: tuple[Path, float] | None = None
+        """What was open when the screen was left, and at which moment."""
+        self._active = self._watching = False
+        self._build()
+
+    def _build(self) -> None:
+        self.column, self.nothing = Column(spacing="6dp"), Remark(role="muted")
+        roll = Roll()
+        roll.add_widget(self.column)
+        self.ids.listed.add_widget(roll)
+        self.ids.choose.bind(on_release=lambda _: self.toggle_chooser())
+        self.view.bind(on_seek=lambda _, at: self.seek(at))
+        self.line.bind(on_seek=lambda _, at: self.seek(at))
+        self.transport.bind(
+            on_play=lambda _: self.toggle_playing(),
+            on_step=lambda _, way: self._step(way),
+            on_pace=lambda _, speed: self.set_speed(speed),
+        )
+        self.bind(tab=self._lay)
+
+    # what the frame calls
+
+    def arrange(self, body: Body, form: str, dp: float) -> Rect:
+        """Put everything into its place; returns where STOP goes."""
+        self.form, self._dp, self._places = form, dp, replay(body, form, dp)
+        self.notice = self._places["notice"]
+        self._lay()
+        return self._places["stop"]
+
+    def spread(self, body: Rect, form: str, dp: float) -> None:
+        """The same where there is no robot."""
+        self.form, self._dp, self._places = form, dp, replay_alone(body, form, dp)
+        self._lay()
+
+    def enter(self) -> None:
+        """Come onto the glass; what was open when it was left is opened again."""
+        self._active = True
+        self.recordings.refresh()
+        self._show_list()
+        if self._kept is not None:
+            path, at = self._kept
+            if path.exists():
+                self.open(path, at)
+
+    def leave(self) -> None:
+        """Leave the glass: nothing is read for it any more."""
+        if not self._active:
+            return
+        self._active = False
+        kept = (self.player.path, self.player.position) if self.player is not None else None
+        self.shut()
+        self._kept = kept
+        self.recordings.close()
+
+    def end(self) -> None:
+        """Let go of the threads and of the map."""
+        self.leave()
+        self.view.map.close()
+
+    def back(self) -> bool:
+        """From the choice of numbers to the moment, from there to the list; False when that is on the glass."""
+        if self.chooser is not None:
+            self.toggle_chooser()
+            return True
+        if self.player is None:
+            return False
+        self.shut()
+        self._show_list()
+        return True
+
+    def tick(self) -> None:
+        """Go on with what is played."""
+        player = self.player
+        if player is None:
+            return
+        player.tick()
+        if player.problem:
+            self.title = player.problem
+        elif player.index is None:
+            self.title = tr("Reading {name}: {part} %").format(
+                name=player.path.name, part=round(player.progress * 100)
+            )
+        else:
+            self._show_moment(player)
+
+    # the list
+
+    def _show_list(self) -> None:
+        if self.player is not None or not self._active:
+            return
+        self.column.clear_widgets()
+        self.rows = {}
+        for seen in self.recordings.glimpses:
+            row = self.rows[seen.path.name] = self._row(seen)
+            self.column.add_widget(row)
+        self.nothing.text = "" if self.rows else tr(NONE_YET)
+        if not self.rows:
+            self.column.add_widget(self.nothing)
+        self._lay()
+
+    def _row(self, seen: Glimpse) -> ListRow:
+        when = (
+            time.strftime("%Y-%m-%d %H:%M", time.localtime(seen.start))
+            if math.isfinite(seen.start)
+            else seen.path.stem
+        )
+        broken = bool(seen.problem) and not math.isfinite(seen.start)
+        row = ListRow(
+            icon="error" if broken else "warning" if seen.problem else "history",
+            role="danger" if broken else "warn" if seen.problem else "accent",
+            title=f"{seen.robot or tr('Unknown robot')} · {when}",
+            detail=seen.problem or seen.path.name,
+            aside=f"{length_text(seen.duration)} · {size_text(seen.size)}",
+            whole=True,
+        )
+        row.bind(on_release=lambda _: self.open(seen.path))
+        return row
+
+    # one recording
+
+    def open(self, path: Path, at: float = math.nan) -> None:
+        """Open a recording, at the moment `at` [s since 1970] or at its beginning."""
+        self.shut()
+        self.player = Player(path, self.app.now)
+        self._kept = (path, at)
+        self.player.speed = self.speed
+        self.opened, self.badge = path.name, "REPLAY"
+        self.title = tr("Reading {name}: {part} %").format(name=path.name, part=0)
+        self._lay()
+
+    def shut(self) -> None:
+        """Close the one that is open."""
+        if self.chooser is not None:
+            self.toggle_chooser()
+        self.view.close()
+        if self.player is not None:
+            self.player.close()
+        self.player, self._kept, self.opened, self._watching = None, None, "", False
+        self.line.state, self.line.marks = "never", []
+        self.transport.playing = False
+        if self._places:
+            self._lay()
+
+    def _watch(self, player: Player) -> None:
+        """It is open now: show its first moment."""
+        index = player.index
+        if index is None:
+            return
+        self._watching = True
+        self.view.open(player)
+        self.line.start, self.line.end, self.line.state = index.start, index.end, "live"
+        self.line.marks = [(at, event.level) for at, event in index.events]
+        if self._kept is not None:
+            player.seek(self._kept[1])
+        robot = index.info.name if index.info is not None else tr("Unknown robot")
+        self.title = " · ".join(part for part in (robot, length_text(index.duration), index.problem) if part)
+        self._lay()
+
+    def _show_moment(self, player: Player) -> None:
+        if not self._watching:
+            self._watch(player)
+        self.view.tick()
+        self.line.position = player.position
+        self.transport.playing = player.playing
+        when = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(player.position))
+        self.badge = f"REPLAY · {when}"
+
+    def seek(self, at: float) -> None:
+        """Go to a moment [s since 1970]."""
+        if self.player is not None:
+            self.player.seek(at)
+            self.tick()
+
+    def toggle_playing(self) -> None:
+        """Play, or stand still."""
+        if self.player is not None:
+            if self.player.playing:
+                self.player.pause()
+            else:
+                self.player.play()
+            self.tick()
+
+    def set_speed(self, speed: float) -> None:
+        """Play so many times as fast as it was."""
+        self.speed = self.transport.speed = speed
+        if self.player is not None:
+            self.player.speed = speed
+
+    def _step(self, way: int) -> None:
+        if self.player is not None:
+            self.player.step_event(way)
+            self.tick()
+
+    def toggle_chooser(self) -> None:
+        """Show the numbers that can be drawn, or put them away."""
+        if self.chooser is None:
+            if self.player is None or self.player.index is None:
+                return
+            self.chooser = FieldChooser(drawn=self.view.drawn)
+            self.chooser.offer(self.view.choices())
+            self.chooser.bind(
+                on_turn=lambda _, *field: self._turn(*field), on_close=lambda _: self.toggle_chooser()
+            )
+            self.tab = "plots"
+        else:
+            self.remove_widget(self.chooser)
+            self.chooser = None
+        self._lay()
+
+    def _turn(self, topic: str, path: str, unit: str) -> None:
+        self.view.turn(topic, path, unit)
+        if self.chooser is not None:
+            self.chooser.drawn = self.view.drawn
+
+    # places
+
+    def _lay(self, *_: object) -> None:
+        if not self._places:
+            return
+        main, dp, open_ = self._places["main"], self._dp, self.player is not None
+        ready = open_ and self._watching
+        head = Rect(main.x, main.top - 52 * dp, main.width, 52 * dp)
+        rest = Rect(main.x, main.y, main.width, head.y - 4 * dp - main.y)
+        self._place(self.ids.listed, Rect(main.x, main.y, main.width, main.height), not open_)
+        self._place(self.ids.head, head, open_)
+        self.ids.choose.disabled = not ready
+        phone = self.form != "wide"
+        tabs = Rect(rest.x, rest.top - 44 * dp, rest.width, 44 * dp)
+        self._place(self.ids.tabs, tabs, ready and phone)
+        if phone:
+            rest = Rect(rest.x, rest.y, rest.width, rest.height - 50 * dp)
+        chooser = self.chooser
+        if chooser is not None:
+            wide = min(CHOOSER * dp, rest.width)
+            self._place(chooser, Rect(rest.right - wide, rest.y, wide, rest.height), True)
+            if not phone:
+                rest = Rect(rest.x, rest.y, rest.width - wide - 8 * dp, rest.height)
+        self._place(self.view, rest, ready)
+        if ready:
+            self.view.arrange(rest, self.form, dp, self.tab)
+        for widget, name in ((self.line, "line"), (self.transport, "buttons")):
+            self._place(widget, self._places[name], ready and not (chooser is not None and phone))
+
+    def _place(self, widget: Any, place: Rect, wanted: bool) -> None:
+        put(widget, place)
+        if wanted != (widget.parent is self):
+            (self.add_widget if wanted else self.remove_widget)(widget)
