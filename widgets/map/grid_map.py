@@ -86,6 +86,8 @@ class GridMap(MapOverlay):
         if not isinstance(msg, OccupancyGrid):
             super().show(msg)
             return
+        if msg is self.grid:
+            return  # a screen that comes back shows the newest again
         wide, high = msg.info.width, msg.info.height
         if max(wide, high) > MAX_SIDE or wide * high > MAX_PIXELS:
             if self.grid is not None or not self._too_large:

@@ -40,6 +40,7 @@ from widgets.map import map_marks as marks
 from widgets.map.fence import Fence
 from widgets.map.map_measure import measure_marks
 from widgets.map.map_robot import MapRobot
+from widgets.map.map_viewport import SMALL
 
 __all__ = ["MapOverlay"]
 
@@ -252,7 +253,7 @@ class MapOverlay(MapRobot, Drawing):
     def _tools(self, shapes: Shapes) -> Iterator[Word]:
         """What is measured, and where north is while it is not up."""
         yield from measure_marks(shapes, self.view, self.measured_now())
-        if abs(self.view.turn) > marks.UPRIGHT:
+        if abs(self.view.turn) > marks.UPRIGHT and min(self.size) > dp(SMALL):
             x, y, wide, high = self.free_box
             yield marks.north_mark(shapes, x + wide - dp(30), y + high - dp(30), self.view.turn)
 

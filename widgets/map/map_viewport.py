@@ -21,6 +21,8 @@ ZOOM_STEP = 1.5
 """Of one press of a zoom button."""
 MIN_SCALE, MAX_SCALE = 0.5, 400.0
 """Limits of the scale [dp/m]."""
+SMALL = 220.0
+"""Least side from which on marks have the size that fingers take hold of [dp]."""
 MAX_FITTED_SCALE = 60.0
 """Greatest scale that `fit` chooses [dp/m]."""
 
@@ -44,7 +46,8 @@ class MapViewport(MeasuringMap):
     """The part of the map that nothing covers: x, y, width, height [px]."""
 
     def _mark_radius(self) -> float:
-        return dp(21) if min(self.width, self.height) > dp(440) else dp(16)
+        least = min(self.width, self.height)
+        return dp(21) if least > dp(440) else dp(16) if least > dp(SMALL) else dp(9)
 
     mark_radius = AliasProperty(_mark_radius, bind=["size"], cache=True)
     """Of a waypoint's disc [px]."""

@@ -14,6 +14,7 @@ from app.layout.layout import Layout
 from app.layout.rects import between
 from app.screens.drive.action_buttons import ActionButtons
 from app.screens.drive.driving_base import Driving
+from app.screens.drive.inset_map import add_inset, checks_beside
 from app.screens.drive.intruder_overlay import IntruderOverlay
 from app.screens.parts.placing import off, put
 from widgets import SlideToConfirm
@@ -58,6 +59,7 @@ class DriveScreen(Driving):
         self.hands.bind(chosen=self._choose)
         self.add_widget(self.sight)
         self.add_widget(self.senses)
+        self.inset = add_inset(self)
         self.ids.update({"video": self.video, **self._named()})
 
     def _take_up(self) -> None:
@@ -112,7 +114,8 @@ class DriveScreen(Driving):
         tall, row = form == "tall", places["actions"]
         self.actions.across = row.width > 2 * row.height
         self.actions.tick()
-        self.notice, low = places["notice"], places["notice_low"]
+        self.notice, low = places["notice"], checks_beside(places, form, dp)
+        self.checks.tight = form == "short" or low.width < places["notice_low"].width
         touched = (places[slot] for slot in ("switch", "actions") if slot in places)
         over = (one.y for one in touched if one.y > low.y and one.x < low.right and low.x < one.right)
         beside = self._two and tall  # beside the picture's own words; unfolded it takes the tape's room
@@ -125,6 +128,7 @@ class DriveScreen(Driving):
             start, chip = places["stick"].x, places["drawer" if self.handle.pulled else "readouts"].y
         aside = max(0.0, body.right - self.notice.right - 8 * dp)
         self.video.insets = [start - 8 * dp - body.x, 0, aside, body.top - chip]
+        self.inset.arrange(places, form, dp)
         self.uncover()
         return places["stop"]
 
@@ -195,6 +199,8 @@ class DriveScreen(Driving):
         if strip != self._strip:
             self._strip = strip
             self.senses.place(strip, self.arranged["senses_open"])
+        drawn = [self.arranged["drawer"]] if self.handle.pulled else []
+        self.inset.uncover([*lids, *self.checks_place, *drawn])
 
     def _figures_left(self, lids: list[Rect], *, alone: bool) -> Rect | None:
         """Where the figures are: in their own place, in all of the row whose instruments are away, or over what is said."""
@@ -238,7 +244,18 @@ class DriveScreen(Driving):
         super().tick()
         self.sight.tick()
         self.actions.tick()
+        self.inset.tick()
         self._show_slides()
+
+    def rest(self) -> None:
+        """Every control lets go, and fingers on the map do."""
+        super().rest()
+        self.inset.rest()
+
+    def end(self) -> None:
+        """Let go of the map."""
+        super().end()
+        self.inset.end()
 
 
 def _left(place: Rect, lids: list[Rect], least: float, gap: float) -> Rect | None:
