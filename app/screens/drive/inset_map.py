@@ -32,13 +32,13 @@ SCALE = 8.0
 """Of the small map [dp/m]: what is some steps away is seen."""
 TICKS = 2
 """The small map shows every pose of so many ticks: what is small need not be drawn twenty times a second."""
-MIN_SIDE = 70.0
+MIN_SIDE = 66.0
 """A smaller map shows nothing that can be read [dp]."""
 WIDTH, ASPECT = 250.0, 1.4
 """Greatest width of the small one [dp], and that by its height."""
 PHONE_WIDTH = 132.0
 """Of the small one on an upright phone [dp]."""
-PHONE_HEIGHT, BESIDE_TWO = 100.0, 72.0
+PHONE_HEIGHT, BESIDE_TWO = 100.0, 67.0
 """Of the small one on a phone's side, and there beside two sticks [dp]: the picture is the screen."""
 
 Builder.load_string("""
