@@ -11,13 +11,13 @@ import numpy as np
 from kivy.uix.floatlayout import FloatLayout
 
 from app.layout.arrange import Rect
-from app.layout.arrange_replay import panes
 from app.link.camera_decoder import PICTURE, Picture
 from app.link.feeds import Post
 from app.replay.player import PICTURES, Player
 from app.replay.recording_index import Index
 from app.screens.parts.placing import put
 from app.screens.parts.plot_stack import PlotStack
+from app.screens.replay.places import panes
 from app.session.dashboard import Dashboard
 from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import EventLog, GridMap, Video

@@ -14,13 +14,13 @@ from kivy.lang import Builder
 from kivy.properties import NumericProperty, ObjectProperty, OptionProperty, StringProperty
 
 from app.layout.arrange import Body, Rect
-from app.layout.arrange_replay import replay, replay_alone
 from app.replay.player import Player
 from app.replay.recording_list import Glimpse, RecordingList
 from app.screens.parts.field_chooser import FieldChooser
 from app.screens.parts.placing import Area, put  # noqa: F401 - a rule names the area
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.replay.moment_view import MomentView
+from app.screens.replay.places import replay, replay_alone
 from app.screens.replay.transport import Transport
 from widgets.core.language import mark, tr
 from widgets.fields.message_fields import size_text
