@@ -88,7 +88,7 @@ def mission(body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False
     places = {"map": area, "panel": _above(panel, stop, gap), "side": panel, "stop": stop}
     button = (52 if wide else 46) * dp
     free = Rect(area.x, area.y + 142 * dp, area.width, area.height - 142 * dp) if wide else area
-    places["tools"] = _column(free, button, 7, gap, 8 * dp if wide else 6 * dp)
+    places["tools"] = _column(free, button, 8, gap, 8 * dp if wide else 6 * dp)
     places["modes"] = Rect(
         area.x + gap, area.top - gap - 46 * dp, min(384 * dp, places["tools"].x - area.x - 2 * gap), 46 * dp
     )
@@ -145,7 +145,7 @@ def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
     area = Rect(body.x, body.y + low, body.width, body.height - low)
     picture = min(148 * dp, body.width * 0.4)
     video = Rect(area.x + gap, area.top - gap - picture * 0.66, picture, picture * 0.66)
-    tools = _column(area, 50 * dp, 4, gap, 8 * dp)
+    tools = _column(area, 50 * dp, 5, gap, 8 * dp)
     modes = Rect(area.x + gap, area.y + gap, body.width - 3 * gap - 50 * dp, 46 * dp)
     return {
         "map": area,

@@ -60,6 +60,13 @@ class MapRobot(MapViewport):
         super().centre_on_robot()
         self._turn_with_robot()
 
+    def follow_or_turn(self) -> None:
+        """Follow the robot; once it is followed, change between the way it looks up and north up."""
+        if self.follow:
+            self.look_ahead()
+        else:
+            self.centre_on_robot()
+
     def look_ahead(self) -> None:
         """Have the way it looks up, and follow it; again for north."""
         if self.heading_up:

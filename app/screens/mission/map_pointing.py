@@ -15,6 +15,8 @@ from app.screens.mission.map_places import MapPlaces
 from app.screens.mission.selection_bar import SelectionBar
 from app.screens.shell.screen_host import ScreenHost
 from app.session.session import Session
+from widgets.core.language import mark, tr
+from widgets.map.map_measure import total_words
 from widgets.map.map_overlay import MapOverlay
 from widgets.parts.kit import IconButton, PrimaryButton, QuietButton
 
@@ -33,6 +35,7 @@ HINTS = {
     "home": "Tap where the robot shall return to.",
     "place": "Tap to make or change a place.",
     "place_robot": "Drag it, turn it.",
+    "measure": mark("Tap the places to measure between."),
 }
 
 
@@ -88,6 +91,8 @@ class MapPointing:
         for button, text, width, act in (
             ("place_cancel", "Cancel", "78dp", lambda *_: setattr(self._screen, "mode", "view")),
             ("place_here", "Set here", "88dp", lambda *_: self._place_robot()),
+            ("home_here", tr("Here"), "78dp", lambda *_: self._home_here()),
+            ("measure_done", tr("Done"), "78dp", lambda *_: self.measure()),
         ):
             kind = PrimaryButton if button == "place_here" else QuietButton
             word = kind(text=text, size_hint=(None, None), width=width, pos_hint={"center_y": 0.5})
@@ -108,6 +113,7 @@ class MapPointing:
             on_new_place=lambda _, x, y: self.places.point(x, y),
             on_open_place=lambda _, index: self.places.open_at(index),
             grip=self._say,
+            measured=lambda *_: self.show(),
             fence=self._say,
             robot_radius=self._say,
         )
@@ -167,6 +173,10 @@ class MapPointing:
             return f"Point {index + 1} of {count}", ("earlier", "later", "delete")
         if self.places.asks:
             return self.places.asks, ()
+        if screen.mode == "home":
+            return HINTS["home"], ("home_here",) if screen.map.located else ()
+        if screen.mode == "measure":
+            return total_words(screen.map.measured) or tr(HINTS["measure"]), ("measure_done",)
         return HINTS.get(screen.mode, ""), ()
 
     def _trouble(self) -> str:
@@ -207,6 +217,17 @@ class MapPointing:
             places["Home"] = held.home
         self._screen.map.refused = [(*places[name], fault.brief) for name, fault in faults.items()]
         self.bar.trouble = self._trouble()
+
+    def measure(self) -> None:
+        """Begin to measure, or end it."""
+        self._screen.mode = "view" if self._screen.mode == "measure" else "measure"
+
+    def _home_here(self) -> None:
+        """Home is where the robot is now."""
+        area = self._screen.map
+        if area.located:
+            self._session.mission.set_home(*area.robot[:2])
+            self._screen.mode = "view"
 
     def _reorder(self, step: int) -> None:
         area = self._screen.map

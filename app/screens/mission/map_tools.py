@@ -10,9 +10,13 @@ from kivy.uix.widget import Widget
 from app.layout.arrange import Rect
 from app.screens.parts.placing import put
 from app.session.session import Session
+from widgets.map.map_overlay import MapOverlay
 from widgets.parts.kit import IconButton
 
 __all__ = ["MapTools", "float_over"]
+
+SPARE = (("zoom_in", "zoom_out"), ("measure",))
+"""What is left out where there is no room for all, the first first: two fingers enlarge as well."""
 
 
 def float_over(floats: FloatLayout, widget: Widget, rect: Rect | None) -> None:
@@ -30,16 +34,22 @@ class MapTools:
     """One column of buttons, as many as there is room for."""
 
     def __init__(
-        self, session: Session, look: Callable[[str], object], show_layers: Callable[[], object]
+        self,
+        session: Session,
+        look: Callable[[str], object],
+        show_layers: Callable[[], object],
+        measure: Callable[[], object],
     ) -> None:
-        """`look` calls the method of that name of the map on the glass; `show_layers` asks what lies beneath it."""
+        """`look` calls the method of that name of the map on the glass, `show_layers` asks what lies beneath it, and
+        `measure` begins or ends measuring."""
         self._session = session
         self.buttons: dict[str, IconButton] = {}
         """By name, in the order of the column."""
         for name, icon, act in (
             ("zoom_in", "add", lambda: look("zoom_in")),
             ("zoom_out", "remove", lambda: look("zoom_out")),
-            ("centre", "my_location", lambda: look("centre_on_robot")),
+            ("centre", "my_location", lambda: look("follow_or_turn")),
+            ("measure", "straighten", measure),
             ("fit", "fit_screen", lambda: look("fit")),
             ("layers", "layers", show_layers),
             ("undo", "undo", session.mission.undo),
@@ -48,8 +58,12 @@ class MapTools:
             button = self.buttons[name] = IconButton(icon=icon)
             button.bind(on_release=lambda _, act=act: act())
 
-    def tick(self) -> None:
-        """What cannot be taken back cannot be pressed."""
+    def tick(self, map_: MapOverlay, mode: str) -> None:
+        """What cannot be taken back cannot be pressed; what is on is lit, and which way is up is seen on its button."""
+        centre = self.buttons["centre"]
+        centre.icon = "navigation" if map_.follow and map_.heading_up else "my_location"
+        centre.role = "accent" if map_.follow else "text"
+        self.buttons["measure"].role = "accent" if mode == "measure" else "text"
         self.buttons["undo"].disabled = not self._session.mission.can_undo
         self.buttons["redo"].disabled = not self._session.mission.can_redo
 
@@ -58,8 +72,10 @@ class MapTools:
         names = self._wanted(tall=tall, has_layers=has_layers)
         side = rect.width
         fit = max(1, int((rect.height + 8 * dp) // (side + 6 * dp)))
-        if len(names) > fit:  # two fingers do as well
-            names = [name for name in names if name not in ("zoom_in", "zoom_out")][-fit:]
+        for spare in SPARE:
+            if len(names) > fit:
+                names = [name for name in names if name not in spare]
+        names = names[-fit:]
         for name, button in self.buttons.items():
             float_over(floats, button, None)
             if name in names:
@@ -68,7 +84,7 @@ class MapTools:
                 float_over(floats, button, Rect(rect.x, rect.top - side - index * step, side, side))
 
     def _wanted(self, *, tall: bool, has_layers: bool) -> list[str]:
-        names = ["centre", "layers", "undo", "redo"] if tall else list(self.buttons)
+        names = ["centre", "measure", "layers", "undo", "redo"] if tall else list(self.buttons)
         if self._session.robot.lacks_tasks:
             names = [name for name in names if name not in ("undo", "redo")]
         if not has_layers:

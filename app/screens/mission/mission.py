@@ -97,7 +97,9 @@ class MissionScreen(RobotScreen):
         self.corner = self._corner.box
         """Over the map: what is selected and the check list, one above the other."""
         self.card = MapCard(self)
-        self._tools = MapTools(self.session, self._look, lambda: self._maps.toggle_card(self))
+        self._tools = MapTools(
+            self.session, self._look, lambda: self._maps.toggle_card(self), self._pointing.measure
+        )
         self._form, self._body, self._dp = "wide", Rect(0, 0, 1, 1), 1.0
         self._build()
         self._bind_map()
@@ -284,7 +286,7 @@ class MissionScreen(RobotScreen):
         self.panel.tick()
         self.checks.tick()
         self.intruder.tick()
-        self._tools.tick()
+        self._tools.tick(self.map, self.mode)
         if self._maps.tick(self):
             self._rearrange()
         self._pointing.tick()

@@ -43,6 +43,15 @@ def test_a_finger_that_drags_ends_that_and_the_button_brings_it_back(map_, stage
     assert map_.view.turn == pytest.approx(math.pi / 2 - 1.5)
 
 
+def test_one_button_follows_then_turns_and_turns_back(map_):
+    map_.show(pose(2, 1, 0.3))
+    seen_so = []
+    for _ in range(3):
+        map_.follow_or_turn()
+        seen_so.append((map_.follow, map_.heading_up))
+    assert seen_so == [(True, False), (True, True), (True, False)]
+
+
 def test_north_is_up_again_about_the_middle_of_the_map(map_):
     map_.show(pose(2, 1, 0.3))
     map_.look_ahead()

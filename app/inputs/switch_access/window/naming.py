@@ -19,6 +19,8 @@ ICON_WORDS = {
     "add": mark("Zoom in"),
     "remove": mark("Zoom out"),
     "my_location": mark("Centre on the robot"),
+    "navigation": mark("North up"),
+    "straighten": mark("Measure"),
     "fit_screen": mark("Show all"),
     "layers": mark("Other map"),
     "undo": mark("Undo"),
