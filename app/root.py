@@ -4,13 +4,21 @@ from __future__ import annotations
 
 from typing import Any
 
+from kivy.clock import Clock
 from kivy.core.window import Window
+from kivy.metrics import Metrics
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.widget import Widget
 
+from app.device import is_android
+from app.device.insets import insets
+from app.screens.parts.safe_area import safe_area
 from widgets.core.theme import theme
 
 __all__ = ["Root"]
+
+EDGES_PERIOD = 1.0
+"""Between two looks at where a phone's edges are [s]."""
 
 
 class Root(FloatLayout):
@@ -22,7 +30,15 @@ class Root(FloatLayout):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         theme.bind(bg=self._lay_ground)
+        self.bind(size=self.find_edges)
         self._lay_ground()
+        self.find_edges()
+        if is_android():  # a phone turned upside down keeps the window's size and moves its camera
+            Clock.schedule_interval(self.find_edges, EDGES_PERIOD)
+
+    def find_edges(self, *_: object) -> None:
+        """Have every page keep clear of what a phone's camera, corners and bars take of the glass."""
+        safe_area.insets = insets(Metrics.density)
 
     def _lay_ground(self, *_: object) -> None:
         """Have the window begin each frame in the theme's colour: no page draws a ground that its picture then covers."""

@@ -50,20 +50,24 @@ def talk_row(height: float, dp: float = 1.0) -> float:
     return min(max(0.086 * height, 52 * dp), 96 * dp)
 
 
-def shell(width: float, height: float, dp: float = 1.0, *, talks: bool = False) -> dict[str, Rect]:
+def shell(
+    width: float, height: float, dp: float = 1.0, *, talks: bool = False, inside: Rect | None = None
+) -> dict[str, Rect]:
     """Of the frame round every screen of a robot: `bar` on top, `nav`, and the `body` between.
 
-    `talks`: the navigation holds the button to talk as well, in an upright window in a row of its own.
+    `talks`: the navigation holds the button to talk as well, in an upright window in a row of its own. `inside` is what of
+    the window no edge of a phone takes; all of it where that is None.
     """
-    shape = form(width, height, dp)
+    shape, room = form(width, height, dp), inside or Rect(0, 0, width, height)
     bar = (48 if shape == "short" else 56) * dp
-    top = Rect(0, height - bar, width, bar)
+    top = Rect(room.x, room.top - bar, room.width, bar)
     if shape == "tall":
-        nav = 60 * dp + (talk_row(height, dp) if talks else 0)
-        return {"bar": top, "nav": Rect(0, 0, width, nav), "body": Rect(0, nav, width, height - bar - nav)}
+        high = 60 * dp + (talk_row(height, dp) if talks else 0)
+        nav = Rect(room.x, room.y, room.width, high)
+        return {"bar": top, "nav": nav, "body": Rect(room.x, nav.top, room.width, room.height - bar - high)}
     rail = (68 if shape == "short" else 76) * dp
-    body = Rect(rail, 0, width - rail, height - bar)
-    return {"bar": top, "nav": Rect(0, 0, rail, height - bar), "body": body}
+    body = Rect(room.x + rail, room.y, room.width - rail, room.height - bar)
+    return {"bar": top, "nav": Rect(room.x, room.y, rail, room.height - bar), "body": body}
 
 
 def connect_columns(width: float, dp: float = 1.0) -> int:
@@ -273,10 +277,10 @@ CORNER = 88
 """Height that STOP ALL takes up below the robots that can be connected to [dp]."""
 
 
-def corner(width: float, dp: float = 1.0) -> Rect:
-    """STOP ALL where no robot is connected, in STOP's corner of a window of that width [px]."""
-    across = min(240 * dp, width - 28 * dp)
-    return Rect(width - 14 * dp - across, 12 * dp, across, 64 * dp)
+def corner(inside: Rect, dp: float = 1.0) -> Rect:
+    """STOP ALL where no robot is connected, in STOP's corner of a window, of which `inside` is free [px]."""
+    across = min(240 * dp, inside.width - 28 * dp)
+    return Rect(inside.right - 14 * dp - across, inside.y + 12 * dp, across, 64 * dp)
 
 
 def stop_list(

@@ -16,6 +16,7 @@ from kivy.uix.floatlayout import FloatLayout
 from app.discovery.known_robots import Entry
 from app.layout.arrange import connect_columns
 from app.screens.parts.method_chip import InputsChip  # noqa: F401 - its rule draws what is used here
+from app.screens.parts.safe_area import safe_area
 from app.screens.parts.themes import THEMES
 from app.session.last_pictures import LastPictures, Thumb
 from widgets.core.icons import ICONS
@@ -46,6 +47,7 @@ LOW, MIDDLE = 0.20, 0.40
 
 Builder.load_string("""
 #:import tr widgets.core.language.tr
+#:import safe_area app.screens.parts.safe_area.safe_area
 <RobotCard>:
     size_hint: None, None
     height: self.minimum_height
@@ -165,6 +167,7 @@ Builder.load_string("""
 <ConnectScreen>:
     BoxLayout:
         orientation: 'vertical'
+        padding: safe_area.insets
         EdgedBox:
             size_hint_y: None
             height: dp(56)
@@ -449,6 +452,7 @@ class ConnectScreen(FloatLayout):
         self._banner: Banner | None = None
         self._hint = Text(text=HINT, role="muted", halign="center", padding=(16, 24))
         self.bind(size=self._arrange, keep_free=self._arrange)
+        safe_area.bind(insets=self._arrange)
         theme.bind(name=self._follow_theme)
         self._follow_theme()
         self._arrange()
@@ -458,11 +462,12 @@ class ConnectScreen(FloatLayout):
 
     def _arrange(self, *_: object) -> None:
         dp = Metrics.density
-        self.columns = connect_columns(self.width, dp)
-        self.edge = (26 if self.width > 600 * dp else 14) * dp
-        self.card_width = (self.width - 2 * self.edge - (self.columns - 1) * 18 * dp) / self.columns
+        wide = safe_area.within(self.width, self.height).width
+        self.columns = connect_columns(wide, dp)
+        self.edge = (26 if wide > 600 * dp else 14) * dp
+        self.card_width = (wide - 2 * self.edge - (self.columns - 1) * 18 * dp) / self.columns
         across = self.across = 4 if self.columns > 1 else 1
-        room = self.width - 2 * self.edge - (across - 1) * 18 * dp - self.keep_free[1]
+        room = wide - 2 * self.edge - (across - 1) * 18 * dp - self.keep_free[1]
         self.action_width = room / across
         for card in self.cards:
             card.width = self.card_width

@@ -14,6 +14,7 @@ from kivy.uix.floatlayout import FloatLayout
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.inputs.base.modal import Modal
 from app.layout.rects import Rect
+from app.screens.parts.safe_area import safe_area
 from widgets import StopAll, StopButton
 
 __all__ = ["AddressDialog", "Question", "free_room"]
@@ -151,7 +152,7 @@ class Question(Modal, FloatLayout):
         over = self._over.children if self._over is not None else ()
         kept += [Rect(*one.pos, *one.size) for one in over if isinstance(one, StopAll)]
         wide, high = self.wanted
-        room = free_room(Rect(*self.pos, *self.size), kept, dp(8), (dp(wide), dp(high)))
+        room = free_room(safe_area.within(self.width, self.height), kept, dp(8), (dp(wide), dp(high)))
         self.room = [room.x, room.y, room.width, room.height]
 
     def close(self) -> None:

@@ -11,7 +11,8 @@ from kivy.properties import ObjectProperty
 from kivy.uix.floatlayout import FloatLayout
 
 from app.layout import arrange
-from app.layout.arrange import Body
+from app.layout.arrange import Body, Rect
+from app.screens.parts.safe_area import safe_area
 from widgets.core.surfaces import EdgedBox  # noqa: F401 - its rule draws the bar
 from widgets.parts.kit import IconButton, Text
 
@@ -24,8 +25,8 @@ Builder.load_string("""
 <LonePage>:
     EdgedBox:
         size_hint: None, None
-        pos: root.x, root.top - dp(56)
-        size: root.width, dp(56)
+        pos: root.room.x, root.room.top - dp(56)
+        size: root.room.width, dp(56)
 """)
 
 
@@ -33,6 +34,8 @@ class LonePage(FloatLayout):
     """A bar with a way back, and the screen below it."""
 
     app = ObjectProperty()
+    room: ObjectProperty[Rect] = ObjectProperty(Rect(0, 0, 1, 1))
+    """What of the window no edge of a phone takes [px]."""
 
     def __init__(self, title: str, make: Callable[[], Any], **kwargs: Any) -> None:
         """`make` gives the screen, which has `spread`, `enter`, `leave`, `tick` and `back`."""
@@ -44,6 +47,7 @@ class LonePage(FloatLayout):
         self.add_widget(self.leave_button)
         self.add_widget(self._title)
         self.bind(size=self._arrange, pos=self._arrange)
+        safe_area.bind(insets=self._arrange)
 
     @property
     def screen(self) -> Any:
@@ -91,8 +95,9 @@ class LonePage(FloatLayout):
             return
         dp = Metrics.density
         bar = BAR * dp
-        self.leave_button.pos = (self.x + 6 * dp, self.top - bar + (bar - self.leave_button.height) / 2)
-        self._title.pos = (self.leave_button.right + 8 * dp, self.top - bar + (bar - self._title.height) / 2)
-        self._title.width = self.width - self.leave_button.right - 16 * dp
-        body = Body(self.x, self.y, self.width, self.height - bar, bool(self.app.corner.button.robots))
+        room = self.room = safe_area.within(self.width, self.height)
+        self.leave_button.pos = (room.x + 6 * dp, room.top - bar + (bar - self.leave_button.height) / 2)
+        self._title.pos = (self.leave_button.right + 8 * dp, room.top - bar + (bar - self._title.height) / 2)
+        self._title.width = room.right - self.leave_button.right - 16 * dp
+        body = Body(room.x, room.y, room.width, room.height - bar, bool(self.app.corner.button.robots))
         self._screen.spread(body, arrange.form(self.width, self.height, dp), dp)

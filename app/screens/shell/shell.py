@@ -18,6 +18,7 @@ from app.link.channels import CAPABILITIES, LINK, OUTCOME
 from app.link.feeds import Post
 from app.screens.parts.placing import put
 from app.screens.parts.robot_screen import RobotScreen
+from app.screens.parts.safe_area import safe_area
 from app.screens.parts.screen_table import MORE
 from app.screens.parts.themes import Themes
 from app.screens.shell import status_text as standing
@@ -142,6 +143,7 @@ class Shell(FloatLayout):
         self.bind(size=self._arrange, pos=self._arrange, shares_stop=self._arrange)
         self.nav.bind(talks=self._arrange)
         theme.bind(target=self._arrange)
+        safe_area.bind(insets=self._arrange)
         self._arrange()
 
     def on_recorded(self, *_: object) -> None:
@@ -170,6 +172,7 @@ class Shell(FloatLayout):
         """Let go of the session."""
         self.rest()
         theme.unbind(target=self._arrange)
+        safe_area.unbind(insets=self._arrange)
         if self._hear in self.session.listeners:
             self.session.listeners.remove(self._hear)
         self.session.tasking.deaf()
@@ -236,7 +239,8 @@ class Shell(FloatLayout):
     def _arrange(self, *_: object) -> None:
         dp = Metrics.density
         self.form = arrange.form(self.width, self.height, dp)
-        places = arrange.shell(self.width, self.height, dp, talks=self.nav.talks)
+        inside = safe_area.within(self.width, self.height)
+        places = arrange.shell(self.width, self.height, dp, talks=self.nav.talks, inside=inside)
         put(self.bar, places["bar"])
         put(self.ids.body, places["body"])
         self.bar.arrange(self.form)

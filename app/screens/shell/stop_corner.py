@@ -17,6 +17,7 @@ from app.layout import arrange
 from app.layout.arrange import Rect, StopPlace
 from app.screens.connect.connect import ConnectScreen
 from app.screens.parts.placing import put
+from app.screens.parts.safe_area import safe_area
 from app.stop.fleet import Fleet, known
 from widgets import StopAll
 
@@ -65,6 +66,7 @@ class StopCorner:
         """The operator wants to see all of the list, whatever it lies over."""
         self._arranging = Clock.create_trigger(self._place, -1)
         self.layer.bind(size=self._arranging)
+        safe_area.bind(insets=self._arranging)
 
     def _made_button(self) -> StopAll:
         button = StopAll(size_hint=(None, None))
@@ -181,16 +183,18 @@ class StopCorner:
         dp, shell = Metrics.density, self._app.shell
         shared = self.button.parent is not None
         form = arrange.form(self.layer.width, self.layer.height, dp)
+        inside = safe_area.within(self.layer.width, self.layer.height)
         if shell is None:
-            corner = arrange.corner(self.layer.width, dp)
+            corner = arrange.corner(inside, dp)
             place = StopPlace(corner.x, corner.y, corner.width, corner.height, corner)
             below, beside = (0.0, corner.width + 18 * dp) if form == "short" else (arrange.CORNER * dp, 0.0)
             self._app.connect.keep_free = (below, beside) if shared else (0.0, 0.0)
-            body = Rect(0, 0, self.layer.width, self.layer.height - 56 * dp)
+            body = Rect(inside.x, inside.y, inside.width, inside.height - 56 * dp)
         else:
             shell.shares_stop = shared
             place = shell.stop_place
-            body = arrange.shell(self.layer.width, self.layer.height, dp, talks=shell.nav.talks)["body"]
+            size = self.layer.size
+            body = arrange.shell(*size, dp, talks=shell.nav.talks, inside=inside)["body"]
         if place.other is not None:
             put(self.button, place.other)
         if self._list is not None:
