@@ -19,19 +19,20 @@ from numpy.typing import NDArray
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.sensor_msgs import LaserScan
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, ground, tint
-from widgets.core.geometry import DASH, Points, length_text, not_exceeded_by, scan_points, scan_reach
+from widgets.core.geometry import DASH, length_text, not_exceeded_by, scan_reach
 from widgets.core.icons import icon
-from widgets.core.language import mark, tr
-from widgets.core.quantities import said
+from widgets.core.language import language, mark, tr
+from widgets.core.quantities import quantities, said
 from widgets.core.shapes import Shapes
 from widgets.core.surfaces import Glass
 from widgets.core.theme import theme
 from widgets.map.map_marks import arrow
+from widgets.sensors.sweep_ink import AHEAD, Look, SweepInk
 
 __all__ = ["LaserScanView", "samples"]
 
-AHEAD = math.pi / 2
-"""Where straight ahead is on the screen [rad]."""
+Sweep = tuple[NDArray[np.float64], NDArray[np.float64]]
+"""Ranges [m] and directions [rad] of the beams."""
 RINGS = 3
 LOW = 2.0
 """A card this many times broader than high keeps its name beside the rings."""
@@ -60,7 +61,7 @@ class LaserScanView(Glass, Drawing):
     def _nearest(self) -> float:
         if self.scan is None:
             return math.nan
-        measured = self._returns(self.scan)[0]
+        measured, _ = self._returns(self.scan)
         seen = measured[np.isfinite(measured)]
         return float(seen.min()) if len(seen) else math.inf
 
@@ -68,42 +69,77 @@ class LaserScanView(Glass, Drawing):
     """Distance of the nearest return [m]; inf when there is none, NaN before the first sweep."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self._ink, self._words = Ink(), Words()
+        self.inks = Ink(), SweepInk(), Ink()
+        self._words = Words()
         self._reach = 0.0
+        self._place_drawn: tuple[object, ...] = ()
+        self._told: tuple[object, ...] = ()
+        self._read: tuple[LaserScan, Sweep] | None = None
         super().__init__(**kwargs)
-        self.canvas.add(self._ink)
-        self.canvas.add(self._words.canvas)
+        for part in (*self.inks, self._words.canvas):
+            self.canvas.add(part)
 
     def show(self, msg: LaserScan) -> None:
         """Show a sweep in place of the one before."""
         self.scan = msg
 
     def draw(self) -> None:
-        """Bring rings, free space, dots and words up to date."""
+        """Bring free space and dots up to date, and rings and words where they are others."""
         scan = self.scan or LaserScan(angle_min=-AHEAD, angle_increment=math.pi / 180, range_max=6.0)
-        measured, angles, _ = self._returns(scan)
+        measured, angles = self._returns(scan)
         self._reach = self.reach or scan_reach(_farthest(measured, scan.range_max), self._reach)
-        half = math.pi if not len(angles) else min(float(np.abs(angles[[0, -1]]).max()), math.pi)
+        half = (
+            math.pi if not len(angles) else min(max(abs(float(angles[0])), abs(float(angles[-1]))), math.pi)
+        )
         half = AHEAD if self.scan is None else half
         x, y, scale = self._place(half)
-        shapes = Shapes()
-        self._rings(shapes, (x, y), scale, half)
-        if len(measured):
-            self._sweep(shapes, (x, y), scale, measured, angles)
-        words = [*self._ring_words((x, y), scale, half), *self._header()]
+        look = Look(
+            dp(2.3),
+            tint(theme.accent, 0.17),
+            (tuple(theme.danger), tuple(theme.warn), tuple(theme.accent)),
+            (self.close, self.near),
+        )
+        self.inks[1].put(measured, angles, (x, y), scale, self._reach, look)
+        self._draw_still((x, y), scale, half)
+
+    def _draw_still(self, at: tuple[float, float], scale: float, half: float) -> None:
+        """Rings, words and the robot: most sweeps leave them as they are."""
+        place = (at, scale, half, self._reach, *self.size, *self.pos, theme.name)
+        if place != self._place_drawn:
+            below = Shapes()
+            self._rings(below, at, scale, half)
+            self.inks[0].fill(below)
+            self._place_drawn = place
+        near = self.nearest < self.near
+        told = (
+            *(place, self.state, self.title, None if math.isnan(self.rate) else round(self.rate)),
+            *(
+                math.isnan(self.nearest),
+                near and round(self.nearest, 1 if quantities.system == "metric" else 2),
+            ),
+            *(self.nearest < self.close, quantities.system, language.name),
+        )
+        if told == self._told:
+            return
+        self._told = told
+        above = Shapes()
+        words = [*self._ring_words(at, scale, half), *self._header()]
         for word in words:
-            ground(shapes, word, tint(theme.surface, 0.85))
-        shapes.polygon(arrow(x, y, AHEAD, dp(15)), theme.text)
-        self._ink.fill(shapes)
+            ground(above, word, tint(theme.surface, 0.85))
+        above.polygon(arrow(*at, AHEAD, dp(15)), theme.text)
+        self.inks[2].fill(above)
         self._words.write(words)
 
-    def _returns(self, scan: LaserScan) -> tuple[NDArray[np.float64], NDArray[np.float64], Points]:
-        """Ranges with what is too close at the least range and what is not believable as NaN, directions, points."""
-        measured, angles, points = scan_points(scan.ranges, scan.angle_min, scan.angle_increment)
-        measured[measured == -math.inf] = scan.range_min
-        with np.errstate(invalid="ignore"):
-            measured[measured < scan.range_min] = math.nan
-        return measured, angles, points
+    def _returns(self, scan: LaserScan) -> Sweep:
+        """Ranges with what is too close at the least range and what is not believable as NaN, and directions; read once."""
+        if self._read is None or self._read[0] is not scan:
+            measured = np.array(scan.ranges, dtype=np.float64)
+            angles = scan.angle_min + scan.angle_increment * np.arange(len(measured), dtype=np.float64)
+            measured[measured == -math.inf] = scan.range_min
+            with np.errstate(invalid="ignore"):
+                measured[measured < scan.range_min] = math.nan
+            self._read = scan, (measured, angles)
+        return self._read[1]
 
     def _low(self) -> bool:
         return bool(self.width > LOW * self.height)
@@ -137,29 +173,6 @@ class LaserScanView(Glass, Drawing):
             if ring == RINGS or radius / RINGS > sp(26):
                 text = length_text(round(self._reach * ring / RINGS, 2))
                 yield Word(text, at[0], at[1] + radius * ring / RINGS, size, theme.muted)
-
-    def _sweep(
-        self,
-        shapes: Shapes,
-        at: tuple[float, float],
-        scale: float,
-        measured: NDArray[np.float64],
-        angles: NDArray[np.float64],
-    ) -> None:
-        known = ~np.isnan(measured)
-        units = np.stack([np.cos(angles + AHEAD), np.sin(angles + AHEAD)], axis=1)
-        rim = units * (np.minimum(np.where(known, measured, 0.0), self._reach) * scale)[:, None] + at
-        order = np.arange(len(rim))
-        if _goes_round(angles):
-            order = np.append(order, 0)
-        joined = known[order][1:] & known[order][:-1]
-        shapes.fan(*at, rim[order], joined, tint(theme.accent, 0.17))
-        hit = known & (measured <= self._reach)
-        shapes.discs(rim[hit], dp(2.3), self._colours(measured[hit]))
-
-    def _colours(self, measured: NDArray[np.float64]) -> NDArray[np.float32]:
-        roles = np.array([theme.danger, theme.warn, theme.accent], np.float32)
-        return np.asarray(roles[(measured >= self.close).astype(int) + (measured >= self.near)])
 
     def _header(self) -> Iterator[Word]:
         yield from self._name()
@@ -195,13 +208,6 @@ class LaserScanView(Glass, Drawing):
         for number, line in enumerate(filter(None, lines)):
             y = self.top - dp(19) - sp(16) * number
             yield Word(line, self.x + dp(13), y, sp(12), theme.muted, anchor=(0, 0.5))
-
-
-def _goes_round(angles: NDArray[np.float64]) -> bool:
-    """The last beam has the first for its neighbour."""
-    if len(angles) < 3:
-        return False
-    return bool(math.tau - abs(angles[-1] - angles[0]) < 1.5 * abs(angles[1] - angles[0]))
 
 
 def _farthest(measured: NDArray[np.float64], range_max: float) -> float:

@@ -35,15 +35,28 @@ def view(stage):
 
 
 def drawn(view: LaserScanView, stage) -> np.ndarray:
+    """Vertices of everything, in the order in which it is drawn."""
     stage.frames(2)
-    return np.asarray(view._ink._mesh.vertices).reshape(-1, FLOATS)
+    return np.concatenate([np.asarray(ink._mesh.vertices).reshape(-1, FLOATS) for ink in view.inks])
+
+
+def free_space(view: LaserScanView, stage) -> np.ndarray:
+    """Triangles of free space that have an area, shape (n, 3, 2) [px]."""
+    stage.frames(2)
+    mesh = view.inks[1]._mesh
+    made = np.asarray(mesh.vertices).reshape(-1, FLOATS)
+    corners = made[np.asarray(mesh.indices).reshape(-1, 3)]
+    corners = corners[(corners[:, :, 4] == EDGES).all(axis=1)][:, :, :2]
+    one, other = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return corners[np.abs(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]) > 1.0]
 
 
 def dots(view: LaserScanView, stage) -> np.ndarray:
     """Centres of the dots [px], shape (n, 2)."""
-    made = drawn(view, stage)
-    corners = made[made[:, 4] == 0][:, :2].reshape(-1, 4, 2)
-    return corners.mean(axis=1)
+    drawn(view, stage)
+    made = np.asarray(view.inks[1]._mesh.vertices).reshape(-1, FLOATS)
+    corners = made[(made[:, 4] == 0) & (made[:, 5] > 0)][:, :2].reshape(-1, 4, 2)
+    return corners.mean(axis=1)[np.ptp(corners, axis=1).any(axis=1)]
 
 
 def said(view: LaserScanView) -> list[str]:
@@ -69,21 +82,48 @@ def test_too_close_to_measure_is_a_danger_at_the_least_range(view):
     assert view.nearest == pytest.approx(0.1)
 
 
-def test_a_dot_has_the_colour_of_its_distance(view):
-    colours = view._colours(np.array([0.5, 0.6, 1.19, 1.2, 5.0]))
+def test_a_dot_has_the_colour_of_its_distance(view, stage):
+    view.show(sweep(0.5, 0.6, 1.19, 1.2, 5.0))
+    drawn(view, stage)
+    made = np.asarray(view.inks[1]._mesh.vertices).reshape(-1, FLOATS)
+    colours = made[(made[:, 4] == 0) & (made[:, 5] > 0)][::4, 8:]
     roles = [theme.danger, theme.warn, theme.warn, theme.accent, theme.accent]
     assert colours == pytest.approx(np.array(roles))
 
 
 def test_free_space_ends_where_nothing_is_known(view, stage):
     view.show(sweep(2.0, 2.0, math.nan, 2.0, math.inf))
-    view.scan = view.scan
+    assert len(free_space(view, stage)) == 2
+
+
+def test_each_sweep_is_drawn_as_if_it_were_the_first(view, stage):
+    sweeps = (sweep(2.0, 0.4, math.nan, 3.0), sweep(*[1.0] * 7), sweep(2.5, math.nan, 0.4, 3.0))
+    for scan in sweeps:
+        view.show(scan)
+        kept = drawn(view, stage)
+        fresh = stage.show(LaserScanView(title="Front laser", state="live"), size=(326, 228))
+        fresh._reach = view._reach
+        fresh.show(scan)
+        assert drawn(fresh, stage) == pytest.approx(kept)
+        stage.window.remove_widget(fresh)
+
+
+def test_of_more_beams_than_a_mesh_has_room_for_some_are_drawn(view, stage):
+    view.show(sweep(*[2.0] * 30_000))
+    assert len(dots(view, stage)) == 10_000
+
+
+def test_a_sweep_that_changes_nothing_else_leaves_rings_and_words_alone(view, stage, monkeypatch):
+    view.show(sweep(2.0, 3.0, 4.0))
     stage.frames(2)
-    made = np.asarray(view._ink._mesh.vertices).reshape(-1, FLOATS)
-    see_through = (made[:, 4] == EDGES) & (made[:, 11] < 0.5)
-    assert see_through.sum() == 6
-    indices = np.asarray(view._ink._mesh.indices).reshape(-1, 3)
-    assert see_through[indices].all(axis=1).sum() == 2
+    written = []
+    monkeypatch.setattr(view._words, "write", written.append)
+    view.show(sweep(2.1, 3.1, 4.0))
+    stage.frames(2)
+    assert not written
+    view.show(sweep(2.1, 0.3, 4.0))
+    stage.frames(2)
+    assert len(written) == 1
 
 
 @pytest.mark.parametrize(("half", "triangles"), [(math.pi, 8), (math.pi / 2, 7)])
@@ -100,10 +140,7 @@ def test_only_a_sweep_all_round_is_closed(view, stage, half, triangles):
             ranges=scan.ranges,
         )
     )
-    made = drawn(view, stage)
-    see_through = (made[:, 4] == EDGES) & (made[:, 11] < 0.5)
-    indices = np.asarray(view._ink._mesh.indices).reshape(-1, 3)
-    assert see_through[indices].all(axis=1).sum() == triangles
+    assert len(free_space(view, stage)) == triangles
 
 
 def test_everything_stays_inside_the_card(view, stage):
