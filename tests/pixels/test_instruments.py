@@ -92,6 +92,40 @@ def test_a_covering_frame_loses_its_sides_and_not_its_shape(stage):
     assert np.flatnonzero(row > 128)[[0, -1]] == pytest.approx([20, 59], abs=1)
 
 
+@pytest.mark.parametrize("corner", [0, 12])
+def test_at_night_the_video_is_dim_and_red_and_by_day_as_it_was_taken(stage, corner):
+    shades = np.zeros((40, 40, 4), np.uint8)
+    shades[:20, :20], shades[:20, 20:], shades[20:, :20] = (255,) * 4, (40, 90, 250, 255), (30, 240, 60, 255)
+    shades[..., 3] = 255
+    video = stage.show(Video(state="live", corner=corner, show_chip=False), size=(80, 80))
+    video.show_frame(40, 40, shades.tobytes())
+    places = {"white": (30, 50), "blue": (50, 50), "green": (30, 30), "black": (50, 30)}
+
+    def seen():
+        stage.frames(2)
+        picture = stage.pixels(video).astype(float)
+        return {name: at(picture, *place)[:3] for name, place in places.items()}
+
+    day = seen()
+    assert day["white"].min() > 250
+    assert day["blue"][2] > 240
+    try:
+        theme.name = "night"
+        night = seen()
+    finally:
+        theme.name = "dark"
+    for name in ("white", "blue", "green"):
+        red, green, blue = night[name]
+        assert red > 2 * max(green, blue) > 0, name
+        assert red <= 0.62 * 255, name
+    assert night["white"][0] > night["green"][0] > night["blue"][0] > 20 > night["black"].max(), (
+        "light stays apart"
+    )
+    assert {name: tuple(colour) for name, colour in seen().items()} == {
+        name: tuple(colour) for name, colour in day.items()
+    }
+
+
 def test_a_disc_is_round_and_its_edge_is_smooth(stage):
     class Dot(Video):
         def draw(self) -> None:

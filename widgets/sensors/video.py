@@ -46,6 +46,8 @@ MAX_LATENCY = 0.5
 """A picture that is shown later than this is called late [s]."""
 FADED_OPACITY = 0.45
 """Opacity of a picture that is old, 0 to 1."""
+NIGHT_LIGHT = 0.6
+"""Light of a white point of the picture at night, which is in the ink of the theme then: eyes stay used to the dark."""
 
 
 WHOLE = (0, 0, 1, 0, 1, 1, 0, 1)
@@ -57,12 +59,16 @@ uniform vec2 half_size;
 uniform vec2 seen;
 uniform float corner;
 uniform float strength;
+uniform float night;
+uniform vec3 ink;
 void main() {
     vec2 middle = tex_coord0 - 0.5;
     vec2 beyond = abs(middle) * 2.0 * half_size - half_size + corner;
     float outside = min(max(beyond.x, beyond.y), 0.0) + length(max(beyond, 0.0)) - corner;
     vec4 colour = texture2D(texture0, vec2(0.5 + middle.x * seen.x, 0.5 - middle.y * seen.y));
-    gl_FragColor = vec4(colour.rgb, strength * clamp(0.5 - outside, 0.0, 1.0));
+    float light = dot(colour.rgb, vec3(0.299, 0.587, 0.114));
+    vec3 seen_as = mix(colour.rgb, ink * light, night);
+    gl_FragColor = vec4(seen_as, strength * clamp(0.5 - outside, 0.0, 1.0));
 }
 """
 
@@ -125,7 +131,8 @@ class Video(Drawing):
     def __init__(self, **kwargs: Any) -> None:
         self._texture: Texture | None = None
         self._frame = Rounded()
-        self._lens = shader(FRAGMENT, corner=0, strength=0)
+        self._lens = shader(FRAGMENT, corner=0, strength=0, night=0)
+        self._lens["ink"] = (0.0, 0.0, 0.0)
         self._lens["half_size"] = self._lens["seen"] = (1.0, 1.0)
         self._picture = Rectangle(size=(0, 0), tex_coords=WHOLE)
         self._lens.add(self._picture)
@@ -206,7 +213,7 @@ class Video(Drawing):
         """The picture covers all of a square-cornered frame and is fresh: no lens and no ground are needed, which
         on a screen full of video is two thirds of the pixels."""
         fresh = self._texture is not None and self.state not in ("stale", "never")
-        return fresh and self.corner == 0 and self.fit == "cover"
+        return fresh and self.corner == 0 and self.fit == "cover" and theme.name != "night"
 
     def _place_picture(self) -> None:
         wide, high = self.picture_size
@@ -224,6 +231,8 @@ class Video(Drawing):
         part["seen"] = float(seen[0] / wide), float(seen[1] / high)
         part["corner"] = float(min(self.corner, *seen)) if whole else 0.0
         part["strength"] = float(light)
+        part["night"] = float(theme.name == "night")
+        part["ink"] = tuple(float(NIGHT_LIGHT * colour) for colour in theme.text[:3])
 
     def _box_marks(self, shapes: Shapes) -> Iterator[Word]:
         if self._texture is None or self.state == "stale":
