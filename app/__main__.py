@@ -108,6 +108,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             arguments.layout,
             pair=arguments.pair,
             poll=not is_android(),
+            tour=not arguments.pair,
         )
     except layouts.LayoutError as mistake:
         print(mistake, file=sys.stderr)

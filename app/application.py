@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +16,7 @@ from app.core.notifications import notify
 from app.core.preferences import Preferences
 from app.core.settings_store import Settings
 from app.device import device_name, own_folder
-from app.discovery.known_robots import KnownRobots
+from app.device.documents import documents
 from app.garbage_collector import Collector
 from app.idle_work import get_ready
 from app.inputs.inputs import Inputs
@@ -30,7 +29,7 @@ from app.layout.layout_choice import LayoutChoice
 from app.leaving import Leaving
 from app.link.feeds import Post
 from app.network_side import NetworkSide
-from app.pages import LONE, Pages, lone_page, toggle_help
+from app.pages import LONE, Pages, lone_page
 from app.profiles.profile_choice import ProfileChoice
 from app.profiles.profile_store import ProfileStore
 from app.renewal import Renewal
@@ -42,11 +41,12 @@ from app.screens.connect.simulator_launcher import SimulatorLauncher
 from app.screens.parts.themes import Themes
 from app.screens.shell.stop_corner import StopCorner
 from app.session.recordings import Recordings
+from app.showing import Showing
+from app.sounds.sounds import Sounds
 from app.timers import TICK_EVERY, Timers
 from widgets import CATALOGUE
 
 if TYPE_CHECKING:
-    from app.maps.maps import Maps
     from app.screens.shell.shell import Shell  # made when there is a robot, for a quick start
     from app.session.session import Session
 
@@ -56,7 +56,7 @@ SWITCH_INTERVAL = 0.001
 """How long one thread may keep the others waiting for Python [s]: drawing must not delay the network."""
 
 
-class PilothouseApp(App):
+class PilothouseApp(Showing, App):
     """The handheld. Everything here happens in the UI thread."""
 
     title = "Pilothouse"
@@ -77,50 +77,22 @@ class PilothouseApp(App):
         pair: Sequence[str] = (),
         discover: bool = True,
         poll: bool = False,
+        tour: bool = False,
         now: Callable[[], float] = time.monotonic,
         **kwargs: Any,
     ) -> None:
         """`url` is connected to at once, robots whose links are in `pair` are paired with unasked; `screen` is shown once connected, `inputs` without a robot too.
 
         `theme` overrides the remembered one, `layout` the one that is made for the robot; `simulator` is the command that starts the built-in simulator;
-        `discover` listens to robots saying HELLO; `poll` looks for fingers once more a frame, and before it is drawn, as a desktop needs it. Raises LayoutError for a layout that cannot be shown.
+        `discover` listens to robots saying HELLO; `tour` begins the first look round where nobody has seen it; `poll` looks for fingers once more a frame, and before it is drawn, as a desktop needs it. Raises LayoutError for a layout that cannot be shown.
         """
         super().__init__(**kwargs)
         self._url, self._first_screen, self._theme, self._pair = url, screen or "mission", theme, pair
         self.layouts, self._settings_dir = LayoutChoice(CATALOGUE, layout), settings_dir
         self.simulating = SimulatorLauncher(self, simulator, self.say, now)
-        self._discover, self._poll, self._looks = discover, poll, 0
+        self._discover, self._poll, self._tours, self._looks = discover, poll, tour, 0
         self.now = now
         """Our clock [s]."""
-
-    # the robot and its screens
-
-    @property
-    def session(self) -> Session | None:
-        """The session with the robot; None while none is wanted."""
-        return self.visit.session
-
-    @property
-    def shell(self) -> Shell | None:
-        """The frame round the robot's screens; None on the connect screen."""
-        return self.pages.shell
-
-    @property
-    def screens(self) -> Mapping[str, Any]:
-        """Every screen there is now by its name: `connect`, and with a robot `mission`, `drive`, `tasks`, `topics` and `inputs`, each made when it is looked up."""
-        return self.pages.screens
-
-    @property
-    def robots(self) -> KnownRobots:
-        """Every robot that is heard or saved."""
-        return self.robot_list.robots
-
-    @cached_property
-    def maps(self) -> Maps:
-        """Maps of the operator's choice; made when they are first asked for, which needs what the first frame does not."""
-        from app.maps.maps import Maps
-
-        return Maps(self.settings, self.settings.path.parent)
 
     # life
 
@@ -131,7 +103,8 @@ class PilothouseApp(App):
         self.profiles = ProfileChoice(
             self.layouts, ProfileStore(folder / "profiles", CATALOGUE), self.settings
         )
-        self.records = Recordings(folder, self.say)
+        kept = folder if self._settings_dir is not None else documents(folder)
+        self.records = Recordings(kept, self.say, old=folder)
         self.preferences = Preferences(self.settings)
         self.themes = Themes(self.settings, self._theme)
         self.client_id = client_identity(self.settings)
@@ -147,7 +120,7 @@ class PilothouseApp(App):
         self.fleet = self.robot_list.fleet(self.client_id)
         self.corner = StopCorner(self, self.fleet, self.say)
         self.visit, self.leaving = self._make_visit(), Leaving(self)
-        self.renewal = Renewal(self)
+        self.renewal, self.sounds = Renewal(self), Sounds(self.settings)
         self.preferences.on_anew = self.renewal.ask
         root.over = self.corner.layer
         self.pages.show_connect()
@@ -196,11 +169,15 @@ class PilothouseApp(App):
             self.open(self._url)
         elif self._first_screen in LONE:
             self._show_anywhere(self._first_screen)
+        if self._tours and not self._url:
+            self.begin_tour_if_new()
 
     def on_stop(self) -> None:
         """Leave the robot at rest, end every thread and the simulator."""
         self._idle.close()
         self.renewal.close()
+        self.end_tour()
+        self.sounds.close()
         self.methods.close()
         self.inputs.close()
         self.timers.close()
@@ -250,6 +227,7 @@ class PilothouseApp(App):
         if self.robot_list.on_post(channel, post) or self.simulating.on_post(channel, post):
             return
         self.visit.deliver(channel, post)
+        self.sounds.hear(channel, post.value)
         if channel == "/robot/info" and self.session is not None:
             self.robot_list.on_info(self.session.link.url, post.value)
 
@@ -268,9 +246,11 @@ class PilothouseApp(App):
 
     def _say_problems(self) -> None:
         """What is wrong with the settings, once each."""
-        for problem in filter(None, (self.settings.news(), self.preferences.sentence, self.themes.sentence)):
+        checked = (self.preferences, self.themes, self.sounds)
+        for problem in filter(None, (self.settings.news(), *(one.sentence for one in checked))):
             self.say(problem, "warn")
-        self.preferences.sentence = self.themes.sentence = ""
+        for one in checked:
+            one.sentence = ""
 
     # the list of robots
 
@@ -310,44 +290,6 @@ class PilothouseApp(App):
         self.methods.open_rest()  # none of them misses what a robot says
         self.robot_list.on_answer(session)
         return robot_shell(self, session, self.profiles, size=self.pages.root.size, pos=self.pages.root.pos)
-
-    def show(self, screen: str) -> None:
-        """Put `mission`, `drive`, `tasks`, `topics` or `inputs` on the glass; KeyError for another."""
-        self.pages.show(screen)
-
-    def show_inputs(self) -> None:
-        """Put on the glass where the ways in are set up, with a robot or without one."""
-        self._show_anywhere("inputs")
-
-    def show_setup(self, pane: str = "") -> None:
-        """Put on the glass what is chosen for this handheld, with a robot or without one; `pane` is open where there is one of that name."""
-        self._show_anywhere("setup")
-        page = self.pages.lone("setup") if self.shell is None else None
-        screen = (
-            self.screens["setup"] if self.shell is not None else page.screen if page is not None else None
-        )
-        if pane and screen is not None:
-            screen.open(pane)
-
-    def show_replay(self) -> None:
-        """Put the recordings on the glass, with a robot or without one."""
-        self._show_anywhere("replay")
-
-    def _show_anywhere(self, name: str) -> None:
-        if self.shell is not None:
-            self.show(name)
-        elif self.session is None:
-            self.pages.show_lone(name)
-
-    def toggle_help(self) -> None:
-        """Show what keys and buttons mean over the page, or hide it."""
-        toggle_help(self)
-
-    def rename(self, name: str) -> None:
-        """Call this handheld `name`, for robots from the next connection on."""
-        self.client_name = self.robot_list.client_name = name
-        self._network.connector.client_name = self._network.pairing.client_name = name
-        self.settings.set("client_name", name)
 
     def say(self, text: str, level: str) -> None:
         """Show one sentence, wherever the operator looks."""

@@ -114,6 +114,13 @@ class Pages:
             return connect
         return ChainMap(connect, cast("dict[str, Any]", self.shell.screens))
 
+    def screen_of(self, name: str) -> Any:
+        """The screen of a name in `LONE`, with a robot or without one; None where it is not there now."""
+        if self.shell is not None:
+            return self.shell.screens[name]
+        page = self._lone.get(name)
+        return page.screen if page is not None else None
+
     def tick_lone(self) -> None:
         """Bring the pages up to date that are there without a robot."""
         for page in list(self._lone.values()):

@@ -47,6 +47,7 @@ class Renewal:
         else:
             app.pages.show_connect()
         app.corner.tick()
+        app.renew_tour()
 
     def _renew_connect(self) -> None:
         app, before = self._app, self._app.connect

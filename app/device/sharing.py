@@ -21,6 +21,9 @@ FOLDER = "Download/Pilothouse"
 SEEN_SINCE = 29
 """Android's version that lets an app put files into Download without a permission (10)."""
 ZIP = "application/zip"
+KINDS = {".zip": ZIP, ".jpg": "image/jpeg"}
+"""Ending of a file to what it is; others are bytes."""
+BYTES = "application/octet-stream"
 REFUSES = mark("Android does not share it: {}")
 
 
@@ -31,10 +34,10 @@ class Sharing(Protocol):
     """Where copies of them lie, in words."""
 
     def share(self, path: Path) -> None:
-        """Ask the operator what shall be done with a copy of that zip; OSError where that cannot be."""
+        """Ask the operator what shall be done with a copy of that file; OSError where that cannot be."""
 
     def forget(self) -> None:
-        """Delete the copies; OSError where that cannot be."""
+        """Delete the copies of zips, which are of the study; OSError where that cannot be."""
 
 
 class AndroidSharing:
@@ -52,7 +55,7 @@ class AndroidSharing:
         from jnius import JavaException
 
         try:
-            self._send(self._put(path) if self._seen else self._copy(path), path.name)
+            self._send(self._put(path) if self._seen else self._copy(path), path)
         except JavaException as problem:
             raise OSError(tr(REFUSES).format(problem)) from problem
 
@@ -64,7 +67,9 @@ class AndroidSharing:
             if self._seen:
                 downloads = autoclass("android.provider.MediaStore$Downloads").EXTERNAL_CONTENT_URI
                 # Android keeps the folder with a slash at its end
-                self._activity.getContentResolver().delete(downloads, "relative_path=?", [f"{FOLDER}/"])
+                self._activity.getContentResolver().delete(
+                    downloads, "relative_path=? AND mime_type=?", [f"{FOLDER}/", ZIP]
+                )
             else:
                 for copy in self._outside().glob("*.zip"):
                     copy.unlink(missing_ok=True)
@@ -78,7 +83,11 @@ class AndroidSharing:
         from jnius import autoclass
 
         resolver, values = self._activity.getContentResolver(), autoclass("android.content.ContentValues")()
-        for name, value in (("_display_name", path.name), ("mime_type", ZIP), ("relative_path", FOLDER)):
+        for name, value in (
+            ("_display_name", path.name),
+            ("mime_type", _kind(path)),
+            ("relative_path", FOLDER),
+        ):
             values.put(name, value)
         address = resolver.insert(
             autoclass("android.provider.MediaStore$Downloads").EXTERNAL_CONTENT_URI, values
@@ -107,15 +116,21 @@ class AndroidSharing:
             raise OSError(tr(REFUSES).format(tr("its shared storage is not there.")))
         return Path(str(folder.getAbsolutePath()))
 
-    def _send(self, address: Any, name: str) -> None:
+    def _send(self, address: Any, path: Path) -> None:
         from jnius import autoclass, cast
 
         intent, text = autoclass("android.content.Intent"), autoclass("java.lang.String")
         send = intent(intent.ACTION_SEND)
-        send.setType(ZIP)
+        send.setType(_kind(path))
         send.putExtra(intent.EXTRA_STREAM, cast("android.os.Parcelable", address))
         send.addFlags(intent.FLAG_GRANT_READ_URI_PERMISSION)
-        self._activity.startActivity(intent.createChooser(send, cast("java.lang.CharSequence", text(name))))
+        self._activity.startActivity(
+            intent.createChooser(send, cast("java.lang.CharSequence", text(path.name)))
+        )
+
+
+def _kind(path: Path) -> str:
+    return KINDS.get(path.suffix, BYTES)
 
 
 def sharing() -> Sharing | None:

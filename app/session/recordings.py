@@ -21,12 +21,14 @@ if TYPE_CHECKING:
     from app.link.recorder import Recorder
     from app.session.session import Session
 
-__all__ = ["Recordings"]
+__all__ = ["PICTURES", "RECORDINGS", "SNAPSHOTS", "Recordings"]
 
 PICTURES = "/camera/image/compressed"
 """Topic that the camera's frames are recorded as."""
 PICTURE_PERIOD = 0.2
 """Between two recorded frames [s]: all of them would fill the disk with what no eye tells apart."""
+RECORDINGS, SNAPSHOTS = "recordings", "pictures"
+"""Folders below each of its own."""
 NAME = "%Y-%m-%d_%H-%M-%S"
 """Files are called by the time of day; where one is called so already, `_2` and so on follow."""
 
@@ -40,8 +42,15 @@ class Recordings:
         say: Callable[[str, str], object],
         wall: Callable[[], float] = time.time,
         now: Callable[[], float] = time.monotonic,
+        *,
+        old: Path | None = None,
     ) -> None:
-        """`say` gets one sentence and its level; `wall` is the time of day [s], `now` a clock nobody sets [s]."""
+        """`say` gets one sentence and its level; `wall` is the time of day [s], `now` a clock nobody sets [s].
+
+        `old` is a folder that files were written to before, which are still found; None for none.
+        """
+        self.folders = tuple(dict.fromkeys(one for one in (folder, old) if one is not None))
+        """Where files are looked for; the first is written to."""
         self._folder, self._say, self._wall, self._now = folder, say, wall, now
         self._began = now()
         self._pictured = -math.inf
@@ -56,11 +65,22 @@ class Recordings:
         names = itertools.chain([name], (f"{name}_{number}" for number in itertools.count(2)))
         return place / next(free for one in names if (free := one + ending) not in taken)
 
+    def files(self) -> list[Path]:
+        """Recordings and pictures in all its folders, the newest first by their names."""
+        found = [
+            path
+            for folder in self.folders
+            for place, pattern in ((RECORDINGS, "*.mcap"), (SNAPSHOTS, "*.jpg"))
+            for path in (folder / place).glob(pattern)
+            if path.is_file() and not path.name.startswith(".")
+        ]
+        return sorted(found, key=lambda path: path.name, reverse=True)
+
     def snapshot(self) -> Path | None:
         """Keep the newest camera frame as a file; None when there is none or it cannot be written."""
         if self.frame is None:
             return None
-        path = self._path("pictures", ".jpg")
+        path = self._path(SNAPSHOTS, ".jpg")
         try:
             _save(path, self.frame.jpeg)
         except OSError as error:
@@ -75,7 +95,7 @@ class Recordings:
     def toggle(self, session: Session | None) -> None:
         """Start recording, or finish the one that runs and say where it is."""
         if self.recorder is None:
-            self.start(self._path("recordings", ".mcap"), session)
+            self.start(self._path(RECORDINGS, ".mcap"), session)
         else:
             self.stop()
 

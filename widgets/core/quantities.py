@@ -30,6 +30,7 @@ __all__ = [
     "from_shown",
     "quantities",
     "read",
+    "round_floor",
     "round_length",
     "said",
     "to_shown",
@@ -231,6 +232,12 @@ def read(text: str, kind: str) -> float:
     return number * taken.si + taken.offset
 
 
+def round_floor(most: float) -> float:
+    """The greatest of 1, 2, 5 times a power of ten that is not above `most` (> 0)."""
+    power = 10.0 ** math.floor(math.log10(most) + 1e-9)
+    return next(step * power for step in (5.0, 2.0, 1.0) if step * power <= most * (1 + 1e-9))
+
+
 def round_length(most: float) -> tuple[float, str]:
     """The longest round length that is not above `most` [m, > 0], in SI, and in words: `5 m`, `20 ft`, `2 nmi`."""
     units = {
@@ -241,7 +248,6 @@ def round_length(most: float) -> tuple[float, str]:
     signs = {"metric": ("cm", "m", "km"), "imperial": ("in", "ft", "mi"), "nautical": ("cm", "m", "nmi")}
     rows = list(zip(units[quantities.system], signs[quantities.system], strict=True))
     si, sign = next((row for row in reversed(rows) if most >= row[0] * (1 - 1e-9)), rows[0])
-    power = 10.0 ** math.floor(math.log10(most / si) + 1e-9)
-    whole = next(step * power for step in (5.0, 2.0, 1.0) if step * power <= most / si * (1 + 1e-9))
+    whole = round_floor(most / si)
     text = f"{whole:g}".replace(".", language.tongue.point)
     return whole * si, f"{text}{NO_BREAK}{sign}"

@@ -18,8 +18,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from widgets.core.finger_stay import FingerStay
-from widgets.core.geometry import nice_floor
-from widgets.core.quantities import from_shown, said, to_shown
+from widgets.core.quantities import from_shown, round_floor, said, to_shown
 from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
 from widgets.parts.labels import Icon
@@ -139,7 +138,7 @@ class Stepper(Outlined, BoxLayout):
 
     def _counted(self, steps: int) -> float:
         """So many round steps of the shown unit further, in SI."""
-        step = nice_floor(to_shown(self.step, self.kind))
+        step = round_floor(to_shown(self.step, self.kind))
         shown = (round(to_shown(self.value, self.kind) / step) + steps) * step
         return from_shown(round(shown, 9), self.kind)
 

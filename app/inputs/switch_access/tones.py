@@ -10,6 +10,7 @@ import math
 import struct
 import tempfile
 import wave
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -36,7 +37,11 @@ FADE = 0.008
 class Tones:
     """Makes and loads each when it is first heard; nothing is open before."""
 
-    def __init__(self) -> None:
+    def __init__(self, table: Mapping[str, tuple[float, float]] = TONES) -> None:
+        """`table` names each tone with its frequency [Hz] and how long it lasts [s]."""
+        self._table = table
+        self.volume = 1.0
+        """Of what the file has, 0 to 1."""
         self._folder: tempfile.TemporaryDirectory[str] | None = None
         self._sounds: dict[str, Any] = {}
         self.silent = False
@@ -49,6 +54,7 @@ class Tones:
         sound = self._sounds[name]
         if sound is not None:
             sound.stop()
+            sound.volume = self.volume
             sound.play()
 
     def close(self) -> None:
@@ -67,11 +73,11 @@ class Tones:
         if self._folder is None:
             self._folder = tempfile.TemporaryDirectory(prefix="pilothouse-tones-")
         path = Path(self._folder.name, f"{name}.wav")
-        write(path, *TONES[name])
+        write(path, *self._table[name])
         try:
             sound = SoundLoader.load(str(path))
         except Exception as problem:  # noqa: BLE001 - whatever a sound system fails with, the mark moves on without it
-            log.warning("The switches are silent: %s", problem)
+            log.warning("There is no sound: %s", problem)
             sound = None
         self.silent = sound is None or not sound.length > 0
         return None if self.silent else sound

@@ -8,7 +8,7 @@ from kivy.metrics import dp, sp
 from kivy.properties import BooleanProperty
 from kivy.uix.widget import Widget
 
-from app.screens.setup.guide_text import GuideText
+from app.screens.parts.guide_text import GuideText
 from app.screens.setup.setup_row import broken
 from app.screens.setup.url_form import UrlForm
 from app.session.robot_setup import GATEWAYS, RobotSetup

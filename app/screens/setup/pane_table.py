@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from app.core.optional_parts import is_included
 from app.screens.parts.themes import TITLES as THEME_TITLES
-from widgets.core.language import language, mark, tr
+from widgets.core.language import language, mark, tr, trn
 from widgets.core.quantities import SYSTEMS, quantities
 from widgets.core.theme import theme
 
@@ -37,6 +37,11 @@ class Pane(NamedTuple):
 
 def _looks(_: Any) -> str:
     return tr(THEME_TITLES[theme.name]) + (" · " + tr("gloves") if theme.gloves else "")
+
+
+def _heard(app: Any) -> str:
+    count = sum(app.sounds.on.values())
+    return trn("{count} sound on", "{count} sounds on", count) if count else tr("off")
 
 
 PANES: dict[str, Pane] = {
@@ -68,12 +73,19 @@ PANES: dict[str, Pane] = {
         lambda app: f"{app.preferences.text * 100:.0f} %",
     ),
     "maps": Pane("map", mark("Maps"), "app.screens.setup.panes.maps_pane:MapsPane"),
+    "sounds": Pane(
+        "volume_up", mark("Sounds and talk-back"), "app.screens.setup.panes.sounds_pane:SoundsPane", _heard
+    ),
     "inputs": Pane(
         "sports_esports",
         mark("Inputs"),
         "app.screens.setup.panes.inputs_pane:InputsPane",
         lambda _: tr("Pad, keys, voice, tilt, switches"),
     ),
+    "storage": Pane(
+        "save", mark("Recordings and pictures"), "app.screens.setup.panes.storage_pane:StoragePane"
+    ),
+    "about": Pane("info", mark("About Pilothouse"), "app.screens.setup.panes.about_pane:AboutPane"),
 }
 """By its name, in their order."""
 

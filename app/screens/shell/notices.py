@@ -14,6 +14,7 @@ from kivy.uix.widget import Widget
 from app.layout.arrange import Rect
 from app.screens.parts.placing import AWAY_X
 from app.screens.parts.robot_screen import RobotScreen
+from widgets.core.language import tr
 from widgets.parts.kit import ActionToast, Banner, Toast
 
 __all__ = ["BRIEF_DURATION", "LONG_DURATION", "Notices"]
@@ -37,7 +38,9 @@ class Notices(BoxLayout):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self._said = ""
+        self._said, self._sentence, self._count = "", ("", "", ""), 0
+        self._toast: Toast | None = None
+        """What was said last, counted while it stands there."""
         self.room = Rect(0, 0, 0, 0)
         """Where it would stand if nothing else were there; without height while nothing is said [px]."""
         self.above: Rect | None = None
@@ -72,10 +75,15 @@ class Notices(BoxLayout):
             picture.below = low if cover is not None and seen.overlaps(cover) else math.inf
 
     def say(self, text: str, level: str, about: str, stay: float) -> None:
-        """One sentence for `stay` [s], in the place of the last one; `about` is what it tells of."""
+        """One sentence for `stay` [s], in the place of the last one; `about` is what it tells of. The same again is counted."""
+        before = self._toast
+        again = before is not None and before.parent is self and self._sentence == (text, level, about)
         self.unsay(self._said)
-        self._said = about
-        self.add_widget(Toast(text=text, level=level, stay=stay))
+        self._count = self._count + 1 if again else 1
+        self._said, self._sentence = about, (text, level, about)
+        told = tr("{sentence} ({count} times)").format(sentence=text, count=self._count) if again else text
+        self._toast = Toast(text=told, level=level, stay=stay)
+        self.add_widget(self._toast)
 
     def unsay(self, about: str) -> None:
         """Take the sentence away that was said about something: it is no longer true."""

@@ -130,7 +130,9 @@ def test_before_android_10_it_is_a_file_on_the_shared_storage(
 def test_its_own_copies_in_download_are_deleted(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     phone = Phone(monkeypatch, tmp_path, version=34)
     AndroidSharing().forget()
-    assert phone.deleted == [("downloads", "relative_path=?", ["Download/Pilothouse/"])]
+    assert phone.deleted == [
+        ("downloads", "relative_path=? AND mime_type=?", ["Download/Pilothouse/", "application/zip"])
+    ]
 
 
 def test_what_android_refuses_is_an_error_in_words(

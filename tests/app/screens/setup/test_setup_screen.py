@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from kivy.core.window import Window
 
-from app.screens.setup.guide_text import LINES, pieces
+from app.screens.parts.guide_text import LINES, pieces
 from app.screens.setup.screen import SetupScreen
 from app.screens.setup.setup_row import broken
 from bridge.msgs import Msg

@@ -28,3 +28,24 @@ def test_a_card_is_neither_seen_nor_touched_before_it_has_its_place(stage: Stage
         assert not off_the_glass(card)
         assert (card.x, card.width) == (notices.x, 560)
         notices.keep(card, shown=False)
+
+
+def test_the_same_sentence_again_is_one_with_a_count(stage: Stage) -> None:
+    notices = Notices(width=400)
+    stage.show(notices)
+
+    def told() -> list[str]:
+        return [child.text for child in notices.children]
+
+    for _ in range(3):
+        notices.say("No link.", "warn", "link", 4.0)
+    assert told() == ["No link. (3 times)"]
+    notices.say("No link.", "danger", "link", 4.0)
+    assert told() == ["No link."], "what weighs more is another thing"
+    notices.say("Saved.", "ok", "record", 4.0)
+    notices.say("Saved.", "ok", "record", 4.0)
+    assert "Saved. (2 times)" in told()
+    stage.run_for(5.0, 1 / 8)
+    assert told() == []
+    notices.say("Saved.", "ok", "record", 4.0)
+    assert told() == ["Saved."], "what nobody sees any more is not counted"

@@ -1,0 +1,1 @@
+"""The first look round: five cards that point at the real things, left at any time."""

@@ -1,0 +1,1 @@
+"""What happens, by ear: tones for alarms, warnings and refusals, off until they are switched on."""
