@@ -65,7 +65,7 @@ class Recordings:
         names = itertools.chain([name], (f"{name}_{number}" for number in itertools.count(2)))
         return place / next(free for one in names if (free := one + ending) not in taken)
 
-    def files(self) -> list[Path]:
+    def kept(self) -> list[Path]:
         """Recordings and pictures in all its folders, the newest first by their names."""
         found = [
             path
@@ -125,8 +125,7 @@ class Recordings:
     def files(self) -> list[Path]:
         """What has been recorded, the newest first; the one that is being written is not among them."""
         running = self.recorder.path if self.recorder is not None else None
-        found = (path for path in (self._folder / "recordings").glob("*.mcap") if path != running)
-        return sorted(found, key=lambda path: path.name, reverse=True)
+        return [path for path in self.kept() if path.suffix == ".mcap" and path != running]
 
     def see(self, frame: Frame) -> None:
         """A camera frame came, in the network thread: kept for a snapshot, and recorded now and then."""

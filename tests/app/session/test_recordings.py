@@ -146,3 +146,15 @@ def test_the_clock_of_a_recording_goes_on_while_the_time_of_day_is_set_back(kept
     kept.now += 271.0
     assert kept.records.clock == "04:31"
     kept.records.stop()
+
+
+def test_what_was_recorded_into_the_old_folder_is_still_found(tmp_path: Path) -> None:
+    new, old = tmp_path / "Documents", tmp_path / "own"
+    records = Recordings(new, lambda *_: None, old=old)
+    for place, name in ((old, "2025-01-01_10-00-00"), (new, "2026-01-01_10-00-00")):
+        for folder, ending in (("recordings", "mcap"), ("pictures", "jpg")):
+            (place / folder).mkdir(parents=True, exist_ok=True)
+            (place / folder / f"{name}.{ending}").write_bytes(b"x")
+    assert [path.parents[1] for path in records.files] == [new, old]
+    assert len(records.kept()) == 4
+    assert records.folders == (new, old)

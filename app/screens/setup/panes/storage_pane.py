@@ -66,7 +66,7 @@ class StoragePane(SettingsPane):
         self._forget()
 
     def _look(self) -> None:
-        files = self.app.records.files()
+        files = self.app.records.kept()
         sizes = {path: path.stat().st_size for path in files}
         self.sum.text = trn("{count} recording or picture", "{count} recordings and pictures", len(files))
         self.sum.text += f" · {size_words(sum(sizes.values()))}"
