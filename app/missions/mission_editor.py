@@ -274,6 +274,14 @@ class MissionEditor:
         elif accepted:
             self._recall = "accepted"
 
+    @property
+    def home_to_send(self) -> Mission | None:
+        """What the robot has, with the home that is drawn here; None where it has that home already, or none is drawn."""
+        kept, home = self.stored or Draft(), self.draft.home
+        if home is None or (kept.home is not None and math.dist(home, kept.home) <= NEAR):
+            return None
+        return replace(kept, home=home).message()
+
     def save(self) -> dict[str, Any]:
         """The draft for the settings file."""
         return msgspec.to_builtins(self.draft)  # type: ignore[no-any-return]

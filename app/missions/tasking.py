@@ -12,6 +12,7 @@ from app.link.commands import Outcome
 from app.missions.queue_editor import QueueEditor
 from bridge.msgs.pilothouse_msgs import (
     GetHistoryResponse,
+    Mission,
     Place,
     ScheduledTask,
     TaskOrder,
@@ -55,10 +56,13 @@ class Tasking:
 
     # what is asked
 
-    def start(self, order: TaskOrder, *, send_first: bool = False) -> None:
-        """Start a task; with `send_first` the mission is sent before it, and without it being accepted nothing starts."""
-        self._waits_for_mission = (order, origins.current()) if send_first else None
-        if send_first:
+    def start(self, order: TaskOrder, *, send_first: bool = False, mission: Mission | None = None) -> None:
+        """Start a task; with `send_first` the draft is sent before it, or `mission` in its place where there is one, and without
+        that being accepted nothing starts."""
+        self._waits_for_mission = (order, origins.current()) if send_first or mission is not None else None
+        if mission is not None:
+            self._robot.command("mission", mission=mission)
+        elif send_first:
             self._robot.send_mission()
         else:
             self._robot.command("start", order=order)

@@ -23,18 +23,18 @@ from widgets.parts.kit import IconButton, PrimaryButton, QuietButton
 __all__ = ["MODES", "MapPointing"]
 
 MODES = [
-    ("view", "View"),
-    ("points", "Points"),
-    ("home", "Home"),
-    ("place", "Place"),
-    ("place_robot", "Robot"),
+    ("view", mark("View")),
+    ("points", mark("Points")),
+    ("home", mark("Home")),
+    ("place", mark("Place")),
+    ("place_robot", mark("Robot")),
 ]
 """What a finger on the map does, and its word."""
 HINTS = {
-    "points": "Tap to add a point, drag to move one.",
-    "home": "Tap where the robot shall return to.",
-    "place": "Tap to make or change a place.",
-    "place_robot": "Drag it, turn it.",
+    "points": mark("Tap to add a point, drag to move one."),
+    "home": mark("Tap where the robot shall return to."),
+    "place": mark("Tap to make or change a place."),
+    "place_robot": mark("Drag it, turn it."),
     "measure": mark("Tap the places to measure between."),
 }
 
@@ -89,12 +89,12 @@ class MapPointing:
             widget.bind(on_release=act)
             self._ids[button] = widget
         for button, text, width, act in (
-            ("place_cancel", "Cancel", "78dp", lambda *_: setattr(self._screen, "mode", "view")),
-            ("place_here", "Set here", "88dp", lambda *_: self._place_robot()),
+            ("place_cancel", tr("Cancel"), "78dp", lambda *_: setattr(self._screen, "mode", "view")),
+            ("place_here", tr("Set here"), "88dp", lambda *_: self._place_robot()),
             ("home_here", tr("Here"), "78dp", lambda *_: self._home_here()),
             ("measure_done", tr("Done"), "78dp", lambda *_: self.measure()),
         ):
-            kind = PrimaryButton if button == "place_here" else QuietButton
+            kind = QuietButton if button in ("place_cancel", "measure_done") else PrimaryButton
             word = kind(text=text, size_hint=(None, None), width=width, pos_hint={"center_y": 0.5})
             # a target as high as gloves need would stick out of the bar
             word.bind(on_release=act, height=lambda one, _: setattr(one, "height", dp(40)))
@@ -130,7 +130,7 @@ class MapPointing:
         modes = [one for one in MODES if not lacks or one[0] == "view"]
         if lacks and self.can_place:
             modes.append(MODES[-1])
-        return modes
+        return [(name, tr(words)) for name, words in modes]
 
     def mode_changed(self) -> None:
         """Another mode was chosen."""
@@ -165,19 +165,20 @@ class MapPointing:
         """The words of the bar and the names of its buttons."""
         screen, index, count = self._screen, int(self._screen.map.selected), len(self._screen.map.waypoints)
         if screen.mode == "place_robot":
-            hint = HINTS["place_robot"] if self.can_place else "It takes no /initialpose."
+            hint = tr(HINTS["place_robot"]) if self.can_place else tr("It takes no /initialpose.")
             return hint, ("place_cancel", "place_here")
         if screen.mode == "points" and 0 <= index < count:
             self._ids["earlier"].disabled = index == 0
             self._ids["later"].disabled = index == count - 1
-            return f"Point {index + 1} of {count}", ("earlier", "later", "delete")
+            said = tr("Point {number} of {count}").format(number=index + 1, count=count)
+            return said, ("earlier", "later", "delete")
         if self.places.asks:
             return self.places.asks, ()
         if screen.mode == "home":
-            return HINTS["home"], ("home_here",) if screen.map.located else ()
+            return tr(HINTS["home"]), ("home_here",) if screen.map.located else ()
         if screen.mode == "measure":
             return total_words(screen.map.measured) or tr(HINTS["measure"]), ("measure_done",)
-        return HINTS.get(screen.mode, ""), ()
+        return tr(HINTS.get(screen.mode, "")), ()
 
     def _trouble(self) -> str:
         """Why the robot would refuse what is being edited, as one sentence; empty when it would not."""
@@ -252,5 +253,5 @@ class MapPointing:
             self._session.place_robot(*placed)
             shell = self._screen.app.shell
             if shell is not None:
-                shell.say("Told the robot where it is.", "info")
+                shell.say(tr("Told the robot where it is."), "info")
             self._screen.mode = "view"

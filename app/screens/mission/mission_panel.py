@@ -280,8 +280,11 @@ class MissionPanel(BoxLayout):
         self._fill.height = 0 if self.sheet_open else max(0, spare)
 
     def _command(self, name: str) -> None:
+        home = self._session.mission.home_to_send if name == "home" else None
         if name == "start":
             self._start()
+        elif home is not None:  # the home that is drawn, not one that the robot may have from before
+            self._session.tasking.start(TaskOrder(task="go_home"), mission=home)
         else:
             self._session.command(TASKS.get(name, name))
 

@@ -9,7 +9,7 @@ import pytest
 from bridge.msgs.arrays import Int8Array
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
-from bridge.msgs.pilothouse_msgs import RobotInfo
+from bridge.msgs.pilothouse_msgs import Mission, RobotInfo, Waypoint
 from bridge.msgs.sensor_msgs import NavSatFix, NavSatStatus
 from bridge.msgs.std_msgs import Header
 from tests.app.fakes import FakeRobot
@@ -129,3 +129,50 @@ def test_the_map_does_not_say_that_nothing_is_known_of_its_place_beside_a_satell
     driving.until(lambda: mission.map.located, "no pose")
     driving.stage.frames(2)
     assert not any("place on this map" in text for text in mission.map._layers[1][1].texts)
+
+
+def home_of(mission: Any) -> Any:
+    """The button that sends it home."""
+    return next(one for one in mission.panel.tasks.walk() if getattr(one, "icon", "") == "home")
+
+
+def test_the_way_home_goes_to_the_home_that_is_drawn_and_changes_no_points(
+    driving: Glass, robot: FakeRobot, mission: Any
+) -> None:
+    robot.publish("/mission", Mission(waypoints=[Waypoint(1.0, 1.0)], home=[Waypoint(9.0, 9.0)]))
+    driving.until(lambda: driving.app.session.mission.state == "stored", "no mission")
+    mission.map.dispatch("on_add", *FREE)
+    mission.map.dispatch("on_set_home", 2.0, 3.0)
+    button = home_of(mission)
+    driving.until(lambda: not button.disabled, "cannot go home")
+    driving.tap(button)
+    driving.until(lambda: "/task/start" in robot.services(), robot.services())
+    (sent,) = [request.mission for name, request in robot.asked if name == "/mission/set"]
+    assert [(point.x, point.y) for point in sent.waypoints] == [(1.0, 1.0)]
+    assert [(point.x, point.y) for point in sent.home] == [(2.0, 3.0)]
+    (start,) = [request.order.task for name, request in robot.asked if name == "/task/start"]
+    assert start == "go_home"
+
+
+def test_a_home_that_the_robot_does_not_take_is_not_driven_to(
+    driving: Glass, robot: FakeRobot, mission: Any
+) -> None:
+    robot.refusals["/mission/set"] = "Home at (2.0, 3.0) is in a wall or another obstacle."
+    mission.map.dispatch("on_set_home", 2.0, 3.0)
+    button = home_of(mission)
+    driving.until(lambda: not button.disabled, "cannot go home")
+    driving.tap(button)
+    driving.until(lambda: any("in a wall" in text for text in driving.banners()), driving.banners())
+    driving.stage.run_for(0.5)
+    assert not {"/task/start", "/task/go_home"} & set(robot.services())
+
+
+def test_a_home_that_the_robot_has_is_gone_to_at_once(driving: Glass, robot: FakeRobot, mission: Any) -> None:
+    robot.publish("/mission", Mission(waypoints=[Waypoint(1.0, 1.0)], home=[Waypoint(2.0, 3.0)]))
+    driving.until(lambda: driving.app.session.mission.state == "stored", "no mission")
+    mission.map.dispatch("on_add", *FREE)
+    button = home_of(mission)
+    driving.until(lambda: not button.disabled, "cannot go home")
+    driving.tap(button)
+    driving.until(lambda: "/task/go_home" in robot.services(), robot.services())
+    assert services(robot) == []
