@@ -169,3 +169,30 @@ def test_a_lost_link_under_stop_leaves_stop_in_sight_and_says_what_is_so(
         glass.until(lambda: len(notices.children) == 2, "both sentences")
         glass.settle(notices)
         assert notices.right <= stop.x or notices.x >= stop.right or notices.y >= stop.top, screen
+
+
+SENSIBLE = (
+    *("Video", "LaserScanView", "Joystick", "ArtificialHorizon", "Battery", "Readout", "HeadingTape"),
+    "FieldView",
+)
+"""What a robot with these topics is driven and watched by."""
+SCREEN_TIMEOUT = 10.0
+"""From the first connection to a screen on which everything is live [s]."""
+
+
+def test_its_topics_alone_make_a_screen_that_lives_within_ten_seconds_and_drives_it(
+    glass: Handheld, strange: Strange
+) -> None:
+    glass.app.show("panels")
+    screen = glass.app.screens["panels"]
+
+    def live() -> bool:
+        cards = {type(card.widget).__name__: card.widget for card in screen.board.cards}
+        return set(SENSIBLE) <= set(cards) and all(cards[name].state == "live" for name in SENSIBLE)
+
+    glass.until(live, "a live panel of each kind", SCREEN_TIMEOUT)
+    stick = next(card.widget for card in screen.board.cards if type(card.widget).__name__ == "Joystick")
+    finger = glass.drive(stick, lambda: strange.robot.speed > 0.1)
+    glass.hand.up(finger)
+    glass.until(lambda: strange.robot.speed == 0.0, "the robot to rest", 2.0)
+    assert speeds(strange)[-1] == 0.0
