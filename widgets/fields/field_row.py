@@ -79,10 +79,11 @@ Builder.load_string("""
         top: root.top - root.lead - dp(1)
     Label:
         text: root.value
+        underline: root.picked
         font_name: theme.font
         font_size: sp(15)
         bold: True
-        color: theme.text if root.kind != 'branch' else theme.muted
+        color: theme.accent if root.picked else theme.text if root.kind != 'branch' else theme.muted
         disabled_color: self.color
         shorten: True
         shorten_from: 'right'
@@ -157,6 +158,10 @@ class FieldRow(ButtonBehavior, Widget):
     """Behind the value."""
     open = BooleanProperty(False)
     foldable = BooleanProperty(False)
+    picks = BooleanProperty(False)
+    """A finger can choose it: it is a number, and somebody wants to know."""
+    picked = BooleanProperty(False)
+    """It has been chosen."""
     depth = NumericProperty(0)
     step = NumericProperty("16dp")
     """Farther in for each level [px]."""
@@ -226,5 +231,5 @@ class FieldRow(ButtonBehavior, Widget):
     value_width = AliasProperty(_value_width, bind=["widths"], cache=True)
 
     def on_touch_down(self, touch: Any) -> bool:
-        """Leave the finger to the list where nothing can be folded."""
-        return bool(self.foldable and super().on_touch_down(touch))
+        """Leave the finger to the list where nothing can be folded or chosen."""
+        return bool((self.foldable or self.picks) and super().on_touch_down(touch))

@@ -30,6 +30,7 @@ from kivy.uix.widget import Widget
 import widgets.parts.labels  # noqa: F401 - its rules draw the rows
 from bridge.msgs import Msg
 from widgets.core.base import RobotWidget, age_text
+from widgets.core.field_paths import written
 from widgets.core.language import tr
 from widgets.core.theme import theme
 from widgets.fields.field_row import FieldRow, line_width, text_width, whole_height
@@ -83,6 +84,8 @@ class FieldView(RobotWidget, FloatLayout):
     """The fields of the newest message. Only what is in sight has widgets, and they are brought up to date ten times a second."""
 
     accepts = (Msg,)
+
+    __events__ = ("on_pick",)
     grid_size: ClassVar = (4, 5)
 
     message: ObjectProperty[Msg | None] = ObjectProperty(
@@ -93,6 +96,10 @@ class FieldView(RobotWidget, FloatLayout):
     """Class of what is awaited: before the first message its fields are shown with dashes. None for any."""
     now = NumericProperty(math.nan)
     """The robot's clock [s]; NaN leaves ages away."""
+    picks = BooleanProperty(False)
+    """A finger chooses numbers: dispatches `on_pick(path, unit)`."""
+    picked: ListProperty[str] = ListProperty()
+    """Ways of those that are chosen."""
     folds = DictProperty()
     """Paths that a finger has opened (True) or folded (False)."""
     lines: ListProperty[Row] = ListProperty()
@@ -150,7 +157,7 @@ class FieldView(RobotWidget, FloatLayout):
         self._write_soon = Clock.create_trigger(self._place, WRITE_PERIOD)
         super().__init__(**kwargs)
         self.fbind("message", self._on_news)
-        for name in ("type", "folds", "size"):
+        for name in ("type", "folds", "size", "picks", "picked"):
             self.fbind(name, self._at_once)
         self.fbind("now", self._write_soon)
         theme.bind(target=self._follow_target)
@@ -176,6 +183,15 @@ class FieldView(RobotWidget, FloatLayout):
         row = next((row for row in self.lines if row.path == path), None)
         if row is not None and self._foldable(row):
             self.folds[path] = not row.open
+
+    def _press(self, row: FieldRow) -> None:
+        if row.picks:
+            self.dispatch("on_pick", written(tuple(row.path)), row.unit)
+        else:
+            self.fold(row.path)
+
+    def on_pick(self, path: str, unit: str) -> None:
+        """A finger chose a number, by its way as of `widgets.core.field_paths`."""
 
     def _renew(self, *_: object) -> None:
         """Bring tree and figures up to the newest message."""
@@ -232,7 +248,7 @@ class FieldView(RobotWidget, FloatLayout):
         sheet = self.ids.sheet
         while len(self._pool) < count:
             row = FieldRow()
-            row.bind(on_release=lambda row: self.fold(row.path))
+            row.bind(on_release=self._press)
             self._pool.append(row)
         for index, row in enumerate(self._pool):
             if index < count and row.parent is None:
@@ -249,9 +265,15 @@ class FieldView(RobotWidget, FloatLayout):
         widget.kind, widget.depth = row.kind, row.depth
         widget.step = self._step()
         widget.foldable, widget.open = self._foldable(row), row.open
+        widget.picks = self.picks and _is_number(row) and not widget.foldable
+        widget.picked = widget.picks and written(tuple(row.path)) in self.picked
         widget.name, widget.type = row.name, row.type
         widget.value, widget.second, widget.unit = value, second, unit(row)
         widget.widest = max(widget.widest, text_width(value, sp(15), bold=True))
+
+
+def _is_number(row: Row) -> bool:
+    return row.kind == LEAF and isinstance(row.value, int | float)
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

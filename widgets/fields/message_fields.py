@@ -7,7 +7,7 @@ import re
 import time
 from array import array
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -16,6 +16,7 @@ import numpy as np
 from bridge.msgs import Msg
 from bridge.msgs.std_msgs import Duration, Time
 from widgets.core.language import tr
+from widgets.fields.meanings import meaning_of
 
 __all__ = [
     "ARRAY",
@@ -80,6 +81,8 @@ class Row:
     """Of a branch: what is in it follows. Of a long text: all of it is shown."""
     unit: str = ""
     """Of the field, or of the message that it is in, as the definition writes it: `m/s2`; empty where it is not known."""
+    meaning: str = ""
+    """What the message's definition calls that value; empty where it has no name."""
 
     @property
     def long_text(self) -> bool:
@@ -126,7 +129,10 @@ def _fields(
 ) -> Iterator[Row]:
     common = _common_unit(type(msg), outer)
     for name, kind, unit in _table(type(msg)):
-        yield from _row(getattr(msg, name), (*path, name), depth, (name, kind, unit or common), folds, few)
+        value = getattr(msg, name)
+        for row in _row(value, (*path, name), depth, (name, kind, unit or common), folds, few):
+            meaning = meaning_of(type(msg), name, value) if row.kind == LEAF and type(value) is int else ""
+            yield replace(row, meaning=meaning) if meaning else row
 
 
 def _row(
@@ -255,7 +261,8 @@ def describe(row: Row, now: float = math.nan) -> tuple[str, str]:
         return ("", line) if row.kind == ARRAY else (value or "empty", "")
     if row.kind == ARRAY:
         return _array(value, spelled(row.unit))
-    return _plain(value, now), ""
+    plain = _plain(value, now)
+    return (f"{plain} · {row.meaning}" if row.meaning else plain), ""
 
 
 def unit(row: Row) -> str:

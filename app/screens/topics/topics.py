@@ -7,233 +7,33 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.metrics import Metrics
-from kivy.properties import BooleanProperty, ObjectProperty, StringProperty
-from kivy.uix.behaviors import ButtonBehavior
-from kivy.uix.boxlayout import BoxLayout
-from kivy.uix.recycleview.views import RecycleDataViewBehavior
+from kivy.properties import ObjectProperty, StringProperty
 
-import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.layout import arrange
 from app.layout.arrange import Rect
 from app.link.camera_decoder import Picture
 from app.link.feeds import Post
 from app.screens.parts.placing import above, put
 from app.screens.parts.robot_screen import RobotScreen
+from app.screens.topics.live_picture import LivePicture
+from app.screens.topics.live_plots import LivePlots
+from app.screens.topics.topic_parts import ICONS, TopicDetail, TopicList
 from app.session.session import Session
 from app.session.topic_list import Line, TopicListing
+from bridge.msgs.sensor_msgs import CompressedImage
 from widgets import FieldView
 from widgets.core.base import age_text
-from widgets.parts.cards import Card
+from widgets.core.language import tr
 
-__all__ = ["TopicRow", "TopicsScreen"]
+__all__ = ["TopicsScreen"]
 
 LEGIBLE = 860
 """Wider, a name and its value are too far apart for the eye [dp]."""
+PART = 0.42
+"""Of the open topic's height for its picture, and for what is drawn."""
 LIST_EVERY = 4
 """The list is brought up to date in every so many ticks."""
-ICONS = {
-    "sensor_msgs/Imu": "explore",
-    "sensor_msgs/LaserScan": "radar",
-    "sensor_msgs/PointCloud2": "radar",
-    "sensor_msgs/Range": "sensors",
-    "sensor_msgs/CompressedImage": "videocam",
-    "sensor_msgs/Image": "videocam",
-    "sensor_msgs/BatteryState": "bolt",
-    "sensor_msgs/NavSatFix": "satellite_alt",
-    "nav_msgs/Odometry": "route",
-    "nav_msgs/Path": "polyline",
-    "nav_msgs/OccupancyGrid": "map",
-    "geometry_msgs/Twist": "sports_esports",
-    "diagnostic_msgs/DiagnosticArray": "build",
-    "std_msgs/String": "text_fields",
-}
-"""Icon of a type; any other is a pair of braces."""
-
 Builder.load_string("""
-#:import wrapped widgets.parts.labels.wrapped
-<Beside@Label>:
-    font_name: theme.font
-    font_size: sp(13.5)
-    disabled_color: self.color
-    size_hint: None, 1
-    width: self.texture_size[0] if self.text else 0
-
-<TopicRow>:
-    padding: dp(14), 0, dp(14), 0
-    spacing: dp(12)
-    canvas.before:
-        Rounded:
-            rgba: theme.accent if root.chosen else theme.line
-            pos: self.x, self.y + dp(4)
-            size: self.width, self.height - dp(8)
-            radius: [theme.corner]
-        Rounded:
-            rgba: theme.raised
-            pos: self.x + root.edge, self.y + dp(4) + root.edge
-            size: self.width - 2 * root.edge, self.height - dp(8) - 2 * root.edge
-            radius: [theme.corner - root.edge]
-        Rounded:
-            rgba: theme.accent if root.chosen else (0, 0, 0, 0)  # a mark, and not a hue alone
-            pos: self.x + dp(4), self.y + dp(14)
-            size: dp(4), self.height - dp(28)
-            radius: [dp(2)]
-        Rounded:
-            rgba: theme.text[:3] + [.14 if root.state == 'down' else 0]
-            pos: self.x, self.y + dp(4)
-            size: self.width, self.height - dp(8)
-            radius: [theme.corner]
-    Icon:
-        name: root.icon
-        role: 'accent' if root.listened else 'muted'
-        pos_hint: {'center_y': .5}
-    BoxLayout:
-        orientation: 'vertical'
-        size_hint_y: None
-        height: dp(44)
-        pos_hint: {'center_y': .5}
-        BoxLayout:
-            spacing: dp(8) if root.use else 0
-            Text:
-                text: root.name
-                bold: True
-                font_size: sp(16)
-                size_hint_y: 1
-                text_size: self.size
-                shorten: True
-                shorten_from: 'left'
-            Beside:
-                text: root.use
-                color: theme.accent
-        BoxLayout:
-            spacing: dp(8) if root.pace else 0
-            Text:
-                text: root.type
-                role: 'muted'
-                font_size: sp(13.5)
-                size_hint_y: 1
-                text_size: self.size
-                shorten: True
-                shorten_from: 'left'
-            Beside:
-                text: root.pace
-                color: theme.muted
-
-<TopicList>:
-    orientation: 'vertical'
-    spacing: dp(8)
-    BoxLayout:
-        size_hint_y: None
-        height: search.height
-        TextField:
-            id: search
-            hint_text: 'Search names and types'
-            on_text: root.dispatch('on_search', self.text)
-        IconButton:
-            id: clear
-            icon: 'close'
-            role: 'muted'
-            bare: True
-            width: search.height if search.text else 0
-            opacity: 1 if search.text else 0
-            disabled: not search.text
-            on_release: search.text = ''
-    FloatLayout:
-        id: frame
-        RecycleView:
-            id: view
-            viewclass: 'TopicRow'
-            pos_hint: {'x': 0, 'y': 0}
-            size_hint_x: None
-            width: frame.width + dp(8)  # the bar beside the cards
-            bar_width: dp(3)
-            bar_color: theme.muted
-            bar_inactive_color: theme.line
-            scroll_type: ['bars', 'content']
-            RecycleBoxLayout:
-                orientation: 'vertical'
-                size_hint_y: None
-                height: self.minimum_height
-                padding: 0, 0, dp(8), 0
-                default_size: None, max(theme.target, dp(60)) + dp(8)
-                default_size_hint: 1, None
-        Text:
-            text: root.sentence
-            role: 'muted'
-            font_size: sp(15)
-            pos_hint: {'x': 0, 'top': 1}
-            padding: dp(6), dp(10)
-
-<TopicDetail>:
-    padding: dp(12), dp(10), dp(6), dp(10)
-    spacing: dp(8)
-    BoxLayout:
-        size_hint_y: None
-        height: max(theme.target, titles.height + dp(6)) if root.name else 0
-        opacity: 1 if root.name else 0
-        spacing: dp(8)
-        padding: 0, 0, dp(6), 0
-        IconButton:
-            id: close
-            icon: 'arrow_back' if root.alone else 'close'
-            role: 'muted'
-            bare: True
-            pos_hint: {'center_y': .5}
-            disabled: not root.name
-            on_release: root.dispatch('on_close')
-        Column:
-            id: titles
-            spacing: dp(2)
-            pos_hint: {'center_y': .5}
-            Text:  # whole, on as many lines as it takes: here alone a long name can be read
-                id: title
-                text: wrapped(root.name, self.width, self.font_size)
-                bold: True
-                font_size: sp(18)
-            Text:
-                text: wrapped(root.type, self.width, self.font_size)
-                role: 'muted'
-                font_size: sp(14)
-        Chip:
-            id: pace
-            icon: root.pace_icon
-            role: root.pace_role
-            text: root.pace
-            usual: '00.0 Hz'
-            pos_hint: {'center_y': .5}
-            opacity: 1 if root.pace else 0
-    BoxLayout:
-        size_hint_y: None
-        height: note.height if root.notice else 0
-        opacity: 1 if root.notice else 0
-        spacing: dp(8)
-        padding: dp(8), 0, dp(8), 0
-        Icon:
-            name: 'warning' if root.wrong else 'info'
-            role: 'warn' if root.wrong else 'muted'
-            font_size: sp(20)
-            pos_hint: {'center_y': .5}
-        Text:
-            id: note
-            text: root.notice
-            role: 'text' if root.wrong else 'muted'
-            font_size: sp(15)
-            pos_hint: {'center_y': .5}
-    FloatLayout:
-        id: ground
-        Icon:
-            name: 'data_object'
-            role: 'muted'
-            font_size: sp(34)
-            center: ground.center_x, ground.center_y + dp(24)
-            opacity: 0 if root.name or root.idle else 1
-        Text:
-            text: 'Choose a topic to see its fields.'
-            role: 'muted'
-            halign: 'center'
-            pos_hint: {'center_x': .5}
-            center_y: ground.center_y - dp(18)
-            opacity: 0 if root.name or root.idle else 1
-
 <TopicsScreen>:
     Text:
         id: strip
@@ -244,67 +44,6 @@ Builder.load_string("""
         text_size: self.size
         size_hint: None, None
 """)
-
-
-class TopicRow(RecycleDataViewBehavior, ButtonBehavior, BoxLayout):
-    """One topic of the list, to be pressed."""
-
-    name = StringProperty("")
-    type = StringProperty("")
-    icon = StringProperty("data_object")
-    use = StringProperty("")
-    """What a screen shows it as."""
-    pace = StringProperty("")
-    """How often it comes, or how old it is."""
-    listened = BooleanProperty(False)
-    """Messages come from it now."""
-    chosen = BooleanProperty(False)
-    """It is the one that is open."""
-    choose = ObjectProperty(None, allownone=True)
-    """Called with the name when a finger pressed it."""
-
-    @property
-    def edge(self) -> float:
-        """Width of its border [px]."""
-        return float(Metrics.density * (1.5 if self.chosen else 1.0))
-
-    def on_release(self) -> None:
-        """Open it."""
-        if self.choose is not None:
-            self.choose(self.name)
-
-
-class TopicList(BoxLayout):
-    """The search and what it leaves."""
-
-    __events__ = ("on_search",)
-
-    sentence = StringProperty("")
-
-    def on_search(self, text: str) -> None:
-        """Something else is looked for."""
-
-
-class TopicDetail(Card):
-    """One topic, live."""
-
-    __events__ = ("on_close",)
-
-    name = StringProperty("")
-    type = StringProperty("")
-    notice = StringProperty("")
-    wrong = BooleanProperty(False)
-    """The notice is about something that failed."""
-    pace = StringProperty("")
-    pace_icon = StringProperty("sensors")
-    pace_role = StringProperty("muted")
-    alone = BooleanProperty(False)
-    """The list is not beside it."""
-    idle = BooleanProperty(False)
-    """There is no topic to choose."""
-
-    def on_close(self) -> None:
-        """The finger wants back to the list."""
 
 
 class TopicsScreen(RobotScreen):
@@ -318,9 +57,13 @@ class TopicsScreen(RobotScreen):
         super().__init__(**kwargs)
         self.topics = TopicListing(self.session)
         self.list, self.detail = TopicList(), TopicDetail()
-        self.view = FieldView(aged=False, veil_radius=1, size_hint_max_x=LEGIBLE * Metrics.density)
+        self.view = FieldView(
+            aged=False, veil_radius=1, size_hint_max_x=LEGIBLE * Metrics.density, picks=True
+        )
         self.detail.ids.ground.add_widget(self.view)
         self.view.pos_hint = {"x": 0, "y": 0}
+        self.view.bind(on_pick=lambda _, path, unit: self.plot(path, unit))
+        self.plots, self.picture_view = LivePlots(self.session), LivePicture()
         self.list.bind(on_search=self._search)
         self.detail.bind(on_close=lambda _: self.close())
         self.ids.update({"list": self.list, "detail": self.detail, "search": self.list.ids.search})
@@ -356,12 +99,36 @@ class TopicsScreen(RobotScreen):
                 self.add_widget(widget)
             elif not wanted and widget.parent is not None:
                 self.remove_widget(widget)
+        self._lay_detail()
         for widget, place in ((self.list, "list"), (self.detail, "detail")):
             put(widget, above(self._places[place], self._cover, Metrics.density))
         put(self.ids.strip, self._places["strip"])
 
+    def _lay_detail(self) -> None:
+        """Above the fields a picture, where the topic is one; below them what is drawn."""
+        stack, video = self.plots.stack, self.picture_view.video
+        room = self._places["detail"].height if self._places else 0.0
+        shown = ((stack, bool(stack.plots), 0), (video, LivePicture.takes(self.topics.kind), None))
+        for widget, wanted, index in shown:
+            widget.size_hint_y, widget.height = None, PART * room
+            if wanted and widget.parent is None:
+                at = len(self.detail.children) - 2 if index is None else index
+                self.detail.add_widget(widget, index=max(at, 0))
+            elif not wanted and widget.parent is not None:
+                self.detail.remove_widget(widget)
+
+    def plot(self, path: str, unit: str) -> None:
+        """Draw a number of the open topic over time, or no longer."""
+        if not self.topics.opened:
+            return
+        if not self.plots.turn(self.topics.opened, self.topics.type, path, unit):
+            self.topics.problem = tr("There is no room for one more plot: take one away.")
+        self.view.picked = self.plots.drawn(self.topics.opened)
+        self._lay()
+
     def on_post(self, channel: str, post: Post) -> None:
         """A message came."""
+        self.plots.on_post(channel, post)
         if self.topics.on_post(channel, post):
             self._show_message()
 
@@ -371,6 +138,7 @@ class TopicsScreen(RobotScreen):
 
     def leave(self) -> None:
         """Leave the glass: nothing is listened to for it any more."""
+        self.plots.close()
         self.list.ids.search.focus = False
         self.close()
 
@@ -387,6 +155,8 @@ class TopicsScreen(RobotScreen):
     def tick(self) -> None:
         """Bring up to date what time changes."""
         self.topics.tick()
+        self.plots.tick()
+        self.picture_view.tick(self.topics.state, self.topics.age)
         self.view.now = self.session.link.robot_time()
         self._show_state()
         if self._ticks % LIST_EVERY == 0:
@@ -403,7 +173,9 @@ class TopicsScreen(RobotScreen):
         if rows != self._rows:
             self._rows = rows
             self.list.ids.view.data = rows
-        self.list.sentence, self.summary = self.topics.sentence, self.topics.summary
+        self.list.sentence = self.topics.sentence
+        hint = tr("Tap a number to plot it.") if self.topics.opened else ""
+        self.summary = " · ".join(part for part in (self.topics.summary, hint) if part)
         self.detail.idle = bool(self.topics.sentence)
 
     def _row(self, line: Line) -> dict[str, Any]:
@@ -423,8 +195,12 @@ class TopicsScreen(RobotScreen):
     def _show_message(self) -> None:
         self.view.now = self.session.link.robot_time()
         self.view.type = self.topics.kind
-        if self.topics.message is not None:
-            self.view.show(self.topics.message)
+        message = self.topics.message
+        if message is not None:
+            self.view.show(message)
+        if isinstance(message, CompressedImage):
+            self.picture_view.show(message, self.session.now())
+        self._lay_detail()
         self._show_state()
 
     def _show_state(self) -> None:
@@ -458,6 +234,7 @@ class TopicsScreen(RobotScreen):
         self.list.ids.search.focus = False
         self._forget()
         self.topics.open(name)
+        self.view.picked = self.plots.drawn(name)
         self._show_state()
         self._show_list()
         self._lay()
@@ -472,7 +249,8 @@ class TopicsScreen(RobotScreen):
             self._lay()
 
     def _forget(self) -> None:
-        """The tree belongs to one topic."""
+        """Tree and picture belong to one topic."""
+        self.picture_view.close()
         self.view.message, self.view.type, self.view.age = None, None, math.nan
         self.view.folds = {}
         self.view.ids.scroll.scroll_y = 1

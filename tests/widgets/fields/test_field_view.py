@@ -312,3 +312,20 @@ def test_a_word_instead_of_fields_has_the_icon_and_the_inset_of_others(stage, vi
     view.show(battery())
     stage.run_for(0.2)
     assert note.parent.opacity == 0
+
+
+def test_where_numbers_can_be_chosen_a_tap_on_one_tells_its_way_and_unit(stage):
+    view, told = stage.show(FieldView(picks=True, state="live"), size=(400, 600)), []
+    view.bind(on_pick=lambda _, path, unit: told.append((path, unit)))
+    view.show(Imu())
+    stage.frames(2)
+    row = next(row for row in view._pool if row.path == ("angular_velocity", "z"))
+    stage.tap(*row.to_window(*row.center))
+    assert told == [("angular_velocity.z", "rad/s")]
+    view.picked = ["angular_velocity.z"]
+    stage.frames(2)
+    assert next(row for row in view._pool if row.path == ("angular_velocity", "z")).picked
+    view.picks = False
+    stage.frames(2)
+    stage.tap(*row.to_window(*row.center))
+    assert len(told) == 1
