@@ -189,4 +189,5 @@ def _decoded(data: bytes) -> NDArray[np.float64]:
         .reshape(high, -1)[:, : wide * channels]
         .reshape(high, wide, channels)
     )
-    return rows[:, :, : min(channels, 3)].mean(axis=2)
+    grey: NDArray[np.float64] = rows[:, :, : min(channels, 3)].mean(axis=2)
+    return grey

@@ -53,7 +53,7 @@ def read_geotiff(path: Path) -> PlacedPicture:
         ) from fault
     if max(picture.size) > MAX_TEXTURE_SIDE:
         picture.thumbnail((MAX_TEXTURE_SIDE, MAX_TEXTURE_SIDE))
-    return PlacedPicture(*picture.size, picture.tobytes(), corners)
+    return PlacedPicture(picture.width, picture.height, picture.tobytes(), corners)
 
 
 def _check(image: Any, path: Path) -> None:

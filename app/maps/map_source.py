@@ -94,10 +94,16 @@ class Source:
                     )
                 )
         return cls(
-            **texts,
-            **{name: int(value) for name, value in zooms.items()},
-            from_south=kept.get("from_south") is True,
-            box=_box(kept.get("box")),
+            texts["id"],
+            texts["kind"],
+            texts["name"],
+            texts["where"],
+            texts["attribution"],
+            int(zooms["min_zoom"]),
+            int(zooms["max_zoom"]),
+            texts["key"],
+            kept.get("from_south") is True,
+            _box(kept.get("box")),
         )
 
     def kept(self) -> dict[str, Any]:

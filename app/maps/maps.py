@@ -15,7 +15,7 @@ import widgets
 from app.core.settings_store import Settings
 from app.maps.floor_plan import read_floor_plan
 from app.maps.geotiff import read_geotiff
-from app.maps.map_source import GEOTIFF, MAP_SERVER, MBTILES, URL, Source
+from app.maps.map_source import GEOTIFF, MAP_SERVER, MBTILES, Source
 from app.maps.network_tiles import NetworkTiles
 from app.maps.placed_picture import PlacedPicture
 from app.maps.regions import Region, Regions
@@ -170,11 +170,6 @@ class Maps:
         texture.blit_buffer(picture.rgba, colorfmt="rgba", bufferfmt="ubyte")
         texture.flip_vertical()
         return PictureGround(texture, corners, source.attribution)
-
-    def forget(self, source: Source) -> None:
-        """Delete what was kept of a source that is not on the list any more."""
-        if source.kind == URL and self.sources.get(source.id) is None:
-            self.store.clear(source.id)
 
     def size(self) -> float:
         """What is kept of servers, offline regions left out [MB]."""

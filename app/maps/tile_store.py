@@ -11,6 +11,7 @@ import sqlite3
 import threading
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from widgets.map.tiles.tile_reader import Key
 
@@ -137,7 +138,7 @@ class TileStore:
         if row and self._ask(f"DELETE FROM tiles WHERE {where}", values) is not None:  # noqa: S608
             self._size -= row[0][0]
 
-    def _ask(self, statement: str, values: tuple[object, ...]) -> list[tuple[object, ...]] | None:
+    def _ask(self, statement: str, values: tuple[object, ...]) -> list[tuple[Any, ...]] | None:
         """Rows; None where the file cannot be used."""
         file = self._open()
         if file is None:

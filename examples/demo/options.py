@@ -21,7 +21,18 @@ _STOP = ("stop", "released", "phone")
 STORIES = {
     "patrol": (
         *("connect-screen", "connected", "misplaced", "initialised", "points", "dragged", "reordered"),
-        *("deleted", "undone", "home", "motion", "sent", "started", "on-the-way", "paused", "resumed"),
+        *(
+            "deleted",
+            "undone",
+            "home",
+            "motion",
+            "sent",
+            "streets",
+            "started",
+            "on-the-way",
+            "paused",
+            "resumed",
+        ),
         *("patrolled", "stop", "released", "going-home", "at-home", "drive-screen", "driven"),
         "stop-while-driving",
     ),

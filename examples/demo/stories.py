@@ -4,7 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from examples.demo import aqua, ardrone, commander, errand, minnow, others, patrol, prepare, scout, vehicle
+from examples.demo import (
+    aqua,
+    ardrone,
+    commander,
+    errand,
+    minnow,
+    others,
+    patrol,
+    prepare,
+    scout,
+    streets,
+    vehicle,
+)
 from examples.demo.connecting import connect
 from examples.demo.scene import Scene, Wait
 
@@ -40,6 +52,7 @@ def _patrol(scene: Scene) -> Wait:
     yield from prepare.edit_points(scene)
     yield from prepare.set_home_and_motion(scene)
     yield from prepare.send(scene)
+    yield from streets.lay_streets(scene)
     since = scene.witness.now
     yield from patrol.start(scene)
     yield from patrol.pause_and_resume(scene)

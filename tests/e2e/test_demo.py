@@ -8,9 +8,9 @@ from PIL import Image
 from tests.e2e.demo_play import played
 
 
-def test_the_demo_finds_the_robot_and_sends_it_a_mission(tmp_path):
-    steps = played(tmp_path, "--until", "sent")["steps"]
-    assert steps[-1]["name"] == "sent"
+def test_the_demo_finds_the_robot_sends_it_a_mission_and_lays_streets_beneath_its_map(tmp_path):
+    steps = played(tmp_path, "--until", "streets")["steps"]
+    assert [step["name"] for step in steps[-2:]] == ["sent", "streets"]
     for step in steps:
         with Image.open(tmp_path / step["picture"]) as picture:
             assert picture.size == (1280, 800)

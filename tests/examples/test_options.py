@@ -16,6 +16,7 @@ from examples.demo import (
     patrol,
     prepare,
     scout,
+    streets,
     vehicle,
 )
 from examples.demo.__main__ import main
@@ -75,7 +76,7 @@ VEHICLE = (connecting, vehicle)
 @pytest.mark.parametrize(
     ("story", "modules"),
     [
-        ("patrol", (connecting, prepare, patrol)),
+        ("patrol", (connecting, prepare, streets, patrol)),
         ("errand", (errand, others)),
         ("scout", (*VEHICLE, scout)),
         ("commander", (*VEHICLE, commander)),

@@ -18,7 +18,10 @@ class ScreenHost(Protocol):
 
     methods: Methods
     records: Recordings
-    maps: Maps
+
+    @property
+    def maps(self) -> Maps:
+        """Maps of the operator's choice."""
 
     @property
     def visit(self) -> Visit:

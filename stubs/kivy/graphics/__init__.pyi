@@ -253,6 +253,10 @@ class Triangle(VertexInstruction):
     points: Property[list[float], Sequence[float]]
     def __init__(self, *, points: Sequence[float] = ..., group: str | None = None) -> None: ...
 
+class Quad(VertexInstruction):
+    points: Property[list[float], Sequence[float]]
+    def __init__(self, *, points: Sequence[float] = ..., texture: Texture | None = ...) -> None: ...
+
 class Rectangle(VertexInstruction):
     pos: Property[tuple[float, float], Sequence[float]]
     size: Property[tuple[float, float], Sequence[float]]

@@ -84,6 +84,11 @@ class TilePictures(MapSource):
         return self._reader
 
     @property
+    def complete(self) -> bool:
+        """Something was looked at, and no tile in sight waits for its picture."""
+        return bool(self._textures) and not self._waiting
+
+    @property
     def refused(self) -> int:
         """Tiles that were no picture, or too large a one; they are shown as gaps."""
         return self._reader.refused

@@ -56,14 +56,9 @@ class MapForm(Column):
         shown.add_widget(self.came)
         self.came.pos_hint = {"center_y": 0.5}
         words = tr("{z}, {x} and {y} stand for the tile; {-y} counts from the south, {s} is a, b or c, {r} is @2x, {key} the key. The server sees which places you look at.")  # fmt: skip
-        for widget in (
-            *self.fields.values(),
-            Remark(text=words, role="muted"),
-            *self._lines,
-            self.problem,
-            shown,
-            buttons,
-        ):
+        for widget in (*self.fields.values(), self.problem, shown, buttons):
+            self.add_widget(widget)
+        for widget in (Remark(text=words, role="muted"), *self._lines):
             self.add_widget(widget)
 
     def _make_fields(self) -> None:

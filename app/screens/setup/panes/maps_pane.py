@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
+from kivy.properties import StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
@@ -26,6 +27,13 @@ __all__ = ["MapsPane"]
 MEGABYTE = 1_000_000
 CACHE_STEP = 20
 """Of what is kept [MB]."""
+
+
+class RowButton(IconButton):
+    """One at the end of a row, which has no room for its words."""
+
+    scan_words = StringProperty("")
+    """What it does, for a switch that steps over it."""
 
 
 class MapsPane(SettingsPane):
@@ -140,8 +148,7 @@ class MapsPane(SettingsPane):
             ("arrow_upward", tr("Prefer it more"), lambda: sources.move(source.id, -1)),
             ("delete", tr("Delete"), lambda: sources.remove(source.id)),
         ):
-            button = IconButton(icon=icon, bare=True, pos_hint={"center_y": 0.5})
-            button.scan_words = words
+            button = RowButton(icon=icon, bare=True, scan_words=words, pos_hint={"center_y": 0.5})
             button.bind(on_release=lambda _, act=act: act())
             row.add_widget(button)
         return row
@@ -202,7 +209,7 @@ class MapsPane(SettingsPane):
         for region in self.maps.regions.all:
             row = self.region_rows[region] = ListRow(icon="download", title=region.name, whole=True)
             row.bind(on_release=lambda _, region=region: self._turn(region))
-            button = IconButton(icon="delete", bare=True, pos_hint={"center_y": 0.5})
+            button = RowButton(icon="delete", bare=True, scan_words=tr("Delete"), pos_hint={"center_y": 0.5})
             button.bind(on_release=lambda _, region=region: self.maps.regions.delete(region))
             row.add_widget(button)
             self.kept.add_widget(row)
