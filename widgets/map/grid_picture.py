@@ -124,6 +124,11 @@ class GridPicture:
         """A grid that came is not drawn yet."""
         return self._coming is not None
 
+    @property
+    def textures(self) -> list[Texture]:
+        """Those of the grid that is drawn."""
+        return [tile.texture for tile in self._tiles]
+
     def show(self, grid: OccupancyGrid | None) -> None:
         """Draw that grid, or none; `data` has as many cells as `info` says."""
         self._next = []
