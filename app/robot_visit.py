@@ -163,4 +163,4 @@ class RobotVisit:
         self._records.check()
         shell = self._pages.shell
         if shell is not None:
-            shell.recorded = self._records.clock if self._records.recorder is not None else ""
+            shell.bar.recorded = f"REC {self._records.clock}" if self._records.recorder is not None else ""

@@ -16,7 +16,7 @@ from kivy.utils import get_color_from_hex
 from app.discovery.known_robots import Entry
 from app.link.channels import ANSWER, Answer
 from app.link.feeds import Post
-from app.screens.connect.connect import RobotCard
+from app.screens.connect.robot_card import RobotCard
 from app.screens.trust.pair_dialog import PairDialog
 from app.screens.trust.people_dialog import PeopleDialog
 from bridge.msgs.pilothouse_msgs import GetPeopleResponse, InvitePersonResponse, Person

@@ -12,7 +12,7 @@ from kivy.uix.gridlayout import GridLayout
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.discovery.simulator_options import SimulationChoice, SimulatorOptions
-from app.screens.connect.connect import robot_icon
+from app.screens.connect.robot_card import robot_icon
 from app.screens.parts.dialogs import Question
 from widgets.core.language import mark, tr
 from widgets.parts.labels import Icon

@@ -11,7 +11,7 @@ from kivy.properties import ObjectProperty
 from app.discovery.known_robots import Entry
 from app.layout import arrange
 from app.layout.arrange import Body, Rect
-from app.screens.connect.connect import RobotCard, same_named
+from app.screens.connect.robot_card import RobotCard, same_named
 from app.screens.parts.placing import Area, above, put  # noqa: F401 - a rule names the area
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.parts.screen_table import SCREENS

@@ -108,8 +108,6 @@ class Shell(FloatLayout):
     """Shape of the window, as in `app.layout.arrange.form`."""
     screen = StringProperty("")
     """Name of the screen on the glass, as in `screens`."""
-    recorded = StringProperty("")
-    """How long a recording runs, as in `04:31`; empty while none does."""
     shares_stop = BooleanProperty(False)
     """STOP ALL is in STOP's corner as well."""
 
@@ -145,10 +143,6 @@ class Shell(FloatLayout):
         theme.bind(target=self._arrange)
         safe_area.bind(insets=self._arrange)
         self._arrange()
-
-    def on_recorded(self, *_: object) -> None:
-        """Say it in the bar."""
-        self.bar.recorded = f"REC {self.recorded}" if self.recorded else ""
 
     def _build_frame(self) -> None:
         """Bar, navigation, STOP and what is said over them; the ids of their parts are found here too."""

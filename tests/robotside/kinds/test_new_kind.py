@@ -10,7 +10,7 @@ import msgspec
 import pytest
 
 from app.discovery.known_robots import KnownRobots
-from app.screens.connect.connect import RobotCard
+from app.screens.connect.robot_card import RobotCard
 from bridge.codec import from_json, to_json
 from bridge.discovery.beacon import Hello
 from bridge.msgs.geometry_msgs import Twist

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from app.discovery.known_robots import Entry
-from app.screens.connect.connect import RobotCard
+from app.screens.connect.robot_card import RobotCard
 
 ME = "tablet"
 
