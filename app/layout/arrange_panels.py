@@ -50,7 +50,8 @@ def _short(body: Rect, dp: float, editing: bool) -> dict[str, Rect]:
     high = max(stop.head, room.top)
     tabs = Rect(body.x + gap, body.top - row, side.x - body.x - 2 * gap, row - 4 * dp)
     board = Rect(body.x, body.y, side.x - body.x, body.height - row)
-    acts = Rect(room.x, body.top - gap - row * 2 - gap, wide, row * 2 + gap)
+    high_acts = row * 2 + gap if editing else row * (1 if crowded(body) else 2) + gap
+    acts = Rect(room.x, body.top - gap - high_acts, wide, high_acts)
     pane = Rect(room.x, high + gap, wide, (acts.y if editing else body.top) - gap - high - gap)
     return _all(board, tabs, acts, pane, stop, gap)
 

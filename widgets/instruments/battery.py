@@ -121,7 +121,7 @@ class _Charge(RobotWidget):
     """What both drawings of the battery know."""
 
     accepts: ClassVar = (BatteryState,)
-    grid_size: ClassVar = (2, 2)
+    grid_size: ClassVar = (2, 3)
 
     share = NumericProperty(math.nan)
     """0 empty to 1 full; NaN unknown."""

@@ -51,6 +51,8 @@ class Board(ScrollView):
 
     form = OptionProperty("wide", options=FORMS)
     editing = BooleanProperty(False)
+    whole = NumericProperty(0)
+    """Height that the rows of the form fill, where that is more than its own: it ends above a sheet then [px]."""
     rows = NumericProperty(1)
     """Of the grid that are filled."""
 
@@ -116,7 +118,9 @@ class Board(ScrollView):
     def cell(self) -> tuple[float, float]:
         """Width and height of a cell [px]."""
         margin = dp(GAP) * 2
-        return (self.width - 2 * margin) / COLUMNS[self.form], (self.height - 2 * margin) / ROWS[self.form]
+        return (self.width - 2 * margin) / COLUMNS[self.form], (
+            max(self.whole, self.height) - 2 * margin
+        ) / ROWS[self.form]
 
     def _box(self, place: Place) -> tuple[float, float, float, float]:
         """Left, low, width and height of a place on the ground [px]."""

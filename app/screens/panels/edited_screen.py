@@ -61,6 +61,9 @@ class EditedScreen(Protocol):
     def reload(self) -> None:
         """Take the profile as it is now."""
 
+    def make_room(self) -> None:
+        """The pane came or went."""
+
     def settle(self) -> None:
         """Have STOP put where it goes now."""
 

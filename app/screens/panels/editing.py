@@ -256,15 +256,13 @@ class Editing:
         screen, self._form = self._screen, form
         wanted = screen.editing and (form == "wide" or self._listed or self._selected is not None)
         pane = screen.pane
+        if wanted != (pane.parent is not None):
+            (screen.add_widget if wanted else screen.remove_widget)(pane)
+            screen.make_room()
+        shown = (self._selected, int(screen.view), form, self.views) if wanted else None
         if not wanted:
-            if pane.parent is not None:
-                screen.remove_widget(pane)
             self._shown = None
-            return
-        if pane.parent is None:
-            screen.add_widget(pane)
-        shown = (self._selected, int(screen.view), form, self.views)
-        if shown != self._shown:
+        elif shown != self._shown:
             self._shown = shown
             fill(pane, self, screen.session.robot.capabilities, form)
 

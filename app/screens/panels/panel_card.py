@@ -9,8 +9,10 @@ from kivy.lang import Builder
 from kivy.metrics import dp, mm
 from kivy.properties import BooleanProperty, ListProperty, NumericProperty, ObjectProperty, StringProperty
 from kivy.uix.behaviors import ButtonBehavior
+from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.label import Label
+from kivy.uix.stencilview import StencilView
 from kivy.uix.widget import Widget
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
@@ -152,6 +154,10 @@ class Corner(Widget):
     """What the selected card is made larger or smaller by."""
 
 
+class Clip(StencilView):
+    """Shows nothing beyond its edges."""
+
+
 class PanelCard(Outlined, FloatLayout):
     """Dispatches `on_act(what)` for `hide` and `remove`, and `on_tab(index)` for another panel of its stack."""
 
@@ -189,6 +195,7 @@ class PanelCard(Outlined, FloatLayout):
 
     def __init__(self, **kwargs: Any) -> None:
         self._ink = Ink()
+        self._clip: Clip | None = None
         super().__init__(**kwargs)
         self.canvas.after.add(self._ink)
         self.ids.place.bind(pos=self._lay, size=self._lay)
@@ -202,7 +209,11 @@ class PanelCard(Outlined, FloatLayout):
         self.ids.place.clear_widgets()
         self.widget = widget
         if widget is not None:
-            self.ids.place.add_widget(widget)
+            # what is laid out of parts does not grow smaller than they are
+            self._clip = Clip() if isinstance(widget, BoxLayout) else None
+            self.ids.place.add_widget(self._clip or widget)
+            if self._clip is not None:
+                self._clip.add_widget(widget)
             self._lay()
 
     def name_tabs(self, titles: Sequence[str], chosen: int) -> None:
@@ -229,9 +240,13 @@ class PanelCard(Outlined, FloatLayout):
         place, widget = self.ids.place, self.widget
         if widget is None:
             return
+        if self._clip is not None:
+            self._clip.size_hint = (None, None)
+            self._clip.pos, self._clip.size = place.pos, place.size
         if widget.size_hint_y is None and getattr(widget, "own_height", False):
+            figure = widget.ids.row.height
             widget.width = place.width
-            widget.center_y, widget.x = place.center_y, place.x
+            widget.x, widget.y = place.x + dp(4), place.y + (place.height - figure) / 2
         else:
             widget.size_hint = (None, None)
             widget.pos, widget.size = place.pos, place.size

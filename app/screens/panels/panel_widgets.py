@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from kivy.properties import AliasProperty, Property
+
 import widgets
 from app.layout.views import Panel
 from widgets.fitting import offers
@@ -24,9 +26,15 @@ def make_instrument(panel: Panel, type_name: str = "") -> Any:
         wanted |= {"paths": paths, "names": [panel.title] if panel.title and len(paths) == 1 else paths}
     if panel.widget == "Video":
         wanted = {"fit": "cover", "corner": 8}
-    widget = kind(**{name: value for name, value in wanted.items() if hasattr(kind, name)})
+    widget = kind(**{name: value for name, value in wanted.items() if _settable(kind, name)})
     widget.own_height = panel.widget == "Readout"
     return widget
+
+
+def _settable(kind: Any, name: str) -> bool:
+    """Widgets of that class have a property of that name that may be set."""
+    found = getattr(kind, name, None)
+    return isinstance(found, Property) and not isinstance(found, AliasProperty)
 
 
 def _offered(panel: Panel, type_name: str) -> dict[str, Any]:

@@ -165,8 +165,8 @@ class PanelsScreen(RobotScreen):
         if self._body.width <= 1:
             return
         self._places = places_on_screen(self._body, self._form, self._dp, editing=self.editing)
+        self.make_room()
         for widget, name in (
-            (self.board, "board"),
             (self.tabs, "tabs"),
             (self.acts, "acts"),
             (self.pane, "side"),
@@ -176,6 +176,17 @@ class PanelsScreen(RobotScreen):
         self.ids.empty.center = self.board.center
         self.pane.sheet = self._form == "tall"
         self.show()
+
+    def make_room(self) -> None:
+        """A phone's board ends above the sheet that lies over it."""
+        place = self._places["board"]
+        self.board.whole = place.height
+        if self._form == "tall" and self.pane.parent is not None:
+            low = self._places["side"].top + 8 * self._dp
+            place = Rect(place.x, low, place.width, place.top - low)
+        put(self.board, place)
+        if self.board.selected is not None:
+            self.board.reveal(self.board.selected)
 
     def settle(self) -> None:
         """Have the frame put STOP where it goes now."""

@@ -48,9 +48,10 @@ Builder.load_string("""
             bar_color: theme.muted
             Column:
                 spacing: dp(10)
+                padding: 0, 0, dp(8), 0
                 FloatLayout:
                     size_hint_y: None
-                    height: min(dp(260), card.width - dp(60)) if root.rows else 0
+                    height: min(dp(330), card.width - dp(80)) if root.rows else 0
                     QrCode:
                         rows: root.rows
                         pos_hint: {'center_x': .5, 'y': 0}
