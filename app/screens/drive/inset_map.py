@@ -15,6 +15,8 @@ from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.widget import Widget
 
 from app.layout.rects import Rect, between
+from app.maps.ground_keeper import GroundKeeper
+from app.maps.maps import Maps
 from app.screens.parts.placing import off, put
 from app.session.dashboard import Dashboard
 from app.session.session import Session
@@ -32,6 +34,8 @@ SCALE = 8.0
 """Of the small map [dp/m]: what is some steps away is seen."""
 TICKS = 2
 """The small map shows every pose of so many ticks: what is small need not be drawn twenty times a second."""
+LOOKS = 5
+"""In one of so many ticks it is looked whether another map lies beneath it now."""
 MIN_SIDE = 66.0
 """A smaller map shows nothing that can be read [dp]."""
 WIDTH, ASPECT = 250.0, 1.4
@@ -70,9 +74,11 @@ class InsetFrame(ButtonBehavior, AnchorLayout):
 class InsetMap:
     """Map and picture of one drive screen."""
 
-    def __init__(self, session: Session, dashboard: Dashboard, video: Video) -> None:
+    def __init__(self, session: Session, dashboard: Dashboard, video: Video, maps: Maps) -> None:
         self._session, self._video = session, video
         self.map = GridMap(foot=float("nan"))
+        self.keeper = GroundKeeper(self.map, maps, session.feeds.latest)
+        """Keeps tiles or a picture beneath it."""
         self.frame = InsetFrame()
         self.centre = IconButton(icon="my_location")
         """Brings a large map back to the robot."""
@@ -148,6 +154,8 @@ class InsetMap:
         pose = self._session.feeds.latest("/pose")
         if not self.large and pose is not None and self._ticks % TICKS == 0:
             self.map.show(pose)
+        if self._ticks % LOOKS == 0:
+            self.keeper.look()
         info, draft = self._session.robot.info, self._session.mission.draft
         if info is not self._info:
             self._info = info
@@ -162,7 +170,8 @@ class InsetMap:
         self.map.let_go()
 
     def end(self) -> None:
-        """Let go of the map."""
+        """Let go of the map and of what lies beneath it."""
+        self.keeper.close()
         self.map.close()
 
     def _show_pose(self, msg: PoseWithCovarianceStamped) -> None:
@@ -229,7 +238,7 @@ def _free(places: dict[str, Rect], form: str) -> list[float]:
 
 def add_inset(screen: Any) -> InsetMap:
     """The inset of a drive screen, on it; a tap swaps and has the screen arranged anew."""
-    inset = InsetMap(screen.session, screen.dashboard, screen.video)
+    inset = InsetMap(screen.session, screen.dashboard, screen.video, screen.app.maps)
     inset.lay(screen)
 
     def swap(*_: object) -> None:

@@ -159,3 +159,11 @@ def test_what_is_small_covers_nothing_that_is_touched_or_read(size, crowded, how
     assert places["stop"].other is None or not places["stop"].other.overlaps(small)
     if form != "wide":
         assert not checks_beside(places, form, 1.0).overlaps(small)
+
+
+def test_the_map_that_covers_the_robots_place_lies_beneath_the_small_one_too(screen, driving: Glass, robot):
+    robot.publish("/robot/info", RobotInfo(latitude=45.5069, longitude=-73.579))
+    driving.until(lambda: screen.inset.map.ground is not None, "nothing beneath the small map")
+    reader = screen.inset.map.ground.source.reader
+    driving.app.leave()
+    assert reader._closed
