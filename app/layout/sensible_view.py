@@ -31,6 +31,8 @@ _MACHINERY = (
     *("bond/Status", "std_msgs/Header", "theora_image_transport/Packet", "statistics_msgs/MetricsMessage"),
 )
 """Types by which programs talk to each other, or that no widget draws."""
+_MACHINERY_NAMES = ("rosout", "robot_description", "client_count", "connected_clients", "parameter_events")
+"""Last names of topics by which programs talk to each other, whatever their types."""
 _FIRST = (
     *("sensor_msgs/CompressedImage", "nav_msgs/OccupancyGrid", "sensor_msgs/LaserScan", "sensor_msgs/Imu"),
     *("sensor_msgs/BatteryState", "nav_msgs/Odometry", "sensor_msgs/NavSatFix"),
@@ -118,9 +120,15 @@ def _ordered(capabilities: Capabilities) -> list[str]:
     shown = [
         topic
         for topic, kind in capabilities.topics.items()
-        if kind not in _MACHINERY and topic not in (capabilities.drive, "/rosout") and "/_" not in topic
+        if kind not in _MACHINERY and topic != capabilities.drive and not _is_machinery(topic)
     ]
     return sorted(shown, key=rank)
+
+
+def _is_machinery(topic: str) -> bool:
+    """It is by its name for programs: one of the usual ones, or hidden as ROS 2 hides them."""
+    names = topic.split("/")
+    return names[-1] in _MACHINERY_NAMES or any(name.startswith("_") for name in names)
 
 
 def _offers(topic: str, kind: str, learned: Mapping[str, type[Msg]]) -> Sequence[Offer]:
