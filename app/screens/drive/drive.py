@@ -141,7 +141,7 @@ class DriveScreen(Driving):
 
     def _show_slides(self) -> None:
         """On a phone's side only what can be confirmed now lies over the picture: of what takes off and lands, one."""
-        found = self.places.get("confirm", [])
+        found: list[Any] = [*self.places.get("confirm", ())]
         if self._form != "short" or not found:
             return
         room = self.arranged["confirm"]

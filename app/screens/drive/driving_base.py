@@ -125,8 +125,9 @@ class Driving(RobotScreen):
 
     def place_drawer(self, form: str) -> None:
         """Put ground and handle into their places, which other forms have none of; over the picture sticks are bare."""
-        for widget, slot in ((self.sheet, "drawer"), (self.handle, "handle")):
-            put(widget, self.arranged.get(slot, Rect(AWAY_X, 0, 1, 1)))
+        away = Rect(AWAY_X, 0, 1, 1)
+        put(self.sheet, self.arranged.get("drawer", away))
+        put(self.handle, self.arranged.get("handle", away))
         short = form == "short"
         if not short:
             self.handle.pulled = False

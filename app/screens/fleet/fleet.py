@@ -65,7 +65,8 @@ class FleetScreen(RobotScreen):
         self.ids.listed.add_widget(roll)
         self.cards: dict[str, RobotCard] = {}
         """By address, in the order of the list."""
-        self._ticks, self._cover = 0, None
+        self._ticks = 0
+        self._cover: Rect | None = None
         self._whole, self.notice = Rect(0, 0, 1, 1), Rect(0, 0, 1, 1)
 
     def arrange(self, body: Body, form: str, dp: float) -> Rect:

@@ -62,7 +62,8 @@ class MoreScreen(RobotScreen):
         self.ids.listed.add_widget(roll)
         self.tiles: dict[str, Tile] = {}
         """By the name of the screen, or of the act."""
-        self._listed, self._whole, self._cover = tuple[Entry, ...](), Rect(0, 0, 1, 1), None
+        self._listed, self._whole = tuple[Entry, ...](), Rect(0, 0, 1, 1)
+        self._cover: Rect | None = None
         self.notice = Rect(0, 0, 1, 1)
 
     def arrange(self, body: Body, form: str, dp: float) -> Rect:

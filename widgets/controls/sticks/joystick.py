@@ -45,7 +45,7 @@ class Joystick(Captioned):
         return float(BELOW * min(self.size) / 2)
 
     def _reach(self) -> float:
-        return max(1.0, min(self.size) / 2 - self.knob_radius - dp(6))
+        return float(max(1.0, min(self.size) / 2 - self.knob_radius - dp(6)))
 
     def _knob_radius(self) -> float:
         return min(min(self.size) * 0.18, theme.target)

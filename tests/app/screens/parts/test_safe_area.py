@@ -30,7 +30,7 @@ def edged(driving: Glass) -> Iterator[Any]:
         window.size = root.size = size
         driving.stage.frames(2)
         safe_area.insets = EDGES
-        driving.stage.frames(4)
+        driving.stage.run_for(0.3)  # the words of the bar are those of the shape at the next tick
         return safe_area.within(*size)
 
     yield turn
