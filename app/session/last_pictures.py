@@ -6,8 +6,6 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-import numpy as np
-
 from app.link.camera_decoder import Picture
 
 __all__ = ["LastPictures", "Thumb"]
@@ -47,6 +45,8 @@ class LastPictures:
         if min(picture.width, picture.height) < 1 or len(picture.rgba) != 4 * picture.width * picture.height:
             return
         step = max(1, math.ceil(picture.width / MAX_WIDTH))
+        import numpy as np  # with the first picture, for a quick start
+
         whole = np.frombuffer(picture.rgba, np.uint8).reshape(picture.height, picture.width, 4)
         small = np.ascontiguousarray(whole[::step, ::step])
         self._kept.pop(url, None)

@@ -40,7 +40,8 @@ class LonePage(FloatLayout):
     def __init__(self, title: str, make: Callable[[], Any], **kwargs: Any) -> None:
         """`make` gives the screen, which has `spread`, `enter`, `leave`, `tick` and `back`."""
         super().__init__(**kwargs)
-        self._make, self._screen = make, None
+        self._make = make
+        self._screen: Any = None
         self.leave_button = IconButton(icon="arrow_back", role="muted", bare=True, size_hint=(None, None))
         self.leave_button.bind(on_release=lambda _: self.back())
         self._title = Text(text=title, bold=True, size_hint=(None, None))
