@@ -117,7 +117,7 @@ class IntruderBadge(Drawing):
         return (
             tr("No intruders")
             if self.count == 0
-            else trn("{count} intruder", "{count} intruders", self.count)
+            else trn("{count} intruder", "{count} intruders", int(self.count))
         )
 
     def details(self) -> tuple[str, ...]:

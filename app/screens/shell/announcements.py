@@ -7,11 +7,13 @@ from typing import Protocol
 from app.link.channels import CAPABILITIES, EVENT, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
+from app.missions.first_home import first_home
 from app.screens.shell.notices import BRIEF_DURATION, LONG_DURATION
 from app.screens.shell.reset_card import ResetPrompt
 from app.session.session import Session
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Event
+from widgets.core.language import tr
 
 __all__ = ["Announcements"]
 
@@ -36,6 +38,7 @@ class Announcements:
         """`reset` shows an alarm that it caused itself."""
         self._session, self._speaker, self._reset = session, speaker, reset
         self._greeting = ""
+        self._homed = False
 
     def on_post(self, channel: str, post: Post) -> None:
         """Something came from the robot or its link."""
@@ -47,6 +50,18 @@ class Announcements:
             self.greet()
         elif channel == EVENT:
             self._on_event(post.value)
+        elif channel == "/pose" and not self._homed:
+            self._set_first_home()
+
+    def _set_first_home(self) -> None:
+        """Draw home where the robot is for the first time sure to be, once, and say so; only who may send it does."""
+        session = self._session
+        place = first_home(session.feeds, session.mission) if session.control == "mine" else None
+        if place is not None:
+            self._homed = True
+            session.mission.set_home(*place)
+            words = tr("Home is here, where the robot is now. It goes to the robot with the points.")
+            self._speaker.say(words, "info", about="home")
 
     def greet(self) -> None:
         """Say once what is missing on a robot that is not ours."""

@@ -9,7 +9,7 @@ import pytest
 from bridge.msgs.arrays import Int8Array
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
-from bridge.msgs.pilothouse_msgs import Mission, RobotInfo, Waypoint
+from bridge.msgs.pilothouse_msgs import Check, Checklist, Mission, RobotInfo, Waypoint
 from bridge.msgs.sensor_msgs import NavSatFix, NavSatStatus
 from bridge.msgs.std_msgs import Header
 from tests.app.fakes import FakeRobot
@@ -176,3 +176,17 @@ def test_a_home_that_the_robot_has_is_gone_to_at_once(driving: Glass, robot: Fak
     driving.tap(button)
     driving.until(lambda: "/task/go_home" in robot.services(), robot.services())
     assert services(robot) == []
+
+
+def test_home_is_drawn_at_the_start_where_the_robot_is_sure_to_be_and_it_is_said(
+    driving: Glass, robot: FakeRobot, mission: Any
+) -> None:
+    robot.know()
+    robot.publish("/checklist", Checklist(checks=[Check("position", "ok", "The robot knows where it is.")]))
+    driving.until(lambda: driving.app.session.feeds.latest("/checklist"), "no check list")
+    driving.until(lambda: driving.app.session.feeds.latest("/places") is not None, "no places")
+    robot.publish("/pose", PoseWithCovarianceStamped(pose=PoseWithCovariance(pose=Pose(Point(2.0, 3.0)))))
+    driving.until(lambda: driving.app.session.mission.draft.home == (2.0, 3.0), "no home")
+    assert list(mission.map.home) == [2.0, 3.0]
+    assert any(text.startswith("Home is here") for text in driving.banners())
+    assert services(robot) == [], "it is only drawn"
