@@ -39,6 +39,7 @@ from widgets.map.beneath import Beneath, Ground, attribution_word
 from widgets.map.grid_picture import GridPicture
 from widgets.map.map_marks import grid_lines, outlined
 from widgets.map.map_overlay import MapOverlay
+from widgets.map.map_viewport import SMALL
 
 __all__ = ["GridMap", "fenced", "patrol", "samples"]
 
@@ -130,7 +131,10 @@ class GridMap(MapOverlay):
 
     def _fill_robot(self, shapes: Shapes) -> Iterator[Word]:
         yield from super()._fill_robot(shapes)
-        if self._beneath.shown and self.ground is not None and self.ground.attribution:
+        large = min(self.size) > dp(
+            SMALL
+        )  # on a smaller one they would cover what is seen; a tap makes it large
+        if large and self._beneath.shown and self.ground is not None and self.ground.attribution:
             words = self.ground.attribution
             yield from outlined(attribution_word(words, self.free_box, self.foot, above=bool(self.fence)))
 

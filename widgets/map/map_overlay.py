@@ -238,7 +238,7 @@ class MapOverlay(MapRobot, Drawing):
             marks.ghost_mark(shapes, self.view, pose, self._robot_disc())
             yield word
         yield from self._tools(shapes)
-        if math.isnan(self.foot):
+        if math.isnan(self.foot) or min(self.size) < dp(SMALL):
             return
         x, y, wide, _ = self.free_box
         left, low, longest = x + dp(16), y + dp(14) + self.foot, min(dp(140), wide / 3)

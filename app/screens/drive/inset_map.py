@@ -7,16 +7,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from kivy.lang import Builder
 from kivy.metrics import dp
-from kivy.properties import StringProperty
-from kivy.uix.anchorlayout import AnchorLayout
-from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.widget import Widget
 
 from app.layout.rects import Rect, between
 from app.maps.ground_keeper import GroundKeeper
 from app.maps.maps import Maps
+from app.screens.parts.inset_frame import InsetFrame
 from app.screens.parts.placing import off, put
 from app.session.dashboard import Dashboard
 from app.session.session import Session
@@ -44,31 +41,6 @@ PHONE_WIDTH = 132.0
 """Of the small one on an upright phone [dp]."""
 PHONE_HEIGHT, BESIDE_TWO = 100.0, 67.0
 """Of the small one on a phone's side, and there beside two sticks [dp]: the picture is the screen."""
-
-Builder.load_string("""
-<InsetFrame>:
-    anchor_x: 'right'
-    anchor_y: 'bottom'
-    padding: dp(4)
-    canvas.after:
-        Color:
-            rgba: theme.accent if self.state == 'down' else theme.line
-        Line:
-            rectangle: self.x, self.y, self.width, self.height
-            width: dp(1.2)
-    Icon:
-        name: 'fullscreen'
-        role: 'text'
-        size_hint: None, None
-        size: dp(24), dp(24)
-""")
-
-
-class InsetFrame(ButtonBehavior, AnchorLayout):
-    """Lies over what is small; a tap on it swaps."""
-
-    scan_words = StringProperty("")
-    """What a press does, for whoever does not see it."""
 
 
 class InsetMap:

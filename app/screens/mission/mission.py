@@ -23,6 +23,7 @@ from app.screens.mission.map_tools import MapTools, float_over
 from app.screens.mission.mission_maps import MissionMaps
 from app.screens.mission.mission_on_map import MissionOnMap
 from app.screens.mission.mission_panel import MissionPanel
+from app.screens.mission.picture_swap import PictureSwap
 from app.screens.parts.placing import put
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.shell.check_card import CheckCard
@@ -102,6 +103,7 @@ class MissionScreen(RobotScreen):
         )
         self._form, self._body, self._dp = "wide", Rect(0, 0, 1, 1), 1.0
         self._build()
+        self.swap = PictureSwap(self)
         self._bind_map()
         self.bind(mode=self._mode_changed, sheet=self._rearrange)
         self.session.mission.on_change = self._chain(self.session.mission.on_change)
@@ -185,6 +187,7 @@ class MissionScreen(RobotScreen):
         self._pointing.show()
         up = bool(self.sheet) and tall
         self._corner.arrange(self.map, places["selection"], self.notice, form, dp, sheet_up=up)
+        self.swap.arrange(places)
         return places["stop"]
 
     def _place_floats(self, places: dict[str, Rect]) -> None:
