@@ -214,8 +214,9 @@ class ViewShow:
         for card in self._cards.values():
             topic = self._view.panels[int(card.shown)].topic
             card.problem = self._feeds.problem(topic) if topic else ""
-            if len(self.videos) > 1 and card.widget in self.videos[1:]:
-                card.widget.state, card.widget.age = self.videos[0].state, self.videos[0].age
+        first, *others = self.videos or [None]
+        for video in others:
+            video.state, video.age = first.state, first.age
 
     def _seen(self, widget: Any) -> bool:
         """A control is on the glass, in sight, and not edited."""

@@ -81,12 +81,12 @@ def stacked(_: Glass, screen: Any) -> None:
     card.dispatch("on_tab", 1)
 
 
-def scrolled(glass: Glass, screen: Any) -> None:
+def scrolled(_: Glass, screen: Any) -> None:
+    board = screen.board
     card = screen.shows.card_of(0)
-    others = [(one, screen.board.place_of(one)) for one in screen.board.cards if one is not card]
-    screen.board.arrange([(card, Place(0, 40, 3, 4)), *others])
-    glass.stage.frames(2)
-    screen.tick()
+    others = [one for one in board.cards if one is not card]
+    board.arrange([(card, board.place_of(card)), *((one, Place(0, 40, 3, 4)) for one in others)])
+    board.scroll_y = 0.0
 
 
 LETS_GO: dict[str, Callable[[Glass, Any], object]] = {
@@ -99,6 +99,7 @@ LETS_GO: dict[str, Callable[[Glass, Any], object]] = {
     ),
     "it lies behind another of its stack": stacked,
     "it is scrolled out of sight": scrolled,
+    "its view is taken off the board": lambda _, screen: screen.shows.clear(),
 }
 
 
