@@ -17,6 +17,8 @@ SLIDE = 64
 """Height of a slide that confirms [dp]."""
 BADGE = 46
 """Height of what says that intruders were found [dp]."""
+CARDS = 136
+"""Height of the instruments of an upright phone that they are read in [dp]."""
 CHIP = 200
 """Width of a phone's glass that the picture's size and rate need [dp]."""
 
@@ -99,6 +101,10 @@ def _drive_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
         across -= width + gap
     actions = Rect(body.x + gap, low, across, (ALL if crowded(body) else 52) * dp)
     cards_low = actions.top + gap
+    if not switch:  # on a small phone the picture is lower, so that the instruments can be read
+        least_picture = min(picture, 196 * dp)  # for the tape, a badge and the strip
+        picture = max(least_picture, min(picture, body.top - cards_low - gap - CARDS * dp))
+        video = Rect(body.x, body.top - picture, body.width, picture)
     if switch:
         picture = min(picture, body.top - cards_low - gap - 90 * dp)
         video = Rect(body.x, body.top - picture, body.width, picture)

@@ -49,19 +49,19 @@ SCREENS = (
         about=mark("Orders, queue, events"),
     ),
     Entry(
-        "topics",
-        "data_object",
-        mark("Topics"),
-        "app.screens.topics.topics:TopicsScreen",
-        about=mark("All that it publishes"),
-    ),
-    Entry(
         "panels",
         "dashboard",
         mark("Panels"),
         "app.screens.panels.panels:PanelsScreen",
         ("app", "session", "profiles"),
         about=mark("Screens of your own"),
+    ),
+    Entry(
+        "topics",
+        "data_object",
+        mark("Topics"),
+        "app.screens.topics.topics:TopicsScreen",
+        about=mark("All that it publishes"),
     ),
     Entry(
         "fleet",

@@ -113,7 +113,7 @@ def test_a_phone_has_five_tabs_at_most_and_the_last_leads_to_all_others(stage: S
     order = sorted(made.children, key=lambda one: (one.x, -one.y))
     for button in order:
         stage.tap(*button.center)
-    assert told == ["drive", "mission", "tasks", "topics", "more"]
+    assert told == ["drive", "mission", "tasks", "panels", "more"]
     assert {made.ids[name] for name in told} == set(order)
 
 
