@@ -162,7 +162,7 @@ def _made_for(kind: type[Msg], *, commanded: bool | None) -> Iterator[Offer]:
 
 def _own(widget: type[RobotWidget]) -> tuple[type[Msg], ...]:
     """Types of which a widget is a picture by themselves."""
-    return tuple(one for one in widget.accepts if one is not Msg and one not in widget.beside)
+    return tuple(one for one in widget.accepts if one is not Msg and one not in widget.shown_beside)
 
 
 def _fit(

@@ -106,7 +106,7 @@ class RobotWidget(Widget):
 
     accepts: ClassVar[tuple[type[Msg], ...]] = ()
     """Types that `show` takes."""
-    beside: ClassVar[tuple[type[Msg], ...]] = ()
+    shown_beside: ClassVar[tuple[type[Msg], ...]] = ()
     """Of `accepts`, those that it only shows beside others: it is no picture of one of them alone."""
     draws: ClassVar[tuple[type[Msg], ...]] = ()
     """Types of pictures that it draws once somebody has decoded them."""

@@ -124,7 +124,7 @@ def _parts(kind: type[Msg]) -> dict[str, type[Msg]]:
     return {
         name: one
         for name, one in found.items()
-        if isinstance(one, type) and issubclass(one, Msg) and getattr(one, "ROSTYPES", ())
+        if isinstance(one, type) and issubclass(one, Msg) and hasattr(one, "ROSTYPES")
     }
 
 

@@ -40,7 +40,7 @@ class Compass(Drawing):
     """Which way the bow points."""
 
     accepts: ClassVar = (Imu, Odometry, PoseWithCovarianceStamped, Manoeuvre)
-    beside: ClassVar = (Manoeuvre,)
+    shown_beside: ClassVar = (Manoeuvre,)
     drawn_from: ClassVar = ("heading", "wanted", "transparent")
 
     heading = NumericProperty(math.nan)

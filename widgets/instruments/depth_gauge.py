@@ -42,7 +42,7 @@ class DepthGauge(Gauge):
     """A figure and a scale with the surface at its top; the robot is the blue pointer, the wanted depth the violet one."""
 
     accepts: ClassVar = (FluidPressure, Manoeuvre, ControlStatus)
-    beside: ClassVar = (Manoeuvre, ControlStatus)
+    shown_beside: ClassVar = (Manoeuvre, ControlStatus)
     grid_size: ClassVar = (2, 5)
     drawn_from: ClassVar = ("depth", "wanted", "held", "stopped", "reach")
 

@@ -45,7 +45,7 @@ class HeightTape(Gauge):
     """A scale that runs past a fixed pointer, the ground as the end of it; a bar beside it for the climb."""
 
     accepts: ClassVar = (FlightState, ControlStatus)
-    beside: ClassVar = (ControlStatus,)
+    shown_beside: ClassVar = (ControlStatus,)
     grid_size: ClassVar = (2, 5)
     drawn_from: ClassVar = ("own_height", "climb", "phase", "stopped", "wanted", "max_climb")
 

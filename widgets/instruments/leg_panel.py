@@ -52,7 +52,7 @@ class LegPanel(Gauge):
     """A dial for each leg, left ones above right ones, the front at the left; up is an angle of 0, clockwise more."""
 
     accepts: ClassVar = (JointState, MotorArray)
-    beside: ClassVar = (MotorArray,)
+    shown_beside: ClassVar = (MotorArray,)
     specificity: ClassVar = 0.3
     drawn_from: ClassVar = ("angles", "temperatures", "warm", "hot")
 

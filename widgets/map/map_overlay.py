@@ -57,7 +57,7 @@ class MapOverlay(MapRobot, Drawing):
         LaserScan,
         Limits,
     )
-    beside: ClassVar[tuple[type[Msg], ...]] = (IntruderArray, LaserScan, Limits)
+    shown_beside: ClassVar[tuple[type[Msg], ...]] = (IntruderArray, LaserScan, Limits)
     grid_size: ClassVar[tuple[int, int]] = (6, 6)
     drawn_from: ClassVar[tuple[str, ...]] = (
         "view", "waypoints", "selected", "home", "placed", "grip", "mode", "robot", "robot_radius", "camera_fov",

@@ -62,7 +62,7 @@ class SonarRingView(Gauge):
     """One cone for each sonar, its end in the colour of its distance; a contact is an arc on the robot's rim."""
 
     accepts: ClassVar = (SonarRing, Bumper)
-    beside: ClassVar = (Bumper,)
+    shown_beside: ClassVar = (Bumper,)
     drawn_from: ClassVar = ("ring", "pressed", "contact", "reach", "near", "close")
 
     ring: ObjectProperty[SonarRing | None] = ObjectProperty(None, allownone=True, force_dispatch=True)

@@ -77,7 +77,7 @@ class Video(Drawing):
     """The newest camera frame on one kept texture."""
 
     accepts: ClassVar = (Detection2DArray,)
-    beside: ClassVar = (Detection2DArray,)
+    shown_beside: ClassVar = (Detection2DArray,)
     draws: ClassVar = (CompressedImage,)
     grid_size: ClassVar = (6, 6)
     drawn_from: ClassVar = (

@@ -99,7 +99,7 @@ class TaskCard(Outlined, RobotWidget, Column):
     """One task. Progress counts only for the task that the status is about."""
 
     accepts = (TaskStatus, TaskProgress)
-    beside: ClassVar = (TaskProgress,)
+    shown_beside: ClassVar = (TaskProgress,)
     grid_size: ClassVar = (4, 3)
 
     brief = BooleanProperty(False)

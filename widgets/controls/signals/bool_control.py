@@ -30,7 +30,7 @@ class BoolControl(DeadMan, Gauge):
     sends = (Bool,)
     publishes: ClassVar = True
     grid_size: ClassVar = (3, 2)
-    drawn_from: ClassVar = ("value", "pressed")
+    drawn_from: ClassVar[tuple[str, ...]] = ("value", "pressed")
 
     value: ObjectProperty[bool | None] = ObjectProperty(None, allownone=True)
     """What the robot said last; None before that."""
