@@ -17,6 +17,7 @@ from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskStatus
 from widgets import EventLog, MotionSelector, Readout, TaskButtons
+from widgets.core.language import tr
 from widgets.parts.column import Column
 from widgets.parts.kit import Card
 from widgets.status.event_log import ago, appearance
@@ -322,6 +323,8 @@ class MissionPanel(BoxLayout):
         )
         self._send.calls = self._patrols
         note, role = STATES[state]
+        if state == "draft" and not count and mission.draft.home is not None:
+            note, role = tr("Home is drawn, not on the robot yet. Choose Points, then tap the map."), "muted"
         if state == "draft" and mission.failed:
             note, role = mission.outcome, "danger"
         elif state != "empty" and self.refused:

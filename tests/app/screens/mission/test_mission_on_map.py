@@ -190,3 +190,4 @@ def test_home_is_drawn_at_the_start_where_the_robot_is_sure_to_be_and_it_is_said
     assert list(mission.map.home) == [2.0, 3.0]
     assert any(text.startswith("Home is here") for text in driving.banners())
     assert services(robot) == [], "it is only drawn"
+    assert mission.panel._send.note.startswith("Home is drawn, not on the robot yet.")
