@@ -79,9 +79,12 @@ class Beneath:
 
 
 def attribution_word(text: str, free_box: Box, foot: float, *, above: bool) -> Word:
-    """Whom the pictures are of, in the lower right corner of what is free; `above` a legend that is there too."""
+    """Whom the pictures are of, in the lower right corner of what is free; `above` a legend that is there too.
+
+    On a small map, which has neither scale nor legend (`foot` is NaN), in the lower left one.
+    """
     x, y, wide, _ = free_box
-    low = dp(8) + (0 if math.isnan(foot) else foot)
-    if above and wide < dp(NARROW):
-        low += dp(24)
+    if math.isnan(foot):
+        return Word(text, x + dp(6), y + dp(4), sp(11), theme.text, anchor=(0, 0))
+    low = dp(8) + foot + (dp(24) if above and wide < dp(NARROW) else 0)
     return Word(text, x + wide - dp(10), y + low, sp(11), theme.text, anchor=(1, 0))
