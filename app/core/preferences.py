@@ -1,4 +1,4 @@
-"""What an operator chose for this handheld: units, language, gloves, hand, size of text; read with a check, applied at once.
+"""What an operator chose for this handheld: units, language, gloves, size of text; read with a check, applied at once.
 
 preferences = Preferences(settings)
 preferences.choose("units", "nautical")     # on the glass now, in the settings, and so the next time
@@ -21,17 +21,15 @@ from widgets.core.language import LANGUAGES, language
 from widgets.core.quantities import SYSTEMS, quantities
 from widgets.core.theme import theme
 
-__all__ = ["HANDS", "MAKES_ANEW", "MAX_TEXT", "MIN_TEXT", "Preferences"]
+__all__ = ["MAKES_ANEW", "MAX_TEXT", "MIN_TEXT", "Preferences"]
 
 log = logging.getLogger(__name__)
 
 MAX_ATTEMPTS = 20
 """So often sizes are told of another scale until none makes new ones."""
-HANDS = ("right", "left")
-"""Which hand holds STOP."""
 MIN_TEXT, MAX_TEXT = 1.0, 2.0
 """Size of text, in times of the device's own."""
-MAKES_ANEW = ("units", "language", "text", "hand")
+MAKES_ANEW = ("units", "language", "text")
 """What everything on the glass is made anew for: words, figures, sizes of type and places are taken when it is made."""
 
 
@@ -41,11 +39,9 @@ class Preferences:
     def __init__(self, settings: Settings) -> None:
         """Read, check and apply what was kept; what is no good says so in `sentence`, and the default holds."""
         self._settings, self._own_text = settings, float(Metrics.fontscale)
-        names = ("units", "language", "gloves", "hand", "text")
+        names = ("units", "language", "gloves", "text")
         kept = {name: settings.get(name) for name in names if settings.get(name) is not None}
         checked = CheckedSettings(kept or None, "this handheld")
-        self.hand = checked.word("hand", HANDS, usual="right")
-        """`right` or `left`."""
         self.text = checked.number("text", MIN_TEXT, MAX_TEXT, usual=1.0)
         """Size of text, `MIN_TEXT` to `MAX_TEXT`."""
         self.on_anew: Callable[[], object] = lambda: None
@@ -58,7 +54,7 @@ class Preferences:
         """What was no good in the settings, as one sentence; empty when all is well."""
 
     def choose(self, name: str, value: Any) -> None:
-        """Take `value` for `units`, `language`, `gloves`, `hand` or `text`, and remember it; KeyError for another name.
+        """Take `value` for `units`, `language`, `gloves` or `text`, and remember it; KeyError for another name.
 
         ValueError, or Kivy's own, for a value that there is not.
         """
@@ -66,7 +62,6 @@ class Preferences:
             "units": lambda value: setattr(quantities, "system", value),
             "language": lambda value: setattr(language, "name", value),
             "gloves": lambda value: setattr(theme, "gloves", value),
-            "hand": self._take_hand,
             "text": self._take_text,
         }
         takes[name](value)
@@ -78,11 +73,6 @@ class Preferences:
         """Give the process its own size of text back."""
         self.text = 1.0
         self._apply_text()
-
-    def _take_hand(self, value: str) -> None:
-        if value not in HANDS:
-            raise ValueError(f"A hand is right or left, not {value!r}.")
-        self.hand = value
 
     def _take_text(self, value: float) -> None:
         if not MIN_TEXT <= value <= MAX_TEXT:

@@ -65,7 +65,7 @@ Builder.load_string("""
         bold: True
         font_size: sp(15)
         role: 'muted' if root.faded else 'text'
-        shorten: True
+        shorten: not root.whole
         shorten_from: 'right'
     Remark:
         text: root.detail
@@ -107,7 +107,7 @@ class ListRow(Pressable, BoxLayout):
     faded = BooleanProperty(False)
     """Its subject is switched off or over."""
     whole = BooleanProperty(False)
-    """Its second line is shown to the end, on as many lines as that takes."""
+    """What it says is shown to the end, on as many lines as that takes."""
 
 
 class TwoLines(Column):

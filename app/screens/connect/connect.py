@@ -47,7 +47,8 @@ Builder.load_string("""
             Chip:
                 icon: 'wifi_find'
                 role: 'accent'
-                text: root.nearby if root.columns > 1 else root.nearby_short
+                text: root.nearby if root.columns > 1 else root.nearby_short if root.width > sp(380) else ''
+                spacing: dp(8) if self.text else 0
                 pos_hint: {'center_y': .5}
             InputsChip:
                 id: inputs

@@ -45,7 +45,7 @@ Builder.load_string("""
     outline: 'danger' if root.lost else 'line'
     BoxLayout:
         size_hint_y: None
-        height: dp(50)
+        height: max(dp(50), sp(50))
         spacing: dp(11)
         Icon:
             name: root.icon
@@ -124,9 +124,9 @@ Builder.load_string("""
             font_size: sp(15)
             size_hint_y: None
             height: self.texture_size[1] if root.warning else 0
-    BoxLayout:
+    StackLayout:
         size_hint_y: None
-        height: dp(34)
+        height: max(self.minimum_height, dp(34))
         spacing: dp(10)
         Chip:
             icon: 'bolt'
@@ -143,7 +143,6 @@ Builder.load_string("""
             tinted: True
             spacing: dp(6) if root.driver_icon else 0
             opacity: 1 if root.driver_text else 0
-        Widget:
     PushButton:
         id: connect
         height: root.button_height

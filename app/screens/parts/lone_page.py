@@ -47,6 +47,7 @@ class LonePage(FloatLayout):
         self._title = Text(text=title, bold=True, size_hint=(None, None))
         self.add_widget(self.leave_button)
         self.add_widget(self._title)
+        self._title.bind(height=self._arrange)
         self.bind(size=self._arrange, pos=self._arrange)
         safe_area.bind(insets=self._arrange)
 

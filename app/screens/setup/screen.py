@@ -219,7 +219,8 @@ class SetupScreen(RobotScreen):
     def _beside(self, shown: Key, *, tall: bool) -> list[Any]:
         """A head with the way back, and the pane that is open."""
         pane, head = self.pane(shown, self._entries()[shown]), self.back_head
-        head.closable, head.sentence, head.refused = tall, "", False
+        # without a robot the page above has the way back
+        head.closable, head.sentence, head.refused = tall and self._titled, "", False
         if shown[0] == HANDHELD:
             head.title = tr(self.panes[shown[1]].title)
             # on a phone's side the list says which one it is, and the pane needs the room

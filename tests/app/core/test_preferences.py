@@ -35,7 +35,7 @@ def kept(tmp_path, **values):
 def test_nothing_kept_is_as_usual_and_no_mistake(settings):
     preferences = Preferences(settings)
     assert (quantities.system, language.name, theme.gloves) == ("metric", "en", False)
-    assert (preferences.hand, preferences.text, preferences.sentence) == ("right", 1.0, "")
+    assert (preferences.text, preferences.sentence) == (1.0, "")
 
 
 def test_a_choice_is_on_the_glass_at_once_and_the_next_time(settings, tmp_path):
@@ -44,7 +44,6 @@ def test_a_choice_is_on_the_glass_at_once_and_the_next_time(settings, tmp_path):
         "units": "nautical",
         "language": "de",
         "gloves": True,
-        "hand": "left",
         "text": 1.5,
     }.items():
         first.choose(name, value)
@@ -55,9 +54,7 @@ def test_a_choice_is_on_the_glass_at_once_and_the_next_time(settings, tmp_path):
     again = Settings(tmp_path)
     second = Preferences(again)
     again.close()
-    assert (quantities.system, language.name, theme.gloves, second.hand, second.text) == (
-        *("nautical", "de", True, "left", 1.5),
-    )
+    assert (quantities.system, language.name, theme.gloves, second.text) == ("nautical", "de", True, 1.5)
     second.close()
     assert Metrics.fontscale == 1.0
 
@@ -69,7 +66,6 @@ def test_a_choice_is_on_the_glass_at_once_and_the_next_time(settings, tmp_path):
         ("units", ["metric"]),
         ("language", 7),
         ("gloves", "yes"),
-        ("hand", "both"),
         ("text", 40),
         ("text", "large"),
     ],
@@ -82,22 +78,20 @@ def test_what_was_kept_and_is_no_good_says_so_and_the_default_holds(tmp_path, na
     assert repr(value) in preferences.sentence
     assert preferences.sentence.endswith(": reset to default.")
     assert (quantities.system, language.name, theme.gloves) == ("metric", "en", False)
-    assert (preferences.hand, preferences.text) == ("right", 1.0)
+    assert preferences.text == 1.0
 
 
-@pytest.mark.parametrize("name", ["units", "language", "text", "hand"])
+@pytest.mark.parametrize("name", ["units", "language", "text"])
 def test_words_figures_and_places_are_made_anew(settings, name):
     preferences, made = Preferences(settings), []
     preferences.on_anew = lambda: made.append(name)
     preferences.choose("gloves", True)
     assert not made
-    preferences.choose(name, {"units": "imperial", "language": "fr", "text": 2.0, "hand": "left"}[name])
+    preferences.choose(name, {"units": "imperial", "language": "fr", "text": 2.0}[name])
     assert made == [name]
 
 
-@pytest.mark.parametrize(
-    ("name", "value"), [("hand", "both"), ("text", 2.1), ("text", 0.5), ("units", "miles")]
-)
+@pytest.mark.parametrize(("name", "value"), [("text", 2.1), ("text", 0.5), ("units", "miles")])
 def test_what_there_is_not_is_not_taken_and_not_remembered(settings, name, value):
     preferences = Preferences(settings)
     with pytest.raises(ValueError, match=str(value)):
