@@ -107,7 +107,7 @@ def piece(cells: NDArray[np.int8], place: Piece) -> Piece:
     pixels[:, :, 1] = _softened(known, known > HALF)
     shaded = bool(((part > 0) & (part < OCCUPIED)).any())
     flat = pixels.reshape(-1)
-    digest = hashlib.blake2b(flat, digest_size=16).digest()
+    digest = hashlib.blake2b(flat.data, digest_size=16).digest()
     return replace(place, pixels=flat, digest=digest, shaded=shaded)
 
 

@@ -101,6 +101,7 @@ def measure_marks(shapes: Shapes, view: View, places: Sequence[Place]) -> Iterat
     for (start, end), (a, b) in zip(itertools.pairwise(places), itertools.pairwise(seen), strict=True):
         if math.dist(a, b) < dp(60):
             continue  # its words would cover it
-        word = Word(leg_words(start, end), *(float(v) for v in (a + b) / 2), sp(13), theme.text, bold=True)
+        x, y = (float(value) for value in (a + b) / 2)
+        word = Word(leg_words(start, end), x, y, sp(13), theme.text, bold=True)
         ground(shapes, word, tint(theme.bg, 0.85))
         yield word

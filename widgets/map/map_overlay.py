@@ -224,7 +224,7 @@ class MapOverlay(MapRobot, Drawing):
         yield from self._alarms(shapes)
         if self.located:
             x, y, yaw = self.robot
-            self._robot_shapes(shapes, (x, y, yaw), faded=self.state == "stale")
+            self._robot_shapes(shapes, (x, y, yaw), faded=self.state == "stale", alarm=self.state == "alarm")
         else:
             x, y = self._free_middle()
             words = self.unplaced or tr("Its place on this map is not known yet")

@@ -125,8 +125,10 @@ class MapRobot(MapViewport):
         seen = self.view.many_to_screen(turned(self.footprint, pose))
         return seen if np.ptp(seen, axis=0).max() >= dp(MIN_LENGTH) else None
 
-    def _robot_shapes(self, shapes: Shapes, pose: tuple[float, float, float], *, faded: bool) -> None:
-        alarm, outline = self.state == "alarm", self._outline(pose)
+    def _robot_shapes(
+        self, shapes: Shapes, pose: tuple[float, float, float], *, faded: bool, alarm: bool
+    ) -> None:
+        outline = self._outline(pose)
         fov = math.nan if faded else self.camera_fov
         disc = self._robot_disc()
         if outline is not None:
