@@ -5,9 +5,9 @@ from __future__ import annotations
 from app.layout.arrange import CORNER, more
 from app.layout.rects import Body, Rect, StopPlace, crowded
 
-__all__ = ["panes", "replay", "replay_alone"]
+__all__ = ["BUTTONS", "panes", "replay", "replay_alone"]
 
-BUTTONS = 252
+BUTTONS = 256
 """Width of the buttons of the line of time [dp]."""
 BUTTONS_HEIGHT = 118
 """Greatest height of the buttons beside STOP on an upright screen, above which STOP ALL may be [dp]."""

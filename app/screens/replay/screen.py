@@ -20,7 +20,7 @@ from app.screens.parts.field_chooser import FieldChooser
 from app.screens.parts.placing import Area, put  # noqa: F401 - a rule names the area
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.replay.moment_view import MomentView
-from app.screens.replay.places import replay, replay_alone
+from app.screens.replay.places import BUTTONS, replay, replay_alone
 from app.screens.replay.transport import Transport
 from widgets.core.language import mark, tr
 from widgets.fields.message_fields import size_text
@@ -371,14 +371,20 @@ class ReplayScreen(RobotScreen):
         chooser = self.chooser
         if chooser is not None:
             wide = min(CHOOSER * dp, rest.width)
-            self._place(chooser, Rect(rest.right - wide, rest.y, wide, rest.height), True)
+            room = main if phone else rest  # a phone has no room for anything beside it
+            self._place(chooser, Rect(room.right - wide, room.y, wide, room.height), True)
             if not phone:
                 rest = Rect(rest.x, rest.y, rest.width - wide - 8 * dp, rest.height)
         self._place(self.view, rest, ready)
         if ready:
             self.view.arrange(rest, self.form, dp, self.tab)
         for widget, name in ((self.line, "line"), (self.transport, "buttons")):
-            self._place(widget, self._places[name], ready and not (chooser is not None and phone))
+            place = self._places[name]
+            if widget is self.transport:  # one row, or two, in the middle of its place
+                rows = 1 if place.width >= BUTTONS * dp else 2
+                high = rows * self.transport.play.height + (rows - 1) * 6 * dp
+                place = Rect(place.x, place.y + max(0.0, (place.height - high) / 2), place.width, high)
+            self._place(widget, place, ready and not (chooser is not None and phone))
 
     def _place(self, widget: Any, place: Rect, wanted: bool) -> None:
         put(widget, place)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from kivy.properties import BooleanProperty, NumericProperty
-from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.stacklayout import StackLayout
 
 from app.replay.player import SPEEDS
 from widgets.core.language import figure
@@ -19,8 +19,8 @@ def speed_text(speed: float) -> str:
     return f"{figure(speed, 0 if speed == round(speed) else 1)}×"
 
 
-class Transport(BoxLayout):
-    """Dispatches `on_play`, `on_step(way)` with 1 or -1, and `on_pace(speed)`."""
+class Transport(StackLayout):
+    """In two rows where one is too narrow. Dispatches `on_play`, `on_step(way)` with 1 or -1, and `on_pace(speed)`."""
 
     __events__ = ("on_play", "on_step", "on_pace")
 
@@ -29,13 +29,10 @@ class Transport(BoxLayout):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**{"spacing": "6dp", **kwargs})
-        middle: Any = {"center_y": 0.5}
-        self.before = IconButton(icon="skip_previous", pos_hint=middle)
-        self.play = IconButton(icon="play_arrow", role="accent", pos_hint=middle)
-        self.after = IconButton(icon="skip_next", pos_hint=middle)
-        self.fast: PushButton = QuietButton(
-            text=speed_text(1.0), size_hint_x=None, width="72dp", pos_hint=middle
-        )
+        self.before = IconButton(icon="skip_previous")
+        self.play = IconButton(icon="play_arrow", role="accent")
+        self.after = IconButton(icon="skip_next")
+        self.fast: PushButton = QuietButton(text=speed_text(1.0), size_hint_x=None, width="72dp")
         self.before.bind(on_release=lambda _: self.dispatch("on_step", -1))
         self.play.bind(on_release=lambda _: self.dispatch("on_play"))
         self.after.bind(on_release=lambda _: self.dispatch("on_step", 1))
