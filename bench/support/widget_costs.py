@@ -165,10 +165,11 @@ def costs(
     for name, (make, message, size) in cases.items():
         widget, told = make(), [message(number) for number in range(UPDATES)]
         glass.show([(widget, size)])
-        yield (
-            name,
-            glass.cost(lambda number, widget=widget, told=told: widget.show(told[number]), count, runs),
-        )
+
+        def step(number: int, widget: Any = widget, told: Sequence[Any] = told) -> None:
+            widget.show(told[number])
+
+        yield name, glass.cost(step, count, runs)
     light = [case for name, case in cases.items() if name != "laser"]
     wall = [light[number % len(light)] for number in range(LIVE)]
     shown = [(make(), size) for make, _, size in wall]
