@@ -39,7 +39,7 @@ class EditedScreen(Protocol):
     profiles: ProfileChoice
     pane: SidePane
     shows: ViewShow
-    view: int
+    view: float
     editing: bool
 
     @property

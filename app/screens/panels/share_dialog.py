@@ -162,7 +162,7 @@ class ShareDialog(Question):
     def _show_code(self) -> None:
         if fits_code(self.link):
             self.rows = code_of(self.link)
-            self.told = tr("Read it with the camera of another handheld, or copy its link.")
+            self.told = tr("Another camera reads it as a link. Paste that there under “Take one in”.")
             return
         told = tr(
             "This profile is too long for one QR code ({letters} letters, {most} fit). Use the file or the link."
