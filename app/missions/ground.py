@@ -79,24 +79,24 @@ class Ground:
 
         `robot` is where it is [m]; None while it is not known, when nothing is said about ways.
         """
-        where = f"{name} at ({x:.1f}, {y:.1f})"
+        where = tr("{name} at ({x:.1f}, {y:.1f})").format(name=name, x=x, y=y)
         row, column = self._block_at(x, y)
         if not (0 <= row < self._shape[0] and 0 <= column < self._shape[1]):
-            return Fault(f"{where} is off the map.", tr("off the map"))
+            return Fault(tr("{where} is off the map.").format(where=where), tr("off the map"))
         room = self._rooms.get((row, column))
         if room is None:
             if len(self._rooms) >= MAX_JUDGED:
                 self._rooms.clear()
             room = self._rooms[row, column] = self._room(row, column)
         if room == UNKNOWN:
-            return Fault(f"{where} is where the map knows nothing.", tr("not known"))
+            return Fault(tr("{where} is where the map knows nothing.").format(where=where), tr("not known"))
         if room == SOLID:
-            return Fault(f"{where} is in a wall or another obstacle.", tr("in a wall"))
+            return Fault(tr("{where} is in a wall or another obstacle.").format(where=where), tr("in a wall"))
         if room < self._need:
             said = f"{where} is {room:.2f} m from an obstacle; the robot needs {self._need:.2f} m."
             return Fault(said, tr("{room} m free").format(room=f"{room:.2f}"))
         if robot is not None and self._cut_off(row, column, robot):
-            return Fault(f"There is no way to {where}.", tr("no way there"))
+            return Fault(tr("There is no way to {where}.").format(where=where), tr("no way there"))
         return None
 
     def _block_at(self, x: float, y: float) -> tuple[int, int]:

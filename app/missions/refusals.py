@@ -75,8 +75,11 @@ class Refusals:
 
     def faults(self, draft: Draft) -> dict[str, Fault]:
         """Name, as the robot would call it, of each point and of home that it would refuse, to why."""
-        places = [(f"Point {number}", point) for number, point in enumerate(draft.points, 1)]
-        places += [("Home", draft.home)] if draft.home is not None else []
+        places = [
+            (tr("Point {number}").format(number=number), point)
+            for number, point in enumerate(draft.points, 1)
+        ]
+        places += [(tr("Home"), draft.home)] if draft.home is not None else []
         found = {name: self.fault(name, *place) for name, place in places}
         return {name: fault for name, fault in found.items() if fault is not None}
 
@@ -86,12 +89,14 @@ class Refusals:
 
     def place(self, place: Place) -> str:
         """Why it would not keep or go to a place; of a dock only the robot knows where it stands before it."""
-        return "" if place.kind == "dock" else self.at(place.name.strip() or "The place", place.x, place.y)
+        return (
+            "" if place.kind == "dock" else self.at(place.name.strip() or tr("The place"), place.x, place.y)
+        )
 
     def order(self, order: TaskOrder, draft: Draft) -> str:
         """Why it would not take an order: its first place that it would refuse, or for a patrol the points of `draft`."""
         if order.task == "patrol" and not order.places:
-            return summary(said for name, said in self.draft(draft).items() if name != "Home")
+            return summary(said for name, said in self.draft(draft).items() if name != tr("Home"))
         told: PlaceArray | None = self._feeds.latest("/places")
         places = {place.name: place for place in told.places} if told is not None else {}
         found = (self.place(places[name]) for name in order.places if name in places)

@@ -56,7 +56,7 @@ Builder.load_string("""
         height: dp(18) if root.titled else 0
         opacity: 1 if root.titled else 0
         Text:
-            text: spaced('Actions') if root.titled else ''
+            text: spaced(tr('Actions')) if root.titled else ''
             role: 'muted'
             font_size: sp(12)
             size_hint_x: None

@@ -28,7 +28,7 @@ Builder.load_string("""
 <MotionSelector>:
     spacing: theme.gap * .6
     SectionLabel:
-        title: 'Motion'
+        title: tr('Motion')
         height: 0 if root.brief else self.texture_size[1]
         opacity: 0 if root.brief else 1
     Segmented:
@@ -37,7 +37,7 @@ Builder.load_string("""
         value: root.motion_name
         on_choose: root.choose('motion', args[1])
     MotionRow:
-        title: 'Dwell at each point'
+        title: tr('Dwell at each point')
         role: 'text' if root.motion_name == 'intermittent' else 'muted'
         Stepper:
             value: root.dwell
@@ -48,7 +48,7 @@ Builder.load_string("""
             pos_hint: {'center_y': .5}
             on_change: root.choose('dwell', args[1])
     MotionRow:
-        title: 'Laps'
+        title: tr('Laps')
         Stepper:
             value: root.laps
             zero: 'until stopped'
@@ -56,7 +56,7 @@ Builder.load_string("""
             pos_hint: {'center_y': .5}
             on_change: root.choose('laps', int(args[1]))
     SectionLabel:
-        title: 'When it finds an intruder'
+        title: tr('When it finds an intruder')
     Segmented:
         options: root.reactions
         value: root.reaction

@@ -122,7 +122,7 @@ Builder.load_string("""
         halign: 'right'
         valign: 'middle'
     QuietButton:
-        text: 'Seen' if root.act else ''
+        text: tr('Seen') if root.act else ''
         icon: ''
         size_hint_x: None
         width: dp(70) if root.act else 0

@@ -68,7 +68,7 @@ Builder.load_string("""
         spacing: dp(10) if root.cut else 0
         QuietButton:
             id: discard
-            text: 'Discard'
+            text: tr('Discard')
             icon: 'delete'
             height: self.parent.height
             size_hint_x: .8 if root.cut else None
@@ -78,7 +78,7 @@ Builder.load_string("""
             on_release: root.ask('cancel')
         PrimaryButton:
             id: answer
-            text: 'Resume' if root.cut else 'Yes, done'
+            text: tr('Resume') if root.cut else tr('Yes, done')
             icon: 'play_arrow_fill' if root.cut else 'check'
             meaning: root.question
             height: self.parent.height

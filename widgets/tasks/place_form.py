@@ -40,8 +40,8 @@ Builder.load_string("""
             spacing: dp(8)
             TextField:
                 id: name
-                hint_text: 'Name, as in Office 12'
-                label: 'Name'
+                hint_text: tr('Name, as in Office 12')
+                label: tr('Name')
                 on_text: root.type('name', self.text)
             Grid:
                 id: kinds
@@ -49,15 +49,15 @@ Builder.load_string("""
                 spacing: dp(6)
             TextField:
                 id: note
-                hint_text: 'Announcement for people led here'
-                label: 'Announcement for people led here'
+                hint_text: tr('Announcement for people led here')
+                label: tr('Announcement for people led here')
                 on_text: root.type('note', self.text)
             BoxLayout:
                 size_hint_y: None
                 height: theme.target
                 spacing: dp(8)
                 Text:
-                    text: 'Floor'
+                    text: tr('Floor')
                     role: 'muted'
                     size_hint_x: None
                     width: dp(44)
@@ -69,8 +69,8 @@ Builder.load_string("""
                     on_text: root.type('floor', self.text)
                 TextField:
                     id: tag
-                    hint_text: 'Tag of the person here'
-                    label: 'Tag of the person here'
+                    hint_text: tr('Tag of the person here')
+                    label: tr('Tag of the person here')
                     on_text: root.type('tag', self.text)
             Segmented:
                 id: way

@@ -40,7 +40,7 @@ Builder.load_string("""
     spacing: theme.gap * .6
     TextField:
         id: search
-        hint_text: 'Search by name, kind or floor'
+        hint_text: tr('Search by name, kind or floor')
         text: root.search
         on_text: root.search = self.text
     Roll:

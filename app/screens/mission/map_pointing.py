@@ -185,12 +185,12 @@ class MapPointing:
         screen, area, index = self._screen, self._screen.map, int(self._screen.map.selected)
         found = self._judged
         if screen.mode == "home":
-            return found.get("Home", "")
-        points = {name: said for name, said in found.items() if name != "Home"}
+            return found.get(tr("Home"), "")
+        points = {name: said for name, said in found.items() if name != tr("Home")}
         if screen.mode != "points" or not points:
             return ""
         if 0 <= index < len(area.waypoints):
-            return points.get(f"Point {index + 1}", "")
+            return points.get(tr("Point {number}").format(number=index + 1), "")
         return summary(points.values())
 
     def _held(self) -> Draft:
@@ -213,9 +213,11 @@ class MapPointing:
         held = self._held()
         faults = self._session.refusals.faults(held)
         self._judged = {name: fault.sentence for name, fault in faults.items()}
-        places = {f"Point {number}": point for number, point in enumerate(held.points, 1)}
+        places = {
+            tr("Point {number}").format(number=number): point for number, point in enumerate(held.points, 1)
+        }
         if held.home is not None:
-            places["Home"] = held.home
+            places[tr("Home")] = held.home
         self._screen.map.refused = [(*places[name], fault.brief) for name, fault in faults.items()]
         self.bar.trouble = self._trouble()
 

@@ -13,12 +13,13 @@ from app.missions.stored_missions import MAX_NAME_LENGTH
 from app.screens.parts.pane_head import PaneHead
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import KeptMission
+from widgets.core.language import mark, tr, trn
 from widgets.parts.kit import TextField
 from widgets.tasks.mission_list import mission_words
 
 __all__ = ["MissionPane"]
 
-REPLACES = "It replaces the robot's mission and the points on the map. You can undo that."
+REPLACES = mark("It replaces the robot's mission and the points on the map. You can undo that.")
 
 Builder.load_string("""
 <MissionPane>:
@@ -39,7 +40,7 @@ class MissionPane(BoxLayout):
         super().__init__(**kwargs)
         self._session = session
         self.head = PaneHead()
-        self.field = TextField(hint_text="Name, as in Night patrol", label="Name")
+        self.field = TextField(hint_text=tr("Name, as in Night patrol"), label="Name")
         self.add_widget(self.head)
         self.add_widget(self.field)
         self.add_widget(Widget())
@@ -69,20 +70,26 @@ class MissionPane(BoxLayout):
         self.field.opacity, self.field.disabled = float(saves), not saves
         if self.chosen is not None:
             self.head.title = self.chosen.name
-            self.head.sentence = f"{mission_words(self.chosen)}\n{REPLACES}"
+            self.head.sentence = f"{mission_words(self.chosen)}\n{tr(REPLACES)}"
             return
-        self.head.title = "Save the mission"
+        self.head.title = tr("Save the mission")
         self.head.sentence = self.lacking or self._promise()
 
     def _promise(self) -> str:
         count, name = len(self._session.mission.draft.points), self.field.text.strip()
-        one = count == 1
-        points, them = ("The point", "it") if one else (f"The {count} points", "them")
         if any(kept.name == name for kept in self._session.missions.kept):
-            what = f"{'becomes' if one else 'become'} the newest revision of {name}"
+            words = trn(
+                "The point on the map becomes the newest revision of {name}, and the robot patrols it from now on.",
+                "The {count} points on the map become the newest revision of {name}, and the robot patrols them from now on.",
+                count,
+            )
         else:
-            what = f"{'is' if one else 'are'} kept as {name}"
-        return f"{points} on the map {what}, and the robot patrols {them} from now on."
+            words = trn(
+                "The point on the map is kept as {name}, and the robot patrols it from now on.",
+                "The {count} points on the map are kept as {name}, and the robot patrols them from now on.",
+                count,
+            )
+        return words.format(name=name)
 
     def recall(self) -> None:
         """Make the chosen one the robot's mission."""

@@ -17,7 +17,7 @@ from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskStatus
 from widgets import EventLog, MotionSelector, Readout, TaskButtons
-from widgets.core.language import tr
+from widgets.core.language import mark, tr, trn
 from widgets.parts.column import Column
 from widgets.parts.kit import Card
 from widgets.status.event_log import ago, appearance
@@ -28,16 +28,16 @@ __all__ = ["MissionPanel"]
 TASKS = {"stop": "cancel"}
 """Where a button of TaskButtons is another command of the app."""
 STATES = {
-    "empty": ("Choose Points, then tap the map.", "muted"),
-    "draft": ("Draft: not on the robot yet.", "warn"),
-    "sent": ("Sent, waiting for the robot …", "muted"),
-    "stored": ("Stored on the robot.", "ok"),
+    "empty": (mark("Choose Points, then tap the map."), "muted"),
+    "draft": (mark("Draft: not on the robot yet."), "warn"),
+    "sent": (mark("Sent, waiting for the robot …"), "muted"),
+    "stored": (mark("Stored on the robot."), "ok"),
 }
 """State of the draft to its sentence and the role of its colour."""
 POINTLESS = ("go_home", "hold", "follow_heading")
 """Tasks without points to pass."""
-NO_TASKS = "It offers no tasks."
-NO_MISSIONS = "It stores no missions."
+NO_TASKS = mark("It offers no tasks.")
+NO_MISSIONS = mark("It stores no missions.")
 
 Builder.load_string("""
 <MissionPanel>:
@@ -62,7 +62,7 @@ Builder.load_string("""
         border: 'plan' if root.calls else 'line'
         ink: 'ink_plan' if root.calls else 'text'
         icon: 'upload'
-        text: root.words
+        text: tr(root.words)
         disabled: not root.may_send
     BoxLayout:
         size_hint_y: None
@@ -82,7 +82,7 @@ Builder.load_string("""
 <ProgressRow>:
     spacing: dp(5)
     SectionLabel:
-        title: 'Progress'
+        title: tr('Progress')
         height: self.texture_size[1] if root.titled else 0
         opacity: 1 if root.titled else 0
     Progress:
@@ -134,7 +134,7 @@ Builder.load_string("""
 class SendRow(Column):
     """The button that sends the draft, and under it what became of it."""
 
-    words = StringProperty("Send points")
+    words = StringProperty(mark("Send points"))
     note = StringProperty("")
     role = StringProperty("muted")
     icon = StringProperty("info")
@@ -230,7 +230,7 @@ class MissionPanel(BoxLayout):
         for figure in (self.speed, self.next, self.lap, self.left):
             figure.font_size = "26sp" if wide else "22sp"
         self.tasks.brief = self.motion.brief = not wide
-        self.next.name = "Next" if tall else "Next point"
+        self.next.name = tr("Next") if tall else tr("Next point")
         self._progress.titled = wide
         self.events.size_hint_y = 1
         self.events.size_hint_min_y = None if wide else "190dp"
@@ -313,16 +313,16 @@ class MissionPanel(BoxLayout):
         """Take over the draft and how it stands to what the robot has."""
         mission = self._session.mission
         count, state = len(mission.draft.points), mission.state
-        points = f"{count} point{'' if count == 1 else 's'}"
+        points = trn("{count} point", "{count} points", count)
         self._send.words = (
-            f"Change the patrol: {points}"
+            tr("Change the patrol: {points}").format(points=points)
             if self._patrols
-            else f"Send {points}"
+            else tr("Send {points}").format(points=points)
             if count
-            else "Send to the robot"
+            else tr("Send to the robot")
         )
         self._send.calls = self._patrols
-        note, role = STATES[state]
+        note, role = tr(STATES[state][0]), STATES[state][1]
         if state == "draft" and not count and mission.draft.home is not None:
             note, role = tr("Home is drawn, not on the robot yet. Choose Points, then tap the map."), "muted"
         if state == "draft" and mission.failed:
@@ -353,7 +353,7 @@ class MissionPanel(BoxLayout):
         self.lap.unit = f"of {status.laps}" if status.laps and lap else ""
         # the robot's own sentence stands under the buttons
         going = [figures_words(status, None), status.phase if self._session.running else ""]
-        self._progress.where = " · ".join(filter(None, going)) or status.reason or "No task runs."
+        self._progress.where = " · ".join(filter(None, going)) or status.reason or tr("No task runs.")
 
     def _show_progress(self, progress: TaskProgress) -> None:
         if self._session.running:
@@ -368,18 +368,18 @@ class MissionPanel(BoxLayout):
         session = self._session
         self._reorder()
         if not session.connected:
-            self._progress.where = "What runs is not known without a link."
+            self._progress.where = tr("What runs is not known without a link.")
         mine = session.may_ask
         tasks, missions = session.robot.offers("/task/start"), session.robot.offers("/mission/set")
         self.tasks.state = "live" if mine and tasks else "disabled"
         if not tasks:
-            self.tasks.reason = NO_TASKS
+            self.tasks.reason = tr(NO_TASKS)
         self.tasks.empty = not session.mission.draft.points
         self.tasks.ready = not (self.tasks.empty or self.refused)
         self.tasks.held = session.robot_stop.latched
         self._send.may_send = int(mine and missions and session.mission.state == "draft")
         if not missions:
-            self._send.note = NO_MISSIONS
+            self._send.note = tr(NO_MISSIONS)
             self._send.role, self._send.icon = "muted", "block"
         state = session.feeds.state("/task/status")
         for figure in (self.next, self.lap, self.left):

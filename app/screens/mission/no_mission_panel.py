@@ -11,6 +11,7 @@ import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.link.capabilities import POSE
 from app.session.dashboard import Dashboard
 from widgets import Readout
+from widgets.core.language import mark, tr
 from widgets.parts.column import Column
 
 __all__ = ["Figures", "NoMissionPanel"]
@@ -29,7 +30,7 @@ Builder.load_string("""
             pos_hint: {'center_y': .5}
         Text:
             id: note
-            text: 'It stores no missions and offers no tasks: drive it by hand, or view its topics.'
+            text: tr('It stores no missions and offers no tasks: drive it by hand, or view its topics.')
             font_size: sp(15)
             pos_hint: {'center_y': .5}
     BoxLayout:
@@ -39,12 +40,12 @@ Builder.load_string("""
         PrimaryButton:
             id: drive
             icon: 'sports_esports'
-            text: 'Drive'
+            text: tr('Drive')
             on_release: root.dispatch('on_choose', 'drive')
         QuietButton:
             id: topics
             icon: 'data_object'
-            text: 'Topics'
+            text: tr('Topics')
             on_release: root.dispatch('on_choose', 'topics')
 """)
 
@@ -64,13 +65,13 @@ class Figures(GridLayout):
     def __init__(self, dashboard: Dashboard, **kwargs: Any) -> None:
         super().__init__(**{"cols": 2, "spacing": ("12dp", "6dp"), **kwargs})
         for topic, name, unit, path, scale in (
-            ("/odom", "Speed", "m/s", "twist.twist.linear.x", 1.0),
-            ("/odom", "Turn", "°/s", "twist.twist.angular.z", 57.29577951308232),
+            ("/odom", mark("Speed"), "m/s", "twist.twist.linear.x", 1.0),
+            ("/odom", mark("Turn"), "°/s", "twist.twist.angular.z", 57.29577951308232),
             (POSE, "X", "m", "pose.pose.position.x", 1.0),
             (POSE, "Y", "m", "pose.pose.position.y", 1.0),
         ):
             decimals = {"Speed": 2, "Turn": 0}.get(name, 1)
-            figure = Readout(name=name, unit=unit, path=path, scale=scale, decimals=decimals)
+            figure = Readout(name=tr(name), unit=unit, path=path, scale=scale, decimals=decimals)
             figure.fitted, figure.size_hint_x, figure.font_size = False, 1, "22sp"
             self.add_widget(figure)
             dashboard.bind(figure, topic)

@@ -14,6 +14,7 @@ from app.screens.parts.pane_head import PaneHead
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Place, PlaceArray
 from widgets import PlaceForm
+from widgets.core.language import mark, tr
 
 __all__ = ["PlacePane"]
 
@@ -31,7 +32,7 @@ class PlacePane(BoxLayout):
 
     open = BooleanProperty(False)
     """A new place is being made, which has no number yet."""
-    title = StringProperty("Places")
+    title = StringProperty(mark("Places"))
 
     def __init__(self, session: Session, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -68,11 +69,13 @@ class PlacePane(BoxLayout):
     def refresh(self) -> None:
         """Say what there is to say of it."""
         there = self.there
-        self.head.title = "Places" if not there else "Place" if self.form.shown.id else "New place"
+        self.head.title = (
+            tr("Places") if not there else tr("Place") if self.form.shown.id else tr("New place")
+        )
         refused = self._session.refusals.place(self.form.place) if there else ""
         self.head.refused = bool(refused)
         asks = refused or self.form.lacking
-        self.head.sentence = asks if there else "Choose a place to change it, or make a new one."
+        self.head.sentence = asks if there else tr("Choose a place to change it, or make a new one.")
         self.form.disabled = not there
         for widget, shown in ((self.form, there), (self._rest, not there)):
             if shown != (widget.parent is self):

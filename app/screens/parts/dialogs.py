@@ -52,7 +52,7 @@ Builder.load_string("""
         padding: dp(20)
         spacing: dp(14)
         Text:
-            text: 'Add a robot by its address'
+            text: tr('Add a robot by its address')
             bold: True
             font_size: theme.size_title
         TextField:
@@ -72,11 +72,11 @@ Builder.load_string("""
             spacing: dp(12)
             QuietButton:
                 id: cancel
-                text: 'Cancel'
+                text: tr('Cancel')
                 on_release: root.close()
             PrimaryButton:
                 id: connect
-                text: 'Connect'
+                text: tr('Connect')
                 on_release: root.answer()
 """)
 

@@ -11,6 +11,7 @@ from kivy.uix.boxlayout import BoxLayout
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets import OrderQueue, TaskCard
+from widgets.core.language import mark, tr
 
 __all__ = ["CurrentTask"]
 
@@ -39,7 +40,7 @@ Builder.load_string("""
             on_release: root.ask(root.main)
         QuietButton:
             id: end
-            text: 'End task'
+            text: tr('End task')
             icon: 'stop'
             disabled: not root.may or not root.active
             on_release: root.ask('cancel')
@@ -48,7 +49,7 @@ Builder.load_string("""
         size_hint_y: None
         height: dp(40)
         SectionLabel:
-            title: 'Next'
+            title: tr('Next')
             pos_hint: {'center_y': .5}
         IconButton:
             id: undo
@@ -74,7 +75,7 @@ class CurrentTask(BoxLayout):
     """There is a task to end."""
     main = StringProperty("")
     """`pause`, `resume` or nothing."""
-    main_words = StringProperty("Pause")
+    main_words = StringProperty(mark("Pause"))
     may_undo = BooleanProperty(False)
     brief = BooleanProperty(False)
     """Takes little room."""
@@ -129,6 +130,8 @@ class CurrentTask(BoxLayout):
         self.main = {"RUNNING": "pause", "PAUSED": "resume", "INTERRUPTED": "resume"}.get(
             status.state, "resume" if waiting else ""
         )
-        these = "Go on" if self.brief else "Go on with this" if count == 1 else "Go on with these"
-        self.main_words = {"pause": "Pause", "": "Pause"}.get(self.main, these if waiting else "Resume")
+        these = tr("Go on") if self.brief else tr("Go on with this") if count == 1 else tr("Go on with these")
+        self.main_words = {"pause": tr("Pause"), "": tr("Pause")}.get(
+            self.main, these if waiting else "Resume"
+        )
         self.queue.state = "live" if may else "disabled"

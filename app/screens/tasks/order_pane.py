@@ -13,6 +13,7 @@ from app.missions.mission_editor import Draft
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import RobotInfo, ScheduledTask, TaskOrder, TaskStatus
 from widgets import OrderForm, TaskChooser, WhenPicker
+from widgets.core.language import mark, tr
 from widgets.core.task_words import TASKS, known, rhythm, title
 from widgets.parts.kit import IconButton, ListRow, Roll, Segmented
 
@@ -20,7 +21,7 @@ __all__ = ["OrderPane", "why_not_now"]
 
 EVENING = ScheduledTask(at="22:00")
 """What a new scheduled task begins with."""
-UNSENT = " The points on the map are sent to the robot first."
+UNSENT = mark(" The points on the map are sent to the robot first.")
 
 Builder.load_string("""
 <OrderPane>:
@@ -33,7 +34,7 @@ Builder.load_string("""
         opacity: 1 if root.titled else 0
         spacing: dp(6)
         Text:
-            text: root.title
+            text: tr(root.title)
             bold: True
             font_size: theme.size_title
             pos_hint: {'center_y': .5}
@@ -51,7 +52,7 @@ Builder.load_string("""
             pos_hint: {'center_y': .5}
         Text:
             id: said
-            text: root.sentence
+            text: tr(root.sentence)
             font_size: sp(15)
             role: 'text' if root.complete else 'muted'
             pos_hint: {'center_y': .5}
@@ -61,20 +62,21 @@ Builder.load_string("""
 def why_not_now(session: Session, *, timed: bool = False) -> str:
     """Why a whole order cannot be given just now, as a sentence; empty when it can, and of a `timed` one sooner."""
     if not session.connected:
-        return "Not now: there is no link to the robot."
+        return tr("Not now: there is no link to the robot.")
     if session.control == "other":
         return f"Not now: {session.authority.status.driver} has control; ask for it first."
     status: TaskStatus | None = session.feeds.latest("/task/status")
     if timed:
         return ""
     if session.robot_stop.latched:
-        return "Not now: STOP is pressed; hold it to release."
+        return tr("Not now: STOP is pressed; hold it to release.")
     if session.running and status is not None:
         name = title(TaskOrder(task=status.task, places=list(status.places)))
-        stands = "is paused" if status.state == "PAUSED" else "runs"
-        return f"Not now: {name} {stands}; end it, or queue this."
+        if status.state == "PAUSED":
+            return tr("Not now: {task} is paused; end it, or queue this.").format(task=name)
+        return tr("Not now: {task} runs; end it, or queue this.").format(task=name)
     if status is not None and status.state == "INTERRUPTED":
-        return "Start discards the task that was cut short."
+        return tr("Start discards the task that was cut short.")
     return ""
 
 
@@ -91,8 +93,8 @@ class OrderPane(BoxLayout):
     """The `ScheduledTask` that is being made; None for an order of now."""
     page = StringProperty("what")
     """`what` or `when`, where they are on two pages."""
-    title = StringProperty("New task")
-    sentence = StringProperty("Choose a task.")
+    title = StringProperty(mark("New task"))
+    sentence = StringProperty(mark("Choose a task."))
     complete = BooleanProperty(False)
     refused = BooleanProperty(False)
     """The sentence says why the robot would not take it; it can be asked all the same."""
@@ -111,9 +113,9 @@ class OrderPane(BoxLayout):
         self._session = session
         self._shown: Draft | None = None
         self.chooser, self.form, self.when = TaskChooser(), OrderForm(), WhenPicker()
-        self._chosen = ListRow(aside="Change")
+        self._chosen = ListRow(aside=tr("Change"))
         self._roll = Roll()
-        self._pages = Segmented(options=[("what", "What"), ("when", "When")], value="what")
+        self._pages = Segmented(options=[("what", tr("What")), ("when", tr("When"))], value="what")
         self._back = IconButton(icon="arrow_back", bare=True, pos_hint={"center_y": 0.5})
         super().__init__(**kwargs)
         self._back.bind(on_release=lambda _: self.form.back() or self.dispatch("on_close"))
@@ -144,12 +146,12 @@ class OrderPane(BoxLayout):
         if self.scheduled is not None:
             self.scheduled = None
             self.begin("")
-        self.title = "New task"
+        self.title = tr("New task")
 
     def schedule(self, task: ScheduledTask | None = None) -> None:
         """Make a scheduled task, or change one."""
         self.scheduled = task or EVENING
-        self.title = "On the schedule" if self.scheduled.id else "New on the schedule"
+        self.title = tr("On the schedule") if self.scheduled.id else tr("New on the schedule")
         self.when.show(self.scheduled)
         self.begin(self.scheduled.order.task)
         self.form.show(self.scheduled.order)
@@ -207,10 +209,10 @@ class OrderPane(BoxLayout):
         if self.scheduled is not None and complete:
             days = not self.when.task.at or any(self.when.task.days)
             when = rhythm(self.when.task)
-            sentence = f"{when[0].upper()}{when[1:]}: {sentence}" if days else "Choose at least one day."
+            sentence = f"{when[0].upper()}{when[1:]}: {sentence}" if days else tr("Choose at least one day.")
             complete = days
         if complete and self.unsent:
-            sentence += UNSENT
+            sentence += tr(UNSENT)
         refused = self._session.refusals.order(self.order, self._session.mission.draft) if complete else ""
         why = why_not_now(self._session, timed=self.scheduled is not None) if complete else ""
         self.refused, self.held_up = bool(refused), bool(why)

@@ -12,6 +12,7 @@ from app.screens.parts.pane_head import PaneHead
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import ControlStatus
 from widgets import OptionList
+from widgets.core.language import tr
 from widgets.parts.kit import QuietButton
 
 __all__ = ["SettingsPane"]
@@ -31,12 +32,12 @@ class SettingsPane(BoxLayout):
     def __init__(self, session: Session, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._session = session
-        self.head, self.options = PaneHead(title="The robot's settings"), OptionList()
+        self.head, self.options = PaneHead(title=tr("The robot's settings")), OptionList()
         self.add_widget(self.head)
         self.add_widget(self.options)
-        self.setup = QuietButton(text="Protocols and payloads", icon="tune")
+        self.setup = QuietButton(text=tr("Protocols and payloads"), icon="tune")
         self.setup.bind(on_release=lambda _: self.dispatch("on_setup"))
-        self.back = QuietButton(text="Put it back to where it started", icon="replay")
+        self.back = QuietButton(text=tr("Put it back to where it started"), icon="replay")
         self.back.bind(on_release=lambda _: self.dispatch("on_reset"))
         self.head.bind(on_close=lambda _: self.dispatch("on_close"))
         self.options.bind(
@@ -70,10 +71,12 @@ class SettingsPane(BoxLayout):
         if not session.connected:
             return "There is no link; they can be switched when it is back."
         if not session.robot.offers("/settings/set"):
-            return "This robot has no settings to switch."
+            return tr("This robot has no settings to switch.")
         if session.control == "other" and status is not None:
-            return f"{status.driver or 'Another person'} has control and can switch them."
-        return "Kept by the robot, for everybody who uses it."
+            return tr("{driver} has control and can switch them.").format(
+                driver=status.driver or "Another person"
+            )
+        return tr("Kept by the robot, for everybody who uses it.")
 
     def on_close(self) -> None:
         """A finger asked to go back to the lists."""

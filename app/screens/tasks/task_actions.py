@@ -16,6 +16,7 @@ from app.screens.tasks.task_panes import TaskPanes
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Place, ScheduledTask
 from widgets import PlaceForm, PlaceList
+from widgets.core.language import tr
 from widgets.core.task_words import title
 
 __all__ = ["TaskActions"]
@@ -76,23 +77,23 @@ class TaskActions(ListButtons):
         self._screen, self._session = screen, screen.session
         super().__init__(
             [
-                ("start", "Start", "play_arrow_fill", self._start),
-                ("queue", "Add to queue", "add", self._queue),
-                ("save", "Save", "check", self._save_scheduled),
-                ("unschedule", "Delete", "delete", self._unschedule),
-                ("keep", "Save", "check", self._keep_place),
-                ("forget", "Delete", "delete", self._forget_place),
-                ("go", "Go", "near_me", self._go_there),
-                ("move", "Move", "edit_location_alt", self._move_place),
-                ("new", "New task", "add", lambda: screen.open("order")),
-                ("new_scheduled", "New", "add", lambda: screen.open_scheduled(None)),
-                ("again", "Newest", "refresh", screen.session.tasking.ask_history),
-                ("on_map", "New on map", "add_location_alt", self._point_at_place),
-                ("here", "New here", "my_location", self._place_here),
-                ("save_as", "Save under a name", "save", self._save_as),
-                ("keep_mission", "Save", "check", self._keep_mission),
-                ("recall", "Recall", "upload", self._recall),
-                ("seen_all", "All seen", "check", screen.events.see_all),
+                ("start", tr("Start"), "play_arrow_fill", self._start),
+                ("queue", tr("Add to queue"), "add", self._queue),
+                ("save", tr("Save"), "check", self._save_scheduled),
+                ("unschedule", tr("Delete"), "delete", self._unschedule),
+                ("keep", tr("Save"), "check", self._keep_place),
+                ("forget", tr("Delete"), "delete", self._forget_place),
+                ("go", tr("Go"), "near_me", self._go_there),
+                ("move", tr("Move"), "edit_location_alt", self._move_place),
+                ("new", tr("New task"), "add", lambda: screen.open("order")),
+                ("new_scheduled", tr("New"), "add", lambda: screen.open_scheduled(None)),
+                ("again", tr("Newest"), "refresh", screen.session.tasking.ask_history),
+                ("on_map", tr("New on map"), "add_location_alt", self._point_at_place),
+                ("here", tr("New here"), "my_location", self._place_here),
+                ("save_as", tr("Save under a name"), "save", self._save_as),
+                ("keep_mission", tr("Save"), "check", self._keep_mission),
+                ("recall", tr("Recall"), "upload", self._recall),
+                ("seen_all", tr("All seen"), "check", screen.events.see_all),
             ],
             PRIMARY,
         )
@@ -148,7 +149,9 @@ class TaskActions(ListButtons):
         buttons["keep_mission"].disabled = not mine or bool(screen.mission_pane.lacking)
         waiting = len(screen.events.waiting)
         buttons["seen_all"].disabled = not waiting or not screen.events.log.acts
-        buttons["seen_all"].text = f"All seen ({waiting})" if waiting else "All seen"
+        buttons["seen_all"].text = (
+            tr("All seen ({waiting})").format(waiting=waiting) if waiting else tr("All seen")
+        )
         buttons["go"].disabled = not session.robot.knows("go_to")
         located = math.isfinite(screen.places.robot[0])
         buttons["here"].disabled = not mine or not located

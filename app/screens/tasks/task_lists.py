@@ -13,11 +13,12 @@ from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import GetHistoryResponse, Mission
 from widgets import MissionList, PlaceList, RunList, ScheduleList
+from widgets.core.language import mark, tr
 from widgets.parts.kit import Text
 
 __all__ = ["TaskLists"]
 
-NO_TASKS = "This robot offers no tasks and knows no places."
+NO_TASKS = mark("This robot offers no tasks and knows no places.")
 CLOCK_STEP = 5.0
 """Ages in the lists are brought up to date so often [s]."""
 
@@ -39,7 +40,7 @@ class TaskLists:
             "places": self.places,
             "missions": self.missions,
         }
-        self._lacking = Text(text=NO_TASKS, role="muted")
+        self._lacking = Text(text=tr(NO_TASKS), role="muted")
         self._bind()
 
     def _bind(self) -> None:

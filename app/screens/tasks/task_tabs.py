@@ -7,16 +7,17 @@ from typing import Any
 from kivy.lang import Builder
 from kivy.properties import BooleanProperty, NumericProperty, StringProperty
 
+from widgets.core.language import mark, tr
 from widgets.parts.column import Column
 from widgets.parts.kit import IconButton, Segmented
 
 __all__ = ["GROUPS", "TaskTabs"]
 
 GROUPS = {
-    "now": ("Now", {"now": "Now"}),
-    "schedule": ("Schedule", {"schedule": "Schedule"}),
-    "places": ("Places", {"places": "Places", "missions": "Missions"}),
-    "log": ("Log", {"events": "Events", "history": "Tasks"}),
+    "now": (mark("Now"), {"now": mark("Now")}),
+    "schedule": (mark("Schedule"), {"schedule": mark("Schedule")}),
+    "places": (mark("Places"), {"places": mark("Places"), "missions": mark("Missions")}),
+    "log": (mark("Log"), {"events": mark("Events"), "history": mark("Tasks")}),
 }
 """Name of each group to its words and its lists, each with its words; the first one is shown at first."""
 
@@ -74,11 +75,13 @@ class TaskTabs(Column):
         group = group_of(self.tab)
         self._last[group] = self.tab
         count = f" · {self.waiting:.0f}" if self.waiting else ""
-        options = [(one, words + (count if one == "log" else "")) for one, (words, _) in GROUPS.items()]
+        options = [(one, tr(words) + (count if one == "log" else "")) for one, (words, _) in GROUPS.items()]
         if list(self.groups.options) != options:
             self.groups.options = options
         self.groups.value = group
-        lists = [(one, words + (count if one == "events" else "")) for one, words in GROUPS[group][1].items()]
+        lists = [
+            (one, tr(words) + (count if one == "events" else "")) for one, words in GROUPS[group][1].items()
+        ]
         if list(self.lists.options) != lists:
             self.lists.options = lists
         self.lists.value = self.tab

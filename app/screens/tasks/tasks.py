@@ -27,6 +27,7 @@ from bridge.msgs.pilothouse_msgs import (
     KeptMission,
     Place,
 )
+from widgets.core.language import tr
 from widgets.tasks.place_form import PlaceForm
 
 __all__ = ["TasksScreen"]
@@ -322,7 +323,7 @@ class TasksScreen(RobotScreen):
     def _recalled(self, words: str, undo: Any) -> None:
         shell = self.app.shell
         if shell is not None:
-            shell.notices.offer(words, "Undo", undo)
+            shell.notices.offer(words, tr("Undo"), undo)
 
     def _ask_reset(self) -> None:
         shell = self.app.shell

@@ -89,11 +89,11 @@ Builder.load_string("""
             spacing: dp(12)
             QuietButton:
                 id: cancel
-                text: 'Cancel'
+                text: tr('Cancel')
                 on_release: root.close()
             PrimaryButton:
                 id: pair
-                text: 'Pairing …' if root.busy else 'Pair'
+                text: tr('Pairing …') if root.busy else tr('Pair')
                 disabled: root.busy
                 on_release: root.answer()
 """)

@@ -126,17 +126,17 @@ Builder.load_string("""
             spacing: dp(8)
             QuietButton:
                 id: close
-                text: 'Done' if root.code else 'Close'
+                text: tr('Done') if root.code else tr('Close')
                 size_hint_x: .7
                 on_release: root.leave()
             QuietButton:
                 id: guest
-                text: 'Guest, 1 h'
+                text: tr('Guest, 1 h')
                 disabled: not root.manages
                 on_release: root.invite_guest()
             PrimaryButton:
                 id: invite
-                text: 'Let in'
+                text: tr('Let in')
                 disabled: not root.manages
                 on_release: root.invite()
 """)
