@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 from kivy.lang import Builder
@@ -244,7 +245,7 @@ class Inspector(Column):
         if others:
             self.add_widget(SectionLabel(title=tr("Stack with")))
             for index, name in others:
-                self._button(name, "layers", lambda index=index: act("stack", index))
+                self._button(name, "layers", partial(act, "stack", index))
 
     def _field(self, label: str, text: str, take: Callable[[str], object]) -> None:
         field = TextField(text=text, label=tr(label), hint_text=tr(label))

@@ -214,9 +214,9 @@ class ViewShow:
         for card in self._cards.values():
             topic = self._view.panels[int(card.shown)].topic
             card.problem = self._feeds.problem(topic) if topic else ""
-        first, *others = self.videos or [None]
-        for video in others:
-            video.state, video.age = first.state, first.age
+        videos = self.videos
+        for video in videos[1:]:
+            video.state, video.age = videos[0].state, videos[0].age
 
     def _seen(self, widget: Any) -> bool:
         """A control is on the glass, in sight, and not edited."""
