@@ -131,7 +131,7 @@ class SetupScreen(RobotScreen):
 
     def _entries(self) -> Entries:
         found: Entries = {(HANDHELD, name): None for name in self.panes}
-        return found | (self.robot.entries() if self.robot is not None else {})  # type: ignore[operator]
+        return found | (self.robot.entries() if self.robot is not None else {})
 
     def _show(self) -> None:
         entries = self._entries()

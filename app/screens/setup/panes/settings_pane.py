@@ -10,7 +10,7 @@ from kivy.uix.widget import Widget
 
 from widgets.parts.kit import Column, ListRow, Remark, Roll, SectionLabel, Toggle
 
-__all__ = ["Choices", "SettingsPane", "switch_row"]
+__all__ = ["Choices", "SettingsPane", "SwitchRow", "switch_row"]
 
 CHOSEN, OTHER = "radio_button_checked", "radio_button_unchecked"
 
@@ -46,9 +46,15 @@ class Choices(Column):
         """A finger took another one."""
 
 
-def switch_row(icon: str, title: str, detail: str, *, on: bool, take: Callable[[bool], object]) -> ListRow:
+class SwitchRow(ListRow):
+    """A row with its `switch`."""
+
+    switch: Toggle
+
+
+def switch_row(icon: str, title: str, detail: str, *, on: bool, take: Callable[[bool], object]) -> SwitchRow:
     """A row with a switch, which a finger on the row turns as well; `take` is told how it stands then."""
-    row, toggle = ListRow(icon=icon, title=title, detail=detail, whole=True), Toggle(active=on)
+    row, toggle = SwitchRow(icon=icon, title=title, detail=detail, whole=True), Toggle(active=on)
     toggle.pos_hint = {"center_y": 0.5}
     row.add_widget(toggle)
     row.switch = toggle

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
 
 from kivy.uix.widget import Widget
 
@@ -26,7 +27,7 @@ class SoundsPane(SettingsPane):
                 tr(words),
                 "",
                 on=sounds.on[name],
-                take=lambda on, name=name: sounds.choose(name, on),
+                take=partial(sounds.choose, name),
             )
             for name, words in SOUNDS.items()
         }

@@ -99,7 +99,7 @@ class StoragePane(SettingsPane):
         box.bind(minimum_width=box.setter("width"), minimum_height=box.setter("height"))
         for icon, (words, act) in buttons.items():
             button = IconButton(icon=icon, role="muted", bare=True)
-            button.scan_words = words
+            setattr(button, "scan_words", words)  # noqa: B010 - read by the switches where it is there
             button.bind(on_release=lambda _, act=act: act())
             box.add_widget(button)
         row.add_widget(box)
