@@ -14,6 +14,7 @@ import ast
 import io
 import re
 import sys
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -82,6 +83,17 @@ def _of_rules(rules: str, where: str) -> Iterator[Found]:
             break
 
 
+def titles(path: Path) -> Iterator[Found]:
+    """What a layout file that comes with the app writes on the glass."""
+    tables = tomllib.loads(path.read_text(encoding="utf-8"))
+    for lines in tables.values():
+        for line in lines if isinstance(lines, list) else ():
+            if isinstance(line, dict):
+                for key in ("title", "text"):
+                    if line.get(key):
+                        yield line[key], None, str(path.relative_to(ROOT))
+
+
 def template() -> Catalog:
     """Every sentence of the sources."""
     found = Catalog(project="Pilothouse", charset="utf-8", fuzzy=False)
@@ -91,6 +103,9 @@ def template() -> Catalog:
                 # Babel would take a percent sign and a letter for a place of printf
                 message = found.add(text, locations=[(where, 0)], context=context)
                 message.flags.discard("python-format")
+    for path in sorted((ROOT / "app" / "layouts").glob("*.toml")):
+        for text, _, where in titles(path):
+            found.add(text, locations=[(where, 0)])
     return found
 
 

@@ -18,6 +18,7 @@ from typing import Any, Protocol
 from kivy.clock import mainthread
 
 from app.device import is_android
+from widgets.core.language import tr
 
 __all__ = ["AndroidPicking", "DesktopPicking", "FilePicking", "Picked", "file_picking"]
 
@@ -119,7 +120,7 @@ class AndroidPicking:
         try:
             done([self._copy(address) for address in addresses[:MAX_FILES]], "")
         except (OSError, JavaException) as fault:
-            done([], f"The file cannot be read: {fault}.")
+            done([], tr("The file cannot be read: {fault}.").format(fault=fault))
 
     def _copy(self, address: Any) -> Path:
         resolver = self._activity.getContentResolver()

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from app.maps.map_source import Box
 from bridge.core.geo import Datum
+from widgets.core.language import tr
 
 __all__ = ["MAX_TEXTURE_SIDE", "PlacedPicture"]
 
@@ -42,5 +43,5 @@ class PlacedPicture:
         if not self.on_earth:
             return list(self.corners)
         if datum is None:
-            raise ValueError("The picture has a place on earth, and the robot's is not known.")
+            raise ValueError(tr("The picture has a place on earth, and the robot's is not known."))
         return [datum.to_local(*corner) for corner in self.corners]

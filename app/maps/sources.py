@@ -63,7 +63,7 @@ class Sources:
             try:
                 source = Source.of(each)
             except ValueError:
-                kept.mistaken("sources", "a list of maps")
+                kept.mistaken("sources", tr("a list of maps"))
             else:
                 found.setdefault(source.id, source)
         return list(found.values())

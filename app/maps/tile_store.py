@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from widgets.core.language import tr
 from widgets.map.tiles.tile_reader import Key
 
 __all__ = ["LOOKED_PERIOD", "Stored", "TileStore"]
@@ -168,7 +169,9 @@ class TileStore:
             file.execute("PRAGMA synchronous=NORMAL")
             (version,) = file.execute("PRAGMA user_version").fetchone()
             if version not in (0, VERSION):
-                raise sqlite3.DatabaseError(f"version {version} of the file is not known")
+                raise sqlite3.DatabaseError(
+                    tr("version {version} of the file is not known").format(version=version)
+                )
             file.executescript(TABLES)
             file.execute(f"PRAGMA user_version={VERSION}")
             (self._size,) = file.execute("SELECT COALESCE(SUM(size), 0) FROM tiles").fetchone()
@@ -190,5 +193,5 @@ class TileStore:
                     name.unlink()
             self._file = self._connect()
         except (sqlite3.Error, OSError) as second:
-            self.problem = f"Tiles of maps cannot be kept: {second}."
+            self.problem = tr("Tiles of maps cannot be kept: {second}.").format(second=second)
             log.warning("%s", self.problem)

@@ -11,6 +11,7 @@ from app.layout.layout import Layout, LayoutError, LayoutFault
 from app.layout.layout_choice import LayoutChoice
 from app.profiles.profile_store import ProfileStore
 from bridge.msgs.pilothouse_msgs import RobotInfo
+from widgets.core.language import tr
 
 __all__ = ["ProfileChoice"]
 
@@ -38,7 +39,7 @@ class ProfileChoice:
         """Why the profile that was asked for last is not shown, in one sentence; empty where it is."""
         if self.faults:
             more = len(self.faults) - 1
-            others = f" {more} more: see Panels." if more else ""
+            others = tr(" {more} more: see Panels.").format(more=more) if more else ""
             return f"{self.faults[0].sentence}{others}"
         return self._built_in.mistake
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import segno
 
+from widgets.core.language import tr
+
 __all__ = ["code_of"]
 
 
@@ -12,5 +14,5 @@ def code_of(link: str) -> list[str]:
     try:
         code = segno.make_qr(link, error="l")
     except segno.DataOverflowError as error:
-        raise ValueError("This link does not fit into a QR code.") from error
+        raise ValueError(tr("This link does not fit into a QR code.")) from error
     return ["".join("1" if module else "0" for module in row) for row in code.matrix]

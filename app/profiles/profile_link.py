@@ -11,6 +11,7 @@ import zlib
 from urllib.parse import parse_qsl, urlsplit
 
 from app.profiles.profile_store import MAX_BYTES
+from widgets.core.language import tr
 
 __all__ = [
     "HOST",
@@ -55,7 +56,9 @@ def text_of_link(link: str) -> str:
     """The text of the file that a link brings; BadProfileLink for any other text, which a stranger may have made."""
     link = link.strip()
     if len(link) > MAX_LINK:
-        raise BadProfileLink(f"A link of a profile has at most {MAX_LINK:,} letters.")
+        raise BadProfileLink(
+            tr("A link of a profile has at most {max_link:,} letters.").format(max_link=MAX_LINK)
+        )
     try:
         parts = urlsplit(link)
         fields = parse_qsl(parts.query, keep_blank_values=True, strict_parsing=True, max_num_fields=4)
@@ -78,7 +81,9 @@ def _unpacked(packed: str) -> str:
     except (binascii.Error, ValueError, zlib.error) as error:
         raise cut from error
     if len(text) > MAX_BYTES:
-        raise BadProfileLink(f"This profile has more than {MAX_BYTES // 1000} kB.")
+        raise BadProfileLink(
+            tr("This profile has more than {max_bytes} kB.").format(max_bytes=MAX_BYTES // 1000)
+        )
     if not unpacker.eof:
         raise cut
     try:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from app.layout.layout import Layout, LayoutError, LayoutFault, parse
 from app.layout.layout_text import text_of
+from widgets.core.language import tr
 
 __all__ = ["MAX_BYTES", "ProfileStore", "file_name"]
 
@@ -44,7 +45,11 @@ class ProfileStore:
     def read(self, name: str, text: str) -> Layout:
         """The profile in a text of any origin; LayoutError with all that is wrong with it."""
         if len(text.encode(errors="replace")) > MAX_BYTES:
-            raise LayoutError(f"Layout {name} has more than {MAX_BYTES // 1000} kB.")
+            raise LayoutError(
+                tr("Layout {name} has more than {max_bytes} kB.").format(
+                    name=name, max_bytes=MAX_BYTES // 1000
+                )
+            )
         return parse(name, text, self._widgets)
 
     @staticmethod
@@ -54,13 +59,21 @@ class ProfileStore:
             with path.open("rb") as file:
                 content = file.read(MAX_BYTES + 1)
             if len(content) > MAX_BYTES:
-                raise LayoutError(f"Layout {path.stem} has more than {MAX_BYTES // 1000} kB.")
+                raise LayoutError(
+                    tr("Layout {stem} has more than {max_bytes} kB.").format(
+                        stem=path.stem, max_bytes=MAX_BYTES // 1000
+                    )
+                )
             return content.decode("utf-8")
         except OSError as error:
-            raise LayoutError(f"Layout {path.stem} cannot be read: {error.strerror}.") from error
+            raise LayoutError(
+                tr("Layout {stem} cannot be read: {strerror}.").format(
+                    stem=path.stem, strerror=error.strerror
+                )
+            ) from error
         except UnicodeDecodeError as error:
             line = content[: error.start].count(b"\n") + 1
-            sentence = f"Layout {path.stem}: is no UTF-8 text."
+            sentence = tr("Layout {stem}: is no UTF-8 text.").format(stem=path.stem)
             raise LayoutError(sentence, [LayoutFault(sentence, line)]) from error
 
     def save(self, layout: Layout) -> None:

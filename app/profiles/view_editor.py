@@ -8,6 +8,7 @@ import msgspec
 
 from app.layout.panel_grid import FORMS, Place, clamped, free_place, settled, usual_size
 from app.layout.views import MAX_PANELS, MAX_VIEWS, Panel, View, places_of, stacks_of
+from widgets.core.language import tr
 
 __all__ = ["MAX_UNDO", "EditError", "ViewEditor"]
 
@@ -70,7 +71,7 @@ class ViewEditor:
     def add_view(self, title: str) -> int:
         """Append an empty view; its index. EditError where there are too many."""
         if len(self._views) >= MAX_VIEWS:
-            raise EditError(f"A profile has at most {MAX_VIEWS} views.")
+            raise EditError(tr("A profile has at most {max_views} views.").format(max_views=MAX_VIEWS))
         self._take((*self._views, View(title)))
         return len(self._views) - 1
 
@@ -88,7 +89,7 @@ class ViewEditor:
         """Append a panel in the first place that is free; its index. EditError where it cannot be there."""
         panels = self._views[view].panels
         if len(panels) >= MAX_PANELS:
-            raise EditError(f"A view has at most {MAX_PANELS} panels.")
+            raise EditError(tr("A view has at most {max_panels} panels.").format(max_panels=MAX_PANELS))
         for form in FORMS:
             if any(one.place(form) is not None for one in panels):
                 taken = places_of(panels, form)
@@ -183,9 +184,9 @@ def _titled(title: str, what: str, *, empty: bool = False) -> str:
     """The title without spaces round it; EditError where it is too long, or empty and must not be."""
     title = title.strip()
     if not title and not empty:
-        raise EditError(f"Enter a name for the {what}.")
+        raise EditError(tr("Enter a name for the {what}.").format(what=what))
     if len(title) > 60:
-        raise EditError(f"The name of a {what} has at most 60 letters.")
+        raise EditError(tr("The name of a {what} has at most 60 letters.").format(what=what))
     return title
 
 

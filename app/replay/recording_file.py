@@ -103,7 +103,7 @@ class RecordingFile:
         begin = self._file.read(len(MAGIC))
         if begin != MAGIC:
             self._file.close()
-            sentence = NO_RECORDING if begin else EMPTY
+            sentence = tr(NO_RECORDING) if begin else tr(EMPTY)
             raise RecordingError(tr(sentence).format(name=path.name))
 
     def close(self) -> None:
@@ -173,7 +173,7 @@ class RecordingFile:
         from mcap.stream_reader import breakup_chunk
 
         if CHUNK_HEAD.unpack_from(data)[2] > MAX_PIECE:
-            raise ValueError("a chunk that is too large")
+            raise ValueError(tr("a chunk that is too large"))
         return list(breakup_chunk(Chunk.read(ReadDataStream(BytesIO(data))), validate_crc=True))
 
     @staticmethod

@@ -94,7 +94,7 @@ class LayoutActions:
         """`lines` are the actions that the layout names."""
         self._session, self._app = session, app
         self._words = {
-            line.what: (line.text or tr(ACTIONS[line.what][0]), line.icon or ACTIONS[line.what][1])
+            line.what: (tr(line.text) or tr(ACTIONS[line.what][0]), line.icon or ACTIONS[line.what][1])
             for line in lines
         }
         self._besides = [what for what in CARRIED if what not in self._words]

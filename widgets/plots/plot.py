@@ -18,6 +18,7 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs import Msg
 from widgets.core.canvas_ink import Drawing, Ink, Words, ground
+from widgets.core.language import tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.plots.axes import nice_range
@@ -93,7 +94,11 @@ class Plot(PlotBase, Drawing):
         if not self.paths:
             return
         if len(self.paths) > MAX_TRACES:
-            raise ValueError(f"A plot has at most {MAX_TRACES} fields, not {len(self.paths)}.")
+            raise ValueError(
+                tr("A plot has at most {max_traces} fields, not {paths}.").format(
+                    max_traces=MAX_TRACES, paths=len(self.paths)
+                )
+            )
         self.clear()
         for path, name in zip(
             self.paths, [*self.names, *[""] * (len(self.paths) - len(self.names))], strict=False
@@ -103,7 +108,7 @@ class Plot(PlotBase, Drawing):
     def trace(self, path: str, name: str = "", unit: str = "", topic: str = "", scale: float = 1.0) -> Trace:
         """Add a line for a field of any topic, and give it: its own `show` takes the messages. ValueError for a ninth."""
         if len(self.traces) >= MAX_TRACES:
-            raise ValueError(f"A plot has at most {MAX_TRACES} fields.")
+            raise ValueError(tr("A plot has at most {max_traces} fields.").format(max_traces=MAX_TRACES))
         made = Trace(
             path,
             name,

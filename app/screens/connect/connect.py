@@ -17,13 +17,14 @@ from app.screens.parts.method_chip import InputsChip  # noqa: F401 - its rule dr
 from app.screens.parts.safe_area import safe_area
 from app.screens.parts.themes import THEMES
 from app.session.last_pictures import LastPictures
+from widgets.core.language import mark, tr, trn
 from widgets.core.surfaces import EdgedBox  # noqa: F401 - its rule draws the bar
 from widgets.core.theme import theme
 from widgets.parts.kit import Banner, Text
 
 __all__ = ["ConnectScreen"]
 
-HINT = (
+HINT = mark(
     "No robot found on this network yet.\nSwitch one on, enter its address, or start the built-in simulator."
 )
 Builder.load_string("""
@@ -40,7 +41,7 @@ Builder.load_string("""
             spacing: dp(12) if root.columns > 1 else dp(7)
             Text:
                 id: title
-                text: 'Pilothouse'
+                text: tr('Pilothouse')
                 bold: True
                 font_size: min(theme.size_title, self.width / 5.6)
                 pos_hint: {'center_y': .5}
@@ -99,14 +100,14 @@ Builder.load_string("""
                 QuietButton:
                     id: add
                     icon: 'add_link'
-                    text: 'Add by address'
+                    text: tr('Add by address')
                     size_hint_x: None
                     width: root.action_width
                     on_release: root.app.robot_list.ask_address()
                 QuietButton:
                     id: pair
                     icon: 'qr_code_scanner'
-                    text: 'Pair with a QR code'
+                    text: tr('Pair with a QR code')
                     size_hint_x: None
                     width: root.action_width
                     on_release: root.app.robot_list.trust.ask()
@@ -162,7 +163,7 @@ class ConnectScreen(FloatLayout):
     """All robots that can be connected to."""
 
     app: ObjectProperty[Host] = ObjectProperty()
-    nearby = StringProperty("Looking for robots")
+    nearby = StringProperty(mark("Looking for robots"))
     nearby_short = StringProperty("searching")
     card_width = NumericProperty("300dp")
     """[px]"""
@@ -175,17 +176,17 @@ class ConnectScreen(FloatLayout):
     action_width = NumericProperty("300dp")
     """[px]"""
     theme_icon = StringProperty("light_mode")
-    theme_text = StringProperty("Sunlight")
+    theme_text = StringProperty(mark("Sunlight"))
     can_simulate = BooleanProperty(False)
     simulating = BooleanProperty(False)
-    simulator_text = StringProperty("Start the built-in simulator")
+    simulator_text = StringProperty(mark("Start the built-in simulator"))
     cards = ListProperty()
     """The cards on the glass, in their order."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._banner: Banner | None = None
-        self._hint = Text(text=HINT, role="muted", halign="center", padding=(16, 24))
+        self._hint = Text(text=tr(HINT), role="muted", halign="center", padding=(16, 24))
         self.bind(size=self._arrange, keep_free=self._arrange)
         safe_area.bind(insets=self._arrange)
         theme.bind(name=self._follow_theme)
@@ -217,8 +218,9 @@ class ConnectScreen(FloatLayout):
             card.show_place(twin=entry.name in double)
             card.show_thumb(self.app.visit.seen.of(entry.url) if self.app is not None else None)
         live = sum(entry.state == "live" for entry in entries)
-        self.nearby = f"{live} robot{'' if live == 1 else 's'} nearby" if live else "Looking for robots"
-        self.nearby_short = f"{live} nearby" if live else "searching"
+        near = trn("{count} robot nearby", "{count} robots nearby", live)
+        self.nearby = near if live else tr("Looking for robots")
+        self.nearby_short = tr("{count} nearby").format(count=live) if live else tr("searching")
         if entries and self._hint.parent is not None:
             self.ids.notices.remove_widget(self._hint)
         elif not entries and self._hint.parent is None:

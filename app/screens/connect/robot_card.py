@@ -14,7 +14,7 @@ from kivy.properties import BooleanProperty, NumericProperty, ObjectProperty, St
 from app.discovery.known_robots import Entry
 from app.session.last_pictures import Thumb
 from widgets.core.icons import ICONS
-from widgets.core.language import tr
+from widgets.core.language import mark, tr
 from widgets.parts.kit import Card
 
 __all__ = ["RobotCard", "robot_icon", "same_named"]
@@ -25,9 +25,9 @@ NARROW = 420.0
 """A card narrower than this has no room for the words `driven by` [dp]."""
 
 TRUST = {
-    "paired": ("lock", "Paired", "ok"),
-    "stranger": ("vpn_key", "Not paired", "muted"),
-    "open": ("lock_open", "Not protected", "warn"),
+    "paired": ("lock", mark("Paired"), "ok"),
+    "stranger": ("vpn_key", mark("Not paired"), "muted"),
+    "open": ("lock_open", mark("Not protected"), "warn"),
     "": ("", "", "muted"),
 }
 """How a robot is reached, to icon, words and role of the colour."""
@@ -200,7 +200,7 @@ class RobotCard(Card):
     driver_icon = StringProperty("")
     """Stands for `driven by` where a card has no room for the words."""
     driver_role = StringProperty("ok")
-    action = StringProperty("Connect")
+    action = StringProperty(mark("Connect"))
     button_height = NumericProperty("52dp")
     trust_text = StringProperty("")
     """How it is reached, in a word; empty within this machine."""
@@ -214,11 +214,12 @@ class RobotCard(Card):
         self.entry = entry
         self.icon, self.lost = robot_icon(entry.icon), entry.state == "lost"
         self.title = entry.name or entry.address
-        about = [entry.description or "Saved address"]
+        about = [entry.description or tr("Saved address")]
         self.warning = entry.warning
         self.subtitle = " · ".join([*about, entry.address] if entry.name else about)
         self.saved = entry.saved or entry.trust == "paired"
-        self.trust_icon, self.trust_text, self.trust_role = TRUST[entry.trust]
+        self.trust_icon, words, self.trust_role = TRUST[entry.trust]
+        self.trust_text = tr(words)
         self._show_battery(entry)
         self._show_link(entry)
         self._show_driver(entry, me)
@@ -251,15 +252,19 @@ class RobotCard(Card):
 
     def _show_link(self, entry: Entry) -> None:
         if entry.state == "lost":
-            said = f"no heartbeat for {entry.silent:.0f} s" if entry.reached else "its robot is not reached"
+            said = (
+                tr("no heartbeat for {silent:.0f} s").format(silent=entry.silent)
+                if entry.reached
+                else tr("its robot is not reached")
+            )
             self.link_text, self.link_role = said, "danger"
         elif not math.isnan(entry.latency):
             ms = entry.latency * 1000
             self.link_text, self.link_role = (f"{ms:.0f} ms" if ms >= 1 else "< 1 ms"), "ok"
         elif entry.state == "live":
-            self.link_text, self.link_role = "in reach", "ok"
+            self.link_text, self.link_role = tr("in reach"), "ok"
         else:
-            self.link_text, self.link_role = "not heard yet", "muted"
+            self.link_text, self.link_role = tr("not heard yet"), "muted"
 
     def _show_driver(self, entry: Entry, me: str) -> None:
         # a HELLO tells a name and not an identity: under this handheld's own name it may have control from before
@@ -269,14 +274,17 @@ class RobotCard(Card):
         elif other:
             narrow = self.width < NARROW * Metrics.density
             name = _shortened(entry.driver, 10 if narrow else 18)
-            self.driver_text, self.driver_role = name if narrow else f"driven by {name}", "warn"
+            self.driver_text, self.driver_role = (
+                name if narrow else tr("driven by {name}").format(name=name),
+                "warn",
+            )
         else:
             self.driver_text, self.driver_role = "free", "ok"
         self.driver_icon = "person" if other and self.driver_text == _shortened(entry.driver, 10) else ""
         self.quiet = self.lost
-        self.action = "Retry" if self.lost else "Watch" if other and not mine else "Connect"
+        self.action = tr("Retry") if self.lost else "Watch" if other and not mine else tr("Connect")
         if entry.trust == "stranger" and not self.lost:
-            self.action = "Pair"
+            self.action = tr("Pair")
 
     def on_connect(self) -> None:
         """The big button was pressed."""

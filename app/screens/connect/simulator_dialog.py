@@ -38,7 +38,7 @@ Builder.load_string("""
             id: head
             spacing: dp(4)
             Text:
-                text: 'Start the built-in simulator'
+                text: tr('Start the built-in simulator')
                 bold: True
                 font_size: theme.size_title
                 shorten: True
@@ -56,7 +56,7 @@ Builder.load_string("""
                 opacity: 1 if root.offered else 0
                 spacing: dp(8)
                 SectionLabel:
-                    title: 'Robots'
+                    title: tr('Robots')
                     size_hint_y: None
                     height: dp(22)
                 Grid:
@@ -66,7 +66,7 @@ Builder.load_string("""
                     row_default_height: max(theme.target, root.robot_height)
                     row_force_default: True
                 SectionLabel:
-                    title: 'World'
+                    title: tr('World')
                     size_hint_y: None
                     height: dp(30)
                 Grid:
@@ -82,7 +82,7 @@ Builder.load_string("""
             spacing: dp(12)
             QuietButton:
                 id: cancel
-                text: 'Cancel'
+                text: tr('Cancel')
                 on_release: root.close()
             PrimaryButton:
                 id: start

@@ -12,6 +12,7 @@ from kivy.uix.widget import Widget
 from app.layout.layout import Layout
 from app.session.layout_actions import CARRIED, LayoutActions
 from widgets.controls.action_column import Action
+from widgets.core.language import tr
 from widgets.parts.kit import Card, QuietButton, Text
 from widgets.parts.sensor_card import wide
 
@@ -47,14 +48,14 @@ class ActionButtons(GridLayout):
             button = QuietButton(size_hint_y=1)
             button.bind(on_release=lambda _, what=what: actions.act(what))
             self.buttons[what] = button
-        self.more = QuietButton(size_hint_y=1, text="More", icon="more_horiz")
+        self.more = QuietButton(size_hint_y=1, text=tr("More"), icon="more_horiz")
         """Turns to those that have no room."""
         self.more.bind(on_release=lambda _: self._turn())
         self._page = 0
         self._turn_back = Clock.create_trigger(lambda _: self._turn(to=0), FIRST)
         self.bind(size=lambda *_: self._flow())
         self._note = Card(floating=True, padding=("6dp", "2dp"))
-        note = Text(text="It offers no tasks.", role="muted", font_size="14sp", halign="center")
+        note = Text(text=tr("It offers no tasks."), role="muted", font_size="14sp", halign="center")
         note.size_hint_y, note.valign = 1, "middle"
         note.bind(size=note.setter("text_size"))
         self._note.add_widget(note)

@@ -8,10 +8,11 @@ from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import ArmOrder
 from widgets import ArmPanel
+from widgets.core.language import mark
 
 __all__ = ["ARM", "ArmControl"]
 
-ARM = "Arm"
+ARM = mark("Arm")
 """What it is called beside what drives."""
 TOPIC, SERVICE = "/arm", "/arm/move"
 

@@ -10,6 +10,7 @@ from app.session.layout_actions import ACTIONS, LayoutActions
 from app.session.session import Session
 from bridge.msgs.geometry_msgs import PoseStamped
 from bridge.msgs.pilothouse_msgs import FlightState, TaskOrder, Waypoint
+from widgets.core.language import tr
 
 __all__ = ["AskingControls"]
 
@@ -40,7 +41,7 @@ class AskingControls:
         """Take a control in, and have it ask for what the layout says."""
         self._controls.append((widget, one))
         words = ACTIONS.get(one.action, ("", ""))
-        for name, value in (("text", one.title or _within(words[0])), ("icon", one.icon or words[1])):
+        for name, value in (("text", tr(one.title) or _within(words[0])), ("icon", one.icon or words[1])):
             if value and hasattr(widget, name):
                 setattr(widget, name, value)
         if hasattr(widget, "on_confirm"):

@@ -17,6 +17,7 @@ from app.screens.parts.placing import AWAY_X, off, put
 from app.session.layout_actions import CARRIED
 from widgets import ActionColumn
 from widgets.controls.action_column import Action as Offered
+from widgets.core.language import tr
 from widgets.parts.kit import Card
 
 __all__ = ["DiveScreen"]
@@ -168,7 +169,7 @@ class DiveScreen(Driving):
         actions = [action for action in self.does.current() if action.name in self._listed]
         if self.hands.arm.carried:
             said = "open" if self._arm_open else ""
-            actions.append(Offered(ARM, "Arm", "precision_manufacturing", said=said))
+            actions.append(Offered(ARM, tr("Arm"), "precision_manufacturing", said=said))
         elif self._arm_open:
             self.settle()
         if actions != self.column.actions:

@@ -11,6 +11,7 @@ from kivy.properties import AliasProperty, BooleanProperty
 from kivy.uix.boxlayout import BoxLayout
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
+from widgets.core.language import mark
 from widgets.core.surfaces import Pressable
 from widgets.parts.cards import Card
 
@@ -64,7 +65,7 @@ class DrawerHandle(Pressable, BoxLayout):
 
     __events__ = ("on_pull",)
 
-    scan_words = "Instruments"
+    scan_words = mark("Instruments")
     pulled = BooleanProperty(False)
     """The drawer is out."""
 

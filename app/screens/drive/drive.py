@@ -19,6 +19,7 @@ from app.screens.drive.intruder_overlay import IntruderOverlay
 from app.screens.parts.placing import off, put
 from widgets import SlideToConfirm
 from widgets.controls.sticks.stick import Stick
+from widgets.core.language import tr
 from widgets.parts.choices import Segmented
 from widgets.parts.kit import Card
 
@@ -78,7 +79,8 @@ class DriveScreen(Driving):
             if widget.parent is None:
                 self.places.setdefault(slot, []).append(widget)
                 self.add_widget(widget, self.children.index(self.senses) + 1)
-        self.switch.options, self.switch.value = list(choices), self.hands.chosen
+        self.switch.options = [(name, tr(name)) for name in choices]
+        self.switch.value = self.hands.chosen
 
     def _named(self) -> dict[str, Widget]:
         """Buttons and controls by short names."""

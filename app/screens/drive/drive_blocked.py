@@ -9,6 +9,7 @@ from app.screens.shell.control_cards import ABOUT as AUTHORITY
 from app.screens.shell.screen_host import ScreenHost
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import FlightState
+from widgets.core.language import mark, tr
 
 __all__ = ["DriveBlocked", "grounded", "why_not"]
 
@@ -17,8 +18,8 @@ ABOUT = "stick"
 
 
 GROUNDED = {
-    "landed": "It stands on the ground: take off first.",
-    "turned_over": "It lies on its back, its rotors off.",
+    "landed": mark("It stands on the ground: take off first."),
+    "turned_over": mark("It lies on its back, its rotors off."),
 }
 """In which phase of a flight no stick moves it, and why."""
 
@@ -35,9 +36,9 @@ def why_not(session: Session) -> str:
     if not session.connected:
         return ""
     if session.may_drive:
-        return GROUNDED.get(grounded(session), "")
+        return tr(GROUNDED.get(grounded(session), ""))
     if session.robot.foreign:
-        return "" if session.robot_stop.local.latched else "This robot has no topic to drive it by."
+        return "" if session.robot_stop.local.latched else tr("This robot has no topic to drive it by.")
     if session.robot_stop.latched:
         return "STOP is pressed; hold it to release."
     if session.control == "other":
@@ -70,7 +71,7 @@ class DriveBlocked:
             and not session.authority.asking
             and session.robot.offers("/control/request")
         ):
-            shell.notices.offer(text, "Ask", session.take_control, icon="person")
+            shell.notices.offer(text, tr("Ask"), session.take_control, icon="person")
         else:
             shell.say(text, "warn", about=ABOUT)
 

@@ -28,11 +28,12 @@ from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets.controls.sticks.stick import Stick
 from widgets.controls.sticks.tilt_circle import TiltCircle
+from widgets.core.language import mark, tr
 from widgets.core.quantities import said
 
 __all__ = ["DriveControls"]
 
-CAPTIONS = {"landed": "take off first", "turned_over": "on its back"}
+CAPTIONS = {"landed": mark("take off first"), "turned_over": mark("on its back")}
 """What stands on a stick in a phase of a flight in which it moves nothing."""
 
 
@@ -222,7 +223,7 @@ class DriveControls(EventDispatcher):
         if not hasattr(stick, "caption"):
             return
         usual = " · ".join(one.says) if one.forward != "ahead" or self._names_all else ""
-        stick.caption = CAPTIONS.get(phase, usual)
+        stick.caption = tr(CAPTIONS.get(phase, usual))
 
     def _tell_driven(self) -> None:
         """Slider and lever mean the hand alone: while a task drives, its own speed stands there."""

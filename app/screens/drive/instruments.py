@@ -14,6 +14,7 @@ from app.link.capabilities import POSE, Capabilities
 from app.link.feeds import Feeds
 from app.session.dashboard import Dashboard
 from widgets import Readout
+from widgets.core.language import mark, tr
 
 __all__ = ["Instruments"]
 
@@ -27,14 +28,18 @@ CARRIED = (
         SENSES,
         "UltrasoundView",
         "/range/front",
-        title="Ultrasound",
+        title=mark("Ultrasound"),
         also=("/range/left", "/range/right", "/range/rear"),
     ),
-    Instrument(SENSES, "SonarRingView", "/sonar", title="Sonar"),
-    Instrument(SENSES, "LineSensorView", "/line_sensor", title="Line"),
+    Instrument(SENSES, "SonarRingView", "/sonar", title=mark("Sonar")),
+    Instrument(SENSES, "LineSensorView", "/line_sensor", title=mark("Line")),
     Instrument(SENSES, "LaserScanView", "/scan"),
 )
 """Of what any robot may carry: among the small sensors of one whose layout does not name it, once it says something."""
+
+
+BY_WHEELS = {"Map x": mark("Odom x"), "Map y": mark("Odom y")}
+"""Titles of figures on the map, to those where the place is by the wheels alone."""
 
 
 class Instruments:
@@ -74,7 +79,7 @@ class Instruments:
 
     def _figure(self, one: Instrument) -> Readout:
         widget = Readout(
-            name=one.title,
+            name=tr(one.title),
             unit=one.unit,
             path=one.field,
             scale=one.factor,
@@ -91,7 +96,7 @@ class Instruments:
 
     def _picture(self, one: Instrument) -> Any:
         kind = getattr(widgets, one.widget)
-        offered = {"card": True, "title": one.title}
+        offered = {"card": True, "title": tr(one.title)}
         small = one.slot == SENSES  # no room for a name that is not wanted
         widget = kind(
             **{key: value for key, value in offered.items() if hasattr(kind, key) and (value or small)}
@@ -105,10 +110,11 @@ class Instruments:
         self._offer = offer
         for widget, one in self._titled:
             source = offer.source(one.topic) if offer is not None else None
-            widget.title = f"{one.title} · {_brief(source)}" if source and source != one.topic else one.title
+            title = tr(one.title)
+            widget.title = f"{title} · {_brief(source)}" if source and source != one.topic else title
         for readout, one in self._places_told:
             by_wheels = offer is not None and offer.pose_by_odometry
-            readout.name = one.title.replace("Map", "Odom") if by_wheels else one.title
+            readout.name = tr(BY_WHEELS.get(one.title, one.title) if by_wheels else one.title)
 
 
 def _brief(name: str) -> str:

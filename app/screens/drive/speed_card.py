@@ -23,7 +23,7 @@ Builder.load_string("""
     padding: dp(6), dp(10)
     spacing: dp(4)
     SectionLabel:
-        title: 'Max speed' if root.width > dp(90) else 'Max'
+        title: tr('Max speed') if root.width > dp(90) else tr('Max')
         halign: 'center'
         height: self.texture_size[1] if root.titled else 0
         opacity: 1 if root.titled else 0

@@ -7,10 +7,11 @@ from collections.abc import Sequence
 from app.layout.layout import SAYS, Control
 from widgets import TiltCircle
 from widgets.controls.sticks.stick import Stick
+from widgets.core.language import mark, tr
 
 __all__ = ["TILT", "TiltControl"]
 
-TILT = "Tilt"
+TILT = mark("Tilt")
 """What it is called on the switch between it and the stick."""
 
 
@@ -30,7 +31,7 @@ class TiltControl:
     def circle(self) -> TiltCircle:
         """Made now where it was not yet."""
         if self.made is None:
-            self.made = TiltCircle(title="Tilt", needs_hold=True, in_shares=True)
+            self.made = TiltCircle(title=tr("Tilt"), needs_hold=True, in_shares=True)
         return self.made
 
 

@@ -14,6 +14,7 @@ from app.session.dashboard import AGE_STEP
 from app.session.session import Session
 from bridge.core.topics import TOPICS, Topic
 from bridge.msgs import Msg
+from widgets.core.language import tr
 
 __all__ = ["PanelFeeds"]
 
@@ -107,7 +108,9 @@ class PanelFeeds:
                 continue
             kind = offer.topics.get(source.topic) if offer is not None else None
             if kind is None:
-                source.problem = "" if offer is None else f"This robot has no topic {source.topic}."
+                source.problem = (
+                    "" if offer is None else tr("This robot has no topic {topic}.").format(topic=source.topic)
+                )
                 continue
             self._channels[watched(source.topic)] = source
             wanted[source.topic] = kind
@@ -160,7 +163,9 @@ class PanelFeeds:
             return
         accepts = getattr(binding.widget, "accepts", ())
         if accepts and not isinstance(message, accepts) and binding.show == binding.widget.show:
-            source.problem = f"{type(binding.widget).__name__} does not show {message.MSGTYPE}."
+            source.problem = tr("{name} does not show {msgtype}.").format(
+                name=type(binding.widget).__name__, msgtype=message.MSGTYPE
+            )
             return
         binding.show(message)
 

@@ -236,10 +236,10 @@ class Inspector(Column):
         self._place, self._form = place, form
         self._field("Name", panel.title, lambda text: change(title=text))
         if panel.topic:
-            self._field("Topic", panel.topic, lambda text: change(topic=text))
+            self._field(tr("Topic"), panel.topic, lambda text: change(topic=text))
         if panel.widget in ("Readout", "Plot"):
-            self._field("Field", panel.field, lambda text: change(field=text))
-            self._field("Unit", panel.unit, lambda text: change(unit=text))
+            self._field(tr("Field"), panel.field, lambda text: change(field=text))
+            self._field(tr("Unit"), panel.unit, lambda text: change(unit=text))
         self._places()
         self._buttons(panel)
         if others:

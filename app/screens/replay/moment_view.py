@@ -21,6 +21,7 @@ from app.screens.replay.places import panes
 from app.session.dashboard import Dashboard
 from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import EventLog, GridMap, Video
+from widgets.core.language import tr
 from widgets.fields.number_fields import NumberField, number_fields
 
 __all__ = ["USUAL_FIELDS", "MomentView"]
@@ -69,7 +70,7 @@ class MomentView(FloatLayout):
         """Show the moments of a recording that is open."""
         index = player.index
         if index is None:
-            raise ValueError("The recording is not open yet.")
+            raise ValueError(tr("The recording is not open yet."))
         self.player = player
         self._shown, self._picture_at, self._moment = 0, math.nan, math.nan
         self.dashboard = Dashboard(player.feeds)

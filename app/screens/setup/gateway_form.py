@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from urllib.parse import parse_qs, quote, unquote, urlencode, urlsplit
 
+from widgets.core.language import tr
+
 __all__ = ["MAX_RATE", "OWN", "ROLES", "SITE", "BadForm", "GatewayForm"]
 
 SITE, OWN = "site", "own"
@@ -67,14 +69,17 @@ class GatewayForm:
         query = urlencode(dict(self._options()), safe=",")
         if self.scheme == SITE:
             if not path:
-                raise BadForm("path", "A path of the robot's web site is needed, as in api.")
+                raise BadForm("path", tr("A path of the robot's web site is needed, as in api."))
             return f"{SITE}:/{path}" + (f"?{query}" if query else "")
         host = self.host.strip()
         if not host or any(letter in host for letter in "/@?# "):
-            raise BadForm("host", f"An address is a name or numbers, as in 192.168.1.7, not {host!r}.")
+            raise BadForm(
+                "host",
+                tr("An address is a name or numbers, as in 192.168.1.7, not {host!r}.").format(host=host),
+            )
         port = self.port.strip() or ports.get(self.scheme, "")
         if not (port.isascii() and port.isdigit() and int(port[:6]) <= 65535):
-            raise BadForm("port", f"A port is 0 to 65535, not {port!r}.")
+            raise BadForm("port", tr("A port is 0 to 65535, not {port!r}.").format(port=port))
         whose = quote(self.user.strip(), safe="")
         if self.password:
             whose += f":{quote(self.password, safe='')}"
@@ -92,7 +97,12 @@ class GatewayForm:
             except ValueError:
                 given = 0.0
             if not 0 < given <= MAX_RATE:
-                raise BadForm("rate", f"The rate is above 0 and at most {MAX_RATE:g} Hz, not {rate!r}.")
+                raise BadForm(
+                    "rate",
+                    tr("The rate is above 0 and at most {max_rate:g} Hz, not {rate!r}.").format(
+                        max_rate=MAX_RATE, rate=rate
+                    ),
+                )
             yield "rate", rate
         keys = [key for key in (each.strip() for each in self.payloads.split(",")) if key]
         if keys:

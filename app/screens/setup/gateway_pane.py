@@ -14,6 +14,7 @@ from app.screens.setup.url_form import UrlForm
 from app.session.robot_setup import GATEWAYS, RobotSetup
 from bridge.discovery.hello import is_loopback
 from bridge.msgs.pilothouse_msgs import Gateway
+from widgets.core.language import tr
 from widgets.parts.kit import Column, PrimaryButton, QuietButton, Remark, Roll, Text
 from widgets.parts.qr_code import QrCode
 
@@ -35,10 +36,10 @@ class GatewayPane(Roll):
         self.doc, self.state = Remark(role="muted"), Text(font_size="17sp")
         self.refusal, self.options = Remark(role="danger"), Remark(role="muted")
         self.form = None if gateway.fixed else UrlForm(gateway)
-        self.up = PrimaryButton(text="Bring up", icon="play_arrow", size_hint_y=None, height="52dp")
-        self.down = QuietButton(text="Bring down", icon="stop", size_hint_y=None, height="52dp")
-        self.more = QuietButton(text="How it is used", icon="terminal", size_hint_y=None, height="52dp")
-        self.own = Remark(text="Only the robot's own machine reaches it.", role="muted")
+        self.up = PrimaryButton(text=tr("Bring up"), icon="play_arrow", size_hint_y=None, height="52dp")
+        self.down = QuietButton(text=tr("Bring down"), icon="stop", size_hint_y=None, height="52dp")
+        self.more = QuietButton(text=tr("How it is used"), icon="terminal", size_hint_y=None, height="52dp")
+        self.own = Remark(text=tr("Only the robot's own machine reaches it."), role="muted")
         self.qr = QrCode(size_hint=(1, None), height=f"{QR_SIDE}dp")
         self.guide = GuideText()
         self.up.bind(on_release=lambda _: self.bring_up())
@@ -55,7 +56,7 @@ class GatewayPane(Roll):
         self.doc.text = gateway.doc
         said, self.state.role = self._setup.gateway_state(gateway)
         age = self._setup.age
-        down = f"Down {age:.0f} s ago" if age > 0.0 else "Down"
+        down = tr("Down {age:.0f} s ago").format(age=age) if age > 0.0 else tr("Down")
         self.state.text = broken(down if said == gateway.doc else said, self.column.width - dp(8), sp(17))
         self.refusal.text = self._setup.refusal(GATEWAYS, self.name)
         runs = gateway.state in ("up", "lost")
@@ -64,7 +65,7 @@ class GatewayPane(Roll):
         may = self._setup.may(GATEWAYS, self.name)
         self.up.disabled = not (may and gateway.state == "down" and not gateway.package)
         self.down.disabled = not (may and runs)
-        self.more.text = "Close the guide" if self.reads else "How it is used"
+        self.more.text = tr("Close the guide") if self.reads else tr("How it is used")
         self.qr.rows = gateway.qr_rows if runs and not _stays_here(gateway.endpoint) else []
         above = self.doc.height + self.state.height + dp(24)
         self.qr.height = min(dp(QR_SIDE), max(dp(MIN_QR_SIDE), self.height - above))
@@ -104,7 +105,7 @@ class GatewayPane(Roll):
 def _words(option: str) -> str:
     """An option of its URL as people read it."""
     name, _, value = option.partition("=")
-    return f"{value} Hz per topic" if name == "rate" else option
+    return tr("{value} Hz per topic").format(value=value) if name == "rate" else option
 
 
 def _stays_here(endpoint: str) -> bool:

@@ -6,6 +6,7 @@ from kivy.uix.widget import Widget
 
 from app.session.robot_setup import PAYLOADS, RobotSetup
 from bridge.msgs.pilothouse_msgs import Payload
+from widgets.core.language import tr
 from widgets.parts.kit import Column, QuietButton, Remark, Roll, Text
 
 __all__ = ["PayloadPane"]
@@ -32,9 +33,9 @@ class PayloadPane(Roll):
         self.doc.text, self.why.text = payload.doc, payload.why
         self.state.text, self.state.role = self._setup.on_or_off(payload)
         self.refusal.text = self._setup.refusal(PAYLOADS, self.name)
-        self.topics.text = "Topics: " + ", ".join(payload.topics)
-        self.services.text = "Services: " + ", ".join(payload.services)
-        self.switch.text = "Switch off" if payload.on else "Switch on"
+        self.topics.text = tr("Topics: ") + ", ".join(payload.topics)
+        self.services.text = tr("Services: ") + ", ".join(payload.services)
+        self.switch.text = tr("Switch off") if payload.on else tr("Switch on")
         self.switch.disabled = not self._setup.may(PAYLOADS, self.name)
         wanted: list[Widget] = [self.doc, self.state]
         wanted += [each for each in (self.why, self.refusal) if each.text]

@@ -9,19 +9,20 @@ from kivy.uix.boxlayout import BoxLayout
 
 from app.screens.setup.gateway_form import OWN, ROLES, SITE, BadForm, GatewayForm
 from bridge.msgs.pilothouse_msgs import Gateway
+from widgets.core.language import mark, tr
 from widgets.core.theme import theme
 from widgets.parts.kit import Column, Remark, Segmented, TextField
 
 __all__ = ["UrlForm"]
 
 FIELDS = {
-    "host": "Address",
-    "port": "Port",
-    "path": "Prefix or path",
-    "user": "User",
-    "password": "Password",
-    "rate": "Rate, at most [Hz]",
-    "payloads": "Payloads, empty for all",
+    "host": mark("Address"),
+    "port": mark("Port"),
+    "path": mark("Prefix or path"),
+    "user": mark("User"),
+    "password": mark("Password"),
+    "rate": mark("Rate, at most [Hz]"),
+    "payloads": mark("Payloads, empty for all"),
 }
 """Name of each field, as in `GatewayForm`, to its label."""
 ROWS = (("host", "port"), ("path", "rate"), ("user", "password"), ("payloads",))
@@ -45,7 +46,7 @@ class UrlForm(Column):
             choice.height = max(choice.height, theme.target)
         self.fields = {
             name: TextField(
-                text=getattr(usual, name), label=label, hint_text=label, password=name == "password"
+                text=getattr(usual, name), label=tr(label), hint_text=tr(label), password=name == "password"
             )
             for name, label in FIELDS.items()
         }
@@ -79,7 +80,7 @@ class UrlForm(Column):
     def _usual_role(self) -> str:
         """At a broker that is not the robot's own everybody watches; what the robot serves itself goes by its own rule."""
         own = self.scheme.value == SITE or self.scheme.value in self._listens
-        return "as over rosbridge" if own else "watch"
+        return tr("as over rosbridge") if own else "watch"
 
     def _lay(self) -> None:
         hidden = HIDDEN.get(self.scheme.value, ())

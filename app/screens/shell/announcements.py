@@ -96,6 +96,6 @@ class Announcements:
         """The tag before the robot's reader, said once; empty when that is gone."""
         if tag:
             short = tag if len(tag) <= MAX_TAG_LENGTH else f"{tag[: MAX_TAG_LENGTH - 1]}…"
-            self._speaker.say(f"Tag read: {short}", "info", about="tag")
+            self._speaker.say(tr("Tag read: {short}").format(short=short), "info", about="tag")
         else:
             self._speaker.unsay("tag")

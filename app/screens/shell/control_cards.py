@@ -13,6 +13,7 @@ from app.session.session import Session
 from app.session.steering import steering
 from bridge.msgs.pilothouse_msgs import TaskQueue, TaskStatus
 from widgets import HandoverCard, ModeCard, PausedCard, SpeedCap
+from widgets.core.language import tr
 from widgets.core.task_words import TASKS
 from widgets.status.notice_card import TINY
 
@@ -125,7 +126,9 @@ class ControlCards:
         if session.robot_stop.latched:
             card.why_not = "STOP is pressed; hold it to release."
         else:
-            card.why_not = f"{session.authority.status.driver} has control." if other else ""
+            card.why_not = (
+                tr("{driver} has control.").format(driver=session.authority.status.driver) if other else ""
+            )
 
     def _show_task(self, status: TaskStatus) -> None:
         self.paused.show(status)

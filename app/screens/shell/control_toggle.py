@@ -11,10 +11,11 @@ from kivy.uix.widget import Widget
 
 from app.screens.parts.dialogs import Question
 from app.session.session import Session
+from widgets.core.language import mark, tr
 
 __all__ = ["ControlToggle", "GiveBackDialog"]
 
-NO_CONTROL = "This robot has no control handling: any pushed stick drives it."
+NO_CONTROL = mark("This robot has no control handling: any pushed stick drives it.")
 
 Builder.load_string("""
 <GiveBackDialog>:
@@ -28,11 +29,11 @@ Builder.load_string("""
         padding: dp(20)
         spacing: dp(14)
         Text:
-            text: 'Give control of ' + root.robot + ' back?'
+            text: tr('Give control of {robot} back?').format(robot=root.robot)
             bold: True
             font_size: theme.size_title
         Text:
-            text: 'You drive it no longer, and anybody may take control. A task goes on by itself.'
+            text: tr('You drive it no longer, and anybody may take control. A task goes on by itself.')
             role: 'muted'
             font_size: sp(15)
         BoxLayout:
@@ -41,11 +42,11 @@ Builder.load_string("""
             spacing: dp(12)
             QuietButton:
                 id: give_back
-                text: 'Give back'
+                text: tr('Give back')
                 on_release: root.answer()
             PrimaryButton:
                 id: keep
-                text: 'Keep control'
+                text: tr('Keep control')
                 on_release: root.close()
 """)
 
@@ -82,7 +83,7 @@ class ControlToggle:
         A robot without any control says so.
         """
         if self._session.control == "none":
-            self._say(NO_CONTROL, "info", about="control")
+            self._say(tr(NO_CONTROL), "info", about="control")
         elif self._session.control == "mine":
             self.dialog = GiveBackDialog(self._give_back, robot=self._session.robot.name)
             page.add_widget(self.dialog)

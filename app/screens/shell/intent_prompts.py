@@ -28,7 +28,7 @@ def heard_words(heard: Heard) -> str:
     name = tr(METHOD_SIGNS[heard.method][1]) if heard.method in METHOD_SIGNS else heard.method.capitalize()
     what = f", “{heard.said}”" if heard.said else ""
     guess = heard.method not in PRESSED and not math.isnan(heard.confidence)
-    sure = f": {heard.confidence * 100:.0f} % sure." if guess else "."
+    sure = tr(": {confidence:.0f} % sure.").format(confidence=heard.confidence * 100) if guess else "."
     return f"{name}{what}{sure}"
 
 
@@ -68,7 +68,7 @@ class IntentPrompts:
         heard = pending.heard
         who = METHOD_SIGNS[heard.method][0] if heard.method in METHOD_SIGNS else "touch_app"
         words = self._intents.words(heard.intent)
-        said = heard_words(heard) + (" Yes or no, by any method." if pending.question else "")
+        said = heard_words(heard) + (tr(" Yes or no, by any method.") if pending.question else "")
         self.card.ask(words=words, who=who, heard=said, question=pending.question)
 
     def _told(self, heard: Heard, verdict: Verdict) -> None:

@@ -38,7 +38,7 @@ Builder.load_string("""
             size_hint_y: None
             height: theme.target
             Text:
-                text: 'Keys and gamepad'
+                text: tr('Keys and gamepad')
                 bold: True
                 font_size: theme.size_title
                 pos_hint: {'center_y': .5}
@@ -91,12 +91,12 @@ def help_groups(mapped: Bindings, pads: list[str], switches: Options | None = No
     table = mapped.keys
     groups = [("STOP", [([key_words(key) for key in table.keys_of("stop")], "STOP")])]
     if switches is not None and switches.on:
-        groups.append(("Switches", _switches(switches)))
+        groups.append((tr("Switches"), _switches(switches)))
     if table.on:
         groups += [
-            ("Driving", _driving(table)),
-            ("Robot", _rows(table, app=False)),
-            ("App", _rows(table, app=True)),
+            (tr("Driving"), _driving(table)),
+            (tr("Robot"), _rows(table, app=False)),
+            (tr("App"), _rows(table, app=True)),
         ]
     groups += [(name, _pad(mapped.profile(name), mapped.pads_on)) for name in dict.fromkeys(pads)]
     return [(title, rows) for title, rows in groups if rows]
@@ -106,11 +106,11 @@ def _switches(options: Options) -> Rows:
     following = [key.words for key in options.a[:1]] if not options.one else []
     doing, timing = [key.words for key in options.b[:1]], options.timing
     rows = [
-        (following, "Next on the screen"),
-        (doing, "Do it, when let go"),
-        (following, f"Back, held {timing.hold_back:.1f} s"),
+        (following, tr("Next on the screen")),
+        (doing, tr("Do it, when let go")),
+        (following, tr("Back, held {hold_back:.1f} s").format(hold_back=timing.hold_back)),
         (doing, f"STOP, held {timing.hold_stop:.1f} s"),
-        (following + doing if following and doing else [], "STOP, both together"),
+        (following + doing if following and doing else [], tr("STOP, both together")),
     ]
     return [(caps, words) for caps, words in rows if caps]
 
@@ -119,9 +119,9 @@ def _driving(table: KeyTable) -> Rows:
     if not table.drives:
         return []
     return [
-        ([name.upper() for name in DRIVING.values()], "Drive while held"),
-        ([key_words(name) for name in ARROWS.values()], "The right control, or the only one"),
-        ([key_words("shift")], "Slower, held with them"),
+        ([name.upper() for name in DRIVING.values()], tr("Drive while held")),
+        ([key_words(name) for name in ARROWS.values()], tr("The right control, or the only one")),
+        ([key_words("shift")], tr("Slower, held with them")),
     ]
 
 
@@ -148,7 +148,7 @@ def _pad(profile: Profile, on: bool) -> Rows:
 
 def _way(words: str, *, turned: bool) -> str:
     side, _, how = words.partition(", ")
-    return f"{side}: {how}{', turned round' if turned else ''}"
+    return f"{side}: {how}{tr(', turned round') if turned else ''}"
 
 
 def _short(button: str) -> str:

@@ -13,17 +13,17 @@ from app.layout.arrange import Rect
 from app.screens.parts.placing import put
 from app.screens.parts.screen_table import MORE, SCREENS, beyond, tabs
 from bridge.msgs.pilothouse_msgs import Event
-from widgets.core.language import tr
+from widgets.core.language import mark, tr
 from widgets.core.surfaces import Edged
 from widgets.parts.kit import NavButton, PushButton
 
 __all__ = ["Rail"]
 
 TALKS = {
-    "ready": ("Hold to talk", "accent"),
-    "listening": ("Listens", "ink_accent"),
-    "loud": ("Too loud", "warn"),
-    "wrong": ("Hold to talk", "warn"),
+    "ready": (mark("Hold to talk"), "accent"),
+    "listening": (mark("Listens"), "ink_accent"),
+    "loud": (mark("Too loud"), "warn"),
+    "wrong": (mark("Hold to talk"), "warn"),
 }
 """How voice stands, to the words of the button to talk and the role of its icon. The button is there while voice is on."""
 BAR_HEIGHT = 60
@@ -39,7 +39,7 @@ Builder.load_string("""
 
 <TalkButton>:
     icon: 'mic'
-    text: root.words if root.flow == 'horizontal' else root.words.replace(' to ', ' to\\n').replace('Too ', 'Too\\n')
+    text: root.words if root.flow == 'horizontal' else root.words.replace(' ', '\\n', 1)
     fill: 'accent' if root.sign == 'listening' else 'raised'
     border: 'accent' if root.sign in ('ready', 'listening') else 'warn'
     rim_width: dp(2)
@@ -57,7 +57,8 @@ class TalkButton(PushButton):
 
     def on_sign(self, *_: object) -> None:
         """Say it."""
-        self.words, self.ink_icon = TALKS[self.sign]
+        words, self.ink_icon = TALKS[self.sign]
+        self.words = tr(words)
 
 
 class Rail(Edged, FloatLayout):

@@ -37,6 +37,7 @@ from app.screens.shell.top_bar import TopBar
 from app.screens.trust.people_dialog import PeopleDialog
 from app.session.dashboard import Dashboard
 from app.session.session import Session
+from widgets.core.language import tr
 from widgets.core.theme import theme
 
 __all__ = ["Shell"]
@@ -287,7 +288,7 @@ class Shell(FloatLayout):
         self.notices.unsay(about)
 
     def _offer_undo(self, words: str, undo: Callable[[], None]) -> None:
-        self.notices.offer(f"Deleted: {words}.", "Undo", undo)
+        self.notices.offer(tr("Deleted: {words}.").format(words=words), tr("Undo"), undo)
         self._place_notices()
 
     def tick(self) -> None:

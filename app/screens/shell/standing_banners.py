@@ -6,11 +6,14 @@ import math
 
 from app.screens.shell.notices import Notices
 from app.session.session import Session
+from widgets.core.language import mark, tr
 from widgets.parts.kit import Banner
 
 __all__ = ["StandingBanners"]
 
-SLOW_DRAWING = "This device draws slowly: the screen changes at most 15 times a second until it is faster."
+SLOW_DRAWING = mark(
+    "This device draws slowly: the screen changes at most 15 times a second until it is faster."
+)
 
 
 class StandingBanners:
@@ -19,7 +22,7 @@ class StandingBanners:
     def __init__(self, session: Session, notices: Notices) -> None:
         self._session, self._notices = session, notices
         self.link = Banner(level="danger")
-        self.drawing = Banner(text=SLOW_DRAWING, level="info", closable=True)
+        self.drawing = Banner(text=tr(SLOW_DRAWING), level="info", closable=True)
         """A tap takes it away until drawing becomes slow anew."""
         self.drawing.bind(on_close=self._read)
         self.banners = self.link, self.drawing
@@ -33,7 +36,7 @@ class StandingBanners:
         session = self._session
         if not session.connected:
             wait = session.retry_in
-            again = f" Trying again in {math.ceil(wait)} s." if wait > 0 else ""
+            again = tr(" Trying again in {wait} s.").format(wait=math.ceil(wait)) if wait > 0 else ""
             self.link.text = session.link_state.sentence + again
         self._notices.keep(self.link, shown=not session.connected, first=True)
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 from app.session.session import Session
-from app.session.steering import Steering, steering
+from app.session.steering import YOU, Steering, steering
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from bridge.msgs.sensor_msgs import NavSatFix
+from widgets.core.language import mark, tr
 from widgets.core.quantities import said
 
 __all__ = ["control", "control_nav", "fix", "mode", "standing"]
@@ -23,11 +24,12 @@ MODES = {
     "STOPPED": ("front_hand", "danger"),
 }
 """Mode of the robot to icon and role."""
+_MODE_WORDS = (mark("READY"), mark("MANUAL"), mark("AUTO"), mark("PAUSED"), mark("STOPPED"))
 CONTROLS = {
-    "mine": ("person", "accent", "you have control", "you"),
-    "free": ("lock_open", "text", "take control", "free"),
-    "unknown": ("help", "muted", "control unknown", "unknown"),
-    "none": ("lock_open", "muted", "anyone may drive", "anyone"),
+    "mine": ("person", "accent", mark("you have control"), mark("you")),
+    "free": ("lock_open", "text", mark("take control"), mark("free")),
+    "unknown": ("help", "muted", mark("control unknown"), mark("unknown")),
+    "none": ("lock_open", "muted", mark("anyone may drive"), mark("anyone")),
 }
 """Who has control to icon, role, words of the chip, and its words where there is little room."""
 
@@ -35,24 +37,26 @@ CONTROLS = {
 def mode(session: Session, form: str = "wide") -> tuple[str, str, str]:
     """Words, icon and role of who steers the robot, and with what task, for a window of this shape."""
     if not session.connected:
-        return "no link", "signal_disconnected", "muted"
+        return tr("no link"), "signal_disconnected", "muted"
     if session.robot.foreign and session.robot_stop.local.latched:
         return "STOP", *MODES["STOPPED"]
     how = steering(session)
     if how is None:
         return "—", "signal_disconnected", "muted"
-    words = how.mode if form == "tall" else _long_mode(how, form)
+    words = tr(how.mode) if form == "tall" else _long_mode(how, form)
     return words, *MODES.get(how.mode, ("help", "muted"))
 
 
 def _long_mode(how: Steering, form: str) -> str:
     if how.mode in ("AUTO", "PAUSED"):
-        return f"{how.mode} · {how.task}" if how.task else how.mode
+        return f"{tr(how.mode)} · {how.task}" if how.task else tr(how.mode)
     if how.mode != "MANUAL":
-        return how.mode
+        return tr(how.mode)
+    if how.waits and form == "wide" and how.task:
+        return tr("MANUAL · {task} paused").format(task=how.task)
     if how.waits:
-        return f"MANUAL · {how.task} paused" if form == "wide" and how.task else "MANUAL · paused"
-    return f"MANUAL · {_short(how.who)}"
+        return tr("MANUAL · paused")
+    return f"{tr('MANUAL')} · {tr('you') if how.who == YOU else _short(how.who)}"
 
 
 def fix(session: Session) -> tuple[str, str]:
@@ -60,7 +64,7 @@ def fix(session: Session) -> tuple[str, str]:
     told: NavSatFix | None = session.feeds.latest("/fix")
     live = session.feeds.state("/fix") == "live"
     good = told is not None and told.status.status >= 0
-    text = "—" if told is None else _accuracy(told) if good else "no fix"
+    text = "—" if told is None else _accuracy(told) if good else tr("no fix")
     return text, "ok" if good and live else "muted"
 
 
@@ -70,29 +74,29 @@ def control(session: Session, *, brief: bool) -> tuple[str, str, str]:
     status, left = authority.status, _countdown(authority.left)
     driver, asker = _short(status.driver), _short(status.requested_by)
     if authority.asked:
-        return f"{asker} asks{left}", "person", "warn"
+        return tr("{name} asks{left}").format(name=asker, left=left), "person", "warn"
     if authority.asking:
-        return f"asked {driver}{left}", "hourglass_top", "accent"
+        return tr("asked {name}{left}").format(name=driver, left=left), "hourglass_top", "accent"
     if who == "other":
         if session.command_sent("request"):
-            return f"asking {driver} …", "hourglass_top", "accent"
-        by = driver if brief else f"driven by {driver}"
-        return f"{by} · {asker} asks" if asker else by, "person", "warn"
+            return tr("asking {name} …").format(name=driver), "hourglass_top", "accent"
+        by = driver if brief else tr("driven by {driver}").format(driver=driver)
+        return f"{by} · {tr('{name} asks').format(name=asker)}" if asker else by, "person", "warn"
     icon, role, *words = CONTROLS[who]
     if who == "free" and session.command_sent("acquire"):
-        return "asking …", icon, role
-    return words[brief], icon, role
+        return tr("asking …"), icon, role
+    return tr(words[brief]), icon, role
 
 
 def control_nav(session: Session) -> tuple[str, str, str]:
     """Words, icon and role of what a phone has room for of control; without a role it is as it should be, or free."""
     authority = session.authority
     if authority.status.requested_by and session.control in ("mine", "other"):
-        return f"Ask{_countdown(authority.left)}", "hourglass_top", "warn"
+        return tr("Ask{left}").format(left=_countdown(authority.left)), "hourglass_top", "warn"
     who = session.control
     if who == "other":
         return _short(authority.status.driver, MAX_BRIEF_LENGTH), "lock", "warn"
-    return "You" if who == "mine" else "Control", CONTROLS[who][0], ""
+    return tr("You") if who == "mine" else tr("Control"), CONTROLS[who][0], ""
 
 
 def standing(session: Session) -> tuple[object, ...]:

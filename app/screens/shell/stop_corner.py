@@ -20,6 +20,7 @@ from app.screens.parts.placing import put
 from app.screens.parts.safe_area import safe_area
 from app.stop.fleet import Fleet, known
 from widgets import StopAll
+from widgets.core.language import tr
 
 if TYPE_CHECKING:
     from app.screens.shell.shell import Shell
@@ -156,7 +157,12 @@ class StopCorner:
         """The list was folded away before all was done: it ends by itself, and is said."""
         stopped, total = self._fleet.stopped, self._fleet.total
         what = "STOP ALL" if self._fleet.meant_all else "STOP"
-        self._say(f"{what} is done: {stopped} of {total} stopped.", "ok" if stopped == total else "warn")
+        self._say(
+            tr("{what} is done: {stopped} of {total} stopped.").format(
+                what=what, stopped=stopped, total=total
+            ),
+            "ok" if stopped == total else "warn",
+        )
         self._fleet.let_go()
 
     def _let_go(self) -> None:

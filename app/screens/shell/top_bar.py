@@ -18,6 +18,7 @@ from app.screens.parts.method_chip import InputsChip  # noqa: F401 - its rule dr
 from app.screens.shell import status_text as standing
 from app.session.session import Session
 from widgets.core.base import text_texture
+from widgets.core.language import tr
 from widgets.core.surfaces import EdgedBox
 from widgets.core.theme import theme
 
@@ -273,7 +274,7 @@ class TopBar(EdgedBox):
         chip.state = "live"
         chip.rtt, chip.lost = session.link.health.rtt, session.link.health.lost
         chip.silence = session.link.silence if session.connected and session.link.silent else 0.0
-        chip.sentence = "" if session.connected else "no link"
+        chip.sentence = "" if session.connected else tr("no link")
 
     def on_back(self) -> None:
         """The arrow was tapped."""

@@ -109,7 +109,7 @@ Builder.load_string("""
         height: search.height
         TextField:
             id: search
-            hint_text: 'Search names and types'
+            hint_text: tr('Search names and types')
             on_text: root.dispatch('on_search', self.text)
         IconButton:
             id: clear
@@ -210,7 +210,7 @@ Builder.load_string("""
             center: ground.center_x, ground.center_y + dp(24)
             opacity: 0 if root.name or root.idle else 1
         Text:
-            text: 'Choose a topic to see its fields.'
+            text: tr('Choose a topic to see its fields.')
             role: 'muted'
             halign: 'center'
             pos_hint: {'center_x': .5}

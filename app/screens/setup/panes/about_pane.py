@@ -38,7 +38,9 @@ class AboutPane(SettingsPane):
             "tour": self._button("explore", tr("See the tour again"), self.app.tour.begin),
             "licences": self._button("list", tr("Licences of fonts and libraries"), self._unroll),
         }
-        yield Text(text=f"Pilothouse {app_version()}", bold=True, font_size="20sp")
+        yield Text(
+            text=tr("Pilothouse {app_version}").format(app_version=app_version()), bold=True, font_size="20sp"
+        )
         yield self.remark(
             tr("It sends nothing to its makers or to any service on the internet. What it keeps lies on this")
             + " "

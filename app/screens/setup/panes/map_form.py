@@ -14,7 +14,7 @@ from app.maps.map_source import URL, Source
 from app.maps.maps import Maps
 from app.maps.sources import new_id
 from app.maps.tile_trial import TileTrial, tile_at
-from widgets.core.language import tr
+from widgets.core.language import mark, tr
 from widgets.core.theme import theme
 from widgets.parts.kit import Column, PrimaryButton, QuietButton, Remark, Stepper, Text, TextField, Toggle
 
@@ -24,7 +24,7 @@ QUIET = 0.8
 """How long nothing is typed before a tile is asked for [s]."""
 LOOK_PERIOD = 0.1
 """How often it is looked whether one came [s]."""
-USUAL_NAME = "Streets"
+USUAL_NAME = mark("Streets")
 
 
 class MapForm(Column):
