@@ -92,7 +92,7 @@ def test_every_layout_has_the_switch(driving: Glass, robot: FakeRobot) -> None:
             lambda before=before: driving.app.screens["drive"] is not before, "the screen of before"
         )
         screen = armed(driving)
-        assert screen.switch.options == names
+        assert [name for name, _ in screen.switch.options] == names
         panel = screen.hands.arm.panel
         assert panel.right <= driving.app.shell.stop.x
         assert panel.top <= screen.switch.y

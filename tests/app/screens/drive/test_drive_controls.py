@@ -167,7 +167,7 @@ def test_the_tilt_of_a_tablet_says_what_the_stick_would_and_is_chosen_beside_it(
         hands = screen.hands
         hands.tablet = True
         screen.meet()
-        assert list(hands.choices)[-1] == screen.switch.options[-1] == "Tilt", info.model
+        assert list(hands.choices)[-1] == screen.switch.options[-1][0] == "Tilt", info.model
         assert hands.circle is None, "it leads nothing before it is chosen"
         hands.chosen = "Tilt"
         circle = hands.circle
