@@ -71,8 +71,13 @@ class Profile:
             if self._profiles.mistake:
                 shell.say(self._profiles.mistake, "warn")
 
+        def let_go() -> None:
+            if self._profiles.on_change is look:  # else another frame has come in its place
+                self._profiles.on_change = lambda: None
+
         shell.follow(hear)
         self._profiles.on_change = look
+        shell.at_close.append(let_go)
         tell()
 
 

@@ -126,6 +126,8 @@ class Shell(FloatLayout):
         for widget in (*self._standing.banners, self._stop.banner, self.question, self.notices):
             widget.bind(height=self._place_notices)
         self._followers: list[Callable[[str, Post], None]] = []
+        self.at_close: list[Callable[[], object]] = []
+        """Called once it is closed."""
         self._stands: object = None
         """What was last said of the robot, as of `_look`."""
         self.session.tasking.on_forgotten = self._offer_undo
@@ -179,6 +181,8 @@ class Shell(FloatLayout):
         for screen in self.screens.made.values():
             screen.leave()
             screen.end()
+        for let_go in self.at_close:
+            let_go()
 
     # navigation
 
