@@ -1,28 +1,24 @@
 """STOP ALL: every robot that is known is stopped at once, each over a lane of its own, and it is told how many are.
 
-The connected robot is stopped by its own link, ahead of everything here. `Fleet` lives in the UI thread; the lanes have
-a network thread to themselves, so that fifty of them delay nobody's commands. A robot that is paired counts as stopped only
-where it proved its key.
+The connected robot is stopped by its own link, ahead of everything here. `Fleet` lives in the UI thread. A robot that is
+paired counts as stopped only where it proved its key.
 """
 
 from __future__ import annotations
 
-import asyncio
-import concurrent.futures
 import math
 import time
 import uuid
 from collections.abc import Callable, Iterable
-from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from app.discovery.known_robots import Entry
+from app.stop.fleet_lanes import FleetLanes, Lane, Meant, stop_lane
 from app.stop.same_robot import Row, SameRobots, Seen
 from app.stop.stop_state import ANSWER_TIMEOUT, UNCONFIRMED, silence
 from bridge.client.credentials import Credentials
-from bridge.core.network_thread import NetworkThread
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
 from bridge.msgs.std_msgs import Time
 from widgets.core.language import tr
@@ -36,10 +32,6 @@ MAX_ROBOTS = 100
 """So many robots are stopped at once at most; those that are connected, saved or paired come on top."""
 HEAD_START = 0.02
 """So long the connected robot's own STOP has the computer to itself [s]."""
-PACE = 0.002
-"""Between the beginnings of two lanes [s]."""
-ENDS = 1.0
-"""All lanes have closed their sockets within this [s]."""
 HEARD = 3.0
 """A robot that said HELLO within this is there [s]; how long ago it was is told of others."""
 
@@ -117,58 +109,6 @@ class Connected(Protocol):
         """STOP, over its own lane."""
 
 
-class Lane(Protocol):
-    """What is needed of `StopLane`."""
-
-    @property
-    def report(self) -> Report:
-        """What is known now."""
-
-    def press(self) -> None:
-        """STOP was pressed."""
-
-    async def run(self) -> None:
-        """Until cancelled."""
-
-
-@dataclass(slots=True)
-class _Robot:
-    """One address that STOP ALL was meant for."""
-
-    url: str
-    name: str
-    heard: str
-    """When it was last heard, as a sentence; empty for one that is there."""
-    boot: str = ""
-    """As of `Connected`; a claim of its HELLO until its link said it."""
-    boot_by_link: str = ""
-    """What its own link said it is; empty until then."""
-    proven_by_link: str = ""
-    """Fingerprint of the certificate that its own link saw last; empty for none."""
-    credentials: Credentials | None = None
-    """Of a robot that is paired: nobody else counts as it."""
-    lane: Lane | None = None
-    """None while its own link stops it, and before the network thread has made it."""
-    task: asyncio.Task[None] | None = None
-    met: bool = False
-    """A robot was met at that address, by us or on an earlier day; else STOP goes there, and nothing is counted."""
-    last: Row | None = None
-    """What was known while its own link stopped it."""
-    begun: bool = False
-    """Its own link has begun to stop it."""
-    over: bool = False
-    """Its lane is not wanted any more."""
-    left: object | None = None
-    """The link over which it was left before it confirmed a STOP of its own; None where STOP ALL was meant for it."""
-
-
-def _stop_lane(*args: Any, **kwargs: Any) -> Lane:
-    """A lane of the usual kind."""
-    from app.stop.stop_lane import StopLane
-
-    return StopLane(*args, **kwargs)
-
-
 class Fleet:
     """Who is being stopped, and what became of it."""
 
@@ -188,14 +128,12 @@ class Fleet:
         `credentials(url, key)` are those for the paired robot that is expected at an address, where `key` is what its HELLO
         claims as in `Entry`; None where none is.
         """
-        self._open_lane: Callable[..., Lane] = open_lane or partial(
-            _stop_lane, now=now, new_id=new_id, client_id=client_id, client_name=client_name
+        self._lanes = FleetLanes(
+            open_lane
+            or partial(stop_lane, now=now, new_id=new_id, client_id=client_id, client_name=client_name)
         )
         self._most, self._now, self._credentials = most, now, credentials
-        self._network: NetworkThread | None = None
-        self._robots: dict[str, _Robot] = {}
-        self._ending: set[asyncio.Task[None]] = set()
-        """Lanes that close their sockets; of the network thread."""
+        self._robots: dict[str, Meant] = {}
         self._linked = ""
         """Address of the one that its own link stops; empty for none."""
         self._same = SameRobots()
@@ -249,7 +187,7 @@ class Fleet:
         for robot in self._robots.values():
             robot.left = None
         others = [robot for robot in self._robots.values() if robot.url != self._linked]
-        self._press(others, 0.0 if connected is None else HEAD_START)
+        self._lanes.press(others, 0.0 if connected is None else HEAD_START)
         self.update(connected)
 
     def leave(self, connected: Connected) -> bool:
@@ -264,7 +202,7 @@ class Fleet:
             robot = self._robot(url, "", connected.robot.name)
             self._meet(connected)
             robot.left = connected.link if alone else None
-            self._press([robot])
+            self._lanes.press([robot])
         self.update(None)
         return owed
 
@@ -284,7 +222,7 @@ class Fleet:
             self._take_over(self._robots[self._linked])
         if connected is not None and self._linked != url and _is_for_link(self._robots.get(url), connected):
             connected.stop()
-            self._close_lane(self._robots[url])
+            self._lanes.close_lane(self._robots[url])
             self._linked = url
         seen = [(robot, self._seen(robot, connected)) for robot in self._robots.values()]
         self.rows = self._same.counted([one for robot, one in seen if robot.met])
@@ -299,7 +237,7 @@ class Fleet:
     def let_go(self) -> None:
         """Send nothing any more. Robots with a STOP of their own stay stopped; the others may be driven again."""
         for robot in self._robots.values():
-            self._close_lane(robot)
+            self._lanes.close_lane(robot)
         self._robots, self._linked, self.untried, self.rows = {}, "", 0, []
         self._same.forget()
 
@@ -310,11 +248,7 @@ class Fleet:
             time.sleep(0.01)
             self.update(None)
         self.let_go()
-        if self._network is not None:
-            with suppress(TimeoutError, concurrent.futures.TimeoutError):
-                self._network.start(self._all_ended()).result(ENDS)
-            self._network.close()
-            self._network = None
+        self._lanes.close()
 
     # who is meant
 
@@ -333,8 +267,8 @@ class Fleet:
         robot.met = robot.met or entry.met
         robot.heard = "" if entry.silent <= HEARD else _not_heard(entry.silent)
 
-    def _robot(self, url: str, key: str, name: str) -> _Robot:
-        robot = self._robots.setdefault(url, _Robot(url, name, ""))
+    def _robot(self, url: str, key: str, name: str) -> Meant:
+        robot = self._robots.setdefault(url, Meant(url, name, ""))
         if robot.credentials is None and robot.lane is None:
             robot.credentials = self._credentials(url, key)
         robot.met = robot.met or robot.credentials is not None
@@ -346,51 +280,11 @@ class Fleet:
         if robot is not None:
             robot.met = robot.met or connected.ever_connected
 
-    def _press(self, robots: list[_Robot], head_start: float = 0.0) -> None:
-        if robots and self._network is None:
-            self._network = NetworkThread("STOP ALL")
-        for robot in robots:
-            robot.over = False
-        if self._network is not None:
-            self._network.start(self._press_lanes(robots, head_start))
-
-    async def _press_lanes(self, robots: list[_Robot], head_start: float) -> None:
-        """In the network thread: not all in one go, which would keep the other threads waiting."""
-        await asyncio.sleep(head_start)
-        for robot in robots:
-            if robot.over:
-                continue
-            if robot.lane is not None:
-                robot.lane.press()
-                continue
-            pinned = {} if robot.credentials is None else {"credentials": robot.credentials}
-            robot.lane = self._open_lane(robot.url, **pinned)
-            robot.task = asyncio.get_running_loop().create_task(robot.lane.run())
-            await asyncio.sleep(PACE)
-
-    def _close_lane(self, robot: _Robot) -> None:
-        robot.over = True
-        if self._network is not None:
-            self._network.call(self._end_lane, robot)
-
-    def _end_lane(self, robot: _Robot) -> None:
-        """In the network thread."""
-        if robot.task is not None:
-            self._ending.add(robot.task)
-            robot.task.add_done_callback(self._ending.discard)
-            robot.task.cancel()
-        robot.lane = robot.task = None
-
-    async def _all_ended(self) -> None:
-        """In the network thread: every lane has said goodbye."""
-        if self._ending:
-            await asyncio.wait(set(self._ending))
-
-    def _take_over(self, robot: _Robot) -> None:
+    def _take_over(self, robot: Meant) -> None:
         """Its link is gone: a lane goes on, unless STOP was released over the link."""
         self._linked = ""
         if robot.last is None or robot.last.phase != "released":
-            self._press([robot])
+            self._lanes.press([robot])
 
     def _give_back(self, connected: Connected) -> None:
         """A robot that was left is there again: its new link stops it from now on, for two would not agree on its release."""
@@ -402,11 +296,11 @@ class Fleet:
             return  # its link does not know yet that it has to hold it
         if row.foreign or row.phase in UNCONFIRMED:
             connected.stop()
-        self._close_lane(self._robots.pop(robot.url))
+        self._lanes.close_lane(self._robots.pop(robot.url))
 
     # what is known
 
-    def _seen(self, robot: _Robot, connected: Connected | None) -> Seen:
+    def _seen(self, robot: Meant, connected: Connected | None) -> Seen:
         """What is known at one address; a paired robot is known there only as far as its key was proved."""
         from app.stop.stop_lane import Report
 
@@ -430,7 +324,7 @@ class Fleet:
             return Seen(_unproven(row))
         return Seen(row, key, (robot.boot_by_link or robot.boot, identity))
 
-    def _linked_row(self, robot: _Robot, connected: Connected) -> Row:
+    def _linked_row(self, robot: Meant, connected: Connected) -> Row:
         robot.begun = robot.begun or connected.robot_stop.phase != "ready"
         robot.last = _linked_row(connected, begun=robot.begun)
         return robot.last
@@ -449,7 +343,7 @@ def known(entries: Iterable[Entry], connected: Connected | None) -> int:
     return len(set(found.values()))
 
 
-def _is_for_link(robot: _Robot | None, connected: Connected) -> bool:
+def _is_for_link(robot: Meant | None, connected: Connected) -> bool:
     """STOP ALL was meant for it, and it has no STOP: only its link can hold it and let it go."""
     return robot is not None and robot.left is None and connected.robot.foreign
 
@@ -462,7 +356,7 @@ def _not_heard(silent: float) -> str:
     )
 
 
-def _lane_row(robot: _Robot, report: Report) -> Row:
+def _lane_row(robot: Meant, report: Report) -> Row:
     sentence = report.sentence
     if robot.heard and not report.reached:
         sentence = f"{robot.heard} {sentence}".strip()

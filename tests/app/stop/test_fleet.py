@@ -42,8 +42,8 @@ def test_the_link_is_told_before_anything_else_happens(fleet: Fleet, lanes: Lane
 def test_what_is_let_go_before_its_turn_is_never_begun(fleet: Fleet, lanes: Lanes) -> None:
     fleet.press([heard(B)], Link(A))
     fleet.let_go()
-    assert fleet._network is not None
-    fleet._network.start(asyncio.sleep(2 * HEAD_START)).result(PATIENCE)  # its turn was before
+    assert fleet._lanes._network is not None
+    fleet._lanes._network.start(asyncio.sleep(2 * HEAD_START)).result(PATIENCE)  # its turn was before
     assert lanes.pressed == {}
 
 
