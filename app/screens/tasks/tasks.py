@@ -7,18 +7,17 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import ObjectProperty, StringProperty
-from kivy.uix.boxlayout import BoxLayout
 
-from app.layout import arrange
 from app.layout.arrange import Rect
 from app.link.channels import OUTCOME
 from app.link.feeds import Post
 from app.screens.mission.place_pane import PlacePane
-from app.screens.parts.placing import Area, above, put  # noqa: F401 - a rule names the area
+from app.screens.parts.placing import Area  # noqa: F401 - a rule names the area
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.shell.screen_host import ScreenHost
 from app.screens.tasks.settings_pane import SettingsPane
 from app.screens.tasks.task_actions import TaskActions
+from app.screens.tasks.task_layout import TaskLayout
 from app.screens.tasks.task_lists import TaskLists
 from app.screens.tasks.task_panes import TaskPanes
 from app.session.dashboard import Dashboard
@@ -31,16 +30,6 @@ from widgets.core.language import tr
 from widgets.tasks.place_form import PlaceForm
 
 __all__ = ["TasksScreen"]
-
-DETAILS = {
-    "now": "order",
-    "schedule": "schedule",
-    "history": "order",
-    "events": "order",
-    "places": "place",
-    "missions": "mission",
-}
-"""What is beside each list where there is room for both."""
 
 Builder.load_string("""
 <TasksScreen>:
@@ -61,7 +50,7 @@ class TasksScreen(RobotScreen):
     app: ObjectProperty[ScreenHost] = ObjectProperty()
     session: ObjectProperty[Session] = ObjectProperty()
     tab = StringProperty("now")
-    """The list that is shown: one of `DETAILS`."""
+    """The list that is shown: one of `task_layout.DETAILS`."""
     detail = StringProperty("")
     """What is opened beside the list, or on a phone in its place: `order`, `schedule`, `place`, `mission`, `settings`
     or nothing."""
@@ -86,14 +75,10 @@ class TasksScreen(RobotScreen):
             ),
         )
         self.pane, self.mission_pane = self.panes.order, self.panes.mission
-        self._body, self._form, self._dp = Rect(0, 0, 1, 1), "", 1.0
-        self._places: dict[str, Rect] = {}
-        self._cover: Rect | None = None
-        self._beside = BoxLayout(spacing="12dp")
-        """A pane with the map beside it."""
         self._takes_places = False
         self.notice = Rect(0, 0, 1, 1)
         self.acts = TaskActions(self)
+        self.layout = TaskLayout(self)
         self.ids.update({**self.acts.by_name, "tabs": self.tabs})
         self._bind()
 
@@ -132,21 +117,15 @@ class TasksScreen(RobotScreen):
 
     def arrange(self, body: Rect, form: str, dp: float) -> Rect:
         """Put everything into its place; returns where STOP goes."""
-        self._body, self._form, self._dp = body, form, dp
-        places = self._places = arrange.tasks(body, form, dp)
-        put(self.ids.strip, places["strip"])
-        self.clear(self._cover)
-        self.notice = places["notice"]
-        self.panes.arrange(form)
         self.now.brief = form == "short"
+        places = self.layout.arrange(body, form, dp)
+        self.notice = places["notice"]
         self._lay()
         return places["stop"]
 
     def clear(self, cover: Rect | None) -> None:
         """Make room for what is said over the screen."""
-        self._cover = cover
-        for name, place in (("listed", "list"), ("detail", "detail")):
-            put(self.ids[name], above(self._places[place], cover, self._dp))
+        self.layout.clear(cover)
 
     def on_post(self, channel: str, post: Post) -> None:
         """A message came."""
@@ -186,7 +165,7 @@ class TasksScreen(RobotScreen):
         """Back within the screen; False when it is at its lists."""
         if self.detail in ("order", "schedule") and self.pane.back():
             return True
-        if self._form == "tall" and self.detail:
+        if self.layout.form == "tall" and self.detail:
             self.close()
             return True
         return False
@@ -198,48 +177,13 @@ class TasksScreen(RobotScreen):
 
     # what is where
 
-    def _shown_detail(self) -> str:
-        """What is beside the list, or on a phone over it; empty for the list alone."""
-        if self._form == "tall":
-            return self.detail
-        return str(self.detail) or DETAILS[self.tab]
-
     def _lay(self, *_: object) -> None:
-        listed, area, shown = self.ids.listed, self.ids.detail, self._shown_detail()
-        if self.session.robot.lacks_tasks:
-            shown = ""
-        tall = self._form == "tall"
-        listed.clear_widgets()
-        area.clear_widgets()
-        if not (tall and shown):
-            below = [] if tall or self.tab == "now" else [self.acts.under]
-            beside = self.panes.has_map(shown) and self._form == "short"
-            shown_list = [self.panes.chooser] if beside else [self.lists.of(self.tab), *below]
-            for widget in (self.tabs, *shown_list):
-                listed.add_widget(widget)
-        if shown:
-            self._put_pane(area, shown)
-        listed.opacity, area.opacity = float(not (tall and shown)), float(bool(shown))
-        self.tabs.at_settings = shown == "settings"
+        self.layout.lay()
         if self.panes.made_place is not None:
             self.panes.made_place.open = self.detail == "place"
         self.missions.chosen = self.mission_pane.chosen.name if self.mission_pane.chosen else ""
-        (self.events.enter if self.events.parent is listed and self.dashboard.active else self.events.leave)()
-        if self._places:
-            self.acts.lay_for(self.tab, shown, form=self._form, stop=self._places["stop"])
-
-    def _put_pane(self, area: Any, shown: str) -> None:
-        """The pane, and on a tablet beside it the map where places are chosen on it."""
-        self._beside.clear_widgets()
-        pane = self.panes.of(shown)
-        if not (self.panes.has_map(shown) and self._form == "wide"):
-            area.add_widget(pane)
-            return
-        for widget in (pane, self.panes.chooser):
-            if widget.parent is not None:
-                widget.parent.remove_widget(widget)
-            self._beside.add_widget(widget)
-        area.add_widget(self._beside)
+        seen = self.events.parent is self.ids.listed and self.dashboard.active
+        (self.events.enter if seen else self.events.leave)()
 
     def _task_changed(self, *_: object) -> None:
         """The map is beside the form where the task goes to places."""
