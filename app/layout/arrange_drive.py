@@ -83,8 +83,6 @@ def _drive_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
     least = SENSES_LEAST * dp
     dp *= min(1.0, body.height / (640 * dp)) if switch else 1.0
     gap = 12 * dp
-    picture = min(body.width * 0.75, body.height * (0.33 if switch else 0.42))
-    video = Rect(body.x, body.top - picture, body.width, picture)
     stick = min(176 * dp, body.width * 0.42)
     controls = Rect(body.x + gap, body.y + gap, stick, stick)
     slider = Rect(controls.right + gap, body.y + gap, 80 * dp, stick)
@@ -101,13 +99,8 @@ def _drive_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
         across -= width + gap
     actions = Rect(body.x + gap, low, across, (ALL if crowded(body) else 52) * dp)
     cards_low = actions.top + gap
-    if not switch:  # on a small phone the picture is lower, so that the instruments can be read
-        least_picture = min(picture, 196 * dp)  # for the tape, a badge and the strip
-        picture = max(least_picture, min(picture, body.top - cards_low - gap - CARDS * dp))
-        video = Rect(body.x, body.top - picture, body.width, picture)
-    if switch:
-        picture = min(picture, body.top - cards_low - gap - 90 * dp)
-        video = Rect(body.x, body.top - picture, body.width, picture)
+    picture = _picture_tall(body, cards_low + gap, dp, switch=switch)
+    video = Rect(body.x, body.top - picture, body.width, picture)
     cards = Rect(body.x + gap, cards_low, body.width - 2 * gap, video.y - gap - cards_low)
     tape = Rect(body.x + body.width * 0.1, body.top - gap - 52 * dp, body.width * 0.8, 52 * dp)
     return {
@@ -121,6 +114,15 @@ def _drive_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
         **_cards_tall(cards, gap, dp),
         **_senses_tall(video, cards, tape, least, dp),
     }
+
+
+def _picture_tall(body: Rect, low: float, dp: float, *, switch: bool) -> float:
+    """Height of the picture over the instruments [px], which begin at `low` and have to be readable."""
+    picture = min(body.width * 0.75, body.height * (0.33 if switch else 0.42))
+    if switch:
+        return min(picture, body.top - low - 90 * dp)
+    least = min(picture, 196 * dp)  # for the tape, a badge and the strip
+    return max(least, min(picture, body.top - low - CARDS * dp))
 
 
 def _cards_tall(cards: Rect, gap: float, dp: float) -> dict[str, Rect]:

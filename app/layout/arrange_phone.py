@@ -46,8 +46,8 @@ def phone_drive(
     """
     unit = _unit(body, dp)
     gap = GAP * unit
-    places = _hands(body, unit, dp)
-    stick, stop = places["stick"], places["stop"]
+    stick, stop = _hands(body, unit, dp)
+    places: dict[str, Rect] = {"video": body, "stop": stop, "stick": stick}
     low, right = body.y + gap, stop.left - gap
     if two:
         places["right_stick"] = Rect(right - stick.width, stick.y, stick.width, stick.height)
@@ -73,11 +73,12 @@ def _unit(body: Rect, dp: float) -> float:
     return dp * min(1.0, body.height / (USUAL_HEIGHT * dp))
 
 
-def _hands(body: Rect, unit: float, dp: float) -> dict[str, Rect]:
+def _hands(body: Rect, unit: float, dp: float) -> tuple[Rect, StopPlace]:
+    """The stick under the left thumb and STOP under the right one."""
     gap = GAP * unit
     room = Rect(body.right - gap - STOP[0] * unit, body.y + gap, STOP[0] * unit, STOP[1] * unit)
     stick = Rect(body.x + gap, body.y + gap, STICK * unit, STICK * unit)
-    return {"video": body, "stop": stop_place(room, body, dp), "stick": stick}
+    return stick, stop_place(room, body, dp)
 
 
 def _seen(body: Rect, unit: float) -> dict[str, Rect]:
@@ -143,9 +144,7 @@ def phone_dive(
     """As `app.layout.arrange_dive.dive` on a phone's side; `pulled` as of `phone_drive`. `sensed`: there are small sensors."""
     unit = _unit(body, dp)
     gap = GAP * unit
-    hands = _hands(body, unit, dp)
-    stick = hands["stick"]
-    stop = stop_place(hands["stop"], body, dp)
+    stick, stop = _hands(body, unit, dp)
     lift = Rect(stick.right + gap, stick.y, 60 * unit, stick.height)
     tilt = Rect(stop.left - gap - stick.width, stick.y, stick.width, stick.height)
     row = _seen(body, unit)
@@ -158,7 +157,12 @@ def phone_dive(
     }
     ground = between(body.x, stick.top + gap, body.right, body.top)
     high, low = ground.top - gap, ground.y + gap
-    widths = {"legs": 190, "panel": 165, **({"senses": 190} if sensed else {}), "actions": 360}
+    widths: dict[str, float] = {
+        "legs": 190,
+        "panel": 165,
+        **({"senses": 190} if sensed else {}),
+        "actions": 360,
+    }
     sheet = {"drawer": ground} | _beside(between(ground.x + gap, low, ground.right - gap, high), widths, gap)
     panel = sheet["panel"]
     edge = 4 * unit

@@ -76,27 +76,38 @@ def naive(widget: Any) -> Callable[[Any], Any]:
     return show
 
 
-def measured(way: str, number: int) -> dict[str, float]:
-    """One grid, from its bytes to the glass."""
+def on_glass(way: str) -> Any:
+    """The widget that shows the grids, alone on the glass; RuntimeError without OpenGL."""
     from kivy.base import EventLoop
     from kivy.core.window import Window
     from kivy.graphics.cgl import cgl_get_backend_name
     from kivy.graphics.opengl import glFinish
     from kivy.uix.widget import Widget
 
-    from bridge.codec import from_builtins, from_cbor
-    from bridge.msgs.nav_msgs import OccupancyGrid
     from widgets import GridMap
 
     if cgl_get_backend_name() == "mock":
         raise RuntimeError("There is no OpenGL here.")
     Window.size = SIZE
     shown = GridMap(size=SIZE) if way == "ours" else Widget(size=SIZE)
-    show = naive(shown) if way == "naive" else None
     Window.add_widget(shown)
     for _ in range(5):
         EventLoop.idle()
     glFinish()
+    return shown
+
+
+def measured(way: str, number: int) -> dict[str, float]:
+    """One grid, from its bytes to the glass."""
+    from kivy.base import EventLoop
+    from kivy.core.window import Window
+    from kivy.graphics.opengl import glFinish
+
+    from bridge.codec import from_builtins, from_cbor
+    from bridge.msgs.nav_msgs import OccupancyGrid
+
+    shown = on_glass(way)
+    show = naive(shown) if way == "naive" else None
     data = message(number)
     start, longest = time.perf_counter(), 0.0
     grid = from_builtins(from_cbor(data), OccupancyGrid)  # in the app it is the link's thread that decodes
