@@ -69,8 +69,9 @@ def test_the_topic_table_is_the_one_of_the_code(document):
 RECIPES = {
     title: rest
     for title, _, rest in (
-        part.partition("\n")
-        for part in re.split(r"^## To add ", (ROOT / "CONTRIBUTING.md").read_text(), flags=re.MULTILINE)[1:]
+        part.removeprefix("To add ").partition("\n")
+        for part in re.split(r"^## ", (ROOT / "CONTRIBUTING.md").read_text(), flags=re.MULTILINE)
+        if part.startswith("To add ")
     )
 }
 QUOTED = [(title, quoted) for title, recipe in RECIPES.items() for quoted in re.findall(r"`([^`]+)`", recipe)]

@@ -161,7 +161,7 @@ def test_the_log_misses_nothing_of_a_robot(driving: Glass) -> None:
 def test_stop_all_makes_its_list_when_it_is_pressed(glass: Glass, robot: FakeRobot) -> None:
     corner = glass.app.corner
     assert corner._list is None
-    glass.app.robots.add(robot.url)
+    glass.app.robots.add(robot.url, met=True)
     glass.until(lambda: corner.button.parent is not None, "no STOP ALL")
     assert corner._list is None
     glass.tap(corner.button)

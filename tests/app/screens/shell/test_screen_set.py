@@ -116,11 +116,16 @@ def test_a_command_that_was_answered_is_not_told_to_be_under_way(desk: Desk) -> 
     assert desk.heard("tasks") == []
 
 
-def test_nothing_is_kept_once_every_screen_is_made(desk: Desk) -> None:
+def test_screens_that_are_made_anew_in_another_set_are_told_what_these_were_told_within_bounds(
+    desk: Desk,
+) -> None:
     desk.post(EVENT, "first")
     assert desk.heard("drive") == desk.heard("tasks") == [(EVENT, "first")]
-    desk.post(EVENT, "second")
-    assert desk.screens._missed == {}
+    for number in range(MAX_MISSED[EVENT]):
+        desk.post(EVENT, number)
+    later = Desk()
+    later.screens.take_over(desk.screens)
+    assert later.heard("tasks") == [(EVENT, number) for number in range(MAX_MISSED[EVENT])]
 
 
 def test_a_screen_is_made_anew_in_its_place(desk: Desk) -> None:

@@ -159,7 +159,7 @@ def test_who_leaves_a_robot_whose_own_stop_is_not_confirmed_sees_that_it_is_sent
     robot.refusals["/stop"] = "The robot cannot be reached."
     driving.tap(app.shell.stop)
     driving.until(lambda: app.shell.stop.phase == "no_answer", "it claims more than is known")
-    app.back()
+    app.leave()
     assert (app.session, corner.list.parent) == (None, corner.layer), "forgotten in silence"
     assert list(words(driving).values()) != ["STOPPED"]
     driving.until(lambda: words(driving) == {"Fake-1": "NO ANSWER"}, "it claims more than is known")
