@@ -59,6 +59,8 @@ class Answer:
     """The answer; None where the robot refused or did not answer."""
     problem: str = ""
     """Why there is none, as a sentence."""
+    request: Msg | None = None
+    """What was asked."""
 
 
 class LinkPosts:
@@ -75,9 +77,10 @@ class LinkPosts:
     async def answer(self, client: BridgeClient, service: str, request: Msg, response: type[Msg]) -> None:
         """Call a service and queue its `Answer`."""
         try:
-            found = Answer(service, await client.call(service, request, response, timeout=ANSWER_TIMEOUT))
+            message = await client.call(service, request, response, timeout=ANSWER_TIMEOUT)
+            found = Answer(service, message, request=request)
         except BridgeError as error:
-            found = Answer(service, None, str(error))
+            found = Answer(service, None, str(error), request)
         self.queue(ANSWER)(found)
 
     def post_message(self, name: str, message: Msg, received: float) -> None:

@@ -25,6 +25,8 @@ class LinkHealth:
         """Round trip [s]; NaN while it is not known."""
         self.lost = 0
         """How many of the last 20 pings had no answer."""
+        self.traffic = client.traffic
+        """What came of each topic."""
 
     def measure(self) -> None:
         """Copy what the client knows; an answered ping is a sign of life as well."""

@@ -81,6 +81,7 @@ class BridgeClient(Registrations, ServiceCalls, Reconnecting):
         self._on_state = on_state
         self._network: Network = SystemNetwork() if network is None else network
         self._receiver = MessageReceiver(session, self._provider, url, now)
+        self.traffic = self._receiver.traffic  # what came of each topic
         self._credentials, self._even_unknown = credentials, even_unknown
         self._connection: Connection | None = None
         self._address: tuple[str, int] | None = None

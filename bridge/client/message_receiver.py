@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import math
 from collections.abc import Callable
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from bridge.client.connection import Connection
 from bridge.client.liveness import Liveness
@@ -29,7 +29,7 @@ from bridge.protocol import (
 )
 from bridge.rosbytes import deserialize
 
-__all__ = ["MessageReceiver"]
+__all__ = ["Flow", "MessageReceiver", "Traffic"]
 
 log = logging.getLogger(__name__)
 M = TypeVar("M", bound=Msg)
@@ -38,6 +38,40 @@ _CBOR_RAW_KEYS = {"secs", "nsecs", "bytes"}
 """The fields of a message in cbor-raw: when the server received it, and itself in the bytes of ROS."""
 _MAX_REPORTED = 100
 """Most topics and operations whose first error is a warning; all other errors are debug messages."""
+
+_MAX_MEASURED = 2000
+"""Topics whose traffic is counted; of more nothing is known."""
+
+
+class Flow(NamedTuple):
+    """All that came of one topic so far."""
+
+    size: int = 0
+    """Of its operations as they are read: texts and binary frames after decompression [bytes]."""
+    count: int = 0
+    """Messages."""
+    received: float = math.nan
+    """When the newest came [s], the client's clock."""
+
+
+class Traffic:
+    """What came of each topic that is subscribed to. Counted in the thread of the client, read in any."""
+
+    def __init__(self) -> None:
+        self._flows: dict[str, Flow] = {}
+
+    def add(self, topic: str, size: int, received: float) -> None:
+        """One more message, of `size` [bytes]."""
+        before = self._flows.get(topic)
+        if before is None:
+            if len(self._flows) >= _MAX_MEASURED:
+                return
+            before = Flow()
+        self._flows[topic] = Flow(before.size + size, before.count + 1, received)
+
+    def read(self) -> dict[str, Flow]:
+        """All topics as they are now."""
+        return self._flows.copy()
 
 
 class MessageReceiver:
@@ -53,13 +87,21 @@ class MessageReceiver:
         self._now = now
         self._received = -math.inf
         self._reported: set[str] = set()
+        self.traffic = Traffic()
+        """Of the topics that come, over all connections."""
+        self._unread = 0
+        """Of frames that made no whole operation yet [bytes]."""
 
     async def run(self, connection: Connection, liveness: Liveness) -> None:
         """Handle everything that comes until the connection ends."""
         async for raw in connection.messages():
             self._received = now = self._now()
             liveness.on_message(now)
+            self._unread += len(raw)
             for arrival in self._session.receive(raw, now):
+                if isinstance(arrival, (Publish, BinaryPublish)):
+                    self.traffic.add(arrival.topic, self._unread, now)
+                self._unread = 0
                 try:
                     self._handle(arrival, liveness)
                 except ProtocolError as error:

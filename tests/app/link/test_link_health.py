@@ -15,7 +15,7 @@ from tests.bridge.wires import Clock
 class Watch:
     def __init__(self) -> None:
         self.clock = Clock()
-        self.client: Any = SimpleNamespace(rtt=math.nan, lost=0, offset=math.nan)
+        self.client: Any = SimpleNamespace(rtt=math.nan, lost=0, offset=math.nan, traffic=object())
         self.health = LinkHealth(self.client, self.clock)
 
 

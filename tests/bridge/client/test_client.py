@@ -54,6 +54,23 @@ async def test_messages_arrive_typed_with_the_time_of_their_arrival():
         assert await heard.reach(1) == [(Odometry(child_frame_id="base_link"), 5.0)]
 
 
+async def test_what_comes_of_each_topic_is_counted_with_its_size():
+    heard = Record()
+    async with server() as robot, link(url(robot), now=Clock(5.0)) as made:
+        made.client.subscribe("/odom", Odometry, heard)
+        client = await made.connected()
+        await settled(client)
+        assert "/odom" not in client.traffic.read()
+        robot.publish("/odom", Odometry(child_frame_id="base_link"))
+        await heard.reach(1)
+        first = client.traffic.read()["/odom"]
+        robot.publish("/odom", Odometry(child_frame_id="x" * 1000))
+        await heard.reach(2)
+        second = client.traffic.read()["/odom"]
+    assert (first.count, second.count, second.received) == (1, 2, 5.0)
+    assert second.size - 2 * first.size == pytest.approx(1000 - len("base_link"))
+
+
 async def test_infinities_survive_in_cbor():
     heard = Record()
     async with server() as robot, link(url(robot)) as made:

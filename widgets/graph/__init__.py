@@ -1,0 +1,1 @@
+"""Graphs of nodes and topics: laid out in layers, drawn, moved by fingers."""
