@@ -100,7 +100,7 @@ class ReactionTest(Outlined, BoxLayout):
     """What came out, once it is done."""
 
     def _icon(self) -> str:
-        return tr(PHASES[self.phase][0])
+        return PHASES[self.phase][0]
 
     icon = AliasProperty(_icon, bind=["phase"], cache=True)
 

@@ -15,7 +15,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.parts.labels  # noqa: F401 - its rules draw the icons
-from widgets.core.base import fitting_size, text_texture
+from widgets.core.base import text_texture
 from widgets.core.finger_stay import FingerStay
 from widgets.core.surfaces import Pressable
 from widgets.core.theme import theme
@@ -26,7 +26,6 @@ SETTLE_DURATION = 0.5
 """A button whose meaning has changed takes no finger for so long [s]: that finger meant what it did before."""
 
 Builder.load_string("""
-#:import fitting_size widgets.core.base.fitting_size
 <PushButton>:
     size_hint_y: None
     height: theme.target
@@ -47,15 +46,14 @@ Builder.load_string("""
             size: (self.font_size, self.font_size) if root.icon else (0, 0)
             opacity: 1 if root.icon else 0
             pos_hint: {'center_x': .5, 'center_y': .5}
-        Label:
+        FittedLabel:
             id: words
             text: root.text
-            font_name: theme.font
-            font_size: root.words_size
+            largest: theme.size_body if root.flow == 'horizontal' else sp(14)
+            room: max(root.words_room, 1)
+            lines: 2 if root.height >= sp(34) + (theme.size_icon + dp(2) if root.flow == 'vertical' and root.icon else 0) else 1
             bold: True
             color: theme.faint if root.disabled else theme.roles[root.ink]
-            disabled_color: self.color
-            halign: 'center'
             size_hint: None, None
             size: self.texture_size
             pos_hint: {'center_x': .5, 'center_y': .5}
@@ -117,12 +115,12 @@ Builder.load_string("""
         name: root.icon
         role: root.tint or ('accent' if root.active else 'muted')
         pos_hint: {'center_x': .5}
-    Label:
+    FittedLabel:
         text: root.text
-        font_name: theme.font
-        font_size: fitting_size([root.text], sp(12.5), root.width - dp(6))
+        largest: sp(12.5)
+        room: max(root.width - dp(6), 1)
+        lines: 1
         color: theme.roles[root.tint or ('text' if root.active else 'muted')]
-        disabled_color: self.color
 """)
 
 
@@ -166,13 +164,17 @@ class PushButton(Pressable, AnchorLayout):
             (self._settling.waiting and self.collide_point(*touch.pos)) or super().on_touch_down(touch)
         )
 
-    def _words_size(self) -> float:
-        beside = self.flow == "horizontal"
-        taken = self.padding[0] + self.padding[2] + (theme.size_icon + dp(8) if self.icon and beside else 0)
-        return fitting_size([self.text], theme.size_body if beside else sp(14), self.width - taken, bold=True)
+    def _words_room(self) -> float:
+        beside = self.icon and self.flow == "horizontal"
+        return self.width - self.padding[0] - self.padding[2] - (theme.size_icon + dp(8) if beside else 0)
 
-    words_size = AliasProperty(_words_size, bind=["text", "icon", "flow", "width", "padding"], cache=True)
-    """Height of the words' type [px]: as always, or less where they would touch the border."""
+    words_room = AliasProperty(_words_room, bind=["icon", "flow", "width", "padding"], cache=True)
+    """How wide the words may be [px]."""
+
+    @property
+    def words_size(self) -> float:
+        """Height of the words' type [px]: as always, or less where they would touch the border."""
+        return float(self.ids.words.font_size)
 
 
 class PrimaryButton(PushButton):

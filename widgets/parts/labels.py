@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
+from typing import Any
 
 from kivy.input import MotionEvent
 from kivy.lang import Builder
@@ -13,11 +15,11 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
-from widgets.core.base import text_texture
+from widgets.core.base import MIN_FONT_SIZE, fitting_size, text_texture
 from widgets.core.surfaces import Pressable
 from widgets.core.theme import theme
 
-__all__ = ["Chip", "Icon", "Remark", "SectionLabel", "Text", "ValueUnit", "spaced", "wrapped"]
+__all__ = ["Chip", "FittedLabel", "Icon", "Remark", "SectionLabel", "Text", "ValueUnit", "spaced", "wrapped"]
 
 HAIR_SPACE = "\u200a"
 
@@ -38,6 +40,14 @@ Builder.load_string("""
     font_size: sp(13)
     height: self.texture_size[1] if self.text else 0
     opacity: 1 if self.text else 0
+
+<FittedLabel>:
+    font_name: theme.font
+    font_size: self.largest
+    disabled_color: self.color
+    halign: 'center'
+    valign: 'middle'
+    shorten_from: 'right'
 
 <Icon>:
     font_name: theme.icons
@@ -123,6 +133,54 @@ class Text(Label):
 
 class Remark(Text):
     """A smaller text that takes no room while it says nothing."""
+
+
+class FittedLabel(Label):
+    """Words that keep to their room: written smaller, down to 10 sp, then in two lines, then cut short with dots."""
+
+    largest = NumericProperty("16sp")
+    """Size of type where there is room [px]."""
+    room = NumericProperty(0.0)
+    """How wide the words may be [px]; 0 for any width."""
+    lines = NumericProperty(2)
+    """In so many lines they may be written."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        for name in ("text", "largest", "room", "lines", "bold", "font_name"):
+            self.fbind(name, self._fit)
+        self._fit()
+
+    def _fit(self, *_: object) -> None:
+        size, wraps, cut = self._look()
+        self.font_size, self.shorten = size, cut
+        self.text_size = (self.room, None) if wraps or cut else (None, None)
+
+    def _look(self) -> tuple[float, bool, bool]:
+        """Size of type [px], whether it takes more lines than one, and whether words are left out."""
+        if not self.room or not self.text:
+            return self.largest, False, False
+        least = min(self.largest, sp(MIN_FONT_SIZE))
+        size = fitting_size(self.text.split("\n"), self.largest, self.room, bold=self.bold)
+        if size > least or self._width(self.text, least) <= self.room:
+            return size, False, False
+        wraps = self.lines > 1 and self._lines_of(least) <= self.lines
+        return least, wraps, not wraps
+
+    def _width(self, text: str, size: float) -> float:
+        return float(max(text_texture(line, size, bold=self.bold).width for line in text.split("\n")))
+
+    def _lines_of(self, size: float) -> float:
+        """How many lines the words take where none of them is broken; infinity where one is too wide by itself."""
+        count, line = 1, ""
+        for word in self.text.split():
+            if self._width(word, size) > self.room:
+                return math.inf
+            longer = f"{line} {word}".strip()
+            if self._width(longer, size) > self.room:
+                count, longer = count + 1, word
+            line = longer
+        return count
 
 
 class Icon(Label):

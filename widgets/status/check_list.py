@@ -39,14 +39,13 @@ Builder.load_string("""
         role: root.role
         font_size: sp(22)
         pos_hint: {'center_y': .5}
-    Label:
+    FittedLabel:
         id: words
         text: root.text
-        font_name: theme.font
         bold: True
-        font_size: sp(15)
+        largest: sp(15)
+        room: root.room
         color: theme.text
-        disabled_color: self.color
         size_hint: None, None
         size: self.texture_size
         pos_hint: {'center_y': .5}
@@ -90,6 +89,7 @@ Builder.load_string("""
         text: root.title
         arrow: 'expand_less' if root.open else 'expand_more'
         padding: dp(13), 0, dp(10), 0
+        room: max(root.wide - self.padding[0] - self.padding[2] - 2 * sp(22) - 3 * self.spacing, 1)
         width: root.width
         height: theme.target if root.total else 0
         opacity: 1 if root.total else 0
@@ -115,6 +115,8 @@ class CheckHead(ButtonBehavior, BoxLayout):
     role = StringProperty("muted")
     text = StringProperty("")
     arrow = StringProperty("expand_more")
+    room = NumericProperty(0)
+    """How wide the words may be [px]."""
 
 
 class CheckLine(BoxLayout):

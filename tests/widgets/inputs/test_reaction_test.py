@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.headless import Stage
+from widgets.core.language import PSEUDO, language
 from widgets.inputs.reaction_test import PHASES, ReactionTest
 
 
@@ -29,3 +30,13 @@ def test_it_says_how_far_it_is_while_it_runs_and_the_result_at_its_end(test: Rea
     assert test.progress == "3 of 8"
     test.phase = "done"
     assert (test.progress, test.sentence) == ("", "0.6 s")
+
+
+@pytest.mark.parametrize("phase", list(PHASES))
+def test_its_sign_is_the_same_in_every_language(test: ReactionTest, phase: str) -> None:
+    language.name = PSEUDO
+    try:
+        test.phase = phase
+        assert test.icon == PHASES[phase][0]
+    finally:
+        language.name = "en"

@@ -1,0 +1,58 @@
+"""Words that keep to their room: smaller, then in two lines, then cut short."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from kivy.metrics import sp
+
+from widgets.core.base import MIN_FONT_SIZE, text_texture
+from widgets.parts.labels import FittedLabel
+
+
+def wide(text: str, size: float) -> float:
+    return float(text_texture(text, size).width)
+
+
+@pytest.fixture
+def label(stage: Any) -> Any:
+    """In the least type its first word is 3 px narrower than its room of 60 px, and its second one too wide."""
+    return stage.show(FittedLabel(largest=sp(16), size_hint=(None, None)))
+
+
+def written(label: FittedLabel) -> list[str]:
+    label.texture_update()
+    return ["".join(word.text for word in line.words) for line in label._label._cached_lines]
+
+
+def test_words_with_room_are_as_large_as_they_may_be(label: FittedLabel) -> None:
+    label.text, label.room = "Start", 200
+    assert (label.font_size, written(label)) == (sp(16), ["Start"])
+
+
+def test_words_without_room_are_smaller(label: FittedLabel) -> None:
+    label.text, label.room = "Start", wide("Start", sp(13))
+    assert sp(MIN_FONT_SIZE) < label.font_size <= sp(13)
+    assert label.texture_size[0] <= label.room
+
+
+def test_words_that_would_be_too_small_are_in_two_lines(label: FittedLabel) -> None:
+    label.text, label.room = "Go home", wide("home", sp(MIN_FONT_SIZE)) + 3
+    assert (label.font_size, written(label)) == (sp(MIN_FONT_SIZE), ["Go", "home"])
+
+
+@pytest.mark.parametrize(("lines", "text"), [(1, "Go home"), (2, "Homewards"), (2, "Go home now or later")])
+def test_words_that_fit_in_no_way_end_in_dots_within_their_room(
+    label: FittedLabel, lines: int, text: str
+) -> None:
+    label.lines, label.text, label.room = lines, text, wide("home", sp(MIN_FONT_SIZE)) + 3
+    (line,) = written(label)
+    assert line.endswith("...")
+    assert label.texture_size[0] <= label.room + 1
+
+
+def test_words_that_get_room_again_are_whole_again(label: FittedLabel) -> None:
+    label.text, label.room = "Homewards", 20
+    label.room = 300
+    assert (label.font_size, written(label)) == (sp(16), ["Homewards"])
