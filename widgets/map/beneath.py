@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from kivy.graphics import Color, InstructionGroup, Rectangle
+from kivy.graphics import Color, Instruction, InstructionGroup, Rectangle
 from kivy.metrics import dp, sp
 
 from widgets.core.canvas_ink import Word, tint
@@ -55,6 +55,7 @@ class Beneath:
         self.shown = False
         """There is something of a ground in sight."""
         self._colour, self._haze = Color(0, 0, 0, 0), Rectangle(size=(0, 0))
+        self._drawn: list[Instruction] = []
 
     def lay(self, ground: Ground | None) -> None:
         """Have that one drawn, or none."""
@@ -72,10 +73,13 @@ class Beneath:
             self._colour.rgba = tint(theme.bg, 1.0 - opacity * (1.0 - HAZE[theme.name]))
 
     def _fill(self) -> None:
-        self.canvas.clear()
+        for part in self._drawn:
+            self.canvas.remove(part)
+        self._drawn = []
         if self.shown and self.ground is not None:
-            for part in (self.ground.canvas, self._colour, self._haze):
-                self.canvas.add(part)
+            self._drawn = [self.ground.canvas, self._colour, self._haze]
+        for part in self._drawn:
+            self.canvas.add(part)
 
 
 def attribution_word(text: str, free_box: Box, foot: float, *, above: bool) -> Word:

@@ -15,22 +15,20 @@ from kivy.properties import NumericProperty, ObjectProperty, OptionProperty, Str
 
 from app.layout.arrange import Body, Rect
 from app.replay.player import Player
-from app.replay.recording_list import Glimpse, RecordingList
+from app.replay.recording_list import RecordingList
 from app.screens.parts.field_chooser import FieldChooser
 from app.screens.parts.placing import Area, put  # noqa: F401 - a rule names the area
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.replay.moment_view import MomentView
 from app.screens.replay.places import BUTTONS, replay, replay_alone
+from app.screens.replay.recording_rows import RecordingRows
 from app.screens.replay.transport import Transport
 from widgets.core.language import mark, tr
-from widgets.fields.message_fields import size_text
-from widgets.parts.kit import Column, ListRow, Remark, Roll
 from widgets.plots.time_line import TimeLine, length_text
 
 __all__ = ["ReplayScreen"]
 
 TABS = (("map", mark("Map")), ("plots", mark("Plots")), ("events", mark("Events")))
-NONE_YET = mark("No recording yet. Record is in the bar of a robot's screens.")
 CHOOSER = 380
 """Width of the list of numbers [dp]."""
 
@@ -131,10 +129,9 @@ class ReplayScreen(RobotScreen):
         self.player: Player | None = None
         self.recordings = RecordingList(lambda: self.app.records.files)
         self.recordings.on_change = self._show_list
-        self.view, self.line, self.transport = MomentView(), TimeLine(), Transport()
+        self.list, self.view = RecordingRows(), MomentView()
+        self.line, self.transport = TimeLine(), Transport()
         self.chooser: FieldChooser | None = None
-        self.rows: dict[str, ListRow] = {}
-        """By the name of the file."""
         self._places: dict[str, Rect] = {}
         self._dp = 1.0
         self._kept: tuple[Path, float] | None = None
@@ -143,10 +140,8 @@ class ReplayScreen(RobotScreen):
         self._build()
 
     def _build(self) -> None:
-        self.column, self.nothing = Column(spacing="6dp"), Remark(role="muted")
-        roll = Roll()
-        roll.add_widget(self.column)
-        self.ids.listed.add_widget(roll)
+        self.list.bind(on_open=lambda _, path: self.open(path))
+        self.ids.listed.add_widget(self.list)
         self.ids.choose.bind(on_release=lambda _: self.toggle_chooser())
         self.view.bind(on_seek=lambda _, at: self.seek(at))
         self.line.bind(on_seek=lambda _, at: self.seek(at))
@@ -225,35 +220,9 @@ class ReplayScreen(RobotScreen):
     # the list
 
     def _show_list(self) -> None:
-        if self.player is not None or not self._active:
-            return
-        self.column.clear_widgets()
-        self.rows = {}
-        for seen in self.recordings.glimpses:
-            row = self.rows[seen.path.name] = self._row(seen)
-            self.column.add_widget(row)
-        self.nothing.text = "" if self.rows else tr(NONE_YET)
-        if not self.rows:
-            self.column.add_widget(self.nothing)
-        self._lay()
-
-    def _row(self, seen: Glimpse) -> ListRow:
-        when = (
-            time.strftime("%Y-%m-%d %H:%M", time.localtime(seen.start))
-            if math.isfinite(seen.start)
-            else seen.path.stem
-        )
-        broken = bool(seen.problem) and not math.isfinite(seen.start)
-        row = ListRow(
-            icon="error" if broken else "warning" if seen.problem else "history",
-            role="danger" if broken else "warn" if seen.problem else "accent",
-            title=f"{seen.robot or tr('Unknown robot')} · {when}",
-            detail=seen.problem or seen.path.name,
-            aside=f"{length_text(seen.duration)} · {size_text(seen.size)}",
-            whole=True,
-        )
-        row.bind(on_release=lambda _: self.open(seen.path))
-        return row
+        if self.player is None and self._active:
+            self.list.show(self.recordings.glimpses)
+            self._lay()
 
     # one recording
 

@@ -31,9 +31,9 @@ def kept(glass: Glass) -> Path:
 
 
 def opened(glass: Glass, screen: Any) -> None:
-    glass.until(lambda: NAME in screen.rows, "the recording is not in the list")
-    glass.until(lambda: "Patrol-1" in screen.rows[NAME].title, "nobody looked into it")
-    glass.tap(screen.rows[NAME])
+    glass.until(lambda: NAME in screen.list.rows, "the recording is not in the list")
+    glass.until(lambda: "Patrol-1" in screen.list.rows[NAME].title, "nobody looked into it")
+    glass.tap(screen.list.rows[NAME])
     glass.until(lambda: screen.view.parent is screen, "it does not open")
 
 
