@@ -281,7 +281,7 @@ def test_a_chip_with_nothing_to_say_leaves_no_ground_behind(stage, change):
     video = stage.show(Video(state="live", corner=0, rate=15.0), size=(320, 240))
     video.show_frame(320, 240, bytes([255, 255, 255, 255]) * 320 * 240)
     stage.frames(3)
-    there = video._chip.pos[0] + 4, video._chip.pos[1] + video._chip.size[1] / 2
+    there = video._chip.ground.pos[0] + 4, video._chip.ground.pos[1] + video._chip.ground.size[1] / 2
     assert at(stage.pixels(video), *there)[0] < 100
     for name, value in change.items():
         setattr(video, name, value)

@@ -13,17 +13,16 @@ from typing import Any, ClassVar
 import numpy as np
 from kivy.clock import Clock
 from kivy.metrics import dp
-from kivy.properties import BooleanProperty, ListProperty, NumericProperty
+from kivy.properties import BooleanProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs import Msg
 from widgets.core.canvas_ink import Drawing, Ink, Words, ground
-from widgets.core.language import tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.plots.axes import nice_range
 from widgets.plots.figures import Figures
-from widgets.plots.history import MAX_SAMPLES, Floats
+from widgets.plots.history import Floats
 from widgets.plots.plot_base import PlotBase
 from widgets.plots.plot_layout import Scales, cursor_word, lay_out, legend_figures
 from widgets.plots.plot_samples import SELDOM, TIMES, motion, voltage, wave
@@ -53,18 +52,12 @@ class Plot(PlotBase, Drawing):
     grid_size: ClassVar = (6, 4)
     drawn_from: ClassVar = ("title", "unit", "span", "until", "cursor", "age", "low", "high", "epoch")
 
-    paths: ListProperty[str] = ListProperty()
-    """Fields of the messages that `show` takes, as in `twist.twist.linear.x` or `ranges[3]`; at most eight."""
-    names: ListProperty[str] = ListProperty()
-    """What the legend calls them; a path where there is none."""
     low = NumericProperty(math.nan)
     """Lower end of the scale; NaN follows what is seen."""
     high = NumericProperty(math.nan)
     """Upper end of the scale; NaN follows what is seen."""
     pausable = BooleanProperty(True)
     """Has a button that holds the picture still."""
-    capacity = NumericProperty(MAX_SAMPLES)
-    """Samples kept of each field."""
 
     def __init__(self, **kwargs: Any) -> None:
         self._grid, self._ink, self._over = Ink(), TraceInk(), Ink()
@@ -81,61 +74,12 @@ class Plot(PlotBase, Drawing):
         self.button.bind(on_release=self._toggle)
         for part in (self._grid, self._ink, self._over, self._keys, self._words.canvas, self._figures.canvas):
             self.canvas.add(part)
-        for name in ("paths", "names"):
-            self.fbind(name, self._make_traces)
         for name in ("until", "pausable"):
             self.fbind(name, self._show_button)
         self._make_traces()
         self._show_button()
 
     # what comes in
-
-    def _make_traces(self, *_: object) -> None:
-        if not self.paths:
-            return
-        if len(self.paths) > MAX_TRACES:
-            raise ValueError(
-                tr("A plot has at most {max_traces} fields, not {paths}.").format(
-                    max_traces=MAX_TRACES, paths=len(self.paths)
-                )
-            )
-        self.clear()
-        for path, name in zip(
-            self.paths, [*self.names, *[""] * (len(self.paths) - len(self.names))], strict=False
-        ):
-            self.trace(path, name)
-
-    def trace(self, path: str, name: str = "", unit: str = "", topic: str = "", scale: float = 1.0) -> Trace:
-        """Add a line for a field of any topic, and give it: its own `show` takes the messages. ValueError for a ninth."""
-        if len(self.traces) >= MAX_TRACES:
-            raise ValueError(tr("A plot has at most {max_traces} fields.").format(max_traces=MAX_TRACES))
-        made = Trace(
-            path,
-            name,
-            unit or self.unit,
-            topic,
-            scale=scale,
-            most=int(self.capacity),
-            changed=self._on_sample,
-        )
-        self.traces.append(made)
-        self._renumber()
-        return made
-
-    def remove(self, trace: Trace) -> None:
-        """Take a line away; ValueError for one of another plot."""
-        self.traces.remove(trace)
-        self._renumber()
-
-    def clear(self) -> None:
-        """Take all lines away, with what they were told."""
-        self.traces = []
-        self._renumber()
-
-    def _renumber(self) -> None:
-        for number, trace in enumerate(self.traces):
-            trace.number = number
-        self.refresh()
 
     def refresh(self) -> None:
         """Draw everything anew: the lines, their names or their histories are others."""

@@ -28,8 +28,8 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
-from widgets.core.base import VEIL, fitting_size, text_texture
-from widgets.core.canvas_ink import Drawing, Ink, Word, Words, shader, tint
+from widgets.core.base import VEIL, fitting_size
+from widgets.core.canvas_ink import Drawing, Ink, Word, Words, shader
 from widgets.core.detected import kind_word
 from widgets.core.geometry import contain, cover
 from widgets.core.icons import icon
@@ -38,6 +38,7 @@ from widgets.core.rounded import Rounded
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.core.unblended import Unblended
+from widgets.sensors.video_chip import VideoChip, chip_width
 from widgets.sensors.video_marks import draw_box, draw_pointer
 
 __all__ = ["Video", "samples"]
@@ -139,9 +140,7 @@ class Video(Drawing):
         self._plain, self._unblended = Rectangle(size=(0, 0)), Unblended()
         for below in (Color(1, 1, 1, 1), self._plain):
             self._unblended.add_part(below)
-        self._ink, self._words, self._chip_words = Ink(), Words(), Words()
-        self._chip = Rounded()
-        self._chip_as_drawn: tuple[object, ...] = ()
+        self._ink, self._words, self._chip = Ink(), Words(), VideoChip()
         self._redraw_chip = Clock.create_trigger(lambda _: self._draw_chip(), -1)
         super().__init__(**kwargs)
         for name in (
@@ -153,7 +152,7 @@ class Video(Drawing):
             self.fbind(name, self._redraw_chip)
         for part in (
             self._frame, self._lens, self._unblended,
-            self._ink, self._words.canvas, self._chip, self._chip_words.canvas,
+            self._ink, self._words.canvas, self._chip.ground, self._chip.words.canvas,
         ):  # fmt: skip
             self.canvas.add(part)
         self.bind(corner=self.setter("veil_radius"), opacity=lambda *_: self._place_picture())
@@ -307,32 +306,14 @@ class Video(Drawing):
             parts.append(f"{self.rate:.0f} fps")
         if not math.isnan(self.latency):
             parts.append(f"{self.latency * 1000:.0f} ms{' late' if self.late else ''}")
-        while len(parts) > 1 and self._chip_wide(" · ".join(parts)) > self.chip_room:
+        while len(parts) > 1 and chip_width(" · ".join(parts)) > self.chip_room:
             parts.pop(0)
         return " · ".join(parts)
 
-    def _chip_wide(self, text: str) -> float:
-        return float(text_texture(text, round(sp(12.5), 1), theme.font).width + dp(14))
-
     def _draw_chip(self) -> None:
         text = self.chip_text() if self.show_chip and self.state != "stale" else ""
-        drawn = text, self.late, self.x, self.top, *self.insets, tuple(theme.surface), tuple(theme.text)
-        if drawn == self._chip_as_drawn:
-            return
-        self._chip_as_drawn = drawn
-        if not text:
-            self._chip.size = 0, 0
-            self._chip_words.write(())
-            return
-        size = sp(12.5)
-        wide, high = text_texture(text, round(size, 1), theme.font).size
         left, top = self.x + self.insets[0] + dp(8), self.top - self.insets[3] - dp(8)
-        self._chip.rgba = tint(theme.surface, 0.86)
-        self._chip.pos, self._chip.size = (left, top - high - dp(5)), (wide + dp(14), high + dp(5))
-        self._chip.radius = [dp(6)]
-        middle = top - (high + dp(5)) / 2
-        colour = theme.warn if self.late else theme.text
-        self._chip_words.write([Word(text, left + dp(7), middle, size, colour, anchor=(0, 0.5))])
+        self._chip.draw(text, left, top, late=self.late)
 
 
 def _box(detection: Detection2D) -> tuple[str, float, float, float, float, float]:

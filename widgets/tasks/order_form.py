@@ -27,9 +27,9 @@ from widgets.parts.buttons import IconButton, QuietButton
 from widgets.parts.choices import Segmented
 from widgets.parts.labels import SectionLabel
 from widgets.parts.rows import ListRow
-from widgets.parts.stepper import Stepper
 from widgets.parts.text_field import TextField
 from widgets.tasks.order_draft import OrderDraft
+from widgets.tasks.order_numbers import NUMBERS, FormRow
 from widgets.tasks.place_list import SOME, PlaceList
 
 __all__ = ["OrderForm"]
@@ -48,11 +48,6 @@ OPTIONAL = {"then": mark("Stay there"), "dock": mark("Its own dock")}
 """Field that may be left open to what that means."""
 MAX_TEXT_LENGTH = 200
 """Characters of a message."""
-DEFAULT_MAX_SPEED = 1.0
-"""Greatest speed of a robot that does not report its own [m/s]."""
-MAX_HEIGHT = 30.0
-"""Height and depth that can be asked for [m]; what the robot itself allows it says."""
-
 Builder.load_string("""
 <OrderForm>:
     orientation: 'vertical'
@@ -63,20 +58,7 @@ Builder.load_string("""
             id: column
             spacing: dp(8)
 
-<FormRow>:
-    size_hint_y: None
-    height: max(theme.target, dp(46))
-    spacing: dp(8)
-    Text:
-        text: root.title
-        pos_hint: {'center_y': .5}
 """)
-
-
-class FormRow(BoxLayout):
-    """A name with something to set behind it."""
-
-    title = StringProperty("")
 
 
 class OrderForm(OrderDraft, BoxLayout):
@@ -246,6 +228,8 @@ class OrderForm(OrderDraft, BoxLayout):
     def _field(self, field: str) -> list[Widget]:
         if field in SLOTS:
             return [self._place_row(field)]
+        if field in NUMBERS:
+            return [NUMBERS[field](self)]
         make: dict[str, Callable[[], list[Widget]]] = {
             "stops": self._stops,
             "points": self._points,
@@ -253,10 +237,6 @@ class OrderForm(OrderDraft, BoxLayout):
             "message": lambda: [self._text("message")],
             "recipient": lambda: [self._text("recipient_tag")],
             "heading": lambda: [self.dial],
-            "speed": self._speed,
-            "throttle": self._throttle,
-            "height": self._height,
-            "duration": self._duration,
         }
         return make[field]()
 
@@ -317,49 +297,6 @@ class OrderForm(OrderDraft, BoxLayout):
             field.text = text[:MAX_TEXT_LENGTH]
         elif text != getattr(self, name):
             self.set(**{name: text})
-
-    def _speed(self) -> list[Widget]:
-        most = max(1, math.floor((self.robot.max_speed or DEFAULT_MAX_SPEED) * 10 + 1e-6)) / 10
-        speed = Stepper(
-            value=0.0 if math.isnan(self.speed) else self.speed,
-            step=0.1,
-            maximum=most,
-            kind="speed",
-            zero="default",
-        )
-        speed.bind(on_change=self._sped)
-        return [self._row("Speed", speed)]
-
-    def _sped(self, stepper: Stepper, value: float) -> None:
-        stepper.value = round(value, 4)  # tenths have no exact binary form
-        self.set(speed=stepper.value or math.nan)
-
-    def _throttle(self) -> list[Widget]:
-        share = 0 if math.isnan(self.throttle) else round(self.throttle * 100)
-        throttle = Stepper(value=share, step=10, maximum=100, unit="%", zero="default")
-        throttle.bind(on_change=lambda _, value: self.set(throttle=value / 100 if value else math.nan))
-        return [self._row(tr("Throttle"), throttle)]
-
-    def _height(self) -> list[Widget]:
-        deep = self.robot.dives
-        value = 0 if math.isnan(self.at_height) else abs(self.at_height)
-        usual = "default" if self.task == "take_off" else tr("as now")
-        height = Stepper(value=value, step=0.5, maximum=MAX_HEIGHT, kind="height", zero=usual)
-        sign = -1.0 if deep else 1.0
-        height.bind(on_change=lambda _, value: self.set(at_height=sign * value if value else math.nan))
-        return [self._row(tr("Depth") if deep else tr("Height"), height)]
-
-    def _duration(self) -> list[Widget]:
-        minutes = 0 if math.isnan(self.duration) else math.ceil(self.duration / 60)
-        span = Stepper(value=minutes, maximum=1440, unit="min", zero=tr("until stopped"))
-        span.bind(on_change=lambda _, value: self.set(duration=value * 60.0 if value else math.nan))
-        return [self._row(tr("For how long"), span)]
-
-    def _row(self, name: str, behind: Widget) -> FormRow:
-        row = FormRow(title=name)
-        behind.pos_hint = {"center_y": 0.5}
-        row.add_widget(behind)
-        return row
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

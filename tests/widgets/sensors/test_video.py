@@ -222,13 +222,13 @@ def test_a_new_rate_and_latency_write_the_chip_and_draw_nothing_else_anew(video,
     monkeypatch.setattr(Video, "draw", lambda _: drawn.append("all"))
     video.rate, video.latency = 15.0, 0.042
     stage.frames(2)
-    assert video._chip_words.texts == ["64×48 · 15 fps · 42 ms"]
+    assert video._chip.words.texts == ["64×48 · 15 fps · 42 ms"]
     video.show_chip = False
     stage.frames(2)
-    assert (video._chip_words.texts, video._chip.drawn) == ([], False)
+    assert (video._chip.words.texts, video._chip.ground.drawn) == ([], False)
     video.show_chip = True
     stage.frames(2)
-    assert video._chip.drawn
+    assert video._chip.ground.drawn
     assert drawn == []
 
 

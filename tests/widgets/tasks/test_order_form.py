@@ -14,7 +14,8 @@ from widgets.parts.choices import Segment
 from widgets.parts.rows import ListRow
 from widgets.parts.stepper import Stepper, StepperEnd
 from widgets.parts.text_field import TextField
-from widgets.tasks.order_form import FormRow, OrderForm
+from widgets.tasks.order_form import OrderForm
+from widgets.tasks.order_numbers import FormRow
 from widgets.tasks.place_list import SOME
 
 

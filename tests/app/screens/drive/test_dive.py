@@ -12,7 +12,7 @@ from bridge.msgs.pilothouse_msgs import LineSensor, Manoeuvre, RobotInfo, StartT
 from bridge.msgs.sensor_msgs import LaserScan
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
-from widgets.tasks.order_form import FormRow
+from widgets.tasks.order_numbers import FormRow
 
 AQUA = RobotInfo(
     name="Aqua-1",
