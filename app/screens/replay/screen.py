@@ -20,7 +20,7 @@ from app.screens.parts.field_chooser import FieldChooser
 from app.screens.parts.placing import Area, put  # noqa: F401 - a rule names the area
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.replay.moment_view import MomentView
-from app.screens.replay.places import BUTTONS, replay, replay_alone
+from app.screens.replay.places import replay, replay_alone
 from app.screens.replay.recording_rows import RecordingRows
 from app.screens.replay.transport import Transport
 from widgets.core.language import mark, tr
@@ -349,9 +349,8 @@ class ReplayScreen(RobotScreen):
             self.view.arrange(rest, self.form, dp, self.tab)
         for widget, name in ((self.line, "line"), (self.transport, "buttons")):
             place = self._places[name]
-            if widget is self.transport:  # one row, or two, in the middle of its place
-                rows = 1 if place.width >= BUTTONS * dp else 2
-                high = rows * self.transport.play.height + (rows - 1) * 6 * dp
+            if widget is self.transport:  # in the middle of its place
+                high = self.transport.height_in(place.width, dp)
                 place = Rect(place.x, place.y + max(0.0, (place.height - high) / 2), place.width, high)
             self._place(widget, place, ready and not (chooser is not None and phone))
 

@@ -8,10 +8,14 @@ from kivy.properties import BooleanProperty, NumericProperty
 from kivy.uix.stacklayout import StackLayout
 
 from app.replay.player import SPEEDS
+from app.screens.replay.places import BUTTONS
 from widgets.core.language import figure
 from widgets.parts.kit import IconButton, PushButton, QuietButton
 
 __all__ = ["Transport", "speed_text"]
+
+SPACING = 6
+"""Between buttons, and between rows [dp]."""
 
 
 def speed_text(speed: float) -> str:
@@ -28,7 +32,7 @@ class Transport(StackLayout):
     speed = NumericProperty(1.0)
 
     def __init__(self, **kwargs: Any) -> None:
-        super().__init__(**{"spacing": "6dp", **kwargs})
+        super().__init__(**{"spacing": f"{SPACING}dp", **kwargs})
         self.before = IconButton(icon="skip_previous")
         self.play = IconButton(icon="play_arrow", role="accent")
         self.after = IconButton(icon="skip_next")
@@ -40,6 +44,11 @@ class Transport(StackLayout):
         for button in (self.before, self.play, self.after, self.fast):
             self.add_widget(button)
         self.bind(playing=self._show, speed=self._show)
+
+    def height_in(self, width: float, dp: float) -> float:
+        """Height of one row, or of two where that is too narrow for one [px]."""
+        rows = 1 if width >= BUTTONS * dp else 2
+        return float(rows * self.play.height + (rows - 1) * SPACING * dp)
 
     def _show(self, *_: object) -> None:
         self.play.icon = "pause" if self.playing else "play_arrow"

@@ -68,6 +68,12 @@ class ScreenSet(Mapping[str, RobotScreen]):
         for screen in list(self._made.values()):
             screen.on_post(channel, post)
 
+    def close(self) -> None:
+        """Every screen that is made leaves the glass, and lets go of all it has."""
+        for screen in self._made.values():
+            screen.leave()
+            screen.end()
+
     def _tell(self, screen: RobotScreen) -> None:
         """What a new screen would have heard, in the order in which it came."""
         missed = [(number, channel, post) for channel, kept in self._missed.items() for number, post in kept]

@@ -178,9 +178,7 @@ class Shell(FloatLayout):
         self.session.logbook.listeners.clear()
         self.cards.close()
         self.wishes.close()
-        for screen in self.screens.made.values():
-            screen.leave()
-            screen.end()
+        self.screens.close()
         for let_go in self.at_close:
             let_go()
 
