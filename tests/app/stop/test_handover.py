@@ -73,7 +73,7 @@ async def test_control_is_asked_for_kept_and_handed_over(tmp_path: Path) -> None
         assert (bob.news, anna.news) == (["You keep control: Anna does not ask any more."], [])
 
         anna.session.take_control()
-        await until(lambda: bob.session.authority.asked)
+        await until(lambda: bob.session.authority.asked and anna.session.authority.asking)
         await drives(bob, robot)
         bob.session.command("grant")
         await until(lambda: anna.session.control == "mine" and bob.session.control == "other")

@@ -25,6 +25,7 @@ from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 from widgets.core.base import text_texture
 from widgets.core.theme import theme
+from widgets.parts.kit import Roll
 
 MQTT, ARM = ("/gateways", "mqtt"), ("/payloads", "arm")
 ROS = Gateway("rosbridge", "the app", fixed=True, state="up", endpoint="ws://192.0.2.7:9090")
@@ -73,6 +74,13 @@ class Setup:
         self.glass.until(heard, "the robot is not heard")
         self.glass.stage.run_for(0.3, 1 / 10)
 
+    def tap_in_list(self, widget: Any) -> None:
+        """Roll the list to a row or to what is in it, and tap it."""
+        roll = next(one for one in widget.walk_reverse() if isinstance(one, Roll))
+        roll.scroll_to(widget, animate=False)
+        self.glass.stage.run_for(0.3, 1 / 10)
+        self.glass.tap(widget)
+
     def asked(self, kind: type[Msg]) -> list[Any]:
         return [request for _, request in self.robot.asked if isinstance(request, kind)]
 
@@ -93,7 +101,7 @@ def test_a_switch_asks_and_shows_what_the_robot_says(setup: Setup) -> None:
     setup.tell(DOWN)
     row = setup.screen.rows[MQTT]
     assert (row.switch.active, row.switch.disabled) == (False, False)
-    setup.glass.tap(row.switch)
+    setup.tap_in_list(row.switch)
     setup.glass.until(lambda: setup.asked(BringUpGatewayRequest), "not asked")
     (request,) = setup.asked(BringUpGatewayRequest)
     assert (request.name, request.url) == ("mqtt", "own://127.0.0.1:1883")
@@ -104,7 +112,7 @@ def test_a_switch_asks_and_shows_what_the_robot_says(setup: Setup) -> None:
     setup.tell(UP)
     assert row.switch.active
     assert row.detail == "mqtt://192.0.2.7:1883/x"
-    setup.glass.tap(row.switch)
+    setup.tap_in_list(row.switch)
     setup.glass.until(lambda: setup.asked(BringDownGatewayRequest), "not asked")
     assert row.switch.active
     setup.tell(DOWN)
@@ -258,7 +266,7 @@ def test_payloads_are_switched_and_what_is_fixed_has_no_switch_but_a_reason(setu
     fixed, row = setup.screen.rows["/payloads", "laser"], setup.screen.rows[ARM]
     assert fixed.switch.parent is None
     assert fixed.detail == "It keeps the robot off obstacles."
-    setup.glass.tap(row.switch)
+    setup.tap_in_list(row.switch)
     setup.glass.until(lambda: setup.asked(SetPayloadRequest), "not asked")
     (request,) = setup.asked(SetPayloadRequest)
     assert (request.key, request.on) == ("arm", False)
@@ -313,7 +321,7 @@ def test_on_a_phone_a_pane_takes_the_place_of_the_list_and_back_leads_to_it(
         setup.tell(DOWN)
         listed, detail = setup.screen.ids.listed, setup.screen.ids.detail
         assert (listed.parent, detail.parent) == (setup.screen, None)
-        setup.glass.tap(setup.screen.rows[MQTT])
+        setup.tap_in_list(setup.screen.rows[MQTT])
         setup.glass.stage.frames(3)
         assert (listed.parent, detail.parent) == (None, setup.screen)
         assert setup.screen.back_head.sentence == ""
