@@ -15,6 +15,7 @@ from kivy.properties import NumericProperty, ObjectProperty, OptionProperty, Str
 
 from app.layout.arrange import Body, Rect
 from app.replay.player import Player
+from app.replay.recording_index import Index
 from app.replay.recording_list import RecordingList
 from app.screens.parts.field_chooser import FieldChooser
 from app.screens.parts.placing import Area, put  # noqa: F401 - a rule names the area
@@ -260,8 +261,7 @@ class ReplayScreen(RobotScreen):
         self.line.marks = [(at, event.level) for at, event in index.events]
         if self._kept is not None:
             player.seek(self._kept[1])
-        robot = index.info.name if index.info is not None else tr("Unknown robot")
-        self.title = " · ".join(part for part in (robot, length_text(index.duration), index.problem) if part)
+        self.title = _title(index)
         self._lay()
 
     def _show_moment(self, player: Player) -> None:
@@ -358,3 +358,9 @@ class ReplayScreen(RobotScreen):
         put(widget, place)
         if wanted != (widget.parent is self):
             (self.add_widget if wanted else self.remove_widget)(widget)
+
+
+def _title(index: Index) -> str:
+    """Whose recording it is, how long, and what is wrong with it."""
+    robot = index.info.name if index.info is not None else tr("Unknown robot")
+    return " · ".join(part for part in (robot, length_text(index.duration), index.problem) if part)
