@@ -10,6 +10,7 @@ from app.layout.arrange import Rect
 from app.screens.shell.rail import Rail
 from tests.headless import Stage
 from widgets.core.theme import theme
+from widgets.parts.labels import FittedLabel
 
 FORMS = {"tall": Rect(0, 0, 412, 137), "short": Rect(0, 0, 68, 312), "wide": Rect(0, 0, 76, 744)}
 
@@ -92,7 +93,7 @@ def test_every_word_stays_off_the_edges_of_its_button(stage: Stage, form: str) -
     made = rail(stage, form, "")
     for button in made.buttons:
         if button.parent is made:
-            label = next(part for part in button.children if type(part) is Label)
+            label = next(part for part in button.children if isinstance(part, FittedLabel))
             assert label.texture_size[0] <= button.width - 4, button.text
 
 
