@@ -26,12 +26,15 @@ class FaultyServer(TileServer):
         self.asked: list[str] = []
         self.headers: list[dict[str, str]] = []
         self.extra: dict[str, str] = {}
+        self.begun = threading.Event()
+        """Somebody has asked for something."""
         self.may = threading.Event()
         """Set by the test: what hangs goes on."""
 
     def answer(self, asked: BaseHTTPRequestHandler) -> None:
         self.asked.append(asked.path)
         self.headers.append(dict(asked.headers))
+        self.begun.set()
         if self.fault:
             getattr(self, f"_{self.fault}")(asked)
         else:

@@ -13,6 +13,8 @@ from app.maps.tile_store import Stored
 from widgets.map.tiles.tile_reader import MAX_AHEAD
 
 A, B = (3, 1, 2), (3, 2, 2)
+PATIENCE = 60.0
+"""A fault, not a delay, uses this up [s]."""
 ADDRESS = TileAddress("https://a.org/{z}/{x}/{y}.png")
 
 
@@ -31,20 +33,26 @@ class Server:
         self.may = threading.Event()
         self.may.set()
         self.at_work = self.most_at_work = 0
-        self._lock = threading.Lock()
+        self._change = threading.Condition()
 
     def fetch(self, address, tile, kept=None):
-        self.asked.append((tile, kept))
-        with self._lock:
+        with self._change:
+            self.asked.append((tile, kept))
             self.at_work += 1
             self.most_at_work = max(self.most_at_work, self.at_work)
+            self._change.notify_all()
         self.may.wait()
-        with self._lock:
+        with self._change:
             self.at_work -= 1
         answer = self.answers.get(tile) or Tile(Stored(b"new", expires=2000.0), pixels(b"new"))
         if isinstance(answer, NoAnswer):
             raise answer
         return answer
+
+    def until_at_work(self, count):
+        """Wait until so many are asked for at once."""
+        with self._change:
+            assert self._change.wait_for(lambda: self.at_work >= count, PATIENCE)
 
 
 class Kept(dict):
@@ -167,12 +175,10 @@ def test_no_more_connections_than_are_polite(parts):
     tiles, server, _, _ = parts
     keys = [(5, column, 0) for column in range(12)]
     tiles.want(keys)
-    while tiles._reads:
-        pass
+    tiles.wait()
     server.may.clear()
     tiles.want(keys)
-    while server.at_work < MAX_CONNECTIONS:
-        pass
+    server.until_at_work(MAX_CONNECTIONS)
     tiles.want(keys)
     server.may.set()
     tiles.wait()
@@ -196,26 +202,25 @@ def test_tiles_that_go_out_of_sight_are_not_asked_for(parts):
     tiles.wait()
     server.may.clear()
     tiles.want(keys)
-    while server.at_work < MAX_CONNECTIONS:
-        pass
+    server.until_at_work(MAX_CONNECTIONS)
     tiles.want([])
     server.may.set()
     tiles.wait()
     assert len(server.asked) == MAX_CONNECTIONS
 
 
-def test_what_comes_after_the_end_is_not_handed_over(parts):
+def test_what_comes_after_the_end_is_not_handed_over(parts, monkeypatch):
     tiles, server, _, _ = parts
     tiles.want([A])
     tiles.wait()
     server.may.clear()
     tiles.want([A])
-    while not server.asked:
-        pass
+    server.until_at_work(1)
+    dropped, drop = threading.Event(), tiles._queue.want
+    monkeypatch.setattr(tiles._queue, "want", lambda keys: (drop(keys), dropped.set()))
     closing = threading.Thread(target=tiles.close)
     closing.start()
-    while not tiles._closed:
-        pass
+    assert dropped.wait(PATIENCE)
     server.may.set()
     closing.join()
     assert tiles.take() is None

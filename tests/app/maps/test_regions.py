@@ -20,16 +20,24 @@ class Server:
 
     def __init__(self) -> None:
         self.may = threading.Semaphore(10_000)
+        self.came = threading.Semaphore(0)
+        """Once for each tile that is asked for."""
         self.asked: list[tuple[int, int, int]] = []
         self.faults: list[NoAnswer] = []
         self.gaps: set[tuple[int, int, int]] = set()
 
     def fetch(self, address, tile, kept=None):
+        self.came.release()
         self.may.acquire()
         self.asked.append(tile)
         if self.faults:
             raise self.faults.pop()
         return Tile(Stored(None if tile in self.gaps else b"picture"), None)
+
+    def until_done(self, count):
+        """Wait until so many are here, and the next one is asked for."""
+        for _ in range(count + 1):
+            assert self.came.acquire(timeout=60)
 
 
 @pytest.fixture
@@ -91,8 +99,7 @@ def test_a_pause_keeps_what_is_here_and_a_restart_goes_on_from_there(regions, tm
     server = Server()
     server.may = threading.Semaphore(5)
     region = regions.begin(STREETS, "Harbour", PLAN, server)
-    while region.done < 5:
-        pass
+    server.until_done(5)
     region.pause()
     assert region.state == "paused"
     server.may.release()  # the tile at work
@@ -140,8 +147,7 @@ def test_deleting_takes_the_file_away_even_in_the_middle_of_a_download(regions):
     server = Server()
     server.may = threading.Semaphore(2)
     region = regions.begin(STREETS, "Harbour", PLAN, server)
-    while region.done < 2:
-        pass
+    server.until_done(2)
     regions.delete(region)
     server.may.release(10_000)
     region.wait()

@@ -125,8 +125,7 @@ def test_closing_ends_a_connection_that_waits_for_an_answer(town, server):
 
     thread = threading.Thread(target=ask)
     thread.start()
-    while not town.asked:
-        pass
+    assert town.begun.wait(60)
     server.close()
     thread.join()
     assert len(said) == 1
