@@ -51,21 +51,27 @@ def talk_row(height: float, dp: float = 1.0) -> float:
 
 
 def shell(
-    width: float, height: float, dp: float = 1.0, *, talks: bool = False, inside: Rect | None = None
+    width: float,
+    height: float,
+    dp: float = 1.0,
+    *,
+    talks: bool = False,
+    inside: Rect | None = None,
+    target: float = 0.0,
 ) -> dict[str, Rect]:
     """Of the frame round every screen of a robot: `bar` on top, `nav`, and the `body` between.
 
     `talks`: the navigation holds the button to talk as well, in an upright window in a row of its own. `inside` is what of
-    the window no edge of a phone takes; all of it where that is None.
+    the window no edge of a phone takes; all of it where that is None. Bar and navigation are no narrower than a `target` [px].
     """
     shape, room = form(width, height, dp), inside or Rect(0, 0, width, height)
-    bar = (48 if shape == "short" else 56) * dp
+    bar = max((48 if shape == "short" else 56) * dp, target)
     top = Rect(room.x, room.top - bar, room.width, bar)
     if shape == "tall":
-        high = 60 * dp + (talk_row(height, dp) if talks else 0)
+        high = max(60 * dp, target) + (talk_row(height, dp) if talks else 0)
         nav = Rect(room.x, room.y, room.width, high)
         return {"bar": top, "nav": nav, "body": Rect(room.x, nav.top, room.width, room.height - bar - high)}
-    rail = (68 if shape == "short" else 76) * dp
+    rail = max((68 if shape == "short" else 76) * dp, target + 12 * dp if target else 0)
     body = Rect(room.x + rail, room.y, room.width - rail, room.height - bar)
     return {"bar": top, "nav": Rect(room.x, room.y, rail, room.height - bar), "body": body}
 

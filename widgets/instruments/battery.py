@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Any, ClassVar
 
 from kivy.lang import Builder
-from kivy.metrics import dp
+from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
@@ -19,6 +19,7 @@ from kivy.uix.widget import Widget
 from bridge.msgs.sensor_msgs import BatteryState
 from widgets.core.base import RobotWidget, age_text
 from widgets.core.language import tr
+from widgets.core.theme import theme
 from widgets.parts.labels import Chip
 
 __all__ = ["Battery", "BatteryChip", "charge_role", "time_left_text"]
@@ -32,30 +33,34 @@ CHARGING = 1
 Builder.load_string("""
 <Battery>:
     orientation: 'vertical'
-    spacing: dp(4)
-    padding: dp(8)
+    spacing: dp(4) if root.drawn else 0
+    padding: dp(8) if root.drawn else 0
     Widget:
     BatteryCell:
         share: root.share
         role: root.role
         pos_hint: {'center_x': .5}
-    Label:
+        size: (dp(74), dp(38)) if root.drawn else (0, 0)
+        opacity: 1 if root.drawn else 0
+    FittedLabel:
         text: root.text
-        font_name: theme.font
-        font_size: theme.size_value
+        largest: min(theme.size_value, root.height / (1.25 if not root.worded else 2.2))
+        room: max(root.width - dp(4), 1)
+        lines: 1
         bold: True
         color: theme.roles['danger' if root.role == 'danger' else 'text']
         disabled_color: self.color
         size_hint_y: None
         height: self.texture_size[1]
-    Label:
+    FittedLabel:
         text: root.sentence
-        font_name: theme.font
-        font_size: sp(14)
+        largest: sp(14)
+        room: max(root.width - dp(4), 1)
+        lines: 1
         color: theme.muted
-        disabled_color: self.color
         size_hint_y: None
-        height: self.texture_size[1]
+        height: self.texture_size[1] if root.worded else 0
+        opacity: 1 if root.worded else 0
     Widget:
 
 <BatteryCell>:
@@ -157,7 +162,19 @@ class _Charge(RobotWidget):
 
 
 class Battery(_Charge, BoxLayout):
-    """The battery as a card of a dashboard."""
+    """The battery as a card of a dashboard; a low one leaves out the drawing, a lower one the words too."""
+
+    def _worded(self) -> bool:
+        return bool(self.height >= theme.size_value * 1.3 + sp(14) * 1.3)
+
+    worded = AliasProperty(_worded, bind=["height"], cache=True)
+    """It has room for words below the figure."""
+
+    def _drawn(self) -> bool:
+        return bool(self.height >= theme.size_value * 1.3 + sp(14) * 1.3 + dp(38 + 2 * 8 + 2 * 4))
+
+    drawn = AliasProperty(_drawn, bind=["height"], cache=True)
+    """It has room for the drawing, too."""
 
 
 class BatteryChip(_Charge, BoxLayout):

@@ -29,7 +29,7 @@ __all__ = ["Segmented", "Toggle"]
 Builder.load_string("""
 <Segmented>:
     size_hint_y: None
-    height: max(dp(46), theme.target * .86)
+    height: max(dp(46), theme.target if theme.gloves else 0)
     padding: theme.outline
 
 <Segment>:
@@ -55,7 +55,7 @@ Builder.load_string("""
 
 <Toggle>:
     size_hint: None, None
-    size: dp(54), theme.target
+    size: max(dp(54), theme.target), theme.target
     canvas:
         Rounded:
             rgba: theme.accent if self.active else theme.muted
@@ -161,7 +161,7 @@ class Toggle(ButtonBehavior, Widget):
         self.bind(active=self._move)
 
     def _track_pos(self) -> tuple[float, float]:
-        return self.center_x - self.width / 2, self.center_y - dp(31) / 2
+        return self.center_x - dp(54) / 2, self.center_y - dp(31) / 2
 
     track_pos = AliasProperty(_track_pos, bind=["pos", "size"])
 

@@ -22,6 +22,8 @@ from widgets.core.theme import theme
 __all__ = ["Chip", "FittedLabel", "Icon", "Remark", "SectionLabel", "Text", "ValueUnit", "spaced", "wrapped"]
 
 HAIR_SPACE = "\u200a"
+LINE = 1.28
+"""Height of a line of type, in times of its size."""
 
 Builder.load_string("""
 <Text>:
@@ -103,7 +105,7 @@ Builder.load_string("""
     Icon:
         name: root.icon or 'check'
         role: root.role
-        font_size: sp(19)
+        font_size: min(sp(19), root.height * .78)
         pos_hint: {'center_y': .5}
         width: self.font_size if root.icon else 0
         opacity: 1 if root.icon else 0
@@ -111,7 +113,7 @@ Builder.load_string("""
         id: words
         text: root.text
         font_name: theme.font
-        font_size: sp(15)
+        font_size: root.words_size
         color: theme.roles[root.role] if root.outlined or root.tinted else theme.text
         disabled_color: self.color
         size_hint: None, 1
@@ -257,10 +259,16 @@ class Chip(Pressable, BoxLayout):
     usual = StringProperty("")
     """The longest words it usually holds; it is never narrower than they are, so that its neighbours stand still."""
 
-    def _usual_width(self) -> float:
-        return float(text_texture(self.usual, sp(15), theme.font).width) if self.usual else 0.0
+    def _words_size(self) -> float:
+        return float(min(sp(15), self.height / LINE))
 
-    usual_width = AliasProperty(_usual_width, bind=["usual"], cache=True)
+    words_size = AliasProperty(_words_size, bind=["height"], cache=True)
+    """Of its type [px]: it is no higher than the pill."""
+
+    def _usual_width(self) -> float:
+        return float(text_texture(self.usual, self.words_size, theme.font).width) if self.usual else 0.0
+
+    usual_width = AliasProperty(_usual_width, bind=["usual", "words_size"], cache=True)
     """Of those words [px]."""
 
     def collide_point(self, x: float, y: float) -> bool:

@@ -82,7 +82,7 @@ Builder.load_string("""
 <DragHandle>:
     name: 'drag_handle'
     role: 'muted'
-    size: theme.target * .8, theme.target
+    size: theme.target * (1 if theme.gloves else .8), theme.target
     text_size: self.size
     halign: 'center'
     valign: 'middle'

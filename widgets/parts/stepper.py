@@ -31,7 +31,7 @@ REPEAT_AFTER, REPEAT_EVERY = 0.45, 0.12
 Builder.load_string("""
 <Stepper>:
     size_hint: None, None
-    height: max(dp(40), theme.target * .78)
+    height: max(dp(40), theme.target * (1 if theme.gloves else .78))
     width: self.height * 2 + max(figures.texture_size[0], dp(44))
     corner: self.height / 2
     StepperEnd:

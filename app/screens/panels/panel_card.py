@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from kivy.lang import Builder
-from kivy.metrics import dp, mm
+from kivy.metrics import dp, mm, sp
 from kivy.properties import BooleanProperty, ListProperty, NumericProperty, ObjectProperty, StringProperty
 from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
@@ -16,6 +16,7 @@ from kivy.uix.stencilview import StencilView
 from kivy.uix.widget import Widget
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
+from widgets.core.base import MIN_FONT_SIZE
 from widgets.core.canvas_ink import Ink
 from widgets.core.geometry import Points
 from widgets.core.shapes import Shapes
@@ -30,6 +31,10 @@ DASH, PERIOD = 4.5, 8.0
 """Of the border of a card that is edited [dp]."""
 MIN_BUTTON = 10.5
 """Width of a button beside a name [mm]."""
+FIGURE = 30
+"""Type of a figure that has room [sp]."""
+LINE = 1.25
+"""Height of a line of type, in times of its size."""
 TITLE_ROOM = 56
 """Least room for a name beside the buttons of its card [dp]."""
 
@@ -244,7 +249,9 @@ class PanelCard(Outlined, FloatLayout):
             self._clip.size_hint = (None, None)
             self._clip.pos, self._clip.size = place.pos, place.size
         if widget.size_hint_y is None and getattr(widget, "own_height", False):
-            figure = widget.ids.row.height
+            # what is above its own type is not there on a low card
+            widget.font_size = max(min(sp(FIGURE), place.height / LINE), sp(MIN_FONT_SIZE))
+            figure = widget.font_size * LINE
             widget.width = place.width
             widget.x, widget.y = place.x + dp(4), place.y + (place.height - figure) / 2
         else:

@@ -15,6 +15,7 @@ from app.screens.parts.screen_table import MORE, SCREENS, beyond, tabs
 from bridge.msgs.pilothouse_msgs import Event
 from widgets.core.language import mark, tr
 from widgets.core.surfaces import Edged
+from widgets.core.theme import theme
 from widgets.parts.kit import NavButton, PushButton
 
 __all__ = ["Rail"]
@@ -106,11 +107,12 @@ class Rail(Edged, FloatLayout):
     def _along(self, buttons: Sequence[Any], rect: Rect, dp: float) -> None:
         """Along the lower edge, the button to talk in a row above them."""
         step = rect.width / len(buttons)
+        bar = max(BAR_HEIGHT * dp, theme.target if theme.gloves else 0)
         for index, button in enumerate(buttons):
             button.framed, button.padding = False, (0, 10 * dp, 0, 9 * dp)
-            button.size = min(step, 96 * dp), BAR_HEIGHT * dp
+            button.size = min(step, 96 * dp), bar
             button.pos = rect.x + step * index + (step - button.width) / 2, rect.y
-        talk, low = self.ids.talk, rect.y + BAR_HEIGHT * dp
+        talk, low = self.ids.talk, rect.y + bar
         talk.flow = "horizontal"
         talk.size = min(rect.width - 24 * dp, 560 * dp), max(rect.top - low - 10 * dp, 44 * dp)
         talk.pos = rect.x + (rect.width - talk.width) / 2, low + 2 * dp
@@ -119,8 +121,9 @@ class Rail(Edged, FloatLayout):
         """Along the left edge from its upper end, the button to talk at the lower."""
         talk, gap = self.ids.talk, 8 * dp
         room = rect.height - 24 * dp - ((MIN_TALK_HEIGHT * dp + gap) if self.talks else 0)
-        step = min(72 * dp, room / len(buttons))
-        high = min(64 * dp, step)
+        least = theme.target if theme.gloves else 0
+        step = min(max(72 * dp, least), room / len(buttons))
+        high = min(max(64 * dp, least), step)
         for index, button in enumerate(buttons):
             # what is lower than its icon and its word need gives up its edges first
             edge = max(0.0, min(10 * dp, (high - 43 * dp) / 2))

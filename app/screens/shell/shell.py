@@ -229,6 +229,11 @@ class Shell(FloatLayout):
 
     # places
 
+    @property
+    def gloved(self) -> float:
+        """Least size of what a gloved finger hits in bar and navigation [px]; 0 without gloves, where they are as they are."""
+        return float(theme.target) if theme.gloves else 0.0
+
     def settle(self) -> None:
         """Put everything into its place anew: what is on the glass of a screen is another."""
         self._arrange()
@@ -237,7 +242,9 @@ class Shell(FloatLayout):
         dp = Metrics.density
         self.form = arrange.form(self.width, self.height, dp)
         inside = safe_area.within(self.width, self.height)
-        places = arrange.shell(self.width, self.height, dp, talks=self.nav.talks, inside=inside)
+        places = arrange.shell(
+            self.width, self.height, dp, talks=self.nav.talks, inside=inside, target=self.gloved
+        )
         put(self.bar, places["bar"])
         put(self.ids.body, places["body"])
         self.bar.arrange(self.form)

@@ -200,7 +200,7 @@ class StopCorner:
             shell.shares_stop = shared
             place = shell.stop_place
             size = self.layer.size
-            body = arrange.shell(*size, dp, talks=shell.nav.talks, inside=inside)["body"]
+            body = arrange.shell(*size, dp, talks=shell.nav.talks, inside=inside, target=shell.gloved)["body"]
         if place.other is not None:
             put(self.button, place.other)
         if self._list is not None:

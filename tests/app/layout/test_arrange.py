@@ -238,3 +238,13 @@ def test_stop_all_beside_stop_covers_nothing(size: tuple[int, int], name: str) -
     for key, place in made[name].items():
         if key not in {"stop", "video", "notice", "senses_open"}:
             assert not stop.other.overlaps(place), key
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_in_gloves_bar_and_navigation_are_as_wide_as_a_target(size: tuple[int, int]) -> None:
+    places = shell(*size, target=76.0)
+    assert places["bar"].height >= 76
+    assert min(places["nav"].width, places["nav"].height) >= 76
+    assert not places["bar"].overlaps(places["body"])
+    assert not places["nav"].overlaps(places["body"])
+    assert not places["nav"].overlaps(places["bar"])

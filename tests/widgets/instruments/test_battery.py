@@ -87,3 +87,20 @@ def test_an_old_charge_fades_in_the_bar_and_says_how_old_it_is_where_there_is_ro
     assert (inner.text, inner.role, inner.tinted) == (text, "muted", True)
     chip.state = "live"
     assert (inner.text[:2], inner.tinted) == ("87", False)
+
+
+@pytest.mark.parametrize("size", [(60, 34), (90, 52), (120, 76), (100, 140), (230, 150)])
+def test_a_battery_keeps_to_its_card_however_small_that_is(stage, size):
+    battery = stage.show(Battery(state="live", size_hint=(None, None)), size)
+    battery.show(BatteryState(percentage=0.87))
+    stage.frames(3)
+    shown = [part for part in battery.children if part.opacity and part.height and hasattr(part, "text")]
+    assert "87 %" in [part.text for part in shown]
+    for part in shown:
+        width, height = part.texture_size
+        assert part.y >= battery.y - 1.5
+        assert part.top <= battery.top + 1.5
+        assert width <= battery.width
+        assert height <= part.height + 1.5
+    cell = next(part for part in battery.children if not hasattr(part, "text") and hasattr(part, "filled"))
+    assert not cell.opacity or (cell.y >= battery.y and cell.top <= battery.top)

@@ -32,7 +32,7 @@ from widgets.parts.kit import (
     ValueUnit,
     spaced,
 )
-from widgets.parts.labels import wrapped
+from widgets.parts.labels import Icon, wrapped
 from widgets.parts.stepper import StepperEnd
 
 MOTIONS = [("loop", "Loop"), ("random", "Random")]
@@ -382,3 +382,24 @@ def test_a_filled_field_goes_on_saying_what_it_is_for(stage):
     assert field.drop > 0
     assert text_top <= label_low + 2
     assert field.padding[3] >= 4
+
+
+@pytest.mark.parametrize("height", [18, 22, 34])
+def test_the_words_of_a_chip_are_no_higher_than_it(stage, height):
+    chip = stage.show(Chip(text="42 %", icon="bolt", usual="288 ms", height=height))
+    stage.frames(3)
+    words, sign = chip.ids.words, next(part for part in chip.children if isinstance(part, Icon))
+    assert words.texture_size[1] <= height
+    assert sign.font_size <= height
+
+
+@pytest.mark.parametrize("kind", [Toggle, Segmented, Stepper])
+def test_in_gloves_a_choice_is_as_high_as_a_target(stage, kind):
+    theme.gloves = True
+    try:
+        made = stage.show(kind(options=["On", "Off"]) if kind is Segmented else kind())
+        stage.frames(2)
+        assert made.height >= theme.target
+        assert made.width >= theme.target
+    finally:
+        theme.gloves = False

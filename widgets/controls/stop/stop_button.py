@@ -17,7 +17,7 @@ from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.widget import Widget
 
 from widgets.controls.hold_progress import Hold
-from widgets.core.base import Control
+from widgets.core.base import Control, text_texture
 from widgets.core.language import mark, tr
 from widgets.core.surfaces import Outlined
 from widgets.parts.labels import spaced
@@ -188,9 +188,11 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
         width, height = self.size
         across = width / (5.2 if self.upright else 6.4) * (0.78 if self.phase == "stopped" else 1.0)
         low = bool(self.sentence) and height < dp(MIN_WORD_HEIGHT)
-        return max(min(across, height * (0.23 if self.upright else 0.27 if low else 0.36)), sp(MIN_FONT_SIZE))
+        size = max(min(across, height * (0.23 if self.upright else 0.27 if low else 0.36)), sp(MIN_FONT_SIZE))
+        wide = text_texture(self.word, size, bold=True).width + (0 if self.upright else size * 1.53)
+        return float(size * min(1.0, max(width - dp(12), 1) / wide))
 
-    word_size = AliasProperty(_word_size, bind=["size", "phase", "upright", "sentence"], cache=True)
+    word_size = AliasProperty(_word_size, bind=["size", "phase", "upright", "sentence", "word"], cache=True)
     """Height of the type [px]."""
 
     def _sentence_size(self) -> float:

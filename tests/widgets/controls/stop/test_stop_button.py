@@ -10,6 +10,7 @@ from widgets.controls.stop.stop_button import (
     RELEASE_DURATION,
     StopButton,
 )
+from widgets.core.language import PSEUDO, language
 
 
 @pytest.fixture
@@ -302,3 +303,17 @@ def test_a_finger_that_came_during_a_hold_may_finish_it(stage, stop):
     stage.run_for(0.6 * RELEASE_DURATION)
     assert (stop.holds, stop.heard) == (["hold"], ["release"])
     second.touch_up()
+
+
+@pytest.mark.parametrize("size", [(132, 84), (300, 80), (344, 68), (200, 150)])
+def test_its_word_keeps_to_it_in_a_language_of_longer_words(stage, size):
+    language.name = PSEUDO
+    try:
+        stop = stage.show(StopButton(phase="stopped"), size)
+        stage.frames(3)
+        label = next(part for part in stop.walk() if getattr(part, "text", "") == stop.word)
+        assert stop.word != "STOPPED"
+        assert label.x >= stop.x
+        assert label.right <= stop.right
+    finally:
+        language.name = "en"
