@@ -8,6 +8,7 @@ import pytest
 
 from app.layout import arrange
 from app.layout.arrange_dive import dive
+from app.layout.arrange_drive import drive
 from app.layout.rects import Body, Rect, StopPlace
 
 SIZES = [(412, 892), (892, 412), (1280, 800), (1920, 1200), (600, 960), (1024, 640)]
@@ -72,3 +73,10 @@ def test_what_is_said_covers_nothing_that_is_touched(size: tuple[int, int]) -> N
     for name in touched(found):
         assert "senses_open" not in found or not found["senses_open"].overlaps(found[name])
         assert not found["notice"].overlaps(found[name])
+
+
+def test_on_a_phones_side_stop_is_as_large_as_for_a_robot_that_drives() -> None:
+    body = Body(0, 0, 816, 360, crowded=True)
+    _, stop = dive(body, "short")
+    assert stop == drive(body, "short")["stop"]
+    assert stop.other is not None

@@ -180,7 +180,7 @@ def test_tiles_that_scroll_out_of_sight_before_their_turn_are_not_decoded(tmp_pa
     assert seen.texture is not None
 
 
-def test_closing_drops_what_waits_and_leaves_no_thread(tmp_path, stage):
+def test_closing_drops_what_waits_and_leaves_no_thread(tmp_path, stage, monkeypatch):
     before = threading.active_count()
     slow = Slow()
     tiles = {(5, x, 0): picture("red") for x in range(8)}
@@ -190,10 +190,12 @@ def test_closing_drops_what_waits_and_leaves_no_thread(tmp_path, stage):
     stage.frames(1)
     slow.begun.acquire()
     assert threading.active_count() == before + 1
+    thread, joining = source._reader._thread, threading.Event()
+    join = thread.join
+    monkeypatch.setattr(thread, "join", lambda timeout: (joining.set(), join(timeout)))
     closing = threading.Thread(target=source.close)
     closing.start()
-    while not source._reader._closed:
-        pass
+    assert joining.wait(60)
     slow.may.release()  # of the one at work; a second one would wait for ever
     closing.join()
     assert threading.active_count() == before
