@@ -30,6 +30,8 @@ MAX_TOPICS = 1000
 """Of one node, each way."""
 MAX_NAME = 200
 """Letters of a name; what is longer is no name of ROS."""
+MAX_LISTED = 6
+"""Nodes of a topic that are named; of more the rest is counted."""
 NODES, DETAILS = "/rosapi/nodes", "/rosapi/node_details"
 
 
@@ -124,6 +126,16 @@ class GraphWatch:
             return self._on_details(answer.request.node, answer)
         return False
 
+    def told(self, topic: str) -> str:
+        """Who publishes a topic and who subscribes to it, in one or two sentences; empty while that is not known."""
+        if self.graph is None:
+            return ""
+        said = (
+            (tr("Published by {nodes}."), self.graph.publishes.get(topic, ())),
+            (tr("Subscribed to by {nodes}."), self.graph.subscribes.get(topic, ())),
+        )
+        return " ".join(words.format(nodes=_listed(nodes)) for words, nodes in said)
+
     def _on_nodes(self, answer: Answer) -> bool:
         if not isinstance(answer.message, NodesResponse):
             self._end()
@@ -153,6 +165,8 @@ class GraphWatch:
         if self._asked:
             return False
         self._end()
+        if self._nodes and not self._told and self.graph is not None:
+            return False  # the link is bad: what was known is better than nothing
         found = RosGraph.of(self._nodes, self._told, self._unknown)
         changed = found != self.graph or bool(self.problem)
         self.graph, self.problem = found, ""
@@ -175,6 +189,14 @@ class GraphWatch:
             return ""
         told = trn("{count} node told nothing.", "{count} nodes told nothing.", self.graph.unknown)
         return told.format(count=self.graph.unknown)
+
+
+def _listed(nodes: Sequence[str]) -> str:
+    if not nodes:
+        return tr("nobody")
+    more = len(nodes) - MAX_LISTED
+    shown = ", ".join(nodes[:MAX_LISTED])
+    return shown if more <= 0 else tr("{names} and {count} more").format(names=shown, count=more)
 
 
 def _names(names: Sequence[str]) -> list[str]:

@@ -1,4 +1,4 @@
-"""Parts of the topics screen: a row of the list, the list with its search, and the topic that is open."""
+"""Parts of the topics screen: a row of the table, and the topic that is open."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.recycleview.views import RecycleDataViewBehavior
 
+import app.screens.topics.topic_figures  # noqa: F401 - its columns are drawn
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from widgets.parts.cards import Card
 
-__all__ = ["ICONS", "TopicDetail", "TopicList", "TopicRow"]
+__all__ = ["ICONS", "TopicDetail", "TopicRow"]
 
 ICONS = {
     "sensor_msgs/Imu": "explore",
@@ -34,6 +35,20 @@ ICONS = {
 
 Builder.load_string("""
 #:import wrapped widgets.parts.labels.wrapped
+#:import COLUMNS app.screens.topics.topic_figures.COLUMNS
+<Cell@Label>:
+    column: 'rate'
+    font_name: theme.font
+    font_size: sp(15)
+    color: theme.text
+    disabled_color: self.color
+    size_hint: None, 1
+    width: dp(COLUMNS[self.column])
+    text_size: self.size
+    shorten: True
+    halign: 'right'
+    valign: 'middle'
+
 <Beside@Label>:
     font_name: theme.font
     font_size: sp(13.5)
@@ -87,6 +102,9 @@ Builder.load_string("""
             Beside:
                 text: root.use
                 color: theme.accent
+            Beside:
+                text: root.ties
+                color: theme.muted
         BoxLayout:
             spacing: dp(8) if root.pace else 0
             Text:
@@ -100,51 +118,24 @@ Builder.load_string("""
             Beside:
                 text: root.pace
                 color: theme.muted
-
-<TopicList>:
-    orientation: 'vertical'
-    spacing: dp(8)
     BoxLayout:
-        size_hint_y: None
-        height: search.height
-        TextField:
-            id: search
-            hint_text: tr('Search names and types')
-            on_text: root.dispatch('on_search', self.text)
-        IconButton:
-            id: clear
-            icon: 'close'
-            role: 'muted'
-            bare: True
-            width: search.height if search.text else 0
-            opacity: 1 if search.text else 0
-            disabled: not search.text
-            on_release: search.text = ''
-    FloatLayout:
-        id: frame
-        RecycleView:
-            id: view
-            viewclass: 'TopicRow'
-            pos_hint: {'x': 0, 'y': 0}
-            size_hint_x: None
-            width: frame.width + dp(8)  # the bar beside the cards
-            bar_width: dp(3)
-            bar_color: theme.muted
-            bar_inactive_color: theme.line
-            scroll_type: ['bars', 'content']
-            RecycleBoxLayout:
-                orientation: 'vertical'
-                size_hint_y: None
-                height: self.minimum_height
-                padding: 0, 0, dp(8), 0
-                default_size: None, max(theme.target, dp(60)) + dp(8)
-                default_size_hint: 1, None
-        Text:
-            text: root.sentence
-            role: 'muted'
-            font_size: sp(15)
-            pos_hint: {'x': 0, 'top': 1}
-            padding: dp(6), dp(10)
+        size_hint: None, 1
+        width: dp(sum(COLUMNS.values())) if root.wide else 0
+        opacity: 1 if root.wide else 0
+        Cell:
+            text: root.rate
+        Cell:
+            column: 'age'
+            text: root.age
+        Cell:
+            column: 'bandwidth'
+            text: root.bandwidth
+        Cell:
+            column: 'publishers'
+            text: root.publishers
+        Cell:
+            column: 'subscribers'
+            text: root.subscribers
 
 <TopicDetail>:
     padding: dp(12), dp(10), dp(6), dp(10)
@@ -176,6 +167,14 @@ Builder.load_string("""
                 text: wrapped(root.type, self.width, self.font_size)
                 role: 'muted'
                 font_size: sp(14)
+        IconButton:
+            id: add
+            icon: 'dashboard'
+            role: 'accent'
+            scan_words: tr('Add to panel')
+            pos_hint: {'center_y': .5}
+            disabled: not root.name
+            on_release: root.dispatch('on_add')
         Chip:
             id: pace
             icon: root.pace_icon
@@ -184,6 +183,13 @@ Builder.load_string("""
             usual: '00.0 Hz'
             pos_hint: {'center_y': .5}
             opacity: 1 if root.pace else 0
+    Text:
+        id: nodes
+        text: root.nodes
+        role: 'muted'
+        font_size: sp(14)
+        padding: dp(8), 0
+        height: self.texture_size[1] if root.nodes else 0
     BoxLayout:
         size_hint_y: None
         height: note.height if root.notice else 0
@@ -203,19 +209,6 @@ Builder.load_string("""
             pos_hint: {'center_y': .5}
     FloatLayout:
         id: ground
-        Icon:
-            name: 'data_object'
-            role: 'muted'
-            font_size: sp(34)
-            center: ground.center_x, ground.center_y + dp(24)
-            opacity: 0 if root.name or root.idle else 1
-        Text:
-            text: tr('Choose a topic to see its fields.')
-            role: 'muted'
-            halign: 'center'
-            pos_hint: {'center_x': .5}
-            center_y: ground.center_y - dp(18)
-            opacity: 0 if root.name or root.idle else 1
 """)
 
 
@@ -228,7 +221,13 @@ class TopicRow(RecycleDataViewBehavior, ButtonBehavior, BoxLayout):
     use = StringProperty("")
     """What a screen shows it as."""
     pace = StringProperty("")
-    """How often it comes, or how old it is."""
+    """How often it comes and how much that is, or how old it is; empty in a wide table."""
+    ties = StringProperty("")
+    """How many publish it and how many subscribe to it; empty in a wide table."""
+    rate, age, bandwidth = StringProperty(""), StringProperty(""), StringProperty("")
+    publishers, subscribers = StringProperty(""), StringProperty("")
+    wide = BooleanProperty(False)
+    """There is room for a column of each figure."""
     listened = BooleanProperty(False)
     """Messages come from it now."""
     chosen = BooleanProperty(False)
@@ -247,24 +246,15 @@ class TopicRow(RecycleDataViewBehavior, ButtonBehavior, BoxLayout):
             self.choose(self.name)
 
 
-class TopicList(BoxLayout):
-    """The search and what it leaves."""
-
-    __events__ = ("on_search",)
-
-    sentence = StringProperty("")
-
-    def on_search(self, text: str) -> None:
-        """Something else is looked for."""
-
-
 class TopicDetail(Card):
     """One topic, live."""
 
-    __events__ = ("on_close",)
+    __events__ = ("on_close", "on_add")
 
     name = StringProperty("")
     type = StringProperty("")
+    nodes = StringProperty("")
+    """Who publishes it and who subscribes to it; empty while that is not known."""
     notice = StringProperty("")
     wrong = BooleanProperty(False)
     """The notice is about something that failed."""
@@ -273,8 +263,9 @@ class TopicDetail(Card):
     pace_role = StringProperty("muted")
     alone = BooleanProperty(False)
     """The list is not beside it."""
-    idle = BooleanProperty(False)
-    """There is no topic to choose."""
 
     def on_close(self) -> None:
         """The finger wants back to the list."""
+
+    def on_add(self) -> None:
+        """It shall be put on a panel."""

@@ -15,11 +15,17 @@ from app.link.camera_decoder import Picture
 from app.link.feeds import Post
 from app.screens.parts.placing import above, put
 from app.screens.parts.robot_screen import RobotScreen
+from app.screens.shell.screen_host import ScreenHost
+from app.screens.topics.graph_pane import GraphPane
 from app.screens.topics.live_picture import LivePicture
 from app.screens.topics.live_plots import LivePlots
-from app.screens.topics.topic_parts import ICONS, TopicDetail, TopicList
+from app.screens.topics.panel_adding import AddDialog
+from app.screens.topics.ros_graph import GraphWatch
+from app.screens.topics.topic_figures import Flows, entries
+from app.screens.topics.topic_parts import TopicDetail
+from app.screens.topics.topic_table import GRAPH, TopicList, row_of
 from app.session.session import Session
-from app.session.topic_list import Line, TopicListing
+from app.session.topic_list import TopicListing
 from bridge.msgs.sensor_msgs import CompressedImage
 from widgets import FieldView
 from widgets.core.base import age_text
@@ -49,14 +55,16 @@ Builder.load_string("""
 class TopicsScreen(RobotScreen):
     """Look at anything that the robot tells."""
 
-    app: ObjectProperty[object] = ObjectProperty()
+    app: ObjectProperty[ScreenHost] = ObjectProperty()
     session: ObjectProperty[Session] = ObjectProperty()
     summary = StringProperty("")
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.topics = TopicListing(self.session)
+        self.flows, self.graph = Flows(self.session), GraphWatch(self.session)
         self.list, self.detail = TopicList(), TopicDetail()
+        self.graph_pane = GraphPane(self.graph)
         self.view = FieldView(
             aged=False, veil_radius=1, size_hint_max_x=LEGIBLE * Metrics.density, picks=True
         )
@@ -64,8 +72,10 @@ class TopicsScreen(RobotScreen):
         self.view.pos_hint = {"x": 0, "y": 0}
         self.view.bind(on_pick=lambda _, path, unit: self.plot(path, unit))
         self.plots, self.picture_view = LivePlots(self.session), LivePicture()
-        self.list.bind(on_search=self._search)
-        self.detail.bind(on_close=lambda _: self.close())
+        self.list.bind(on_search=self._search, on_order=self._reorder, form=self._show_form)
+        self.list.bind(wide=lambda *_: self._show_list())
+        self.graph_pane.bind(on_open=lambda _, topic: self.open(topic))
+        self.detail.bind(on_close=lambda _: self.close(), on_add=lambda _: self.add_to_panel())
         self.ids.update({"list": self.list, "detail": self.detail, "search": self.list.ids.search})
         self._places: dict[str, Rect] = {}
         self._cover: Rect | None = None
@@ -87,22 +97,26 @@ class TopicsScreen(RobotScreen):
         self._lay()
 
     def _lay(self) -> None:
-        """On a phone the open topic takes the list's place."""
-        tall = self._form == "tall"
+        """On a phone the open topic takes the list's place; elsewhere the list has all room until a topic is open."""
+        tall, opened = self._form == "tall", bool(self.topics.opened)
         self.detail.alone = tall
-        shown = {
-            self.list: not (tall and self.topics.opened),
-            self.detail: not tall or bool(self.topics.opened),
-        }
+        shown = {self.list: not (tall and opened), self.detail: opened}
         for widget, wanted in shown.items():
             if wanted and widget.parent is None:
                 self.add_widget(widget)
             elif not wanted and widget.parent is not None:
                 self.remove_widget(widget)
         self._lay_detail()
-        for widget, place in ((self.list, "list"), (self.detail, "detail")):
-            put(widget, above(self._places[place], self._cover, Metrics.density))
-        put(self.ids.strip, self._places["strip"])
+        listed, detail = self._places["list"], self._places["detail"]
+        strip, stop = self._places["strip"], self._places["stop"]
+        if not opened and self._form == "short":  # to the lower edge: its height is what it lacks
+            listed = Rect(listed.x, listed.y, stop.left - 12 * Metrics.density - listed.x, listed.height)
+            strip = Rect(stop.left, detail.y, stop.right - stop.left, detail.height)
+        elif not opened and not tall:
+            listed = Rect(listed.x, detail.y, detail.right - listed.x, detail.height)
+        for widget, place in ((self.list, listed), (self.detail, detail)):
+            put(widget, above(place, self._cover, Metrics.density))
+        put(self.ids.strip, strip)
 
     def _lay_detail(self) -> None:
         """Above the fields a picture, where the topic is one; below them what is drawn."""
@@ -112,7 +126,7 @@ class TopicsScreen(RobotScreen):
         for widget, wanted, index in shown:
             widget.size_hint_y, widget.height = None, PART * room
             if wanted and widget.parent is None:
-                at = len(self.detail.children) - 2 if index is None else index
+                at = len(self.detail.children) - 3 if index is None else index
                 self.detail.add_widget(widget, index=max(at, 0))
             elif not wanted and widget.parent is not None:
                 self.detail.remove_widget(widget)
@@ -129,15 +143,21 @@ class TopicsScreen(RobotScreen):
     def on_post(self, channel: str, post: Post) -> None:
         """A message came."""
         self.plots.on_post(channel, post)
+        if self.graph.on_post(channel, post):
+            self.graph_pane.show()
+            self._show_state()
         if self.topics.on_post(channel, post):
             self._show_message()
 
     def enter(self) -> None:
         """Come onto the glass."""
+        self.graph.look(True)
         self.tick()
 
     def leave(self) -> None:
         """Leave the glass: nothing is listened to for it any more."""
+        self.graph.look(False)
+        self.graph_pane.view.let_go()
         self.plots.close()
         self.list.ids.search.focus = False
         self.close()
@@ -155,6 +175,8 @@ class TopicsScreen(RobotScreen):
     def tick(self) -> None:
         """Bring up to date what time changes."""
         self.topics.tick()
+        self.flows.tick()
+        self.graph.tick()
         self.plots.tick()
         self.picture_view.tick(self.topics.state, self.topics.age)
         self.view.now = self.session.link.robot_time()
@@ -169,28 +191,40 @@ class TopicsScreen(RobotScreen):
     # what is shown
 
     def _show_list(self) -> None:
-        rows = [self._row(line) for line in self.topics.lines()]
+        order, descending = self.list.sorting
+        found = entries(
+            self.topics.lines(), self.flows.of, self.graph.graph, order, descending=bool(descending)
+        )
+        opened, wide = self.topics.opened, self.list.wide
+        rows = [
+            row_of(one, wide=wide) | {"chosen": one.line.name == opened, "choose": self.open} for one in found
+        ]
         if rows != self._rows:
             self._rows = rows
-            self.list.ids.view.data = rows
-        self.list.sentence = self.topics.sentence
-        hint = tr("Tap a number to plot it.") if self.topics.opened else ""
+            self.list.table.data = rows
+        graph = self.list.form == GRAPH
+        self.list.sentence = "" if graph else self.topics.sentence
+        self.graph_pane.say()
+        hint = tr("Tap a number to plot it.") if opened else ""
+        if not opened and not graph:
+            hint = tr("Rate, age and bandwidth only of what is listened to.")
         self.summary = " · ".join(part for part in (self.topics.summary, hint) if part)
-        self.detail.idle = bool(self.topics.sentence)
 
-    def _row(self, line: Line) -> dict[str, Any]:
-        live = line.state == "live"
-        pace = f"{line.rate:.1f} Hz" if live and math.isfinite(line.rate) and line.rate >= 0.05 else ""
-        return {
-            "name": line.name,
-            "type": line.type,
-            "icon": ICONS.get(line.type, "data_object"),
-            "use": line.use,
-            "pace": age_text(line.age) if line.state == "stale" else pace,
-            "listened": live,
-            "chosen": line.name == self.topics.opened,
-            "choose": self.open,
-        }
+    def _reorder(self, *_: object) -> None:
+        self._show_list()
+        self.list.table.scroll_y = 1
+
+    def _show_form(self, *_: object) -> None:
+        """Table or graph."""
+        pane, graph = self.graph_pane, self.list.form == GRAPH
+        if graph and pane.parent is None:
+            self.list.ids.frame.add_widget(pane)
+            pane.show()
+            pane.look_at(self.topics.opened)
+        elif not graph and pane.parent is not None:
+            pane.view.let_go()
+            self.list.ids.frame.remove_widget(pane)
+        self._show_list()
 
     def _show_message(self) -> None:
         self.view.now = self.session.link.robot_time()
@@ -206,6 +240,7 @@ class TopicsScreen(RobotScreen):
     def _show_state(self) -> None:
         topics, detail, view = self.topics, self.detail, self.view
         detail.name, detail.type = topics.opened, topics.type
+        detail.nodes = self.graph.told(topics.opened) if topics.opened else ""
         detail.notice, detail.wrong = topics.notice, bool(topics.problem)
         state, age = topics.state, topics.age
         if state == "stale" and not abs(age - view.age) < 0.5:
@@ -223,9 +258,9 @@ class TopicsScreen(RobotScreen):
     # what the fingers do
 
     def _search(self, _: object, text: str) -> None:
-        self.topics.search = text
+        self.topics.search = self.graph_pane.view.search = text
         self._show_list()
-        self.list.ids.view.scroll_y = 1
+        self.list.table.scroll_y = 1
 
     def open(self, name: str) -> None:
         """Show a topic of the list live; nothing when the robot has just taken it away."""
@@ -238,6 +273,12 @@ class TopicsScreen(RobotScreen):
         self._show_state()
         self._show_list()
         self._lay()
+
+    def add_to_panel(self) -> None:
+        """Ask on which view the open topic shall be, and as what."""
+        shell = self.app.shell
+        if self.topics.opened and shell is not None and shell.parent is not None:
+            shell.parent.add_widget(AddDialog(self.app, self.topics.opened, self.topics.type))
 
     def close(self) -> None:
         """Back to the list."""

@@ -162,3 +162,23 @@ def test_an_answer_that_nobody_waits_for_and_a_name_that_is_none_are_passed_over
     assert robot.watch.graph is not None
     assert robot.watch.graph.nodes == ("/laser",)
     assert list(robot.watch.graph.publishes) == ["/scan"]
+
+
+def test_a_round_in_which_no_node_answered_leaves_what_was_known(robot: Robot) -> None:
+    robot.tell({"/laser": (["/scan"], [])})
+    known = robot.watch.graph
+    robot.time += REFRESH_PERIOD
+    robot.watch.tick()
+    robot.answer(NodesResponse(["/laser", "/slam"]))
+    assert not robot.answer(None, "No reply.")
+    assert not robot.answer(None, "No reply.")
+    assert robot.watch.graph is known
+    assert robot.watch.told("/scan") == "Published by /laser. Subscribed to by nobody."
+
+
+def test_many_nodes_of_a_topic_are_counted(robot: Robot) -> None:
+    robot.tell({f"/n{number}": (["/tf"], []) for number in range(9)})
+    assert (
+        robot.watch.told("/tf")
+        == "Published by /n0, /n1, /n2, /n3, /n4, /n5 and 3 more. Subscribed to by nobody."
+    )
