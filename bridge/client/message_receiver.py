@@ -48,7 +48,7 @@ class Flow(NamedTuple):
 
     size: int = 0
     """Of its operations as they are read: texts and binary frames after decompression [bytes]."""
-    count: int = 0
+    messages: int = 0
     """Messages."""
     received: float = math.nan
     """When the newest came [s], the client's clock."""
@@ -67,7 +67,7 @@ class Traffic:
             if len(self._flows) >= _MAX_MEASURED:
                 return
             before = Flow()
-        self._flows[topic] = Flow(before.size + size, before.count + 1, received)
+        self._flows[topic] = Flow(before.size + size, before.messages + 1, received)
 
     def read(self) -> dict[str, Flow]:
         """All topics as they are now."""

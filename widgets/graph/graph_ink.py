@@ -72,7 +72,14 @@ def drawn(
         if TYPE * scale >= MIN_TYPE:
             ink = tint(theme.text, max(strength, 0.35) if strength < 1 else 1.0)
             words.append(
-                Word(label_of(box), *map(float, middle), sp(TYPE) * scale, ink, bold=box.kind == NODE)
+                Word(
+                    label_of(box),
+                    float(middle[0]),
+                    float(middle[1]),
+                    sp(TYPE) * scale,
+                    ink,
+                    bold=box.kind == NODE,
+                )
             )
     return shapes, words
 

@@ -69,9 +69,9 @@ class Flows:
             return math.nan, math.nan
         (since, first), (until, last) = self._samples[0], self._samples[-1]
         now, before = last.get(topic), first.get(topic, Flow())
-        if now is None or now.count == before.count or until - since < 2 * SAMPLE_PERIOD:
+        if now is None or now.messages == before.messages or until - since < 2 * SAMPLE_PERIOD:
             return math.nan, math.nan
-        return (now.count - before.count) / (until - since), (now.size - before.size) / (until - since)
+        return (now.messages - before.messages) / (until - since), (now.size - before.size) / (until - since)
 
 
 def entries(

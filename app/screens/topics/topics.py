@@ -108,10 +108,11 @@ class TopicsScreen(RobotScreen):
                 self.remove_widget(widget)
         self._lay_detail()
         listed, detail = self._places["list"], self._places["detail"]
-        strip, stop = self._places["strip"], self._places["stop"]
+        strip = self._places["strip"]
         if not opened and self._form == "short":  # to the lower edge: its height is what it lacks
-            listed = Rect(listed.x, listed.y, stop.left - 12 * Metrics.density - listed.x, listed.height)
-            strip = Rect(stop.left, detail.y, stop.right - stop.left, detail.height)
+            listed = Rect(listed.x, listed.y, strip.right - listed.x, listed.height)
+            left = strip.right + 12 * Metrics.density
+            strip = Rect(left, detail.y, detail.right - left, detail.height)
         elif not opened and not tall:
             listed = Rect(listed.x, detail.y, detail.right - listed.x, detail.height)
         for widget, place in ((self.list, listed), (self.detail, detail)):

@@ -67,7 +67,7 @@ async def test_what_comes_of_each_topic_is_counted_with_its_size():
         robot.publish("/odom", Odometry(child_frame_id="x" * 1000))
         await heard.reach(2)
         second = client.traffic.read()["/odom"]
-    assert (first.count, second.count, second.received) == (1, 2, 5.0)
+    assert (first.messages, second.messages, second.received) == (1, 2, 5.0)
     assert second.size - 2 * first.size == pytest.approx(1000 - len("base_link"))
 
 
