@@ -31,6 +31,7 @@ SAYS = {"say", "_say"}
 FIGURES = {
     "widgets/instruments/commanded_motion.py": "its texts are figures, and the dash stands for none",
     "widgets/core/quantities.py": "its texts are figures, and the dash stands for none",
+    "widgets/parts/labels.py": "its text is any that is fitted into its room, and only its width counts",
     "app/screens/parts/field_chooser.py": "its text is what somebody types to search by",
 }
 """Files with a field of such a name that holds no sentence, and why."""

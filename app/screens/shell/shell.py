@@ -308,15 +308,7 @@ class Shell(FloatLayout):
         self.bar.tick(self.session)
         self.bar.show_methods(self.app.methods.standing(), self.app.methods.idle())
         self._dashboard.tick()
-        # a phone on its side has room for one card: the one that counts down goes first
-        short = self.form == "short"
-        self._question.tick(tight=short, gives_way=short and self.cards.handover.parent is not None)
-        self.wishes.tight = self.form == "short" and self.wishes.card.parent is not None
-        self.cards.alone = self.form != "wide"
-        others = self.question, self.reset.card
-        self.cards.yields = self.wishes.tight or (
-            self.cards.alone and any(card.parent is not None for card in others)
-        )
+        _share_room(self.form, self._question, self.wishes, self.cards, self.reset)
         self.cards.tick(self.screen)
         self.reset.tick()
         self._stop.show()
@@ -356,3 +348,16 @@ class Shell(FloatLayout):
         for screen in self.screens.made.values():
             screen.rest()
         self.stop.rest()
+
+
+def _share_room(
+    form: str, question: TaskQuestion, wishes: IntentPrompts, cards: ControlCards, reset: ResetPrompt
+) -> None:
+    """Bring the robot's question up to date, and let cards give way to each other where there is little room."""
+    # a phone on its side has room for one card: the one that counts down goes first
+    short = form == "short"
+    question.tick(tight=short, gives_way=short and cards.handover.parent is not None)
+    wishes.tight = short and wishes.card.parent is not None
+    cards.alone = form != "wide"
+    others = question.card, reset.card
+    cards.yields = wishes.tight or (cards.alone and any(card.parent is not None for card in others))
