@@ -17,8 +17,6 @@ __all__ = ["Refusals", "summary"]
 
 RADIUS = 0.2
 """Of a robot that does not tell its own [m]."""
-CAR_SHARE = 0.36
-"""Of the radius of a robot that steers like a car: so wide is its body, which points along its way."""
 
 
 class Refusals:
@@ -44,7 +42,7 @@ class Refusals:
         """The robot's map; None where it told none that places can be judged by."""
         grid: OccupancyGrid | None = self._feeds.latest("/map")
         info: RobotInfo | None = self._feeds.latest("/robot/info")
-        radius = 0.0 if info is None else info.radius * (CAR_SHARE if info.kind == "ackermann" else 1.0)
+        radius = 0.0 if info is None else _room(info)
         if self._judged_by[0] is not grid or self._judged_by[1] != radius:
             self._judged_by, self._ground = (grid, radius), Ground.of(grid, radius)
         return self._ground
@@ -112,3 +110,10 @@ def summary(said: Iterable[str]) -> str:
     return f"{sentences[0]} " + trn(
         "{count} more would be refused too.", "{count} more would be refused too.", more
     ).format(count=more)
+
+
+def _room(info: RobotInfo) -> float:
+    """How far from a wall the middle of the body fits [m]: half its width where it cannot turn on the spot, and so comes lengthways."""
+    if info.footprint and info.min_radius > 0:
+        return max(abs(corner.y) for corner in info.footprint)
+    return info.radius

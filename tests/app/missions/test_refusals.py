@@ -132,6 +132,9 @@ def test_what_steers_like_a_car_is_judged_by_its_width():
     refusals = Refusals(feeds)
     feeds.put("/map", Post(WALLED, 0.0, 1))
     draft = Draft(points=((2.5, 5.0),))
-    for kind, sentences in (("ackermann", 0), ("wheels", 1)):
-        feeds.put("/robot/info", Post(RobotInfo(kind=kind, radius=1.6), 0.0, 1))
+    outline = [Point32(x, y) for x, y in ((-1.4, -0.55), (1.4, -0.55), (1.4, 0.55), (-1.4, 0.55))]
+    for min_radius, sentences in ((4.0, 0), (0.0, 1)):
+        feeds.put(
+            "/robot/info", Post(RobotInfo(radius=1.6, footprint=outline, min_radius=min_radius), 0.0, 1)
+        )
         assert len(refusals.draft(draft)) == sentences
