@@ -82,10 +82,11 @@ class AddDialog(Question):
         self.choose(self.view)
         self.ways: dict[str, QuietButton] = {}
         for offer in offers_for(topic, kind):
-            button = QuietButton(text=offer_name(offer), icon="add")
+            name = offer_name(offer)
+            button = QuietButton(text=name, icon="add")
             button.bind(on_release=lambda _, offer=offer: self.add(offer))
             self.ids.ways.add_widget(button)
-            self.ways[button.text] = button
+            self.ways[name] = button
 
     def choose(self, view: int | None) -> None:
         """Take a view by its number; None for a new one."""
