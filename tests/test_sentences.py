@@ -29,7 +29,6 @@ LOOKS = {
 PATTERNS = {"match", "fullmatch", "search", "findall", "finditer", "sub"}
 SAYS = {"say", "_say"}
 FIGURES = {
-    "widgets/parts/labels.py": "it lays a text out in lines, whatever it says",
     "widgets/instruments/commanded_motion.py": "its texts are figures, and the dash stands for none",
     "widgets/core/quantities.py": "its texts are figures, and the dash stands for none",
     "widgets/parts/labels.py": "its text is any that is fitted into its room, and only its width counts",
