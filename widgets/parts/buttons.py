@@ -15,7 +15,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.parts.labels  # noqa: F401 - its rules draw the icons
-from widgets.core.base import text_texture
+from widgets.core.base import MIN_FONT_SIZE, text_texture
 from widgets.core.finger_stay import FingerStay
 from widgets.core.surfaces import Pressable
 from widgets.core.theme import theme
@@ -38,13 +38,13 @@ Builder.load_string("""
         orientation: root.flow
         size_hint: None, None
         size: self.minimum_size
-        spacing: (dp(8) if root.flow == 'horizontal' else dp(2)) if root.icon and root.text else 0
+        spacing: (dp(8) if root.flow == 'horizontal' else dp(2)) if root.signed and root.text else 0
         Icon:
             id: sign
             name: root.icon or 'check'
             role: 'faint' if root.disabled else root.ink_icon or root.ink
-            size: (self.font_size, self.font_size) if root.icon else (0, 0)
-            opacity: 1 if root.icon else 0
+            size: (self.font_size, self.font_size) if root.signed else (0, 0)
+            opacity: 1 if root.signed else 0
             pos_hint: {'center_x': .5, 'center_y': .5}
         FittedLabel:
             id: words
@@ -164,11 +164,20 @@ class PushButton(Pressable, AnchorLayout):
             (self._settling.waiting and self.collide_point(*touch.pos)) or super().on_touch_down(touch)
         )
 
+    def _signed(self) -> bool:
+        if not self.icon or not self.text or self.flow == "vertical":
+            return bool(self.icon)
+        room = self.width - self.padding[0] - self.padding[2] - theme.size_icon - dp(8)
+        return bool(text_texture(self.text, sp(MIN_FONT_SIZE), bold=True).width <= room)
+
+    signed = AliasProperty(_signed, bind=["icon", "text", "flow", "width", "padding"], cache=True)
+    """Its icon is drawn: it gives way where the words have no room beside it even when they are small."""
+
     def _words_room(self) -> float:
-        beside = self.icon and self.flow == "horizontal"
+        beside = self.signed and self.flow == "horizontal"
         return self.width - self.padding[0] - self.padding[2] - (theme.size_icon + dp(8) if beside else 0)
 
-    words_room = AliasProperty(_words_room, bind=["icon", "flow", "width", "padding"], cache=True)
+    words_room = AliasProperty(_words_room, bind=["signed", "flow", "width", "padding"], cache=True)
     """How wide the words may be [px]."""
 
     @property

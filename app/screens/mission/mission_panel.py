@@ -62,7 +62,7 @@ Builder.load_string("""
         border: 'plan' if root.calls else 'line'
         ink: 'ink_plan' if root.calls else 'text'
         icon: 'upload'
-        text: tr(root.words)
+        text: root.words or tr('Send points')
         disabled: not root.may_send
     BoxLayout:
         size_hint_y: None
@@ -134,7 +134,8 @@ Builder.load_string("""
 class SendRow(Column):
     """The button that sends the draft, and under it what became of it."""
 
-    words = StringProperty(mark("Send points"))
+    words = StringProperty("")
+    """On the button; empty for the usual ones."""
     note = StringProperty("")
     role = StringProperty("muted")
     icon = StringProperty("info")

@@ -50,6 +50,7 @@ Builder.load_string("""
         role: 'muted'
         bare: True
         width: dp(46) if root.form != 'tall' else dp(34)
+        height: min(theme.target, root.height)
         pos_hint: {'center_y': .5}
         on_release: root.dispatch('on_back')
     Text:
@@ -136,6 +137,7 @@ Builder.load_string("""
         role: 'muted'
         bare: True
         width: dp(40)
+        height: min(theme.target, root.height)
         pos_hint: {'center_y': .5}
         scan_words: 'More'
         on_release: root.dispatch('on_more')

@@ -403,3 +403,14 @@ def test_in_gloves_a_choice_is_as_high_as_a_target(stage, kind):
         assert made.width >= theme.target
     finally:
         theme.gloves = False
+
+
+@pytest.mark.parametrize(("width", "drawn"), [(200, 1), (84, 0)])
+def test_an_icon_gives_way_to_words_that_have_no_room_beside_it(stage, width, drawn):
+    button = stage.show(QuietButton(text="Continuer", icon="home"), size=(width, 64))
+    stage.frames(3)
+    sign, words = button.ids.sign, button.ids.words
+    assert (sign.opacity, sign.width > 0) == (drawn, bool(drawn))
+    assert not words.shorten
+    assert words.x >= button.x
+    assert words.right <= button.right
