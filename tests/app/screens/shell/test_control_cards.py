@@ -317,7 +317,7 @@ def test_what_would_be_seen_only_in_part_behind_the_cards_gives_way_and_comes_ba
 
 
 def tasks_places(glass: Glass) -> float:
-    return float(glass.app.screens["tasks"]._places["detail"].y)
+    return float(glass.app.screens["tasks"].layout._places["detail"].y)
 
 
 def test_a_stick_that_is_pushed_without_control_says_why_and_offers_to_ask(
