@@ -155,11 +155,15 @@ def ground(shapes: Shapes, word: Word, colour: Sequence[float]) -> None:
 
 
 class Words:
-    """A set of texts that is rewritten as a whole; instructions are made once and used again."""
+    """A set of texts that is rewritten as a whole; instructions are made once, and told only what is new."""
 
     def __init__(self) -> None:
         self.canvas = InstructionGroup()
         self._slots: list[tuple[Color, Rectangle]] = []
+        self._tones: list[tuple[float, ...]] = []
+        self._places: list[tuple[int, int]] = []
+        self._anchors: list[tuple[float, float]] = []
+        """Of each slot its colour, where its rectangle is, and from there to where its word is [px]."""
         self._shown = 0
         self.texts: list[str] = []
         """What is written now."""
@@ -174,22 +178,41 @@ class Words:
             rectangle.size = 0, 0
         self._shown = count
 
+    def move(self, points: Sequence[Sequence[float]]) -> None:
+        """Move the texts that are written, in their order, to these points [px]; nothing else of them changes."""
+        for index, (x, y) in enumerate(points[: self._shown]):
+            aside, above = self._anchors[index]
+            self._place(index, round(x - aside), round(y - above))
+
     def _put(self, index: int, word: Word, strength: float) -> None:
         if index == len(self._slots):
-            self._slots.append((Color(), Rectangle(size=(0, 0))))
-            for instruction in self._slots[index]:
-                self.canvas.add(instruction)
+            self._add()
         colour, rectangle = self._slots[index]
         texture = text_texture(word.text, round(word.size, 1), word.font, bold=word.bold)
         red, green, blue, alpha = word.colour
-        colour.rgba = red, green, blue, alpha * strength
+        tone = red, green, blue, alpha * strength
+        if tone != self._tones[index]:
+            colour.rgba = self._tones[index] = tone
+        width, height = size = texture.size
         if rectangle.texture is not texture:
             rectangle.texture = texture
-            rectangle.size = texture.size
-        elif rectangle.size != texture.size:
-            rectangle.size = texture.size
-        width, height = texture.size
-        rectangle.pos = round(word.x - width * word.anchor[0]), round(word.y - height * word.anchor[1])
+            rectangle.size = size
+        elif rectangle.size != size:
+            rectangle.size = size
+        aside, above = self._anchors[index] = width * word.anchor[0], height * word.anchor[1]
+        self._place(index, round(word.x - aside), round(word.y - above))
+
+    def _place(self, index: int, x: int, y: int) -> None:
+        if (x, y) != self._places[index]:
+            self._slots[index][1].pos = self._places[index] = x, y
+
+    def _add(self) -> None:
+        self._slots.append((Color(1, 1, 1, 1), Rectangle(pos=(0, 0), size=(0, 0))))
+        self._tones.append((1.0, 1.0, 1.0, 1.0))
+        self._places.append((0, 0))
+        self._anchors.append((0.0, 0.0))
+        for instruction in self._slots[-1]:
+            self.canvas.add(instruction)
 
 
 def _see(group: InstructionGroup, opacity: float) -> None:

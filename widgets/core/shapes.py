@@ -57,6 +57,9 @@ _MITRE = 2.0
 """Longest mitre at a sharp corner, in half widths."""
 _FAR = 1e3
 """Distance to an edge that is none [px]."""
+_SAME = 1e-6
+"""Points that are nearer to each other are one [px]."""
+_STRAIGHT = np.array([0, 1, 3, 3, 2, 0], dtype=np.uint16)
 _MOST = 65_535
 """Vertices that 16-bit indices can name."""
 
@@ -109,6 +112,9 @@ class Shapes:
 
     def line(self, points: Points, width: float, colour: Colour | NDArray[np.float32]) -> None:
         """A line through `points`; `colour` may be one, or one for each point, shape (n, 4)."""
+        if len(points) == 2 and not isinstance(colour, np.ndarray):
+            self._straight(points.tolist(), width / 2, colour)
+            return
         kept = _no_repeats(points)
         if len(kept) < 2:
             return
@@ -123,6 +129,30 @@ class Shapes:
         vertices[:, :, 8:] = colour[kept] if colour.ndim == 3 else colour
         starts = 2 * np.arange(len(points) - 1)[:, None]
         self._add(vertices.reshape(-1, FLOATS), (starts + np.array([0, 1, 3, 3, 2, 0])).ravel())
+
+    def _straight(self, ends: Sequence[Sequence[float]], half: float, colour: Colour) -> None:
+        """A line without corners: plain arithmetic is a tenth of what so short arrays cost."""
+        (x, y), (end_x, end_y) = ends
+        if max(abs(end_x - x), abs(end_y - y)) <= _SAME:
+            return
+        reach = half + _FEATHER
+        share = reach / math.hypot(end_x - x, end_y - y)
+        aside_x, aside_y = (y - end_y) * share, (end_x - x) * share
+        rest = (LINE, half, 0.0, 0.0, *colour)
+        rows = [
+            (x - aside_x, y - aside_y, 0.0, -reach, *rest),
+            (x + aside_x, y + aside_y, 0.0, reach, *rest),
+            (end_x - aside_x, end_y - aside_y, 0.0, -reach, *rest),
+            (end_x + aside_x, end_y + aside_y, 0.0, reach, *rest),
+        ]
+        self._add(np.array(rows, np.float32), _STRAIGHT)
+
+    def stamp(self, stamped: tuple[NDArray[np.float32], NDArray[np.uint16]], x: float, y: float) -> None:
+        """What the `arrays` of other shapes hold, moved by (x, y): cheaper than to make the same shapes again."""
+        vertices = stamped[0].reshape(-1, FLOATS).copy()
+        vertices[:, 0] += x
+        vertices[:, 1] += y
+        self._add(vertices, stamped[1])
 
     def dashes(self, points: Points, width: float, colour: Colour, *, period: float, dash: float) -> None:
         """A line through `points` in dashes with round ends, `dash` long between the ends, one each `period`."""
@@ -203,7 +233,7 @@ class Shapes:
         starts = 4 * np.arange(len(vertices))[:, None]
         self._add(vertices.reshape(-1, FLOATS), (starts + _QUAD).ravel())
 
-    def _add(self, vertices: NDArray[np.float32], indices: NDArray[np.int64]) -> None:
+    def _add(self, vertices: NDArray[np.float32], indices: NDArray[np.int64] | NDArray[np.uint16]) -> None:
         if not len(vertices) or self._count + len(vertices) > _MOST:
             return
         self._vertices.append(vertices)
@@ -238,7 +268,7 @@ def _no_repeats(points: Points) -> NDArray[np.int64]:
     """Indices of the points that are not where the one before them is."""
     if len(points) < 2:
         return np.arange(len(points))
-    moved = np.abs(np.diff(points, axis=0)).max(axis=1) > 1e-6
+    moved = np.abs(np.diff(points, axis=0)).max(axis=1) > _SAME
     return np.flatnonzero(np.concatenate([[True], moved]))
 
 

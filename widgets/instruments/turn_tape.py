@@ -8,17 +8,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 from typing import Any, ClassVar
 
 import numpy as np
 from kivy.metrics import dp, sp
 from kivy.properties import NumericProperty
 from kivy.uix.widget import Widget
+from numpy.typing import NDArray
 
 from bridge.msgs.geometry_msgs import Quaternion, Vector3
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import Imu
-from widgets.core.canvas_ink import Word, tint
+from widgets.core.canvas_ink import Ink, Word, tint
 from widgets.core.geometry import steady
 from widgets.core.icons import icon
 from widgets.core.language import figure, mark, tr
@@ -62,7 +64,10 @@ class TurnTape(Gauge):
     """From here on a lean is marked as much [deg]."""
 
     def __init__(self, **kwargs: Any) -> None:
+        self._still = Ink()
+        self._still_look: tuple[object, ...] = ()
         super().__init__(**kwargs)
+        self.canvas.insert(self.canvas.indexof(self._ink), self._still)
         self.veil_radius = self.card_corner
 
     def show(self, msg: Imu | Odometry) -> None:
@@ -92,17 +97,35 @@ class TurnTape(Gauge):
         ]
         inner = self.height - 2 * self.edge
         fitting = max(1, min(3, int(inner / sp(34))))
-        high = inner / fitting
-        for index, row in enumerate(rows[:fitting]):
-            middle = self.top - self.edge - (index + 0.5) * high
-            yield from self._row(shapes, middle, min(high, dp(64)), row)
+        high = min(inner / fitting, dp(64))
+        middles = [self.top - self.edge - (row + 0.5) * inner / fitting for row in range(fitting)]
+        self._draw_still([middle - high * 0.2 for middle in middles])
+        for middle, row in zip(middles, rows, strict=False):
+            yield from self._row(shapes, middle, high, row)
+
+    def _ends(self) -> tuple[float, float]:
+        """Of the scales [px]; an alarm has its sign behind them."""
+        right = self.right - self.edge - (dp(20) if self.alarmed else 0)
+        return self.x + self.edge + dp(4), right - dp(4)
+
+    def _draw_still(self, places: list[float]) -> None:
+        """Ticks and lines of the scales at these heights [px]: most messages leave them as they are."""
+        look = (*places, *self._ends(), theme.name, dp(1))
+        if look == self._still_look:
+            return
+        self._still_look = look
+        shapes = Shapes()
+        for y in places:
+            _ticks(shapes, self._ends(), y)
+        self._still.fill(shapes)
 
     def _row(
         self, shapes: Shapes, y: float, high: float, row: tuple[str, float, float, str, float]
     ) -> Iterator[Word]:
         name, value, most, unit, warns = row
         known = self.state != "never" and math.isfinite(value)
-        left, right = self.x + self.edge, self.right - self.edge - (dp(20) if self.alarmed else 0)
+        start, end = self._ends()
+        left, right = start - dp(4), end + dp(4)
         text_y, scale_y = y + high * 0.24, y - high * 0.2
         much = known and abs(value) >= warns
         role = theme.warn if much else theme.text if known else theme.muted
@@ -116,9 +139,8 @@ class TurnTape(Gauge):
         if much:  # a lean is no lean by its colour alone
             at = right - wide(shown, sp(15), bold=True) - dp(13)
             yield Word(icon("warning_fill"), at, text_y, sp(17), role, font=theme.icons)
-        self._scale(
-            shapes, (left + dp(4), right - dp(4)), scale_y, value / most if known else math.nan, name, much
-        )
+        if known:
+            self._pointer(shapes, (start, end), scale_y, value / most, name, much)
 
     def _said(self, name: str, value: float, unit: str) -> tuple[str, ...]:
         """The figure with its side, without, longest first."""
@@ -129,33 +151,49 @@ class TurnTape(Gauge):
         side = "" if text.startswith("0") else tr(plus if value > 0 else minus)
         return (f"{text} {side}".strip(), text)
 
-    def _scale(
+    def _pointer(
         self, shapes: Shapes, ends: tuple[float, float], y: float, share: float, name: str, much: bool
     ) -> None:
-        """Ticks with zero in the middle; a value above 0 is to the left, as the robot turns and leans, and pitch to the right."""
-        start, end = ends
-        middle, half = (start + end) / 2, (end - start) / 2
-        places = middle + half * np.linspace(-1.0, 1.0, 9)
-        length = np.where(np.arange(9) % 4 == 0, dp(11), dp(6))
-        low = np.stack([places, y - length / 2], axis=1)
-        shapes.segments(low, low + np.stack([np.zeros(9), length], axis=1), dp(1.6), tint(theme.muted, 0.8))
-        shapes.line(np.array([(start, y), (end, y)]), dp(1.4), theme.line)
-        if not math.isfinite(share):
-            return
-        colour = theme.warn if much else theme.accent
+        """Zero is in the middle; a value above 0 is to the left, as the robot turns and leans, and pitch to the right."""
+        middle, half = (ends[0] + ends[1]) / 2, (ends[1] - ends[0]) / 2
+        colour = tuple(theme.warn if much else theme.accent)
         limited = min(max(share, -1.0), 1.0)
         at = middle + half * (limited if name == _PITCH else -limited)
         if name == _TURN:
             if abs(at - middle) > dp(1):
                 shapes.line(np.array([(middle, y), (at, y)]), dp(7), colour)
-            shapes.line(np.array([(middle, y - dp(8)), (middle, y + dp(8))]), dp(2.4), theme.text)
-        if abs(share) > 1.0:  # beyond the scale: an arrow that points on
-            way = math.copysign(1.0, at - middle)
-            corners = [(at + way * dp(5), y), (at - way * dp(7), y + dp(8)), (at - way * dp(7), y - dp(8))]
-            shapes.polygon(corners, colour)
+            shapes.stamp(_stamp("zero", tuple(theme.text), dp(1)), middle, y)
+        if abs(share) > 1.0:
+            shapes.stamp(_stamp("right" if at > middle else "left", colour, dp(1)), at, y)
         elif name != _TURN:
-            shapes.polygon([(at, y + dp(1)), (at - dp(7), y - dp(11)), (at + dp(7), y - dp(11))], colour)
-            shapes.line(np.array([(at, y), (at, y + dp(7))]), dp(2.4), colour)
+            shapes.stamp(_stamp("pointer", colour, dp(1)), at, y)
+
+
+def _ticks(shapes: Shapes, ends: tuple[float, float], y: float) -> None:
+    """Nine on a line, longer ones in the middle and at both ends."""
+    start, end = ends
+    places = (start + end) / 2 + (end - start) / 2 * np.linspace(-1.0, 1.0, 9)
+    length = np.where(np.arange(9) % 4 == 0, dp(11), dp(6))
+    low = np.stack([places, y - length / 2], axis=1)
+    shapes.segments(low, low + np.stack([np.zeros(9), length], axis=1), dp(1.6), tint(theme.muted, 0.8))
+    shapes.line(np.array([(start, y), (end, y)]), dp(1.4), theme.line)
+
+
+@lru_cache(maxsize=64)
+def _stamp(
+    kind: str, colour: tuple[float, ...], unit: float
+) -> tuple[NDArray[np.float32], NDArray[np.uint16]]:
+    """Vertices and indices of a mark at (0, 0), a dp being `unit` pixels; beyond the scale an arrow points on."""
+    shapes = Shapes()
+    if kind == "zero":
+        shapes.line(np.array([(0.0, -8.0), (0.0, 8.0)]) * unit, 2.4 * unit, colour)
+    elif kind == "pointer":
+        shapes.polygon([(0.0, unit), (-7 * unit, -11 * unit), (7 * unit, -11 * unit)], colour)
+        shapes.line(np.array([(0.0, 0.0), (0.0, 7.0)]) * unit, 2.4 * unit, colour)
+    else:
+        way = unit if kind == "right" else -unit
+        shapes.polygon([(5 * way, 0.0), (-7 * way, 8 * unit), (-7 * way, -8 * unit)], colour)
+    return shapes.arrays()
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

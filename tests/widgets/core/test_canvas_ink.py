@@ -117,6 +117,26 @@ def test_a_word_is_held_at_its_anchor(anchor, share):
     assert rectangle.pos[1] == pytest.approx(100 - share * rectangle.size[1], abs=0.5)
 
 
+def test_words_that_are_moved_lie_where_new_ones_would():
+    def words(x, y):
+        return [
+            Word("left", x, y, 20, (1, 1, 1, 1), anchor=(0, 0.5)),
+            Word("middle", y, x, 14, (1, 0, 0, 1)),
+        ]
+
+    def places(of):
+        return [tuple(rectangle.pos) for _, rectangle in of._slots]
+
+    moved, fresh = Words(), Words()
+    moved.write(words(10, 20))
+    moved.move([(70.3, 41.8), (41.8, 70.3)])
+    fresh.write(words(70.3, 41.8))
+    assert places(moved) == places(fresh)
+    moved.write(words(10, 20))  # and back: what is known of a place is where it was moved to
+    fresh.write(words(10, 20))
+    assert places(moved) == places(fresh)
+
+
 def test_ink_can_be_wiped_away():
     drawn = Ink()
     shapes = Shapes()

@@ -151,3 +151,27 @@ def test_a_sector_has_room_for_all_of_it_and_for_little_else(half_angle):
         assert rim[0] <= right
     assert left <= -0.5
     assert area(shapes) <= (2 * (radius + 1)) ** 2 * max(0.06, math.sin(half_angle)) * 1.01
+
+
+@pytest.mark.parametrize(
+    "ends", [((1.0, 2), (31, 2)), ((3, 9), (3, -40)), ((0.5, 0.25), (7, 11)), ((4, 4), (4, 4))]
+)
+def test_a_line_from_point_to_point_is_like_one_with_corners(ends):
+    """Its arithmetic is its own: the way by numpy, which a colour for each point takes, is the measure."""
+    quick, slow = Shapes(), Shapes()
+    quick.line(np.array(ends, float), 3, RED)
+    slow.line(np.array(ends, float), 3, np.array([RED, RED], np.float32))
+    assert vertices(quick) == pytest.approx(vertices(slow), abs=1e-5)
+    assert quick.arrays()[1].tolist() == slow.arrays()[1].tolist()
+
+
+def test_what_is_stamped_is_like_what_is_made_there():
+    mark, stamped, made = Shapes(), Shapes(), Shapes()
+    mark.disc(0, 0, 5, RED)
+    for shapes in (stamped, made):
+        shapes.disc(9, 9, 2, RED)
+    stamped.stamp(mark.arrays(), 30, -7)
+    made.disc(30, -7, 5, RED)
+    assert vertices(stamped).tolist() == vertices(made).tolist()
+    assert stamped.arrays()[1].tolist() == made.arrays()[1].tolist()
+    assert vertices(mark)[:, :2].mean(axis=0).tolist() == [0, 0]  # the stamp itself has not moved

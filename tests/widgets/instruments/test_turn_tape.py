@@ -103,3 +103,31 @@ def test_noise_that_nobody_sees_draws_nothing_anew(tape):
     before = tape.turn_rate
     tape.show(Imu(orientation=Quaternion(w=1.0), angular_velocity=Vector3(z=0.5005)))
     assert tape.turn_rate == before
+
+
+def inked(ink) -> list[float]:
+    return [float(value) for value in ink._mesh.vertices]
+
+
+@pytest.mark.parametrize("rate", [-2.0, 0.0, 0.4])
+def test_after_many_messages_it_looks_like_one_that_is_new(stage, tape, rate):
+    for turn, roll in ((0.9, 3), (-0.3, -28), (rate, 12)):
+        tape.show(Imu(orientation=leaning(roll=roll), angular_velocity=Vector3(z=turn)))
+        stage.frames(2)
+    fresh = TurnTape(state="live", size=tape.size, pos=tape.pos)
+    fresh.show(Imu(orientation=leaning(roll=12), angular_velocity=Vector3(z=rate)))
+    fresh.draw()
+    assert inked(tape._ink) == inked(fresh._ink)
+    assert inked(tape._still) == inked(fresh._still)
+
+
+def test_the_scales_follow_the_room_and_the_state(stage, tape):
+    tape.show(Imu(orientation=Quaternion(w=1.0)))
+    stage.frames(2)
+    seen = [inked(tape._still)]
+    for change in ({"width": 250}, {"y": 40}, {"state": "alarm"}, {"height": 60}):
+        for name, value in change.items():
+            setattr(tape, name, value)
+        stage.frames(2)
+        seen.append(inked(tape._still))
+    assert len({tuple(each) for each in seen}) == len(seen)
