@@ -16,7 +16,7 @@ from kivy.metrics import dp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
 from kivy.uix.widget import Widget
 
-from bridge.core.units import heading_from_yaw
+from bridge.core.units import heading_from_yaw, yaw_from_heading
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import Manoeuvre
@@ -28,6 +28,8 @@ from widgets.core.theme import theme
 
 __all__ = ["Compass", "samples"]
 
+BEARINGS = range(0, 360, 30)
+"""That the card has in figures [deg]."""
 STEP = 5
 """Between two ticks of the card [deg]."""
 HOLDS = ("course", "hover")
@@ -57,9 +59,11 @@ class Compass(Drawing):
     """Diameter of the whole instrument [px]."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self._card, self._marks, self._words = Ink(), Ink(), Words()
+        self._card, self._marks, self._words, self._reading = Ink(), Ink(), Words(), Words()
         self._place, self._turn = Translate(), Rotate(axis=(0, 0, 1))
         self._card_look: tuple[object, ...] = ()
+        self._marks_look: tuple[object, ...] = ()
+        self._written: tuple[object, ...] = ()
         super().__init__(**kwargs)
         parts = (
             PushMatrix(),
@@ -69,6 +73,7 @@ class Compass(Drawing):
             PopMatrix(),
             self._marks,
             self._words.canvas,
+            self._reading.canvas,
         )
         for part in parts:
             self.canvas.add(part)
@@ -95,13 +100,27 @@ class Compass(Drawing):
             self._card_look = look
             self._card.fill(self._card_shapes())
         known = not math.isnan(self.heading)
+        strength = 1.0 if known else UNKNOWN
         self._place.xy = self.center
         self._turn.angle = self.heading if known else 0.0
-        self._marks.fill(self._mark_shapes())
-        strength = 1.0 if known else UNKNOWN
         self._card.fade(strength)
+        self._draw_marks(known, strength)
+        written = (*look, known, theme.font)
+        if written == self._written:
+            self._words.move(self._figure_places(known))
+        else:
+            self._written = written
+            self._words.write(self._figures(known), strength)
+        self._reading.write([self._reading_word(known)], strength)
+
+    def _draw_marks(self, known: bool, strength: float) -> None:
+        """The pointer, and where the bow should point: most messages leave them as they are."""
+        aside = self.wanted - self.heading
+        look = (*self.center, self.side, theme.name, None if math.isnan(aside) else aside)
+        if look != self._marks_look:
+            self._marks_look = look
+            self._marks.fill(self._mark_shapes())
         self._marks.fade(strength)
-        self._words.write(self._texts(known), strength)
 
     def _card_shapes(self) -> Shapes:
         shapes, radius = Shapes(), self.side / 2 - dp(3)
@@ -132,16 +151,28 @@ class Compass(Drawing):
         return [(self.center_x + x, self.center_y + y) for x, y in points]
 
     def _texts(self, known: bool) -> Iterator[Word]:
-        radius, heading = self.side / 2 - dp(3), self.heading if known else 0.0
-        for bearing in range(0, 360, 30):
-            x, y = dial_point(bearing, radius * 0.66, heading)
+        yield from self._figures(known)
+        yield self._reading_word(known)
+
+    def _figures(self, known: bool) -> Iterator[Word]:
+        """Of the card; they stay upright while it turns."""
+        radius = self.side / 2 - dp(3)
+        for bearing, (x, y) in zip(BEARINGS, self._figure_places(known), strict=True):
             main = bearing % 90 == 0
             colour = theme.danger if bearing == 0 else theme.text
             size = radius * (0.215 if main else 0.15)
-            yield Word(dial_text(bearing), self.center_x + x, self.center_y + y, size, colour, bold=main)
-        text = heading_text(self.heading)
+            yield Word(dial_text(bearing), x, y, size, colour, bold=main)
+
+    def _figure_places(self, known: bool) -> list[tuple[float, float]]:
+        radius, heading = (self.side / 2 - dp(3)) * 0.66, self.heading if known else 0.0
+        x, y = self.center
+        angles = [yaw_from_heading(bearing - heading) for bearing in BEARINGS]
+        return [(x + radius * math.cos(angle), y + radius * math.sin(angle)) for angle in angles]
+
+    def _reading_word(self, known: bool) -> Word:
+        radius, (x, y) = self.side / 2 - dp(3), self.center
         shift = radius * 0.06 if known else 0.0  # the degree sign hangs over, so that the figures are centred
-        yield Word(text, self.center_x + shift, self.center_y, radius * 0.345, theme.text, bold=True)
+        return Word(heading_text(self.heading), x + shift, y, radius * 0.345, theme.text, bold=True)
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

@@ -62,13 +62,39 @@ def test_north_is_left_of_the_pointer_when_heading_east(compass):
     assert north.y == pytest.approx(compass.center_y)
 
 
+def drawn(compass: Compass) -> list[tuple[object, ...]]:
+    """Texture, colour and place of each text on the glass."""
+    slots = [*compass._words._slots, *compass._reading._slots]
+    return [(text.texture, tuple(colour.rgba), *text.pos, *text.size) for colour, text in slots]
+
+
+@pytest.mark.parametrize("heading", [1.0, 93.0, 271.5, math.nan])
+def test_figures_that_were_moved_are_where_a_new_card_has_them(compass, stage, heading):
+    for before in (350.0, 42.0, heading):
+        compass.heading = before
+        stage.frames()
+    fresh = Compass(size=compass.size, pos=compass.pos, heading=heading)
+    fresh.draw()
+    assert drawn(compass) == drawn(fresh)
+
+
+def test_the_mark_of_the_wanted_heading_stays_with_the_card(compass, stage):
+    marks = []
+    for heading, wanted in ((10.0, 40.0), (20.0, 50.0), (20.0, 80.0), (math.nan, 80.0)):
+        compass.heading, compass.wanted = heading, wanted
+        stage.frames()
+        marks.append(list(compass._marks._mesh.vertices))
+    assert marks[0] == marks[1] != marks[2]
+    assert len(marks[3]) == len(marks[2]) / 2  # the pointer alone
+
+
 def test_many_changes_in_one_frame_are_drawn_once(compass, stage, monkeypatch):
-    drawn = []
-    monkeypatch.setattr(Compass, "draw", lambda self: drawn.append(self.heading))
+    shown = []
+    monkeypatch.setattr(Compass, "draw", lambda self: shown.append(self.heading))
     for heading in (1, 2, 3):
         compass.heading = heading
     stage.frames()
-    assert drawn == [3]
+    assert shown == [3]
 
 
 @pytest.mark.parametrize("name", samples())
