@@ -70,7 +70,7 @@ class CheckedSettings:
         """A number from `low` to `high`."""
         found = number(self.values.get(name, usual), low, high)
         if found is None:
-            self.mistaken(name, f"from {low:g} to {high:g}")
+            self.mistaken(name, tr("from {low:g} to {high:g}").format(low=low, high=high))
         return usual if found is None else found
 
     def word(self, name: str, allowed: Container[str], usual: str) -> str:
@@ -83,4 +83,7 @@ class CheckedSettings:
 
     def mistaken(self, name: str, allowed: str) -> None:
         """Note that the value of that name is not what is `allowed`."""
-        self._wrong.append(f"{name} is {allowed}, not {shown(self.values.get(name))}")
+        value = shown(self.values.get(name))
+        self._wrong.append(
+            tr("{name} is {allowed}, not {value}").format(name=name, allowed=allowed, value=value)
+        )

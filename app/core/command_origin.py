@@ -43,7 +43,7 @@ class Origin:
     """Key in `app.intents.intents.INTENTS`; empty where a control was used that has none."""
 
 
-GUESSED = {"voice": mark("Your voice"), "shake": "A shake"}
+GUESSED = {"voice": mark("Your voice"), "shake": mark("A shake")}
 """Methods that guess what a hand or a voice meant, and so may be wrong."""
 
 
@@ -52,9 +52,16 @@ def gave_stop(origin: Origin) -> str:
     if origin.method not in GUESSED:
         return ""
     said = f"“{origin.said}”" if origin.said else ""
-    sure = "" if math.isnan(origin.confidence) else f"{origin.confidence * 100:.0f} % sure"
+    sure = (
+        ""
+        if math.isnan(origin.confidence)
+        else tr("{percent:.0f} % sure").format(percent=origin.confidence * 100)
+    )
     about = ", ".join(filter(None, (said, sure)))
-    return f"{tr(GUESSED[origin.method])} gave STOP{f': {about}' if about else ''}."
+    method = tr(GUESSED[origin.method])
+    if not about:
+        return tr("{method} gave STOP.").format(method=method)
+    return tr("{method} gave STOP: {about}.").format(method=method, about=about)
 
 
 LASTS = 1.0

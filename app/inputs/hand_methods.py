@@ -51,7 +51,7 @@ class GamepadMethod:
         pads = self._inputs.gamepads
         names = ", ".join(dict.fromkeys(state.name for state in pads.states))
         if not names:
-            return tr("none plugged in") if self.on else "off"
+            return tr("none plugged in") if self.on else tr("off")
         return f"{names}: {tr(STANDING[pads.standing]) if self.on else tr('off, but for STOP')}"
 
     @property

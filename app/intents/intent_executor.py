@@ -13,7 +13,7 @@ from app.intents.open_question import OpenQuestion
 from app.intents.speed_steps import SpeedSteps
 from app.intents.task_intents import TaskIntents
 from bridge.msgs.pilothouse_msgs import LightState, TaskOrder
-from widgets.core.language import mark, tr
+from widgets.core.language import mark, tr, within
 from widgets.core.quantities import said
 from widgets.core.task_words import TASKS, title
 
@@ -70,7 +70,7 @@ class IntentExecutor:
         """What it would do now."""
         if self._app.session is not None:
             if intent in ("start", "patrol"):
-                return tr("Start {within}").format(within=_within(title(self._tasks.order_of(intent))))
+                return tr("Start {within}").format(within=within(title(self._tasks.order_of(intent))))
             if intent == "lights":
                 return tr("Switch the lights off") if self._lit else tr("Switch the lights on")
             if intent in ("faster", "slower"):
@@ -159,8 +159,3 @@ class IntentExecutor:
         if session.control == "none":
             return tr("This robot knows no control.")
         return tr("You have control already.") if session.control == "mine" else ""
-
-
-def _within(words: str) -> str:
-    """Words as they are written within a sentence."""
-    return words[:1].lower() + words[1:]

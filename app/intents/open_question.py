@@ -56,7 +56,7 @@ class OpenQuestion:
     def _answer_reset(self, yes: bool) -> str:
         card = self._app.shell.reset.card
         (card.press if yes else card.close)()
-        return tr("Put {name} back: {value}.").format(name=card.name, value="yes" if yes else "no")
+        return tr("Put {name} back: {value}.").format(name=card.name, value=tr("yes") if yes else tr("no"))
 
     def _answer_handover(self, yes: bool) -> str:
         self._app.shell.cards.handover.ask("grant" if yes else "object")

@@ -54,7 +54,7 @@ from bridge.msgs.pilothouse_msgs import (
     SetScheduleResponse,
     StartTaskRequest,
 )
-from widgets.core.language import mark, tr
+from widgets.core.language import mark, tr, within
 from widgets.core.task_words import title
 
 __all__ = ["COMMANDS", "Commands", "Kind", "Outcome"]
@@ -225,8 +225,7 @@ class Outcome:
         """The command in the operator's words."""
         order = self.fields.get("order")
         if self.name == "start" and order is not None and order.task:
-            words = title(order)
-            return tr("start {task}").format(task=f"{words[0].lower()}{words[1:]}")
+            return tr("start {task}").format(task=within(title(order)))
         if self.name == "mode":
             return tr("switch to {get}").format(get=self.fields.get("mode", ""))
         return tr(COMMANDS[self.name].label)

@@ -100,6 +100,6 @@ class LocalStop:
             return tr("No odometry has come that could confirm that it rests.")
         if age >= ODOMETRY_TIMEOUT:
             return tr("Its odometry was last heard {age} ago.").format(age=silence(age))
-        return tr("Its odometry {value} that it rests.").format(
-            value="says" if self._confirmed else "does not yet say"
-        )
+        if self._confirmed:
+            return tr("Its odometry says that it rests.")
+        return tr("Its odometry does not yet say that it rests.")

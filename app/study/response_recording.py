@@ -31,6 +31,7 @@ from app.study.study_export import SETTINGS
 from app.study.study_run import StudyRun
 from app.study.study_settings import StudySettings
 from bridge.msgs.pilothouse_msgs import ControlStatus, LightState, TaskStatus
+from widgets.core.language import tr, trn
 
 __all__ = ["ResponseRecording"]
 
@@ -108,7 +109,11 @@ class ResponseRecording:
     @property
     def standing(self) -> str:
         """In a word or two."""
-        return f"{self._count} responses this time" if self.on else "off"
+        return (
+            trn("{count} response this time", "{count} responses this time", self._count)
+            if self.on
+            else tr("off")
+        )
 
     @property
     def problem(self) -> str:

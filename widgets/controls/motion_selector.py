@@ -33,7 +33,7 @@ Builder.load_string("""
         opacity: 0 if root.brief else 1
     Segmented:
         id: choice
-        options: root.motions
+        options: [(name, tr(words)) for name, words in root.motions]
         value: root.motion_name
         on_choose: root.choose('motion', args[1])
     MotionRow:
@@ -51,14 +51,14 @@ Builder.load_string("""
         title: tr('Laps')
         Stepper:
             value: root.laps
-            zero: 'until stopped'
+            zero: tr('until stopped')
             maximum: root.most_laps
             pos_hint: {'center_y': .5}
             on_change: root.choose('laps', int(args[1]))
     SectionLabel:
         title: tr('When it finds an intruder')
     Segmented:
-        options: root.reactions
+        options: [(name, tr(words)) for name, words in root.reactions]
         value: root.reaction
         on_choose: root.choose('on_intruder', args[1])
 
@@ -81,7 +81,7 @@ class MotionSelector(Control, Column):
     accepts = (Mission,)
     sends = (Mission,)
 
-    motions = [(motion, motion.capitalize()) for motion in MOTIONS]
+    motions = [("loop", mark("Loop")), ("random", mark("Random")), ("intermittent", mark("Intermittent"))]
     """Each motion and its word."""
     longest_dwell, most_laps = MAX_DWELL, MAX_LAPS
     motion_name = OptionProperty("loop", options=list(MOTIONS))

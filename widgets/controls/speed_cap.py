@@ -94,7 +94,10 @@ class SpeedCap(NoticeCard):
         if self.follows and self.share >= MAX_SHOWN_CAP:
             return  # it is about to go, and goes as it was
         if self.follows:
-            self.headline, self.said = f"{self.share * 100:.0f} % speed", f"{self.why}."
+            self.headline, self.said = (
+                tr("{share:.0f} % speed").format(share=self.share * 100),
+                f"{self.why}.",
+            )
         else:
             self.headline = tr("Full speed always")
             self.said = (

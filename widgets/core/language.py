@@ -29,6 +29,7 @@ __all__ = [
     "mark",
     "tr",
     "trn",
+    "within",
 ]
 
 FOLDER = Path(__file__).parents[1] / "languages"
@@ -154,6 +155,16 @@ def trn(one: str, many: str, count: int) -> str:
 def mark(text: str) -> str:
     """`text` as it is: a constant that `tr` translates where it is shown, for which the catalogues are told of it here."""
     return text
+
+
+def within(text: str) -> str:
+    """`text`, words in the language of the glass, as they stand within a sentence.
+
+    English begins them small, `start patrol`, but for what is written in capitals; other languages keep what the catalogue
+    says: German has a capital for every noun.
+    """
+    small = language.name == "en" and not text[1:2].isupper()
+    return text[:1].lower() + text[1:] if small else text
 
 
 def figure(value: float, digits: int = 0) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from widgets.core.language import tr
+from widgets.core.language import mark, tr
 from widgets.core.quantities import said
 
 __all__ = ["aim", "ago_text", "away_text", "contrast_of", "line_offset", "side_text", "wheel_name"]
@@ -17,6 +17,14 @@ MIN_CONTRAST = 0.25
 
 _AIMS = {"rear": math.pi, "back": math.pi, "aft": math.pi, "left": math.pi / 2, "right": -math.pi / 2}
 _AHEAD = ("front", "fore", "ahead")
+SIDES = {
+    "left": mark("left"),
+    "right": mark("right"),
+    "front": mark("front"),
+    "rear": mark("rear"),
+    "middle": mark("middle"),
+}
+"""Words in the name of a joint that people read."""
 STRAIGHT = math.radians(10)
 """What is not farther aside than this is ahead or behind [rad]."""
 
@@ -78,10 +86,10 @@ def side_text(angle: float) -> str:
         return ""
     angle = math.remainder(angle, math.tau)
     if abs(angle) < STRAIGHT:
-        return "ahead"
+        return tr("ahead")
     if abs(angle) > math.pi - STRAIGHT:
-        return "behind"
-    return f"{math.degrees(abs(angle)):.0f}° {'left' if angle > 0 else 'right'}"
+        return tr("behind")
+    return f"{math.degrees(abs(angle)):.0f}° {tr('left') if angle > 0 else tr('right')}"
 
 
 def ago_text(seconds: float) -> str:
@@ -89,17 +97,17 @@ def ago_text(seconds: float) -> str:
     if not math.isfinite(seconds):
         return ""
     if seconds < 1.5:
-        return "now"
+        return tr("now")
     if seconds < 59.5:
-        return f"{seconds:.0f} s ago"
+        return tr("{seconds:.0f} s ago").format(seconds=seconds)
     return (
         tr("{seconds:.0f} min ago").format(seconds=seconds / 60)
         if seconds < 3570
-        else f"{seconds / 3600:.0f} h ago"
+        else tr("{hours:.0f} h ago").format(hours=seconds / 3600)
     )
 
 
 def wheel_name(joint: str) -> str:
     """What people call a joint: `left` for `wheel_left_joint`, the whole name where nothing would be left."""
     words = [word for word in joint.lower().split("_") if word not in ("wheel", "joint", "link", "drive")]
-    return " ".join(words) or joint
+    return " ".join(tr(SIDES[word]) if word in SIDES else word for word in words) or joint

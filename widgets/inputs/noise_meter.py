@@ -151,7 +151,11 @@ class NoiseMeter(Drawing):
         y, size = self.y + dp(15), sp(15)
         if not self.heard:
             return [Word(tr("Nothing heard yet"), self.x + dp(34), y, size, theme.muted, anchor=(0.0, 0.5))]
-        sure = f" · {self.confidence * 100:.0f} % sure" if math.isfinite(self.confidence) else ""
+        sure = (
+            " · " + tr("{percent:.0f} % sure").format(percent=self.confidence * 100)
+            if math.isfinite(self.confidence)
+            else ""
+        )
         texts = [f"{self.heard}{sure}", self.heard]
         room = self.width - dp(44)
         text = first_fitting(texts, size, room) or _shortened(self.heard, size, room)

@@ -23,7 +23,7 @@ __all__ = ["PHASES", "ReactionTest"]
 PHASES = {
     "idle": ("timer", mark("Not begun"), mark("Press the switch as soon as the sign is full and says NOW.")),
     "wait": ("hourglass_empty", mark("Wait"), mark("Press when it says NOW, not before.")),
-    "go": ("touch_app", "NOW", mark("Press!")),
+    "go": ("touch_app", mark("NOW"), mark("Press!")),
     "early": ("block", mark("Too early"), mark("Once more: press after the sign.")),
     "missed": ("schedule", mark("Missed"), mark("Once more: press when it says NOW.")),
     "taken": ("check", mark("Good"), mark("The next sign comes at once.")),

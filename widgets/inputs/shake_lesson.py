@@ -17,7 +17,7 @@ from kivy.uix.widget import Widget
 
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, tint
 from widgets.core.icons import icon
-from widgets.core.language import mark, tr
+from widgets.core.language import mark, tr, within
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.parts.sensor_card import first_fitting
@@ -94,8 +94,8 @@ class ShakeLesson(Drawing):
         texts = [f"{text} …" if self.doing else text for text in map(tr, WORDS[self.axis])]
         if self.axis and not self.doing:
             texts = [
-                tr("Hold still. Next: {texts}").format(texts=texts[1].lower()),
-                tr("Next: {texts}").format(texts=texts[1].lower()),
+                tr("Hold still. Next: {texts}").format(texts=within(texts[1])),
+                tr("Next: {texts}").format(texts=within(texts[1])),
                 texts[1],
             ]
         size = sp(18)

@@ -92,8 +92,8 @@ class AckermannView(Gauge):
         if not math.isfinite(self.steering):
             return DASH
         if abs(self.steering) < STRAIGHT_STEER:
-            return "straight"
-        return f"{abs(math.degrees(self.steering)):.0f}° {'left' if self.steering > 0 else 'right'}"
+            return tr("straight")
+        return f"{abs(math.degrees(self.steering)):.0f}° {tr('left') if self.steering > 0 else tr('right')}"
 
     @property
     def radius_words(self) -> str:
@@ -133,7 +133,11 @@ class AckermannView(Gauge):
         y, size = low + sp(6), sp(13)
         yield Word(self.speed_words, left, y, size, theme.text, bold=True, anchor=(0, 0.5))
         room = right - left - wide(self.speed_words, size, bold=True) - dp(10)
-        turn = tr("no turn") if self.radius_words == "none" else f"radius {self.radius_words}"
+        turn = (
+            tr("no turn")
+            if self.radius_words == "none"
+            else tr("radius {radius}").format(radius=self.radius_words)
+        )
         brief = "" if self.radius_words in ("none", DASH) else f"r {self.radius_words}"
         yield Word(first_fitting((turn, brief), size, room), right, y, size, theme.muted, anchor=(1, 0.5))
 
@@ -145,13 +149,13 @@ class AckermannView(Gauge):
         size = sp(22 if height >= dp(170) else 17)
         turned = self.alarmed and dp(16)  # an alarm has its sign in the corner
         figures = (
-            ("Speed", self.speed_words),
+            (tr("Speed"), self.speed_words),
             (tr("Steer"), self.steer_words),
             (tr("Radius"), self.radius_words),
         )
         for number, (name, text) in enumerate(figures[:lines]):
             top = low + height - number * step
-            value, _, unit = text.partition(" ") if text[0] not in "sn" else (text, "", "")
+            value, _, unit = text.partition(" ") if text[0].isdigit() or text[0] in "-−" else (text, "", "")
             yield Word(name.upper(), left, top - sp(6), sp(11.5), theme.muted, anchor=(0, 0.5))
             room = width - (turned if number == 0 else 0)
             unit_size = fitting_size([unit], sp(13), width * 0.45)

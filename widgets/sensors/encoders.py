@@ -123,7 +123,7 @@ def _at(values: Float64Array, number: int) -> float:
 
 
 def _turns(angle: float) -> str:
-    return f"{figure(angle / math.tau, 1)} turns"
+    return tr("{count} turns").format(count=figure(angle / math.tau, 1))
 
 
 def _message(*wheels: tuple[str, float, float]) -> JointState:

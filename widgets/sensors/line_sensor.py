@@ -19,7 +19,7 @@ from bridge.msgs.arrays import Float32Array
 from bridge.msgs.pilothouse_msgs import LineSensor
 from widgets.core.canvas_ink import Word
 from widgets.core.geometry import DASH, tween
-from widgets.core.language import tr
+from widgets.core.language import figure, tr
 from widgets.core.sensor_geometry import MIN_CONTRAST, contrast_of, line_offset
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -71,12 +71,16 @@ class LineSensorView(Gauge):
             return (DASH,)
         if contrast < MIN_CONTRAST:
             bright = sum(value for value in self.values if value >= 0) > len(self.values) / 2
-            return (tr("all bright"), "bright") if bright else ("no line", "none")
+            return (tr("all bright"), tr("bright")) if bright else (tr("no line"), tr("none", context="line"))
         metric = math.isfinite(self.spacing)
         if abs(self.offset) < CENTRED * (self.spacing if metric else 1.0):
-            return (tr("in the middle"), "middle")
-        side = "left" if self.offset > 0 else "right"
-        away = f"{abs(self.offset) * 1000:.0f} mm" if metric else f"{abs(self.offset):.1f} cells"
+            return (tr("in the middle"), tr("middle"))
+        side = tr("left") if self.offset > 0 else tr("right")
+        away = (
+            f"{abs(self.offset) * 1000:.0f} mm"
+            if metric
+            else tr("{count} cells").format(count=figure(abs(self.offset), 1))
+        )
         return (f"{away} {side}", f"{away} {side[0].upper()}", side)
 
     def marks(self, shapes: Shapes) -> Iterator[Word]:

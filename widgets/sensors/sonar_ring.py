@@ -117,7 +117,7 @@ class SonarRingView(Gauge):
             return DASH
         away = float(self.echoes[1][self.nearest])
         if math.isinf(away):
-            return "clear" if away > 0 else f"<{(self.ring or SonarRing()).range_min * 100:.0f} cm"
+            return tr("clear") if away > 0 else f"<{(self.ring or SonarRing()).range_min * 100:.0f} cm"
         return away_text(away)
 
     @property
@@ -125,14 +125,20 @@ class SonarRingView(Gauge):
         """Which way the nearest is, as in `45° left`; `all around` where all is clear."""
         if self.nearest < 0:
             return ""
-        return tr("all around") if self.figure == "clear" else side_text(float(self.echoes[0][self.nearest]))
+        return (
+            tr("all around") if self.figure == tr("clear") else side_text(float(self.echoes[0][self.nearest]))
+        )
 
     @property
     def bump(self) -> str:
         """The bumper's state, as in `bump 45° left`, `no contact`; empty before its first report."""
         if math.isnan(self.pressed):
             return ""
-        return f"bump {side_text(self.contact)}".strip() if self.touched else tr("no contact")
+        return (
+            tr("bump {side}").format(side=side_text(self.contact)).strip()
+            if self.touched
+            else tr("no contact")
+        )
 
     def role(self, away: float) -> str:
         """Role of the colour of a distance [m]."""
@@ -262,7 +268,7 @@ class SonarRingView(Gauge):
         low, room = self.y + self.edge + sp(7), self.width - 2 * self.edge
         shown, role, under = self.figure, self.nearest_role, self.where
         if self.touched:
-            shown, role, under = "bump", "danger", side_text(self.contact) or "somewhere"
+            shown, role, under = tr("bump"), "danger", side_text(self.contact) or tr("somewhere")
         yield Word(shown, self.center_x, low + sp(18), sp(15), theme.roles[role], bold=True)
         yield Word(first_fitting((under,), sp(11), room), self.center_x, low, sp(11), theme.muted)
 

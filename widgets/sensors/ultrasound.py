@@ -106,7 +106,7 @@ class UltrasoundView(Gauge):
                 f">{echo.max_range:g}" if told == math.inf else away_text(max(told, 0.0)).removesuffix(" m")
             )
         if told == math.inf:
-            return "clear"
+            return tr("clear")
         return f"<{echo.min_range * 100:.0f} cm" if told == -math.inf else away_text(told)
 
     def role(self, frame: str) -> str:
@@ -181,7 +181,9 @@ class UltrasoundView(Gauge):
             left = self.center_x + shift - wide(text, size, bold=True) / 2 - dp(9)
             shapes.polygon(arrow(left, y, aim(frame) + AHEAD, dp(13)), colour)
         names = (
-            (tr("all around"), "clear") if far else (f"echo {side_text(aim(frame))}", side_text(aim(frame)))
+            (tr("all around"), tr("clear"))
+            if far
+            else (tr("echo {side}").format(side=side_text(aim(frame))), side_text(aim(frame)))
         )
         under = first_fitting(names, sp(11), self.width - 2 * self.edge)
         yield Word(under, self.center_x, low, sp(11), theme.muted)

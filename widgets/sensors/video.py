@@ -303,7 +303,7 @@ class Video(Drawing):
         """Size, rate and latency of the picture in words; what is not known is left out, and what there is no room for."""
         parts = [f"{self.frame_size[0]}×{self.frame_size[1]}"] if all(self.frame_size) else []
         if not math.isnan(self.rate):
-            parts.append(f"{self.rate:.0f} fps")
+            parts.append(tr("{rate:.0f} fps").format(rate=self.rate))
         if not math.isnan(self.latency):
             parts.append(f"{self.latency * 1000:.0f} ms{' late' if self.late else ''}")
         while len(parts) > 1 and chip_width(" · ".join(parts)) > self.chip_room:

@@ -7,6 +7,7 @@ checks.bind(on_fold=lambda _, unfold: setattr(checks, "open", unfold))
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from typing import Any, ClassVar
 
@@ -20,14 +21,33 @@ from kivy.uix.widget import Widget
 import widgets.parts.rows  # noqa: F401 - its rules draw what scrolls here
 from bridge.msgs.pilothouse_msgs import Check, Checklist
 from widgets.core.base import RobotWidget
-from widgets.core.language import tr
+from widgets.core.language import language, mark, tr
 from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
 
-__all__ = ["CheckHead", "CheckLine", "CheckList"]
+__all__ = ["SENTENCES", "CheckHead", "CheckLine", "CheckList", "words_of"]
 
 LOOKS = {"ok": ("check_circle", "ok"), "bad": ("error", "danger"), "unknown": ("help", "warn")}
 """State of a check to its icon and role."""
+SENTENCES = (
+    mark("The battery has not reported its charge yet."),
+    mark("The battery is below {charge}; charge it first."),
+    mark("The battery is charged."),
+    mark("No data from: {sensors}."),
+    mark("All sensors are alive."),
+    mark("The robot's position is unknown; place the robot on the map."),
+    mark("The laser does not match the map; place the robot on the map."),
+    mark("The robot knows where it is."),
+    mark("STOP was tested."),
+    mark("STOP was not tested since the start; press it once."),
+    mark("No handheld has sent its clock yet."),
+    mark("The handheld's clock is {seconds} s ahead of the robot's; connect it anew, or check the link."),
+    mark("The handheld's clock is {seconds} s behind the robot's; connect it anew, or check the link."),
+    mark("The clocks agree."),
+)
+"""What robots of Pilothouse say of a check, with places for its values: the message has no code by which it could be said anew."""
+_PLACE = re.compile(r"\\\{(\w+)\\\}")
+"""A place for a value, escaped for a pattern."""
 
 Builder.load_string("""
 <CheckHead>:
@@ -237,19 +257,41 @@ class CheckList(Outlined, RobotWidget, BoxLayout):
         lines.clear_widgets()
         if self.ready:
             for check in self.checks:
-                lines.add_widget(_line(check.state, check.text, "muted"))
+                lines.add_widget(_line(check.state, words_of(check.text), "muted"))
             return
         for state in ("bad", "unknown"):
             for check in self.checks:
                 if _state(check) == state:
                     lines.add_widget(
                         _line(
-                            state, check.text or tr("The {name} is not good.").format(name=check.name), "text"
+                            state,
+                            words_of(check.text) or tr("The {name} is not good.").format(name=_name(check)),
+                            "text",
                         )
                     )
-        good = [check.name for check in self.checks if check.state == "ok"]
+        good = [_name(check) for check in self.checks if check.state == "ok"]
         if good and not self.brief:
             lines.add_widget(_line("ok", tr("Good: {good}.").format(good=", ".join(good)), "muted"))
+
+
+def _name(check: Check) -> str:
+    names = {
+        "battery": tr("battery", context="check"),
+        "sensors": tr("sensors", context="check"),
+        "position": tr("position", context="check"),
+        "stop": tr("stop", context="check"),
+        "clock": tr("clock", context="check"),
+    }
+    return names.get(check.name, check.name)
+
+
+def words_of(text: str) -> str:
+    """What a robot says of a check in the language of the glass; as it stands where that is not one of `SENTENCES`."""
+    for sentence in () if language.name == "en" else SENTENCES:
+        places = _PLACE.sub(lambda place: f"(?P<{place[1]}>.+)", re.escape(sentence))
+        if found := re.fullmatch(places, text):
+            return tr(sentence).format(**found.groupdict())
+    return text
 
 
 def _state(check: Check) -> str:

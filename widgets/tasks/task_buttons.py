@@ -20,7 +20,7 @@ from kivy.uix.widget import Widget
 import widgets.parts.buttons  # noqa: F401 - its rules draw the buttons
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets.core.base import VEIL, Control
-from widgets.core.language import mark, tr
+from widgets.core.language import mark, tr, within
 from widgets.parts.column import Column
 
 __all__ = ["COMMANDS", "TaskButtons"]
@@ -195,7 +195,7 @@ class TaskButtons(Control, Column):
             return self.reason
         words = self.what or tr(COMMANDS.get(self.command, (self.command,))[0])
         after = f" ({self.took * 1000:.0f} ms)" if math.isfinite(self.took) else ""
-        what = words[:1].lower() + words[1:]
+        what = within(words)
         return tr(OUTCOMES[self.outcome][0]).format(what=what, after=after, why=self.why or what)
 
     sentence = AliasProperty(

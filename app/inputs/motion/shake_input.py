@@ -32,7 +32,7 @@ from app.inputs.motion.shake import (
 from app.inputs.motion.shake.gravity import Motion
 from app.inputs.motion.tilt import turned
 from app.intents.intents import Heard
-from widgets.core.language import tr
+from widgets.core.language import tr, within
 
 __all__ = ["CHOICES", "USUAL_MEANING", "ShakeInput"]
 
@@ -157,12 +157,12 @@ class ShakeInput(ToggleableMethod):
     def standing(self) -> str:
         """In a word or two."""
         if not self._on:
-            return "off"
+            return tr("off")
         health = self._app.sensing.health("acceleration", least=NEEDED_RATE)
         words = {
-            "": "listening",
+            "": tr("listening"),
             "slow": tr("{rate:.0f} Hz: too slow").format(rate=health.rate),
-            "absent": "no sensor",
+            "absent": tr("no sensor"),
         }
         return str(words.get(health.fault, health.fault))
 
@@ -269,7 +269,7 @@ class ShakeInput(ToggleableMethod):
             return
         vibrate(STOP_VIBRATION_TIME if stops else VIBRATION_TIME)
         if self._trying and not (stops and self._app.intents.possible("stop")):
-            self.said = "Understood; while it is tried out nothing is done."
+            self.said = tr("Understood; while it is tried out nothing is done.")
             return
         ended = shake.told if shake.ended else math.nan
         verdict = self._app.intents.submit(
@@ -279,7 +279,7 @@ class ShakeInput(ToggleableMethod):
                 shake.confidence,
                 shake.began,
                 ended,
-                said=tr(WORDS[shake.axis]).lower() if not stops or shake.axis == "lr" else tr("strong shake"),
+                said=within(tr(WORDS[shake.axis])) if not stops or shake.axis == "lr" else tr("strong shake"),
                 snippet=self._snippet(shake),
             )
         )

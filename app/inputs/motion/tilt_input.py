@@ -40,9 +40,9 @@ class TiltInput(TiltOptions):
     def standing(self) -> str:
         """How it stands, in a few words."""
         if not self.on:
-            return "off"
+            return tr("off")
         if self.tilt.closed:
-            return "drives"
+            return tr("drives")
         if self._circle is None:
             return tr("ready: choose Tilt on the drive screen")
         return tr("hold the circle to drive") if not self.simulated else tr("simulated: arrow keys lean it")

@@ -148,7 +148,9 @@ class Talkback(ToggleableMethod):
     @property
     def standing(self) -> str:
         """In a word or two."""
-        return "off" if not self._on else "talks" if not self.problem else "silent"
+        return (
+            tr("off") if not self._on else tr("talks") if not self.problem else tr("silent", context="voice")
+        )
 
     # a method's life
 

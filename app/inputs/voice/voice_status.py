@@ -14,11 +14,11 @@ __all__ = ["CLIPPED_TIME", "CLIPS", "DEAF_NOW", "MUTED_NOW", "VoiceStatus"]
 
 CLIPPED_TIME = 1.0
 """The microphone counts as overdriven for so long after it was measured last [s]."""
-DEAF_NOW = "STOP by voice is not heard now; the microphone is tried again by itself."
+DEAF_NOW = mark("STOP by voice is not heard now; the microphone is tried again by itself.")
 MUTED_NOW = mark("STOP by voice is not heard now.")
 CLIPS = mark("The microphone is overdriven: speak more softly, or farther away from it.")
 TOO_LOUD = mark("Too loud here for voice.")
-WORDS = {"starting": mark("gets ready"), "ready": "hold to talk"}
+WORDS = {"starting": mark("gets ready"), "ready": mark("hold to talk")}
 
 
 class VoiceStatus:
@@ -83,7 +83,7 @@ class VoiceStatus:
     def fault(self, mistaken: str) -> str:
         """Why nothing is understood, as a sentence; `mistaken` is what is wrong with the settings. Empty when all is well."""
         if self.is_deaf:
-            return f"{self.state.sentence} {tr(MUTED_NOW) if self.state.word == 'muted' else DEAF_NOW}"
+            return f"{self.state.sentence} {tr(MUTED_NOW) if self.state.word == 'muted' else tr(DEAF_NOW)}"
         if self.loud:
             return self.state.sentence or tr(TOO_LOUD)
         wrong = self.state.word in ("failed", "ready") and self.state.sentence
@@ -93,14 +93,14 @@ class VoiceStatus:
     def standing(self) -> str:
         """How it stands, in a few words."""
         if not self._settings().on:
-            return "off"
+            return tr("off")
         if self.is_deaf:
-            return "deaf"
+            return tr("deaf")
         if self.loud:
-            return "too loud"
+            return tr("too loud")
         if self.state.word == "listening":
-            return "listening"
-        return tr(WORDS.get(self.state.word, "does not work"))
+            return tr("listening")
+        return tr(WORDS.get(self.state.word, mark("does not work")))
 
     def sign(self, mistaken: str, *, listening: bool) -> str:
         """For the button to talk while the microphone is open (`listening`) or not: `ready`, `listening`, `loud` or `wrong`; empty while off."""

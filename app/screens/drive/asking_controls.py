@@ -10,7 +10,7 @@ from app.session.layout_actions import ACTIONS, LayoutActions
 from app.session.session import Session
 from bridge.msgs.geometry_msgs import PoseStamped
 from bridge.msgs.pilothouse_msgs import FlightState, TaskOrder, Waypoint
-from widgets.core.language import tr
+from widgets.core.language import tr, within
 
 __all__ = ["AskingControls"]
 
@@ -41,7 +41,7 @@ class AskingControls:
         """Take a control in, and have it ask for what the layout says."""
         self._controls.append((widget, one))
         words = ACTIONS.get(one.action, ("", ""))
-        for name, value in (("text", tr(one.title) or _within(words[0])), ("icon", one.icon or words[1])):
+        for name, value in (("text", tr(one.title) or within(tr(words[0]))), ("icon", one.icon or words[1])):
             if value and hasattr(widget, name):
                 setattr(widget, name, value)
         if hasattr(widget, "on_confirm"):
@@ -99,7 +99,7 @@ class AskingControls:
             may = may and (not one.action or one.action not in useless)
             widget.state = "live" if may else "disabled"
             if action is not None and not one.title and hasattr(widget, "text"):
-                widget.text = _within(action.text)
+                widget.text = within(action.text)
         slides = [widget for widget in self.widgets if hasattr(widget, "kin")]
         for widget in slides:
             widget.kin = [other.text for other in slides if other is not widget]
@@ -110,8 +110,3 @@ class AskingControls:
         if flight is None or self._session.feeds.state("/flight") != "live":
             return ()
         return USELESS_ACTIONS.get(flight.phase, ())
-
-
-def _within(words: str) -> str:
-    """Words as they are written within a sentence."""
-    return words[:1].lower() + words[1:]

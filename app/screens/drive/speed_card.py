@@ -9,6 +9,7 @@ from kivy.metrics import dp
 from kivy.properties import AliasProperty, NumericProperty, StringProperty
 
 from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
+from widgets.core.language import tr
 from widgets.core.quantities import said
 from widgets.parts.kit import Card
 
@@ -69,10 +70,11 @@ class SpeedCard(Card):
     """Figure and unit of `maximum_speed`, as the operator chose them."""
 
     def _limits(self) -> str:
-        word = "limit" if self.width > dp(90) else "≤"
+        word = tr("limit") if self.width > dp(90) else "≤"
         limit = said(self.speed_limit, "speed", 2).words
         speed = f"{word} {limit}" if math.isfinite(self.speed_limit) else ""
-        turn = f"turn {math.degrees(self.turn_limit):.0f}°/s" if math.isfinite(self.turn_limit) else ""
+        turning = tr("turn {rate:.0f}°/s").format(rate=math.degrees(self.turn_limit))
+        turn = turning if math.isfinite(self.turn_limit) else ""
         return "\n".join(filter(None, (speed, turn)))
 
     limits = AliasProperty(_limits, bind=["speed_limit", "turn_limit", "width"], cache=True)

@@ -109,7 +109,7 @@ def _switches(options: Options) -> Rows:
         (following, tr("Next on the screen")),
         (doing, tr("Do it, when let go")),
         (following, tr("Back, held {hold_back:.1f} s").format(hold_back=timing.hold_back)),
-        (doing, f"STOP, held {timing.hold_stop:.1f} s"),
+        (doing, tr("STOP, held {seconds:.1f} s").format(seconds=timing.hold_stop)),
         (following + doing if following and doing else [], tr("STOP, both together")),
     ]
     return [(caps, words) for caps, words in rows if caps]

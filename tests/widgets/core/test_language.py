@@ -8,7 +8,7 @@ import pytest
 
 from tests.looped import looped
 from widgets.core import language as module
-from widgets.core.language import LANGUAGES, PSEUDO, figure, language, mark, tr, trn
+from widgets.core.language import LANGUAGES, PSEUDO, figure, language, mark, tr, trn, within
 
 
 @pytest.fixture(autouse=True)
@@ -108,3 +108,11 @@ def test_each_language_is_called_as_its_speakers_call_it():
         "español",
         "简体中文",
     ]
+
+
+def test_english_words_begin_small_within_a_sentence_but_for_capitals():
+    assert [within(words) for words in ("Patrol", "GPS", "I", "")] == ["patrol", "GPS", "i", ""]
+
+
+def test_german_nouns_keep_their_capital_within_a_sentence(german):
+    assert within("Patrouille") == "Patrouille"

@@ -1,11 +1,16 @@
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+
 import pytest
 from kivy.uix.button import Button
 from kivy.uix.floatlayout import FloatLayout
 
 from bridge.msgs.pilothouse_msgs import Check, Checklist
-from widgets.status.check_list import GOOD, UNTESTED, CheckList, samples
+from robotside.autonomy.checklist import CheckInputs, checks
+from widgets.core.language import PSEUDO, language
+from widgets.status.check_list import GOOD, UNTESTED, CheckList, samples, words_of
 
 BAD = Check("battery", "bad", "The battery is below 20%; charge it first.")
 
@@ -102,3 +107,28 @@ def test_what_has_no_room_scrolls(stage, card):
 @pytest.mark.parametrize("name", samples())
 def test_every_sample_says_how_many_are_good(stage, name):
     assert stage.show(samples()[name]()).title.startswith(("Before it moves: ", "Checks"))
+
+
+def told_by_a_robot() -> list[str]:
+    well = CheckInputs(0.9, 0.2, (), placed=True, sure=True, stop_tested=True, offset=0.0)
+    others = [
+        {"battery": math.nan, "silent": ("/scan", "/imu/data"), "placed": False, "stop_tested": False},
+        {"battery": 0.1, "sure": False, "offset": math.nan},
+        {"offset": 2.5},
+        {"offset": -2.5},
+    ]
+    lists = [checks(well), *(checks(replace(well, **other)) for other in others)]
+    return [check.text for one in lists for check in one]
+
+
+def test_every_finding_of_a_robot_is_said_in_the_language_of_the_glass():
+    said = told_by_a_robot()
+    assert [words_of(text) for text in said] == said
+    language.name = PSEUDO
+    try:
+        assert [text for text in said if not words_of(text).startswith("[")] == []
+        assert words_of("Its own words.") == "Its own words."
+        language.name = "de"
+        assert words_of("No data from: /scan, /imu/data.") == "Keine Daten von: /scan, /imu/data."
+    finally:
+        language.name = "en"

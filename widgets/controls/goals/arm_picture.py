@@ -14,6 +14,7 @@ from kivy.metrics import dp, sp
 
 from widgets.core.canvas_ink import Word
 from widgets.core.geometry import Points, dial_point
+from widgets.core.language import tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 
@@ -181,6 +182,6 @@ def draw_turn(
 def turn_words(degrees: float, *, roomy: bool, rolls: bool) -> str:
     """How far the foot is turned, to the left positive, or with `rolls` the hand, clockwise from behind positive [°]."""
     turned = degrees if rolls else -degrees
-    side = "" if abs(degrees) < 0.5 else "right" if turned > 0 else "left"
-    word, figure = ("hand" if rolls else "foot"), f"{abs(degrees):.0f}°"
+    side = "" if abs(degrees) < 0.5 else tr("right") if turned > 0 else tr("left")
+    word, figure = (tr("hand") if rolls else tr("foot")), f"{abs(degrees):.0f}°"
     return f"{word} {figure} {side}".rstrip() if roomy else f"{word} {figure}{side[:1].upper()}"

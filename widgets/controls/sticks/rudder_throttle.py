@@ -137,9 +137,12 @@ class RudderThrottle(Stick, Gauge):
     def throttle_words(self) -> str:
         """What is commanded, as in `60 % ahead`; `idle` at rest."""
         if self._has_report:
-            return f"task {self.throttle * 100:.0f} %" if math.isfinite(self.throttle) else "task"
+            if not math.isfinite(self.throttle):
+                return tr("task")
+            return tr("task {percent} %").format(percent=f"{self.throttle * 100:.0f}")
         percent = round(self.forward * self.most * 100)
-        return f"{abs(percent)} % {'ahead' if percent > 0 else 'astern'}" if percent else "idle"
+        way = tr("ahead") if percent > 0 else tr("astern")
+        return f"{abs(percent)} % {way}" if percent else tr("idle")
 
     @property
     def rudder_words(self) -> str:
@@ -148,7 +151,8 @@ class RudderThrottle(Stick, Gauge):
         if self._has_report:
             turned = self.angle if math.isfinite(self.angle) else 0.0
         degrees = round(math.degrees(turned))
-        return f"{abs(degrees)}° {'port' if degrees > 0 else 'starboard'}" if degrees else tr("set amidships")
+        side = tr("port", context="side") if degrees > 0 else tr("starboard")
+        return f"{abs(degrees)}° {side}" if degrees else tr("set amidships")
 
     @property
     def _has_report(self) -> bool:
@@ -220,8 +224,8 @@ class RudderThrottle(Stick, Gauge):
         colour = colour if self.state != "disabled" else theme.faint
         size = sp(14)
         if self.roomy:
-            yield Word("THROTTLE SET", left, top - sp(6), sp(11.5), theme.muted, anchor=(0, 0.5))
-            yield Word("RUDDER SET", right, top - sp(6), sp(11.5), theme.muted, anchor=(1, 0.5))
+            yield Word(tr("Throttle set").upper(), left, top - sp(6), sp(11.5), theme.muted, anchor=(0, 0.5))
+            yield Word(tr("Rudder set").upper(), right, top - sp(6), sp(11.5), theme.muted, anchor=(1, 0.5))
             top, size = top - sp(18), sp(18)
         throttle, rudder, size = self._fitting(right - left - dp(8), size)
         y = top - size * 0.6
@@ -237,8 +241,8 @@ class RudderThrottle(Stick, Gauge):
         """Words for throttle and rudder, and their size [px], so that both fit into `room` [px]."""
         throttle, rudder = self.throttle_words, self.rudder_words
         brief = (
-            throttle.replace("ahead", "").replace("astern", "back"),
-            rudder.replace("set amidships", "set 0°").replace("starboard", "stbd"),
+            throttle.replace(tr("ahead"), "").replace(tr("astern"), tr("back", context="way")),
+            rudder.replace(tr("set amidships"), tr("set 0°")).replace(tr("starboard"), tr("stbd")),
         )
         least = throttle if self._has_report else figure(self.forward * self.most * 100, 0) + " %", brief[1]
         for words in ((throttle, rudder), brief, least):

@@ -188,14 +188,20 @@ class TiltCircle(TiltStick, Gauge):
     def _command_words(self) -> str:
         """What it commands, as in `12° ahead · 5° left` or `40\u00a0% ahead`; empty where that is nothing, or next to it."""
         if self.in_shares:
-            shares = (100 * self.forward, "ahead", "back"), (-100 * self.left, "right", "left")
+            shares = (
+                (100 * self.forward, tr("ahead"), tr("back", context="way")),
+                (-100 * self.left, tr("right"), tr("left")),
+            )
             parts = [
                 f"{abs(part):.0f}\u00a0% {plus if part > 0 else minus}"
                 for part, plus, minus in shares
                 if abs(part) >= 1
             ]
         else:
-            leans = (self.pitch, "ahead", "back"), (self.roll, "right", "left")
+            leans = (
+                (self.pitch, tr("ahead"), tr("back", context="way")),
+                (self.roll, tr("right"), tr("left")),
+            )
             parts = [_lean_text(*lean) for lean in leans]
         return " · ".join(part for part in parts if part)
 
@@ -204,7 +210,7 @@ class TiltCircle(TiltStick, Gauge):
         if self.needs_hold and self.missing:
             return (self.missing, tr("No motion sensor"), tr("No sensor"))
         if self.needs_hold and self.held and self.opened:
-            return (self.opened, "let go")
+            return (self.opened, tr("let go"))
         if self.needs_hold and not self.held and not self.disabled:
             return (tr("{name} · hold it to tilt").format(name=name), tr("hold to tilt"), self.title)
         return (name, self.title.upper())
@@ -226,12 +232,12 @@ class TiltCircle(TiltStick, Gauge):
         step = min(high * 0.36, sp(62))
         middle = self.center_y - sp(6)
         rows = (
-            ("pitch", self.pitch, "ahead", "back", middle + step / 2),
-            ("roll", self.roll, "right", "left", middle - step / 2),
+            (tr("pitch"), self.pitch, tr("ahead"), tr("back", context="way"), middle + step / 2),
+            (tr("roll"), self.roll, tr("right"), tr("left"), middle - step / 2),
         )
         for name, angle, plus, minus, y in rows:
             figure = _figure(angle)
-            side = "level" if not angle else plus if angle > 0 else minus
+            side = tr("level") if not angle else plus if angle > 0 else minus
             yield Word(name.upper(), left, y + size * 0.55 + sp(6), sp(11.5), theme.muted, anchor=(0, 0.5))
             yield Word(figure, left, y, size, theme.text, bold=True, anchor=(0, 0.5))
             yield Word(side, left, y - size * 0.55 - sp(6), sp(13), theme.muted, anchor=(0, 0.5))

@@ -16,6 +16,7 @@ from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.widget import Widget
 
 from widgets.core.base import Control, fitting_size
+from widgets.core.language import tr, trn
 from widgets.core.surfaces import Outlined
 
 __all__ = ["StopAll"]
@@ -102,13 +103,17 @@ class StopAll(Outlined, Control, AnchorLayout):
 
     def _word(self) -> str:
         if self.active:
-            return f"{self.stopped}/{self.total}" if self.tight else f"{self.stopped} of {self.total}"
+            return (
+                f"{self.stopped}/{self.total}"
+                if self.tight
+                else tr("{done} of {total}").format(done=self.stopped, total=self.total)
+            )
         return "STOP\nALL" if self.tight else "STOP ALL"
 
     word = AliasProperty(_word, bind=["active", "stopped", "total", "tight"], cache=True)
 
     def _note(self) -> str:
-        note = "STOPPED" if self.active else f"{self.robots} robot{'' if self.robots == 1 else 's'}"
+        note = tr("STOPPED") if self.active else trn("{count} robot", "{count} robots", int(self.robots))
         across = fitting_size([note], sp(MIN_FONT_SIZE), self.width - dp(8)) >= sp(MIN_FONT_SIZE)
         lines = 2 if self.tight and not self.active else 1
         below = self.height - lines * self.word_size * LINE_HEIGHT >= sp(MIN_FONT_SIZE) * LINE_HEIGHT

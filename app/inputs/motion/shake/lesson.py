@@ -20,7 +20,7 @@ from app.inputs.motion.shake.tuning import (
     Axis,
     PersonalAxis,
 )
-from widgets.core.language import tr
+from widgets.core.language import tr, within
 
 __all__ = ["MOVING_TIME", "READY_TIME", "Lesson", "Measured", "measure"]
 
@@ -136,7 +136,7 @@ def measure(axis: Axis, moved: list[tuple[float, Motion]], others: dict[Axis, Pe
             return Measured(
                 None,
                 tr("{name} looked like {words}: do it once more, along another line.").format(
-                    name=name, words=tr(WORDS[other]).lower()
+                    name=name, words=within(tr(WORDS[other]))
                 ),
             )
     return Measured(PersonalAxis(spread.way, min(median(peaks), MOST_PEAK), max(gap, LEAST_GAP)), "")

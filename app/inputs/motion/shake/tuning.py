@@ -9,7 +9,7 @@ from typing import Any, Literal, get_args
 
 from app.core.checked_settings import number
 from app.inputs.motion.shake.gravity import Motion
-from widgets.core.language import mark, tr
+from widgets.core.language import mark, tr, within
 
 __all__ = [
     "AXES",
@@ -221,7 +221,7 @@ def own_from(kept: object) -> dict[Axis, PersonalAxis]:
 
 
 def _own(axis: Axis, kept: object) -> PersonalAxis:
-    name = tr(WORDS[axis]).lower()
+    name = within(tr(WORDS[axis]))
     if not isinstance(kept, Mapping) or not isinstance(kept.get("way"), list) or len(kept["way"]) != 3:
         raise ValueError(
             tr("What the lesson measured of {name} is a way of three numbers, a peak and a gap.").format(

@@ -95,10 +95,12 @@ class Options:
     def standing(self) -> str:
         """How the switches stand, in a few words."""
         if not self.on:
-            return "off"
+            return tr("off")
         if self.one:
-            return tr("one switch: {b}").format(b=_first(self.b) or "no key yet")
-        return tr("{a} next, {b} does it").format(a=_first(self.a) or "no key", b=_first(self.b) or "no key")
+            return tr("one switch: {b}").format(b=_first(self.b) or tr("no key yet"))
+        return tr("{a} next, {b} does it").format(
+            a=_first(self.a) or tr("no key"), b=_first(self.b) or tr("no key")
+        )
 
     @property
     def hint(self) -> str:

@@ -146,7 +146,11 @@ class PadPane(BoxLayout):
 
     def _standing(self, state: PadState | None) -> str:
         if state is None:
-            gone = f"{self._name} is not plugged in; its settings are kept." if self._name else ""
+            gone = (
+                tr("{name} is not plugged in; its settings are kept.").format(name=self._name)
+                if self._name
+                else ""
+            )
             return gone or tr("Plug one in, at any time. Each kind keeps its own set-up.")
         pads, wired = self._inputs.gamepads, state.name in self._inputs.gamepads.wired
         age = pads.age(state.number)
@@ -154,9 +158,9 @@ class PadPane(BoxLayout):
         silent = (
             ""
             if age < LIVE_TIMEOUT or still
-            else tr(" Nothing new for {age:.0f} s{value}.").format(
-                age=age, value=", on its cable" if wired else ""
-            )
+            else tr(" Nothing new for {age:.0f} s, on its cable.").format(age=age)
+            if wired
+            else tr(" Nothing new for {age:.0f} s.").format(age=age)
         )
         drives = "" if self._inputs.mapped.pads_on else tr(" Off: only its STOP counts.")
         return f"{state.name}.{drives}{silent}"

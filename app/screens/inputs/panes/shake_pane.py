@@ -132,7 +132,11 @@ class ShakePane(BoxLayout):
         shake = self.shaking.last
         if shake is None or not new:
             return ""
-        sure = f", {shake.confidence:.0%} sure" if math.isfinite(shake.confidence) else ""
+        sure = (
+            tr(", {percent:.0f} % sure").format(percent=shake.confidence * 100)
+            if math.isfinite(shake.confidence)
+            else ""
+        )
         return tr("{words}, {count} half cycles{sure}. {said}").format(
             words=tr(WORDS[shake.axis]), count=shake.count, sure=sure, said=self.shaking.said
         )

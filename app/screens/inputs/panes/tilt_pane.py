@@ -211,7 +211,8 @@ class TiltPane(BoxLayout):
         tilting = self.tilting
         roll, pitch = tilting.tilt.tilt
         closed = tilting.tilt.closed
-        ahead, right = "ahead" if pitch > 0 else "back", "right" if roll > 0 else "left"
+        ahead = tr("ahead") if pitch > 0 else tr("back", context="way")
+        right = tr("right") if roll > 0 else tr("left")
         self.lean.text = f"{abs(pitch):.0f}° {ahead}\n{abs(roll):.0f}° {right}" if closed else tr("Not held")
         if not tilting.on:
             self.says.text = tr("Switch tilting on to try it here.")

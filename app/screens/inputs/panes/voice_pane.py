@@ -28,7 +28,9 @@ from widgets.parts.text_field import TextField
 
 __all__ = ["VoicePane"]
 
-PUSH = "Hold Talk at the edge of the screen, a key or a button of a gamepad while you speak; a tap listens for one command."
+PUSH = mark(
+    "Hold Talk at the edge of the screen, a key or a button of a gamepad while you speak; a tap listens for one command."
+)
 FREE = mark("It listens all the time. Among people who talk, hold the button instead.")
 TRY = mark("Say a command: the result is shown, and only STOP acts.")
 EXAMPLE = mark("Go home? Say yes or no.")
@@ -204,7 +206,7 @@ class VoicePane(BoxLayout):
         self.trial.text = tr("End the try") if speaking.trying else tr("Try it")
         self.trial.icon = "close" if speaking.trying else "mic"
         self.kind.value = "free" if speaking.hands_free else "push"
-        self.how.text = tr(FREE) if speaking.hands_free else PUSH
+        self.how.text = tr(FREE) if speaking.hands_free else tr(PUSH)
         self._show_recognizer(speaking)
         self.language.value = speaking.language
         self.talks.active = talking.on
