@@ -175,7 +175,10 @@ class RobotSetup:
 
     @staticmethod
     def _up(gateway: Gateway) -> str:
-        words = [gateway.endpoint or tr("up"), *([tr("always up")] if gateway.fixed else [])]
+        words = [
+            gateway.endpoint or tr("up", context="gateway"),
+            *([tr("always up")] if gateway.fixed else []),
+        ]
         return " · ".join(words)
 
     def _waiting(self, wish: Outcome, gateway: Gateway) -> State:

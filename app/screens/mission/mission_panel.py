@@ -231,7 +231,7 @@ class MissionPanel(BoxLayout):
         for figure in (self.speed, self.next, self.lap, self.left):
             figure.font_size = "26sp" if wide else "22sp"
         self.tasks.brief = self.motion.brief = not wide
-        self.next.name = tr("Next") if tall else tr("Next point")
+        self.next.name = tr("Next", context="point") if tall else tr("Next point")
         self._progress.titled = wide
         self.events.size_hint_y = 1
         self.events.size_hint_min_y = None if wide else "190dp"

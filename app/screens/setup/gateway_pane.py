@@ -56,7 +56,7 @@ class GatewayPane(Roll):
         self.doc.text = gateway.doc
         said, self.state.role = self._setup.gateway_state(gateway)
         age = self._setup.age
-        down = tr("Down {age:.0f} s ago").format(age=age) if age > 0.0 else tr("Down")
+        down = tr("Down {age:.0f} s ago").format(age=age) if age > 0.0 else tr("Down", context="gateway")
         self.state.text = broken(down if said == gateway.doc else said, self.column.width - dp(8), sp(17))
         self.refusal.text = self._setup.refusal(GATEWAYS, self.name)
         runs = gateway.state in ("up", "lost")

@@ -169,7 +169,10 @@ class Openings:
         def push(name: str, words: str, icon: str) -> PadKey:
             return PadKey(name, words, icon, repeats=True)
 
-        ahead, back = push("ahead", tr("Ahead"), "arrow_upward"), push("back", tr("Back"), "arrow_downward")
+        ahead, back = (
+            push("ahead", tr("Ahead"), "arrow_upward"),
+            push("back", tr("Back", context="way"), "arrow_downward"),
+        )
         if not aside:
             return [[ahead, back], [slow, _done()]]
         return [
