@@ -28,6 +28,18 @@ MIN_PATCH = 3
 MAX_GAP = 0.6
 """Most between the two orange parts of a cone, as a part of their height together."""
 
+MAX_BLUE, MAX_GREEN = 9, 14
+"""Of a cone's red, in twentieths: skin in warm light has more blue, a yellow jacket more green."""
+
+MIN_BAND = 0.25
+"""Least part of the white band of a cone that is near."""
+
+MIN_NARROWING = 0.65
+"""Least of what is surely a cone: the jackets of people are as broad at the shoulders as at the hips, and a face as at its chin."""
+
+UNSURE_SCORE = 0.55
+"""The most for what shows no white band or does not narrow upward: a jacket, a face or a fruit far away does neither."""
+
 Mask = NDArray[np.bool_]
 Pixels = NDArray[np.int16]
 Box = tuple[slice, slice]
@@ -76,6 +88,7 @@ def find_cones(jpeg: bytes) -> list[Sighting]:
 def _search(rgb: Pixels) -> list[Sighting]:
     red, green, blue = rgb[..., 0], rgb[..., 1], rgb[..., 2]
     orange = (red > 90) & (red - green > 45) & (green - blue > 8) & (red - blue > 75) & (green * 20 > red * 5)
+    orange &= (blue * 20 < red * MAX_BLUE) & (green * 20 < red * MAX_GREEN)
     if np.count_nonzero(orange) < MIN_PIXELS:
         return []
     low = np.minimum(np.minimum(red, green), blue)
@@ -125,9 +138,11 @@ def _judge(orange: Mask, pale: Mask, box: Box, shape: tuple[int, ...]) -> Sighti
         return None
     white = _white_between(orange, pale)
     narrowing = _narrowing(orange)
-    if white < 0.25 and rows > 14:
+    if white < MIN_BAND and rows > 14:
         return None
     score = min(1.0, 0.35 + 0.4 * min(white, 1.0) + 0.25 * narrowing)
+    if white < MIN_BAND or narrowing < MIN_NARROWING:
+        score = min(score, UNSURE_SCORE)
     top, left = box[0].start, box[1].start
     return Sighting(
         left / shape[1], top / shape[0], (left + columns) / shape[1], (top + rows) / shape[0], score

@@ -65,7 +65,7 @@ class Shape:
     """One convex solid with its centre at `position`."""
 
     kind: str
-    """`box`, `cylinder` (axis along z) or `sphere`."""
+    """`box`, `cylinder` (axis along z), `sphere`, or for pictures only `leaves`, a ragged ball of them."""
     size: Vec3
     """Full extents along its own axes before tapering [m]; a round shape's x and y are its diameter."""
     position: Vec3 = (0.0, 0.0, 0.0)
@@ -76,7 +76,7 @@ class Shape:
     gloss: float = 0.0
     """Strength of the sun's reflection, 0 matt to 1 polished; for pictures only."""
     glow: float = 0.0
-    """Part of the colour that shows without light, 0 to 1; for pictures only."""
+    """Part of the colour that shows without light, 0 to 1; of leaves, how much of the ball is gaps. For pictures only."""
 
     def at(self, position: Vec3, rotation: Quat) -> Shape:
         """The same shape carried along when its frame is placed at `position` and turned by `rotation`."""

@@ -49,7 +49,7 @@ def visual(client: int, shape: Shape, offset: Vec3 = _ORIGIN) -> int:
 
 def _geometry(shape: Shape) -> dict[str, Any]:
     """The arguments that make `shape` in its own frame."""
-    if shape.kind == "sphere":
+    if shape.kind in ("sphere", "leaves"):
         return {"shapeType": p.GEOM_SPHERE, "radius": shape.size[0] / 2}
     if shape.is_tapered:
         plain = Shape(shape.kind, shape.size, taper=shape.taper)

@@ -153,7 +153,9 @@ class Camera:
         parameters = self._parameters
         eye = place(parameters.position, state.position, state.rotation)
         rotation = compose(state.rotation, self._turned)
-        view = View(eye, rotation, (parameters.width, parameters.height), parameters.field_of_view)
+        # Only under water does anything move by itself.
+        time = stamp if eye[2] < 0.0 else 0.0
+        view = View(eye, rotation, (parameters.width, parameters.height), parameters.field_of_view, time=time)
         others = tuple(moving)
         if self._seen is not None and _is_same(view, self._seen[0]) and others == self._seen[1]:
             ready = [] if self._picture is not None else self._messages(self._renderer.ready(wait=True))
@@ -182,4 +184,5 @@ def _message(picture: bytes, stamp: float) -> CompressedImage:
 
 def _is_same(one: View, other: View) -> bool:
     turned = max(abs(a - b) for a, b in zip(one.rotation, other.rotation, strict=True))
-    return math.dist(one.eye, other.eye) <= SAME_DISTANCE and turned <= SAME_TURN
+    near = math.dist(one.eye, other.eye) <= SAME_DISTANCE and turned <= SAME_TURN
+    return near and one.time == other.time

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,29 +14,37 @@ from numpy.typing import NDArray
 
 from sim.core.shapes import Colour, Shape
 from sim.rendering.mipmaps import add_mipmaps
+from sim.rendering.patterns import LEAVES_SIZE, leaves, web
 from sim.rendering.sky import HORIZON, SIZE, ZENITH, dome, grain, panorama, seen
 from sim.rendering.view import View
 from sim.world.ground_picture import SUN, markings
+from sim.world.lamp_light import lamp_light
 from sim.world.solids import FLOATS, KINDS, mesh, rows
 from sim.world.world import World
 
 __all__ = ["NoRendererError", "Renderer", "paint"]
 
 HAZE: Colour = (0.72, 0.78, 0.80)
-DEEP: Colour = (0.09, 0.33, 0.38)
+DEEP: Colour = (0.10, 0.38, 0.43)
 """Colour that everything fades to under water."""
-MURK = 0.16
-"""Part of it that a metre of water brings."""
+MURK = 0.23
+"""One by the distance in water at which a little more than half is left of what is seen [1/m]."""
+RIPPLE_PERIOD = 100.0
+"""After this time what moves on water is as it was: all its speeds are hundredths of a pattern a second [s]."""
 GRAIN = 0.43
 """Of the ground, how often it is repeated in a metre; `ground.frag.glsl` has it, too."""
-LOOKS = ("asphalt", "water", "floor", "grass", "sand")
+LOOKS = ("asphalt", "water", "floor", "grass", "sand", "ceiling", "surface")
 """As `ground.frag.glsl` numbers them."""
 
+_PLAIN = {"MURKY": 0, "INDOOR": 0, "SIGNS": 0, "GRAINED": 0, "ROWS": 0, "LINES": 0}
+"""A plane without anything painted on it."""
 _SHADERS = Path(__file__).parent / "shaders"
 _LAYOUT = "3f 4f 3f 2f 3f 2f/i"
 _FIELDS = ("position", "rotation", "size", "taper", "tint", "finish")
 _MIN_APPARENT_RADIUS = 0.0032
 """Smallest radius over distance of a shape that is drawn: a pixel or so."""
+_MIN_APPARENT_RADIUS_INDOORS = 0.007
+"""The same under a ceiling, where many small things stand behind walls."""
 
 
 class NoRendererError(RuntimeError):
@@ -57,14 +65,23 @@ def _context() -> moderngl.Context:
 def paint(world: World) -> None:
     """Paint the pictures of ground and sky beforehand, which takes most of the time that a Renderer of `world` takes."""
     markings(world)
+    lamp_light(world)
     panorama()
 
 
 class _Solids:
     """All shapes of one kind, polished or matt: the fixed ones as a table, and the buffer from which the visible ones are drawn."""
 
-    def __init__(self, kind: str, fixed: Iterable[Shape], context: moderngl.Context, *, glossy: bool) -> None:
-        self._kind, self._glossy, self._context = kind, glossy, context
+    def __init__(
+        self,
+        kind: str,
+        fixed: Iterable[Shape],
+        context: moderngl.Context,
+        *,
+        glossy: bool = False,
+        least: float = _MIN_APPARENT_RADIUS,
+    ) -> None:
+        self._kind, self._glossy, self._context, self._least = kind, glossy, context, least
         corners, order = mesh(kind)
         self.fixed = rows(filter(self._takes, fixed))
         self._reach = _reach(self.fixed)
@@ -77,7 +94,7 @@ class _Solids:
         self._arrays: dict[moderngl.Program, moderngl.VertexArray] = {}
 
     def draw(self, program: moderngl.Program, view: View, moving: Sequence[Shape]) -> None:
-        table = _nearest_first(self.fixed[_visible(self.fixed, self._reach, view)], view)
+        table = _nearest_first(self.fixed[_visible(self.fixed, self._reach, view, self._least)], view)
         others = rows(filter(self._takes, moving))
         if len(others):
             table = np.concatenate((table, others))
@@ -99,7 +116,7 @@ def _reach(table: NDArray[np.float32]) -> NDArray[Any]:
     return np.asarray(np.linalg.norm(table[:, 7:10], axis=1) / 2)
 
 
-def _visible(table: NDArray[np.float32], reach: NDArray[Any], view: View) -> NDArray[np.bool_]:
+def _visible(table: NDArray[np.float32], reach: NDArray[Any], view: View, least: float) -> NDArray[np.bool_]:
     """Which shapes the view can see and are large enough to be worth it."""
     if view.flat:
         return np.ones(len(table), dtype=np.bool_)
@@ -110,7 +127,7 @@ def _visible(table: NDArray[np.float32], reach: NDArray[Any], view: View) -> NDA
     inside = (sideways < ahead * half_x + reach * np.hypot(1, half_x)) & (
         high < ahead * half_y + reach * np.hypot(1, half_y)
     )
-    return np.asarray(inside & (ahead > -reach) & (reach > ahead * _MIN_APPARENT_RADIUS))
+    return np.asarray(inside & (ahead > -reach) & (reach > ahead * least))
 
 
 def _nearest_first(table: NDArray[np.float32], view: View) -> NDArray[np.float32]:
@@ -170,12 +187,16 @@ class Renderer:
         self._sky_array = context.vertex_array(
             self._sky, [(context.buffer(corners), "3f 2f", "direction", "mark")], context.buffer(order)
         )
-        self._grounds: dict[moderngl.Program, moderngl.VertexArray] = {}
+        self._planes: dict[moderngl.Program, moderngl.VertexArray] = {}
+        least = _MIN_APPARENT_RADIUS_INDOORS if world.ceiling else _MIN_APPARENT_RADIUS
         self._solids = [
-            (glossy, _Solids(kind, world.visuals, context, glossy=glossy))
+            (glossy, _Solids(kind, world.visuals, context, glossy=glossy, least=least))
             for glossy in (False, True)
             for kind in KINDS
+            if kind != "leaves"
         ]
+        self._leaves = _Solids("leaves", world.visuals, context)
+        self._overhead = _Solids("box", world.overhead, context, least=0.02)
         self._load_textures(world)
 
     def _program(self, name: str, **constants: int) -> moderngl.Program:
@@ -200,6 +221,8 @@ class Renderer:
             "panorama": 2,
             "markings": 0,
             "grain": 1,
+            "lamplight": 3,
+            "leaves": 4,
             "extent": (world.ground.length, world.ground.width),
             "sun": tuple(part / length for part in SUN),
             "zenith": ZENITH,
@@ -208,7 +231,7 @@ class Renderer:
         }.items():
             _set(program, name, value)
         if "rows" in program:
-            self._paint(program)
+            _paint_lines(program, world)
 
     def _load_textures(self, world: World) -> None:
         size, data = markings(world)
@@ -217,12 +240,22 @@ class Renderer:
         self._markings = self._context.texture(size, 2, data, alignment=1)
         self._markings.repeat_x = self._markings.repeat_y = False
         # Mesa's software renderer looks four bytes up quicker than one.
-        pattern = np.repeat((grain() * 255).astype(np.uint8).reshape(-1, 1), 4, axis=1).tobytes()
+        channels = np.repeat((grain() * 255).astype(np.uint8).reshape(-1, 1), 4, axis=1)
+        if world.water:
+            channels[:, 1] = (web() * 255).reshape(-1)
+        pattern = channels.tobytes()
         self._grain = self._context.texture((256, 256), 4, pattern)
         for unit, (texture, its) in enumerate(((self._markings, data), (self._grain, pattern))):
             add_mipmaps(texture, its, unit)
             # Both are soft: one level of detail gives way to the next unseen, and a look-up costs half.
             texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+        size, light = lamp_light(world)
+        self._lamplight = self._context.texture(size, 1, light, alignment=1)
+        self._lamplight.repeat_x = self._lamplight.repeat_y = False
+        self._lamplight.use(3)
+        self._leaf_picture = self._context.texture((LEAVES_SIZE,) * 2, 4, leaves())
+        add_mipmaps(self._leaf_picture, leaves(), 4)
+        self._leaf_picture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         self._panorama = self._context.texture(SIZE, 4, panorama())
         self._panorama.repeat_y = False
         self._panorama.use(2)
@@ -235,6 +268,7 @@ class Renderer:
             "ground",
             LOOK=LOOKS.index("sand" if self._under else world.ground.look),
             MURKY=int(self._under),
+            INDOOR=int(world.ceiling is not None),
             SIGNS=int(bool(world.arrows)),
             GRAINED=int(_grained(world)),
             ROWS=max(len(world.bays), 1) if marked else 0,
@@ -243,26 +277,6 @@ class Renderer:
         # a map shows what lies under water
         _set(program, "level", world.bottom if self._under or (world.water and view.flat) else 0.0)
         return program
-
-    def _paint(self, program: moderngl.Program) -> None:
-        """Hand the painted lines over; a world without any of one sort gets one far away."""
-        world = self._world
-        rows_ = [(row.x, row.y, row.width, row.depth) for row in world.bays] or [(1e6, 1e6, 1.0, 1.0)]
-        lines = [(*line.start, *line.end, line.width) for line in world.lines] or [
-            (1e6, 1e6, 1e6 + 1, 1e6, 0.1)
-        ]
-        lengths = [math.hypot(c - a, d - b) for a, b, c, d, _ in lines]
-        _fill(program, "rows", rows_)
-        _fill(program, "bays", [(row.count, 1 / row.width) for row in world.bays] or [(1.0, 1.0)])
-        _fill(
-            program,
-            "lines",
-            [
-                (a, b, (c - a) / way, (d - b) / way)
-                for (a, b, c, d, _), way in zip(lines, lengths, strict=True)
-            ],
-        )
-        _fill(program, "widths", [(line[4] / 2, way) for line, way in zip(lines, lengths, strict=True)])
 
     def _target(self, size: tuple[int, int]) -> tuple[moderngl.Framebuffer, moderngl.Framebuffer]:
         if size not in self._targets:
@@ -280,17 +294,24 @@ class Renderer:
         # The picture is drawn upside down, which turns the triangles round.
         context.front_face = "cw"
         matrix = np.ascontiguousarray(view.matrix().T, dtype=np.float32).tobytes()
+        inside = {"MURKY": int(self._under), "INDOOR": int(self._world.ceiling is not None)}
         for glossy, solids in self._solids:
-            program = self._program("solid", GLOSSY=int(glossy), MURKY=int(self._under))
+            program = self._program("solid", GLOSSY=int(glossy), **inside)
             self._aim(program, view, matrix)
             solids.draw(program, view, moving)
+        if self._below(view):
+            self._overhead.draw(self._program("solid", GLOSSY=0, **inside), view, ())
+        if len(self._leaves.fixed):
+            program = self._program("leaves")
+            self._aim(program, view, matrix)
+            self._leaves.draw(program, view, ())
         context.enable_only(moderngl.DEPTH_TEST)
-        ground = self._ground(view)
-        self._aim(ground, view, matrix)
-        ground["centre"], ground["reach"] = view.eye[:2], 390.0
-        if ground not in self._grounds:
-            self._grounds[ground] = context.vertex_array(ground, [(self._square, "2f", "corner")])
-        self._grounds[ground].render()
+        for program, centre, reach in self._levels(view):
+            self._aim(program, view, matrix)
+            program["centre"], program["reach"] = centre, reach
+            if program not in self._planes:
+                self._planes[program] = context.vertex_array(program, [(self._square, "2f", "corner")])
+            self._planes[program].render()
         if not (view.flat or self._under):
             self._aim(self._sky, view, matrix)
             # The dome lies at the very end of the depth range.
@@ -299,11 +320,46 @@ class Renderer:
             self._sky_array.render(moderngl.TRIANGLES, count, first=first)
             context.depth_func = "<"
 
+    def _below(self, view: View) -> bool:
+        """The view is from under the ceiling."""
+        ceiling = self._world.ceiling
+        return ceiling is not None and not view.flat and view.eye[2] < ceiling.height
+
+    def _levels(self, view: View) -> Iterator[tuple[moderngl.Program, tuple[float, float], float]]:
+        """The level planes that are seen: what draws each, its middle and how far it reaches [m]."""
+        middle = (view.eye[0], view.eye[1])
+        yield self._ground(view), middle, 390.0
+        ceiling, ground = self._world.ceiling, self._world.ground
+        if ceiling is not None and self._below(view):
+            program = self._program("ground", LOOK=LOOKS.index("ceiling"), **_PLAIN)
+            _set(program, "level", ceiling.height - 0.01)
+            yield program, (0.0, 0.0), max(ground.length, ground.width) / 2
+        if self._under:
+            program = self._program("ground", LOOK=LOOKS.index("surface"), **_PLAIN | {"MURKY": 1})
+            _set(program, "level", 0.0)
+            yield program, middle, 390.0
+
     def _aim(self, program: moderngl.Program, view: View, matrix: bytes) -> None:
         uniform: Any = program["view_projection"]
         uniform.write(matrix)
         _set(program, "eye", view.eye)
+        _set(program, "time", view.time % RIPPLE_PERIOD)
         _set(program, "haze", DEEP if self._under else HAZE)
+
+
+def _paint_lines(program: moderngl.Program, world: World) -> None:
+    """Hand the painted lines over; a world without any of one sort gets one far away."""
+    rows_ = [(row.x, row.y, row.width, row.depth) for row in world.bays] or [(1e6, 1e6, 1.0, 1.0)]
+    lines = [(*line.start, *line.end, line.width) for line in world.lines] or [(1e6, 1e6, 1e6 + 1, 1e6, 0.1)]
+    lengths = [math.hypot(c - a, d - b) for a, b, c, d, _ in lines]
+    _fill(program, "rows", rows_)
+    _fill(program, "bays", [(row.count, 1 / row.width) for row in world.bays] or [(1.0, 1.0)])
+    _fill(
+        program,
+        "lines",
+        [(a, b, (c - a) / way, (d - b) / way) for (a, b, c, d, _), way in zip(lines, lengths, strict=True)],
+    )
+    _fill(program, "widths", [(line[4] / 2, way) for line, way in zip(lines, lengths, strict=True)])
 
 
 def _grained(world: World) -> bool:

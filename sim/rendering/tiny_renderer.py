@@ -32,6 +32,14 @@ START_TIMEOUT = 30.0
 _MIN_RADIUS = 0.11
 """Smallest radius of a thing that is drawn [m]."""
 
+_SEA, _SAND = (0.10, 0.38, 0.43), (0.63, 0.60, 0.47)
+_GROUNDS = {
+    "asphalt": (0.44, 0.45, 0.47),
+    "water": _SEA,
+    "floor": (0.68, 0.66, 0.62),
+    "grass": (0.37, 0.46, 0.24),
+}
+
 _log = logging.getLogger(__name__)
 
 Picture = NDArray[np.uint8]
@@ -142,10 +150,17 @@ class SmallPictures:
 
 
 def scene(world: World) -> Iterator[Shape]:
-    """The shapes to draw: lawn, asphalt, paint, and the things without their details."""
+    """The shapes to draw: ground, paint, ceiling, and the things without their details; trees are smooth balls."""
     length, width = world.ground.length, world.ground.width
-    yield Shape("box", (200.0, 200.0, 0.02), (0.0, 0.0, -0.05), colour=(0.40, 0.50, 0.27))
-    yield Shape("box", (length, width, 0.02), (0.0, 0.0, -0.015), colour=(0.44, 0.45, 0.47))
+    around = _SEA if world.water else (0.40, 0.50, 0.27)
+    yield Shape("box", (200.0, 200.0, 0.02), (0.0, 0.0, -0.05), colour=around)
+    if world.water:
+        yield Shape("box", (200.0, 200.0, 0.02), (0.0, 0.0, world.bottom - 0.015), colour=_SAND)
+    yield Shape("box", (length, width, 0.02), (0.0, 0.0, -0.015), colour=_GROUNDS[world.ground.look])
+    if world.ceiling:
+        middle = (0.0, 0.0, world.ceiling.height + 0.02)
+        yield Shape("box", (length, width, 0.02), middle, colour=(0.80, 0.78, 0.73))
+        yield from world.overhead
     for row in world.bays:
         for number in range(row.count + 1):
             middle = (row.x + number * row.width, row.y + row.depth / 2, 0.0)

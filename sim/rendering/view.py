@@ -32,6 +32,8 @@ class View:
     """Horizontal [rad]; of a map, the breadth of the view [m]."""
     flat: bool = False
     """Draw a map, by parallel rays, instead of a perspective."""
+    time: float = 0.0
+    """Moment of what moves by itself, the light under water [s]."""
 
     @classmethod
     def from_above(cls, length: float, width: float, pixels: int) -> View:

@@ -49,7 +49,8 @@ class Simulation:
         self.backend = Bullet(gui=gui)
         self.backend.add_ground(world.bottom)
         for prop in world.props:
-            self.backend.add_static(prop.solids)
+            if prop.solids:  # a door that stands open has none
+                self.backend.add_static(prop.solids)
         self.renderer = SharedRenderer(world, beside=draws_beside)
         """The renderer of the robots' cameras."""
         self.weather = Weather(world, Noise(seed, "gusts", on=noise))

@@ -10,6 +10,7 @@ from functools import lru_cache
 from PIL import Image, ImageChops, ImageDraw, ImageFilter
 
 from sim.core.shapes import Shape, Vec3
+from sim.world.lamp_light import lamp_light
 from sim.world.tables import Spot
 from sim.world.world import World
 
@@ -67,6 +68,11 @@ def _painted(world: World) -> tuple[tuple[int, int], bytes]:
     shadow = _shadows(world, sunny).blurred(0.03).point(lambda v: int(255 - _SHADOW_DEPTH * v))
     contact = _contacts(world, shapes).blurred(0.16).point(lambda v: int(255 - _CONTACT_DEPTH * v))
     light = ImageChops.multiply(shadow, contact)
+    if world.ceiling:
+        size, lamps = lamp_light(world)
+        light = ImageChops.multiply(
+            light, Image.frombytes("L", size, lamps).resize(light.size, Image.Resampling.BILINEAR)
+        )
     return paint.size, zlib.compress(Image.merge("LA", (paint, light)).tobytes(), 1)
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from sim.core.shapes import Colour, Quat, Shape, Vec3, from_yaw
 
-__all__ = ["Prop", "block", "car", "cone", "lamp", "tree", "wall"]
+__all__ = ["Prop", "block", "car", "cone", "foliage", "lamp", "tree", "twigs", "wall"]
 
 ORANGE: Colour = (1.0, 0.36, 0.04)
 WHITE: Colour = (0.95, 0.95, 0.93)
@@ -27,7 +27,7 @@ class Prop:
     """A thing in its own frame or, after `at`, in the world's."""
 
     kind: str
-    """`car`, `cone`, `lamp`, `wall`, `block`, `tree`, `buoy`, `coral` or `diver`."""
+    """What it is, in a word: `car`, `wall`, `fruit_tree`."""
     solids: tuple[Shape, ...]
     """Shapes that bodies and lasers hit."""
     visuals: tuple[Shape, ...]
@@ -100,16 +100,29 @@ def lamp(height: float = 5.0) -> Prop:
     return Prop("lamp", (foot, straight), (foot, stripe, pole, arm, head))
 
 
+def foliage(size: Vec3, middle: Vec3, colour: Colour) -> tuple[Shape, ...]:
+    """Leaves that fill a ball: a dense one in the shade, and round it one with gaps."""
+    core: Vec3 = (size[0] * 0.84, size[1] * 0.84, size[2] * 0.84)
+    red, green, blue = colour
+    shade: Colour = (red * 0.72, green * 0.74, blue * 0.72)
+    return (Shape("leaves", core, middle, colour=shade), twigs(size, middle, colour))
+
+
+def twigs(size: Vec3, middle: Vec3, colour: Colour) -> Shape:
+    """A ball of leaves that one sees through here and there."""
+    return Shape("leaves", size, middle, from_yaw(1.3), colour=colour, glow=0.5)
+
+
 def tree(height: float = 6.0) -> Prop:
     """A leafy tree of `height` [m]."""
     trunk = Shape(
         "cylinder", (0.34, 0.34, height * 0.5), (0.0, 0.0, height * 0.25), colour=BARK, taper=(0.7, 0.7)
     )
-    crown = (
-        Shape("sphere", (height * 0.62,) * 3, (0.0, 0.0, height * 0.66), colour=LEAF),
-        Shape("sphere", (height * 0.42,) * 3, (0.9, 0.5, height * 0.52), colour=(0.22, 0.38, 0.18)),
-        Shape("sphere", (height * 0.40,) * 3, (-0.8, -0.5, height * 0.56), colour=(0.29, 0.47, 0.23)),
+    lower = tuple(
+        twigs((height * share,) * 3, (height * x, height * y, height * z), LEAF)
+        for share, x, y, z in ((0.44, 0.15, 0.08, 0.54), (0.42, -0.13, -0.08, 0.57))
     )
+    crown = (*foliage((height * 0.64,) * 3, (0.0, 0.0, height * 0.67), LEAF), *lower)
     return Prop("tree", (trunk,), (trunk, *crown))
 
 

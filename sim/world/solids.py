@@ -1,4 +1,4 @@
-"""The three unit solids as triangles, and shapes as rows of numbers that stretch and place them."""
+"""The unit solids as triangles, and shapes as rows of numbers that stretch and place them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from sim.core.shapes import Shape, Vec3
 
 __all__ = ["FLOATS", "KINDS", "mesh", "rows"]
 
-KINDS = ("box", "cylinder", "sphere")
+KINDS = ("box", "cylinder", "sphere", "leaves")
 FLOATS = 17
 """Numbers in a shape's row: position 3, rotation 4, size 3, taper 2, tint 3, gloss and glow."""
 
@@ -28,8 +28,11 @@ def rows(shapes: Iterable[Shape]) -> NDArray[np.float32]:
 
 
 def mesh(kind: str) -> tuple[bytes, bytes]:
-    """The unit solid: its corners (float32 position in [-0.5, 0.5] and normal), and three indices (int32) a triangle."""
-    faces = {"box": _box, "cylinder": _cylinder, "sphere": _sphere}[kind]()
+    """The unit solid: its corners (float32 position in [-0.5, 0.5] and normal), and three indices (int32) a triangle.
+
+    Leaves have in place of the normal their place in a picture: once round and from bottom to top, 0 to 1.
+    """
+    faces = {"box": _box, "cylinder": _cylinder, "sphere": _sphere, "leaves": _leaves}[kind]()
     every = np.array([(*corner, *normal) for face in faces for corner, normal in face], dtype=np.float32)
     corners, order = np.unique(every.round(6), axis=0, return_inverse=True)
     return corners.tobytes(), order.astype(np.int32).tobytes()
@@ -81,3 +84,20 @@ def _sphere(facets: int = 18) -> Iterator[Triangle]:
             normals = (below[i], below[i + 1], above[i + 1], above[i])
             a, b, c, d = ((n[0] / 2, n[1] / 2, n[2] / 2) for n in normals)
             yield from _quad(a, b, c, d, normals)
+
+
+def _leaves(facets: int = 12) -> Iterator[Triangle]:
+    """A sphere."""
+    bands = facets // 2
+    ring = _ring(facets)
+
+    def corner(i: int, j: int) -> tuple[Vec3, Vec3]:
+        height, radius = -math.cos(math.pi * j / bands) / 2, math.sin(math.pi * j / bands) / 2
+        x, y = ring[i]
+        return (x * radius, y * radius, height), (i / facets, j / bands, 0.0)
+
+    for j in range(bands):
+        for i in range(facets):
+            a, b, c, d = corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)
+            yield a, b, c
+            yield a, c, d

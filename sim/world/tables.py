@@ -11,10 +11,12 @@ __all__ = [
     "Bays",
     "Block",
     "Car",
+    "Ceiling",
     "Cone",
     "Coral",
     "Datum",
     "Diver",
+    "Door",
     "Entry",
     "FruitTree",
     "Ground",
@@ -23,6 +25,8 @@ __all__ = [
     "Partition",
     "Person",
     "Place",
+    "Shelf",
+    "Sofa",
     "Spot",
     "Start",
     "Table",
@@ -33,6 +37,7 @@ __all__ = [
     "Water",
     "Wave",
     "Wind",
+    "Window",
 ]
 
 Positive = Annotated[float, msgspec.Meta(gt=0, le=300)]
@@ -194,8 +199,66 @@ class Person(Tinted, frozen=True):
     colour: tuple[Part, Part, Part] = (0.24, 0.42, 0.66)
 
 
+class Ceiling(Entry, frozen=True):
+    """A ceiling over all of the ground, seen from below only: nothing bumps into it."""
+
+    height: Positive
+    """[m]"""
+    lamps: tuple[tuple[Finite, Finite], ...] = ()
+    """Where lamps hang on it: x, y [m]."""
+    lamp_length: Positive = 1.2
+    """Of a lamp, along x [m]."""
+    lamp_width: Positive = 0.6
+    """[m]"""
+
+
+class Door(Spot, frozen=True):
+    """An open doorway between two partitions, in a wall along its own x; its leaf has slid aside on the side towards y."""
+
+    width: Positive = 1.1
+    """From the end of one partition to the other's [m]."""
+    height: Positive = 2.05
+    """[m]"""
+
+
+class Window(Entry, frozen=True):
+    """A window in the wall round the ground that is nearest to its middle; lasers and bodies meet the wall."""
+
+    x: Finite
+    """[m]"""
+    y: Finite
+    """[m]"""
+    width: Positive = 1.6
+    """[m]"""
+    sill: Positive = 0.9
+    """Height of its lower edge [m]."""
+    head: Positive = 2.1
+    """Height of its upper edge [m]."""
+
+
+class Shelf(Spot, frozen=True):
+    """A bookcase, its back towards y."""
+
+    length: Positive = 1.2
+    """[m]"""
+    width: Positive = 0.35
+    """[m]"""
+    height: Positive = 1.9
+    """[m]"""
+
+
+class Sofa(Spot, frozen=True):
+    """A sofa that looks towards `yaw`."""
+
+    length: Positive = 1.8
+    """[m]"""
+
+
 class Table(Spot, frozen=True):
     """A table."""
+
+    screens: Annotated[int, msgspec.Meta(ge=0, le=4)] = 0
+    """Computer screens on it, for one who sits on its side towards y."""
 
     length: Positive = 1.4
     """[m]"""

@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
-import math
 from functools import cached_property
 from typing import Annotated
 
 import msgspec
 
 from sim.core.shapes import Shape
-from sim.world.props import Prop, block, car, cone, lamp, tree, wall
+from sim.world.props import Prop, block, car, cone, lamp, tree
+from sim.world.props_office import chair, door, lamp_panel, shelf, sofa
 from sim.world.props_people import fruit_tree, person, table
 from sim.world.props_water import buoy, coral, diver
+from sim.world.room_walls import outer_walls, partition
 from sim.world.tables import (
     Bays,
     Block,
     Car,
+    Ceiling,
     Cone,
     Coral,
     Datum,
     Diver,
+    Door,
     Entry,
     FruitTree,
     Ground,
@@ -28,6 +31,8 @@ from sim.world.tables import (
     Partition,
     Person,
     Place,
+    Shelf,
+    Sofa,
     Spot,
     Start,
     Table,
@@ -37,6 +42,7 @@ from sim.world.tables import (
     Wall,
     Water,
     Wind,
+    Window,
 )
 
 __all__ = ["World"]
@@ -69,6 +75,11 @@ class World(Entry, frozen=True, dict=True):
     blocks: tuple[Block, ...] = ()
     partitions: tuple[Partition, ...] = ()
     tables: tuple[Table, ...] = ()
+    doors: tuple[Door, ...] = ()
+    windows: tuple[Window, ...] = ()
+    shelves: tuple[Shelf, ...] = ()
+    chairs: tuple[Spot, ...] = ()
+    sofas: tuple[Sofa, ...] = ()
     people: tuple[Person, ...] = ()
     fruit_trees: tuple[FruitTree, ...] = ()
     tags: tuple[Tag, ...] = ()
@@ -79,6 +90,8 @@ class World(Entry, frozen=True, dict=True):
     corals: tuple[Coral, ...] = ()
     water: Water | None = None
     """None on dry land."""
+    ceiling: Ceiling | None = None
+    """None under the sky."""
     wind: Wind | None = None
 
     @property
@@ -100,11 +113,14 @@ class World(Entry, frozen=True, dict=True):
                 )
                 for entry in self.blocks
             ),
-            *(_partition(entry) for entry in self.partitions),
+            *(partition(entry, self.ceiling) for entry in self.partitions),
             *(
-                table(entry.length, entry.width, entry.height).at(entry.x, entry.y, entry.angle)
+                table(entry.length, entry.width, entry.height, entry.screens).at(
+                    entry.x, entry.y, entry.angle
+                )
                 for entry in self.tables
             ),
+            *self._furniture(),
             *(
                 fruit_tree(entry.height, entry.fruits).at(entry.x, entry.y, entry.angle)
                 for entry in self.fruit_trees
@@ -131,25 +147,36 @@ class World(Entry, frozen=True, dict=True):
         """Shapes that cameras see, apart from ground and sky."""
         return tuple(shape for prop in self.props for shape in prop.visuals)
 
+    @cached_property
+    def overhead(self) -> tuple[Shape, ...]:
+        """What hangs on the ceiling: cameras see it from below, and nothing bumps into it."""
+        ceiling = self.ceiling
+        if ceiling is None:
+            return ()
+        upright = (0.0, 0.0, 0.0, 1.0)
+        return tuple(
+            shape.at((x, y, ceiling.height), upright)
+            for x, y in ceiling.lamps
+            for shape in lamp_panel(ceiling.lamp_length, ceiling.lamp_width)
+        )
+
     def _walls(self) -> tuple[Prop, ...]:
         if self.wall is None:
             return ()
-        length, width, thick = self.ground.length, self.ground.width, self.wall.thickness
-        height, bottom = self.wall.height - self.bottom, self.bottom
-        long, short = wall(length + 2 * thick, height, thick), wall(width, height, thick)
-        north, east = (width + thick) / 2, (length + thick) / 2
-        quarter = math.pi / 2
+        return outer_walls(self.ground, self.wall, self.bottom, self.ceiling, self.windows)
+
+    def _furniture(self) -> tuple[Prop, ...]:
+        thickness = self.partitions[0].width if self.partitions else 0.15
+        highest = self.ceiling.height if self.ceiling else 2.4
         return (
-            long.at(0.0, north, 0.0, bottom),
-            long.at(0.0, -north, 0.0, bottom),
-            short.at(east, 0.0, quarter, bottom),
-            short.at(-east, 0.0, quarter, bottom),
+            *(
+                door(entry.width, entry.height, highest, thickness).at(entry.x, entry.y, entry.angle)
+                for entry in self.doors
+            ),
+            *(
+                shelf(entry.length, entry.width, entry.height).at(entry.x, entry.y, entry.angle)
+                for entry in self.shelves
+            ),
+            *(chair().at(entry.x, entry.y, entry.angle) for entry in self.chairs),
+            *(sofa(entry.length).at(entry.x, entry.y, entry.angle) for entry in self.sofas),
         )
-
-
-def _partition(entry: Partition) -> Prop:
-    """The wall from one point to the other, its ends rounded off by half its thickness."""
-    (x0, y0), (x1, y1) = entry.start, entry.end
-    length = math.dist(entry.start, entry.end) + entry.width
-    wall_ = block(length, entry.width, entry.height, entry.colour)
-    return wall_.at((x0 + x1) / 2, (y0 + y1) / 2, math.atan2(y1 - y0, x1 - x0))

@@ -86,6 +86,7 @@ def _points(world: World) -> Iterator[tuple[str, float, float]]:
     yield "start", world.start.x, world.start.y
     for key in (
         *("cars", "lamps", "trees", "cones", "blocks", "tables", "people", "fruit_trees"),
+        *("doors", "windows", "shelves", "chairs", "sofas"),
         *("tags", "buoys", "divers", "corals", "places", "arrows"),
     ):
         for number, spot in enumerate(getattr(world, key)):

@@ -1,7 +1,7 @@
 #version 330
 // The ground with painted lines and baked shadows where the world is, grass round it; or water.
-// LOOK is 0 asphalt, 1 water, 2 floor, 3 grass, 4 sand; ROWS and LINES are how many there are of each; SIGNS is set where
-// something else is painted, GRAINED where the grain is on the picture of the shadows, MURKY under water. All are set before the program is made, for a software renderer works out
+// LOOK is 0 asphalt, 1 water, 2 floor, 3 grass, 4 sand, 5 a ceiling, 6 the water's surface from below; ROWS and LINES are how many there are of each; SIGNS is set where
+// something else is painted, GRAINED where the grain is on the picture of the shadows, MURKY under water, INDOOR under a ceiling. All are set before the program is made, for a software renderer works out
 // both sides of every question.
 uniform sampler2D markings;   // red: painted signs, or the grain (GRAINED); green: light that is left by shadows
 uniform sampler2D grain;
@@ -11,6 +11,12 @@ uniform vec3 haze;
 uniform float murk;           // how much of the haze a metre of water brings; 0 in air
 uniform float level;          // height of this plane [m]
 uniform vec3 horizon;
+#if MURKY
+uniform float time;           // [s], for what moves on water
+#endif
+#if LOOK == 5
+uniform sampler2D lamplight;  // of full light, what each place of the floor has
+#endif
 #if ROWS + LINES > 0
 uniform vec4 rows[ROWS];      // rows of bays: x and y of the south-west corner, breadth of a bay, depth [m]
 uniform vec2 bays[ROWS];      // how many in the row; one by the breadth of a bay [1/m]
@@ -77,18 +83,47 @@ vec3 water(vec3 back) {
     return mix(vec3(0.07, 0.24, 0.29) * (0.85 + 0.35 * ripple), horizon, along * 0.75);
 }
 
+#if LOOK == 5
+// Square tiles in a metal grid, lit by what comes back from the floor.
+void main() {
+    vec2 inside = extent * 0.5 - abs(place);
+    if (min(inside.x, inside.y) < 0.0) discard;
+    vec2 tile = abs(fract(place * 1.6667) - 0.5);
+    float joint = smoothstep(0.475, 0.492, max(tile.x, tile.y)) * clamp(1.6 - 0.1 / gl_FragCoord.w, 0.15, 1.0);
+    float strength = texture(lamplight, place / extent + 0.5).r;
+    colour = mix(vec3(0.88, 0.85, 0.79), vec3(0.62, 0.60, 0.57), joint) * (0.34 + 0.56 * strength);
+}
+#elif LOOK == 6
+// A window of light above, round which the water mirrors itself; ripples break its edge.
+void main() {
+    vec3 off = vec3(place, level) - eye;
+    vec2 ripple = texture(grain, place * 0.21 + time * vec2(0.02, 0.03)).rg;
+    float up = off.z * inversesqrt(dot(off, off));
+    float through = clamp((up + (ripple.x - 0.5) * 0.7 + (ripple.y - 0.3) * 0.25) * 3.3 - 1.55, 0.0, 1.0);
+    vec3 mirrored = haze * (0.92 + 0.9 * ripple.x * ripple.x + 0.35 * ripple.y);
+    colour = through_haze(mix(mirrored, vec3(0.62, 0.86, 0.87) * (0.82 + 0.4 * ripple.y), through), off);
+}
+#else
 void main() {
     vec2 outside = abs(place) - extent * 0.5;
 #if SIGNS
     vec2 mark = texture(markings, place / extent + 0.5, -1.5).rg;  // crisp, however flat one looks at them
-#elif LOOK != 1
+#elif LOOK != 1 && !MURKY
     vec2 mark = texture(markings, place / extent + 0.5).rg;
 #endif
 #if GRAINED
     float rough = max(outside.x, outside.y) < 0.0 ? mark.r : 0.5;
     float paint = 0.0;
+#elif MURKY
+    // Two webs of light run over the bottom; what both have is bright.
+    vec2 light = texture(grain, place * 0.31 + time * vec2(0.05, 0.03)).rg;
+    float rough = light.r;
+    float other = texture(grain, place.yx * 0.37 - time * vec2(0.04, 0.06)).g;
+    vec2 mark = vec2(0.0, 0.74 + 0.95 * min(light.g, other) + 0.12 * light.g);
 #else
     float rough = texture(grain, place * 0.43).r;
+#endif
+#if !GRAINED
 #if LOOK != 1
     float paint = mark.r;
 #endif
@@ -100,10 +135,14 @@ void main() {
     colour = water(normalize(eye - vec3(place, level)));
 #else
     colour = mix(bare(rough), vec3(0.92, 0.93, 0.92), paint * (0.78 + 0.20 * rough)) * mark.g;
+#if INDOOR
+    colour *= vec3(1.16, 1.10, 1.00);
+#endif
 #endif
 #if LOOK != 4
     vec3 grass = mix(vec3(0.26, 0.37, 0.18), vec3(0.42, 0.53, 0.28), rough);
     colour = max(outside.x, outside.y) < 0.0 ? colour : grass;
 #endif
-    colour = mix(colour, haze, hidden(distance_here(eye, vec3(place, level))));
+    colour = through_haze(colour, vec3(place, level) - eye);
 }
+#endif

@@ -10,11 +10,16 @@ in vec2 taper;
 in vec3 tint;
 in vec2 finish;       // gloss, glow
 out vec3 place;
+#if INDOOR
+uniform sampler2D lamplight;  // of full light, what each place of the floor has
+uniform vec2 extent;          // of the floor [m]
+#endif
 #if GLOSSY
 out vec3 facing;
 flat out vec3 paint;
 flat out vec2 surface;
-#else
+#endif
+#if INDOOR || !GLOSSY
 uniform vec3 sun;
 out vec3 light;
 #endif
@@ -44,7 +49,8 @@ void main() {
     facing = n;
     paint = tint;
     surface = finish;
-#else
+#endif
+#if INDOOR || !GLOSSY
     // What is matt is lit at its corners: a pixel costs far more than a corner.
     light = lit(n, sun, tint, finish.y);
 #endif

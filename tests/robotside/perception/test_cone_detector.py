@@ -3,11 +3,21 @@
 from __future__ import annotations
 
 import io
+import math
 
+import msgspec
+import numpy as np
 import pytest
 from PIL import Image, ImageDraw
 
 from robotside.perception.cone_detector import find_cones
+from robotside.perception.intruder_tracker import SURE_SCORE
+from sim.core.shapes import from_yaw
+from sim.rendering.renderer import Renderer
+from sim.rendering.view import View
+from sim.world.tables import Person
+from sim.world.world import World
+from sim.world.world_files import load
 
 ORANGE, WHITE, GREY, SKY = (245, 100, 25), (235, 235, 230), (110, 112, 115), (150, 185, 225)
 
@@ -114,3 +124,50 @@ def test_a_picture_that_would_take_all_memory_is_not_decoded() -> None:
     cone(draw, 200, 400, 300)
     assert find_cones(jpeg(image.crop((0, 0, 8190, 480))))
     assert find_cones(jpeg(image)) == []
+
+
+def lights(renderer: Renderer, x: float, y: float, away: float, side: float) -> list[bytes]:
+    """What a robot sees that looks at (x, y) from `away` [m] on that `side` [deg]: by the world's light, and at dusk."""
+    turn = math.radians(side)
+    eye = (x + away * math.cos(turn), y + away * math.sin(turn), 0.36)
+    noon = renderer.render(View(eye, from_yaw(turn + math.pi), (640, 480), 1.2))
+    dusk = (noon * np.array((0.62, 0.50, 0.42))).astype(np.uint8)
+    return [jpeg(Image.fromarray(picture)) for picture in (noon, dusk)]
+
+
+def dressed(colour: tuple[float, float, float]) -> World:
+    """The parking lot without cones, and somebody in a jacket of this colour in the middle of it."""
+    return msgspec.structs.replace(
+        load("parking_lot"), cones=(), lamps=(), people=(Person(x=0.0, y=0.0, colour=colour),)
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "world",
+    [load("office"), load("orchard"), dressed((1.0, 0.36, 0.04)), dressed((0.95, 0.45, 0.10))],
+    ids=["office", "orchard", "a jacket as orange as a cone", "an orange jacket"],
+)
+def test_no_person_is_surely_a_cone(world: World) -> None:
+    renderer = Renderer(world)
+    for person in world.people:
+        for away in (2.0, 4.5, 8.0, 15.0):
+            for side in range(0, 360, 45):
+                for picture in lights(renderer, person.x, person.y, away, side):
+                    surest = max((found.score for found in find_cones(picture)), default=0.0)
+                    assert surest < SURE_SCORE, (person, away, side)
+    renderer.close()
+
+
+@pytest.mark.slow
+def test_a_drawn_cone_is_surely_one_from_near_and_far() -> None:
+    world = load("parking_lot")
+    renderer = Renderer(msgspec.structs.replace(world, cars=(), lamps=(), cones=world.cones[2:3]))
+    cone_ = world.cones[2]
+    for away in (1.5, 2.5, 4.0, 6.0):
+        for side in range(0, 360, 60):
+            found = find_cones(lights(renderer, cone_.x, cone_.y, away, side)[0])
+            assert found, (away, side)
+            assert found[0].score >= SURE_SCORE, (away, side)
+            assert abs(found[0].centre - 0.5) < 0.05, (away, side)
+    renderer.close()

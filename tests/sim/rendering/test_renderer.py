@@ -135,3 +135,74 @@ def test_arrows_are_painted_where_the_file_puts_them(world):
     arrow = world.arrows[0]
     assert paint.getpixel((round((arrow.x + 20) / 0.02), round((arrow.y + 15) / 0.02))) > 200
     assert paint.getpixel((round((arrow.x + 20) / 0.02), round((arrow.y + 17) / 0.02))) == 0
+
+
+def blue_sky(picture):
+    red, green, blue = (picture[:, :, i].astype(int) for i in range(3))
+    return (blue > red + 30) & (blue > green + 8) & (blue > 150)
+
+
+def test_no_sky_is_seen_in_a_corridor_but_through_a_window():
+    office = load("office")
+    renderer = Renderer(office)
+    for x, yaw in ((-8.5, 0.0), (0.0, 0.0), (6.0, 0.0)):
+        picture = renderer.render(view(x, 0.0, yaw))
+        assert blue_sky(picture[:, 200:440]).sum() == 0, (x, yaw)
+        assert picture[0:40].mean() > 60, "the ceiling is lit"
+    room_with_window = renderer.render(view(2.0, 2.9, 90.0))
+    renderer.close()
+    assert blue_sky(room_with_window).sum() > 2000
+    bare = Renderer(msgspec.structs.replace(office, ceiling=None))
+    assert blue_sky(bare.render(view(-8.5, 0.0, 0.0))).sum() > 2000
+    bare.close()
+
+
+def test_a_ceiling_hides_nothing_from_above():
+    office = load("office")
+    renderer = Renderer(office)
+    above = renderer.render(View.from_above(28.0, 16.0, 560))
+    renderer.close()
+    table = office.tables[0]
+    row, column = round((8.0 - table.y) * 20), round((14.0 + table.x - 0.5) * 20)
+    red, _, blue = mean(above, (row - 3, row + 3), (column - 2, column + 2))
+    assert red > blue + 20
+
+
+def test_a_tree_has_a_ragged_outline_and_leaves_of_many_greens():
+    renderer = Renderer(load("orchard"))
+    picture = renderer.render(view(1.0, 0.0, 0.0))
+    renderer.close()
+    crown = picture[100:140, 280:360].reshape(-1, 3).astype(int)
+    green = crown[(crown[:, 1] > crown[:, 0] + 10) & (crown[:, 1] > crown[:, 2] + 10)]
+    assert len(green) > 1500
+    assert green[:, 1].std() > 15
+
+
+def test_under_water_the_light_moves_with_time_and_comes_again():
+    renderer = Renderer(load("tank"))
+
+    def at(time):
+        return renderer.render(View((0.0, 0.0, -3.0), from_yaw(0.0), SIZE, FIELD, time=time)).astype(int)
+
+    first = at(7.0)
+    moved = np.abs(at(8.0) - first).mean(axis=2)
+    again = np.abs(at(107.0) - first)
+    renderer.close()
+    assert moved[:150].mean() > 1.0, "the surface"
+    assert moved[-100:].mean() > 1.0, "the floor"
+    assert again.mean() < 0.2
+
+
+def test_under_water_what_is_near_is_clear_and_what_is_far_fades():
+    world = msgspec.structs.replace(load("tank"), divers=(), corals=(), blocks=())
+    renderer = Renderer(world)
+
+    def post(away):
+        shape = Shape("box", (0.2, 0.5, 1.0), (away, 0.0, -2.0), colour=(1.0, 0.0, 0.0), glow=1.0)
+        picture = renderer.render(View((0.0, 0.0, -2.0), from_yaw(0.0), SIZE, FIELD), [shape])
+        return mean(picture, (235, 245), (315, 325))
+
+    near, middle, far = (red - green for red, green, _ in (post(1.0), post(4.0), post(8.0)))
+    renderer.close()
+    assert near > 150
+    assert near > middle > far
