@@ -9,6 +9,7 @@ JSON may hold anything in any place: lists where names are looked up, whole numb
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Container, Mapping
 from typing import Any, TypeGuard
 
@@ -18,6 +19,11 @@ __all__ = ["CheckedSettings", "known", "number", "shown"]
 
 LETTERS = 40
 """So much of a value is shown."""
+_BRIEF = reprlib.Repr()
+"""Writes no more than can be shown: a few letters of YAML may stand for gigabytes of lists."""
+_BRIEF.maxlevel = 3
+_BRIEF.maxlist = _BRIEF.maxtuple = _BRIEF.maxset = _BRIEF.maxdict = _BRIEF.maxdeque = LETTERS
+_BRIEF.maxstring = _BRIEF.maxlong = _BRIEF.maxother = 2 * LETTERS
 
 
 def number(value: object, low: float, high: float) -> float | None:
@@ -33,7 +39,7 @@ def known(value: object, allowed: Container[str]) -> TypeGuard[str]:
 
 def shown(value: object) -> str:
     """As it is shown in a sentence: not at any length."""
-    text = repr(value)
+    text = _BRIEF.repr(value)
     return text if len(text) <= LETTERS else f"{text[: LETTERS - 1]}…"
 
 

@@ -20,6 +20,7 @@ __all__ = ["picture_of", "read_floor_plan"]
 
 MAX_TEXT = 65_536
 """Of the YAML file [bytes]."""
+MAX_PICTURE_BYTES = 64_000_000
 FREE, WALL = (232, 234, 238, 255), (64, 70, 80, 255)
 """How floor and walls look; what is unknown is let through."""
 FREE_BELOW, WALL_ABOVE = 0.196, 0.65
@@ -134,6 +135,8 @@ def _origin(path: Path, about: Mapping[str, Any]) -> tuple[float, float, float]:
 def _grey(path: Path) -> NDArray[np.float64]:
     """Brightness of each pixel, rows from the top, 0 to 255; NaN-free."""
     try:
+        if not path.is_file() or path.stat().st_size > MAX_PICTURE_BYTES:
+            raise OSError(tr("no file of at most {size} MB").format(size=MAX_PICTURE_BYTES // 1_000_000))
         data = path.read_bytes()
     except OSError as fault:
         raise ValueError(

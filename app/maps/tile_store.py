@@ -146,6 +146,11 @@ class TileStore:
             return None
         try:
             return file.execute(statement, values).fetchall()
+        except (
+            sqlite3.OperationalError
+        ) as fault:  # the disk is full or the file is locked: what is kept stays
+            log.warning("%s: %s", self.path, fault)
+            return None
         except sqlite3.DatabaseError as fault:
             log.warning("%s: %s", self.path, fault)
             self._begin_anew(fault)

@@ -25,6 +25,8 @@ MARGIN = 0.08
 """Kept between the body and anything [m]."""
 ESCAPE_DISTANCE = 0.6
 """A robot that stands too close to something finds its way out within this distance [m]."""
+MIN_RESOLUTION = 1e-4
+"""Of a map that is judged by [m]; what tells less tells nonsense."""
 MAX_YAW = 1e-3
 """A map that is turned by more against its own frame is not judged by [rad]."""
 MAX_JUDGED = 5000
@@ -71,7 +73,11 @@ class Ground:
         if grid is None:
             return None
         info = grid.info
-        usable = info.resolution > 0 and info.width * info.height == len(grid.data) > 0
+        place = info.origin.position
+        finite = (
+            math.isfinite(place.x) and math.isfinite(place.y) and MIN_RESOLUTION <= info.resolution < math.inf
+        )
+        usable = finite and info.width * info.height == len(grid.data) > 0
         return cls(grid, radius) if usable and abs(info.origin.orientation.yaw) <= MAX_YAW else None
 
     def fault(self, name: str, x: float, y: float, robot: tuple[float, float] | None) -> Fault | None:

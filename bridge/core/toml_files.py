@@ -24,6 +24,10 @@ MAX_BYTES = 1_000_000
 """Of a file [bytes]; a longer one is a mistake."""
 MAX_NUMBER = 1e9
 """Greatest amount of a number, unless the reader allows more; beyond it, sums and products overflow."""
+MAX_DEPTH = 32
+"""Tables and lists within each other; more is nobody's settings."""
+_NAME, _SPACE = r"(?<![\w\-\"'])[\w\-\"']++", r"[ \t]*+"
+_TOO_DEEP = re.compile(rf"(?:{_NAME}{_SPACE}\.{_SPACE}){{{MAX_DEPTH}}}|(?:[\[{{]{_SPACE}){{{MAX_DEPTH}}}")
 MAX_FAULTS = 50
 """Of one file; more of them tell nothing more."""
 MAX_LETTERS = 60
@@ -112,6 +116,8 @@ def read_all(
 
 
 def _parsed(text: str, source: str) -> dict[str, Any]:
+    if _TOO_DEEP.search(text):  # before it is read: that takes the square of the depth
+        raise fault("", source, "", f"is nested deeper than {MAX_DEPTH} levels")
     try:
         return tomllib.loads(text)
     except RecursionError as error:

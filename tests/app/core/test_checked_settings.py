@@ -160,3 +160,10 @@ def test_only_texts_are_looked_up() -> None:
 
 def test_a_long_value_is_not_shown_at_its_length() -> None:
     assert len(shown(10**400)) == 40
+
+
+def test_a_value_that_stands_for_gigabytes_is_shown_in_a_few_letters():
+    nested: object = "lol"
+    for _ in range(40):
+        nested = [nested] * 10
+    assert len(shown(nested)) <= 40

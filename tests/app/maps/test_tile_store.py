@@ -1,7 +1,10 @@
 from __future__ import annotations
 
+import sqlite3
+
 import pytest
 
+from app.maps import tile_store
 from app.maps.tile_store import LOOKED_PERIOD, Stored, TileStore
 
 KB = bytes(1000)
@@ -90,3 +93,17 @@ def test_what_comes_after_the_end_is_neither_kept_nor_found(store):
     store.close()
     store.put("a", (5, 1, 0), Stored(KB), 1.0)
     assert store.get("a", (5, 0, 0), 1.0) is None
+
+
+def test_a_file_that_another_program_holds_keeps_what_it_has(tmp_path, monkeypatch, caplog):
+    monkeypatch.setattr(tile_store, "BUSY_TIMEOUT", 0.0)
+    store = TileStore(tmp_path / "tiles.sqlite3", 10_000)
+    store.put("a", (5, 0, 0), Stored(KB), 1.0)
+    other = sqlite3.connect(store.path, isolation_level=None)
+    other.execute("BEGIN IMMEDIATE")
+    store.put("a", (6, 0, 0), Stored(KB), 1.0)
+    assert "locked" in caplog.text
+    other.execute("COMMIT")
+    other.close()
+    assert store.get("a", (5, 0, 0), 1.0).data == KB
+    store.close()

@@ -14,6 +14,7 @@ from bridge.msgs.geometry_msgs import Point, Pose, Quaternion
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.planner import Planner, Unreachable
+from tests.looped import looped
 
 RADIUS = 0.25
 
@@ -127,3 +128,12 @@ def test_the_room_that_is_needed_is_that_of_the_robot_and_a_margin() -> None:
     assert fault is not None
     assert f"needs {RADIUS + MARGIN:.2f} m" in fault.sentence
     assert fault.brief == "0.15 m free"
+
+
+@looped(
+    ("resolution", "x"),
+    [(math.nan, 0.0), (0.05, math.nan), (0.05, math.inf), (1e-320, 0.0), (0.0, 0.0), (math.inf, 0.0)],
+)
+def test_by_a_map_whose_measures_are_nonsense_nothing_is_judged(resolution, x):
+    info = MapMetaData(resolution=resolution, width=2, height=2, origin=Pose(position=Point(x, 0.0)))
+    assert Ground.of(OccupancyGrid(info=info, data=Int8Array(bytes(4))), 0.2) is None

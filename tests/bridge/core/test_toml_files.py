@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import msgspec
 import pytest
 
 from bridge.core.toml_files import MAX_FAULTS, FileFault, read, read_all, text_of
+from tests.looped import looped
 
 
 class Leg(msgspec.Struct, forbid_unknown_fields=True):
@@ -64,7 +65,7 @@ class Deep(msgspec.Struct, forbid_unknown_fields=True):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("lists = " + "[" * 3000 + "]" * 3000, "my.toml: is not TOML: it is nested too deep."),
+        ("lists = " + "[" * 3000 + "]" * 3000, "my.toml: is nested deeper than 32 levels."),
         ("number = 1" + "0" * 5000, "my.toml: is not TOML: exceeds the limit"),
         (
             "number = 1" + "0" * 400,
@@ -143,3 +144,23 @@ def test_of_very_many_faults_the_first_are_told() -> None:
     text = 'name = "a"\n' + "\n".join(f"k{number} = 1" for number in range(500))
     _, faults = read_all(text, Table, "t.toml")
     assert len(faults) == MAX_FAULTS
+
+
+@looped(
+    "text",
+    [
+        "a." * 60_000 + "b = 1",
+        "a = " + "[" * 60_000,
+        "a = " + "{b = " * 40_000,
+        "[" + ".".join("x" * 40) + "]",
+    ],
+)
+def test_a_text_that_is_nested_too_deep_is_refused_before_it_is_read(text):
+    with pytest.raises(FileFault, match="nested deeper than 32 levels|not TOML"):
+        read(text, Any, "a file")
+
+
+def test_a_long_word_is_no_depth():
+    assert read("a = '" + "w" * 200_000 + "'\nb = 'Mr. A. B. Smith, at 1.5 m.'", Any, "a file")[
+        "b"
+    ].startswith("Mr.")
