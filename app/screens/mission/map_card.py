@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from kivy.uix.widget import Widget
 
 from app.layout.arrange import Rect
@@ -23,7 +25,7 @@ class MapCard:
     def __init__(self, screen: Widget) -> None:
         """`screen` holds the card, above all that floats on its map."""
         self._screen = screen
-        self.shown: Widget | None = None
+        self.shown: Any = None
         """The card; None while there is none."""
         self.place: Rect | None = None
         """Where it is [px]; None while there is none."""
@@ -33,13 +35,20 @@ class MapCard:
         """There is a card."""
         return self.shown is not None
 
-    def show(self, card: Widget | None) -> None:
+    def show(self, card: Any) -> None:
         """Have this card and no other."""
         if self.shown is not None:
             self._screen.remove_widget(self.shown)
         self.shown, self.place = card, None
         if card is not None:
             self._screen.add_widget(card)
+
+    def leave(self) -> bool:
+        """Have the card ask no more; False where there is none."""
+        if self.shown is None:
+            return False
+        self.shown.leave()
+        return True
 
     def arrange(self, places: dict[str, Rect], body: Rect, form: str, dp: float) -> None:
         """Put it over the map of `arrange.mission` in a window of that `form`; `dp` is one dp [px]."""

@@ -71,6 +71,14 @@ Builder.load_string("""
 """)
 
 
+def _both(first: Callable[[], object], then: Callable[[], object]) -> Callable[[], None]:
+    def both() -> None:
+        first()
+        then()
+
+    return both
+
+
 class MissionScreen(RobotScreen):
     """Supervise one robot on its map."""
 
@@ -106,7 +114,7 @@ class MissionScreen(RobotScreen):
         self.swap = PictureSwap(self)
         self._bind_map()
         self.bind(mode=self._mode_changed, sheet=self._rearrange)
-        self.session.mission.on_change = self._chain(self.session.mission.on_change)
+        self.session.mission.on_change = _both(self.session.mission.on_change, self._drawing.show_draft)
         self.notice = self._body
         self._drawing.show_draft()
 
@@ -114,13 +122,6 @@ class MissionScreen(RobotScreen):
     def map(self) -> MapOverlay:
         """The map on the glass."""
         return self._maps.shown
-
-    def _chain(self, first: Callable[[], object]) -> Callable[[], None]:
-        def both() -> None:
-            first()
-            self._drawing.show_draft()
-
-        return both
 
     def _build(self) -> None:
         ids = self.ids
@@ -276,6 +277,13 @@ class MissionScreen(RobotScreen):
     def end(self) -> None:
         """Let go of the maps."""
         self._maps.end()
+
+    def back(self) -> bool:
+        """Take the card over the map away, else what a finger on the map would do."""
+        if self.card.leave():
+            return True
+        armed, self.mode = self.mode != "view", "view"
+        return armed
 
     def rest(self) -> None:
         """Fingers on the map and on what lies over it let go of what they hold."""

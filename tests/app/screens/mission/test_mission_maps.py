@@ -5,7 +5,7 @@ import pytest
 from app.maps.map_source import URL, Source
 from app.maps.sources import NO_MAP
 from bridge.msgs.geometry_msgs import Point32, Polygon
-from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
+from bridge.msgs.pilothouse_msgs import Limits, Place, RobotInfo
 from tests.app.glass import Glass
 from tests.app.maps.faulty import DATUM, FaultyServer
 from widgets.map.ground import TileGround
@@ -117,3 +117,22 @@ def test_the_area_in_sight_is_kept_offline_from_the_card(mission, driving: Glass
         region.wait()
         assert (region.name, region.state, region.done) == ("Harbour", "done", region.total)
         driving.app.leave()
+
+
+def test_back_shuts_the_card_and_then_leaves_what_a_finger_would_do_before_it_leaves_the_robot(
+    mission, driving: Glass
+):
+    driving.tap(mission.ids["layers"])
+    mission.mode = "points"
+    assert mission.card.open
+    assert driving.app.back()
+    assert (mission.card.open, mission.mode) == (False, "points")
+    assert driving.app.back()
+    assert (mission.mode, driving.app.session is None) == ("view", False)
+
+
+def test_back_gives_up_the_place_that_is_made(mission, driving: Glass):
+    mission._pointing.places.card.edit(Place(x=1.0, y=2.0))
+    mission.show_card(mission._pointing.places.card)
+    assert driving.app.back()
+    assert not mission.card.open
