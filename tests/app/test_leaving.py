@@ -113,3 +113,11 @@ def test_an_answer_that_comes_after_the_robot_was_left_otherwise_does_nothing(
     driving.app.leave()
     asked.answer()
     assert not done
+
+
+def test_the_arrow_of_the_bar_goes_back_as_the_gesture_does(driving: Glass) -> None:
+    driving.app.show("setup")
+    driving.app.shell.bar.dispatch("on_back")
+    assert (driving.app.shell.screen, driving.app.session is None) == ("mission", False)
+    driving.app.shell.bar.dispatch("on_back")
+    assert driving.app.session is None

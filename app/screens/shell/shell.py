@@ -74,6 +74,9 @@ class Visit(Protocol):
 class Leaving(Protocol):
     """The ways out, as far as the frame needs them."""
 
+    def back(self) -> bool:
+        """One step back, as the gesture does."""
+
     def leave(self, then: Callable[[], object] | None = None) -> None:
         """Leave the robot, where it moves after a question, and do `then`."""
 
@@ -150,7 +153,7 @@ class Shell(FloatLayout):
     def _build_frame(self) -> None:
         """Bar, navigation, STOP and what is said over them; the ids of their parts are found here too."""
         self.bar, self.nav, self.notices = TopBar(), Rail(), Notices()
-        self.bar.bind(on_back=lambda _: self.app.leaving.leave(), on_control=lambda _: self.toggle_control())
+        self.bar.bind(on_back=lambda _: self.app.leaving.back(), on_control=lambda _: self.toggle_control())
         self.bar.bind(on_people=lambda _: self.show_people(), on_more=lambda _: self.app.show(MORE))
         self.bar.bind(on_record=lambda _: self.app.visit.toggle_recording())
         self.bar.bind(on_mode=lambda _: self.cards.ask_mode(), on_inputs=lambda _: self.app.show_inputs())
