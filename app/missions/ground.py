@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bridge.msgs.nav_msgs import OccupancyGrid
-from widgets.core.language import tr
+from widgets.core.language import figure, tr
 
 __all__ = ["Fault", "Ground"]
 
@@ -99,8 +99,9 @@ class Ground:
         if room == SOLID:
             return Fault(tr("{where} is in a wall or another obstacle.").format(where=where), tr("in a wall"))
         if room < self._need:
-            said = f"{where} is {room:.2f} m from an obstacle; the robot needs {self._need:.2f} m."
-            return Fault(said, tr("{room} m free").format(room=f"{room:.2f}"))
+            words = tr("{where} is {room} m from an obstacle; the robot needs {need} m.")
+            said = words.format(where=where, room=figure(room, 2), need=figure(self._need, 2))
+            return Fault(said, tr("{room} m free").format(room=figure(room, 2)))
         if robot is not None and self._cut_off(row, column, robot):
             return Fault(tr("There is no way to {where}.").format(where=where), tr("no way there"))
         return None

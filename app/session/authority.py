@@ -200,7 +200,8 @@ class Authority:
     def _regained(self) -> tuple[str, str] | None:
         """Control lapsed and is ours again: that it did must not go by unseen."""
         when, self._lapsed = self._lapsed, ""
-        return (f"You have control again; it lapsed {when}.", "info") if when else None
+        words = tr("You have control again; it lapsed {when}.")
+        return (words.format(when=when), "info") if when else None
 
     def _beginning(self, before: ControlStatus, status: ControlStatus) -> tuple[str, str] | None:
         """Who watches is told that somebody asks; who asks or is asked has a card for it."""

@@ -104,7 +104,7 @@ def _latched(known: StopFacts, now: float) -> Verdict:
     if known.refusal:
         return Verdict("no_answer", known.refusal)
     if now - known.moves_since < REST_TIMEOUT:
-        return Verdict("sent", "STOP is pressed; it comes to rest.")
+        return Verdict("sent", tr("STOP is pressed; it comes to rest."))
     return Verdict("moves", tr("STOP is pressed, and it does not come to rest."))
 
 

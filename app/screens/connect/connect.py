@@ -71,7 +71,7 @@ Builder.load_string("""
                 id: theme
                 icon: root.theme_icon
                 role: 'text'
-                text: root.theme_text if root.columns > 1 else ''
+                text: tr(root.theme_text) if root.columns > 1 else ''
                 spacing: dp(8) if self.text else 0
                 edge: dp(13) if self.text else dp(8)
                 pressable: True
@@ -114,7 +114,7 @@ Builder.load_string("""
                 QuietButton:
                     id: simulate
                     icon: 'play_circle'
-                    text: root.simulator_text
+                    text: tr(root.simulator_text)
                     size_hint_x: None
                     width: root.action_width
                     disabled: not root.can_simulate or root.simulating

@@ -56,7 +56,7 @@ CARDS = (
     TourStep(
         "person",
         mark("One handheld drives"),
-        mark("Here you see who has control. Ask for it, and give it back, by a tap."),
+        mark("Here you see who has control. A tap asks for it; to give it back, a question comes first."),
         _of_shell("control", "mode"),
     ),
     TourStep(
