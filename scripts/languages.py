@@ -1,6 +1,6 @@
 """The catalogues of the glass: what the sources say, what is translated of it, and the files that the app reads.
 
-    python -m scripts.languages            find every sentence, bring widgets/languages/*.po up to date, make *.mo of them
+    python -m scripts.languages            find every sentence, bring scripts/catalogues/*.po up to date, make widgets/languages/*.mo
     python -m scripts.languages --missing  list what each language still lacks
 
 A sentence is what stands in `tr`, `trn` or `mark` (`widgets/core/language.py`), in Python and in the rules of Kivy. What is no
@@ -26,6 +26,9 @@ from babel.messages.pofile import read_po, write_po
 
 ROOT = Path(__file__).parents[1]
 FOLDER = ROOT / "widgets" / "languages"
+"""Where the app finds what it reads."""
+CATALOGUES = Path(__file__).with_name("catalogues")
+"""What people translate; the APK goes without."""
 SOURCES = ("widgets", "app")
 NAMES = ("de", "es", "fr", "zh_CN")
 """Languages with a catalogue, as in POSIX."""
@@ -111,7 +114,7 @@ def template() -> Catalog:
 
 def catalogue(name: str) -> Catalog:
     """What is translated into a language so far."""
-    path = FOLDER / f"{name}.po"
+    path = CATALOGUES / f"{name}.po"
     if not path.exists():
         return Catalog(locale=name, project="Pilothouse", charset="utf-8", fuzzy=False)
     with path.open("rb") as file:
@@ -168,7 +171,7 @@ def main(argv: list[str] | None = None) -> int:
             print("".join(f"  {text}\n" for text in lacking), end="")
             continue
         FOLDER.mkdir(exist_ok=True)
-        (FOLDER / f"{name}.po").write_bytes(written(made))
+        (CATALOGUES / f"{name}.po").write_bytes(written(made))
         (FOLDER / f"{name}.mo").write_bytes(compiled(made))
     return 0
 

@@ -33,7 +33,7 @@ __all__ = [
 ]
 
 FOLDER = Path(__file__).parents[1] / "languages"
-"""One `NAME.mo` for each language but English, made of `NAME.po`."""
+"""One `NAME.mo` for each language but English, made of `scripts/catalogues/NAME.po`."""
 VARIABLE = "PILOTHOUSE_LANGUAGE"
 """Environment variable by which a process of the app is told the language."""
 PSEUDO = "en_XA"
