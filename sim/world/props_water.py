@@ -84,25 +84,20 @@ def diver() -> Prop:
         *_leg((-0.42, 0.11, 0.0), (-0.80, 0.14, -0.12), (-1.18, 0.14, 0.02), 0.10),
         *_leg((-0.42, -0.11, 0.0), (-0.82, -0.13, 0.08), (-1.20, -0.14, 0.16), 0.02),
     )
-    bubbles = tuple(
-        Shape("sphere", (size,) * 3, (0.62 - x, y, z), colour=(0.80, 0.92, 0.94), gloss=0.6, glow=0.3)
-        for size, x, y, z in (
-            *(
-                (0.05, 0.0, 0.07, 0.18),
-                (0.04, 0.03, -0.05, 0.30),
-                (0.06, 0.02, 0.03, 0.46),
-                (0.05, 0.07, -0.03, 0.62),
-            ),
-            *(
-                (0.08, 0.05, 0.06, 0.80),
-                (0.06, 0.10, -0.05, 1.02),
-                (0.09, 0.08, 0.04, 1.25),
-                (0.07, 0.13, -0.02, 1.52),
-            ),
-        )
-    )
     solid = Shape("box", (2.0, 0.5, 0.45), (-0.45, 0.0, 0.06))
-    return Prop("diver", (solid,), (*chest, *bottle, *head, *limbs, *bubbles))
+    return Prop("diver", (solid,), (*chest, *bottle, *head, *limbs, *_bubbles()))
+
+
+def _bubbles() -> tuple[Shape, ...]:
+    """What a diver breathed out: larger and farther behind the higher it is."""
+    sizes = (0.05, 0.04, 0.06, 0.05, 0.08, 0.06, 0.09, 0.07)
+    behind = (0.0, 0.03, 0.02, 0.07, 0.05, 0.10, 0.08, 0.13)
+    aside = (0.07, -0.05, 0.03, -0.03, 0.06, -0.05, 0.04, -0.02)
+    above = (0.18, 0.30, 0.46, 0.62, 0.80, 1.02, 1.25, 1.52)
+    return tuple(
+        Shape("sphere", (size,) * 3, (0.62 - x, y, z), colour=(0.80, 0.92, 0.94), gloss=0.6, glow=0.3)
+        for size, x, y, z in zip(sizes, behind, aside, above, strict=True)
+    )
 
 
 def _arm(shoulder: Vec3, elbow: Vec3, hand: Vec3) -> tuple[Shape, ...]:
