@@ -26,9 +26,6 @@ __all__ = ["GroundKeeper", "Underlaid"]
 
 log = logging.getLogger(__name__)
 
-CLOSE_TIMEOUT = 2.0
-"""Longest time that closing waits for a picture that is being read [s]."""
-
 
 class Underlaid(Protocol):
     """A map with a place for a ground, such as `widgets.GridMap`."""
@@ -159,5 +156,5 @@ class _Reading:
         self.over = True
 
     def close(self) -> None:
-        """Wait for its end for a while; what it reads is not shown."""
-        self._thread.join(CLOSE_TIMEOUT)
+        """What it reads is not shown. Its end is not waited for, which would hold up fingers."""
+        self.over = True

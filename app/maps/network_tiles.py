@@ -25,8 +25,6 @@ __all__ = ["Kept", "NetworkTiles", "Server"]
 
 log = logging.getLogger(__name__)
 
-CLOSE_TIMEOUT = 2.0
-"""Longest time that closing waits for a thread [s]; one that looks up a name ends by itself later."""
 MAX_ABSENT = 4096
 """Tiles remembered as ones that are not kept."""
 
@@ -109,14 +107,11 @@ class NetworkTiles:
             self._queue.retry()
 
     def close(self) -> None:
-        """Drop everything; what a thread has in hand is not handed over any more."""
+        """Drop everything. Nothing is waited for, which would hold up fingers: a thread ends with what it has in hand, which nobody gets."""
         with self._lock:
             self._closed = True
             self._wanted, self._made = [], {}
             self._queue.want(())
-            threads = list(self._threads)
-        for thread in threads:
-            thread.join(CLOSE_TIMEOUT)
 
     # threads
 

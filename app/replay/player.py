@@ -88,7 +88,7 @@ class Player:
         """End all threads and let go of the file."""
         self._cancelled.set()
         self.listeners.clear()
-        self._jobs.shutdown(wait=True, cancel_futures=True)
+        self._jobs.shutdown(wait=False, cancel_futures=True)  # fingers are not held up by a long file
         if self._playback is not None:
             self._playback.close()
         self._camera.close()

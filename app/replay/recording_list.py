@@ -120,6 +120,6 @@ class RecordingList:
         """End the thread; what is known is kept."""
         self._ended.set()
         if self._jobs is not None:
-            self._jobs.shutdown(wait=True, cancel_futures=True)
+            self._jobs.shutdown(wait=False, cancel_futures=True)  # fingers are not held up by a long file
             self._jobs = None
         self._asked.clear()

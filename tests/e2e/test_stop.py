@@ -102,7 +102,7 @@ def test_stop_all_from_the_connect_screen_stops_what_somebody_else_drives_and_co
     with handheld(tmp_path, discover=False) as glass, somebody_drives(robot.url):
         glass.until(lambda: witness.speed() > 0.2, "the other client to drive")
         for address in (robot.url, robot.url.replace("127.0.0.1", "localhost")):
-            glass.app.robots.add(address)
+            glass.app.robots.add(address, met=True)
         button = glass.one("StopAll")
         glass.settle(button)
         glass.play(glass.hand.tap(button.to_window(*button.center)))

@@ -226,3 +226,14 @@ def test_what_comes_after_the_end_is_not_handed_over(parts, monkeypatch):
     assert tiles.take() is None
     tiles.want([B])
     assert len(server.asked) == 1
+
+
+def test_to_close_waits_for_no_server(parts):
+    tiles, server, _, _ = parts
+    tiles.want([A])
+    tiles.wait()
+    server.may.clear()
+    tiles.want([A])
+    server.until_at_work(1)
+    tiles.close()
+    assert server.at_work == 1, "it was waited for, and no finger was taken meanwhile"
