@@ -12,7 +12,6 @@ Then `python scripts/make_fonts.py FOLDER`. Needs fonttools and brotli.
 from __future__ import annotations
 
 import gzip
-import shutil
 import sys
 from pathlib import Path
 
@@ -143,12 +142,12 @@ def main(folder: Path) -> None:
 
 
 def copy_licence(source: Path, target: Path) -> None:
-    """Copy a licence, unpacked where the package holds it compressed."""
+    """Copy a licence, unpacked where the package holds it compressed, without the line that tells how packages write it."""
     packed = source.with_name(source.name + ".gz")
-    if packed.exists():
-        target.write_bytes(gzip.decompress(packed.read_bytes()))
-    else:
-        shutil.copyfile(source, target)
+    text = gzip.decompress(packed.read_bytes()) if packed.exists() else source.read_bytes()
+    target.write_bytes(
+        b"".join(line for line in text.splitlines(keepends=True) if not line.startswith(b"Format:"))
+    )
 
 
 if __name__ == "__main__":
