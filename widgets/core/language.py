@@ -167,11 +167,11 @@ def within(text: str) -> str:
     return text[:1].lower() + text[1:] if small else text
 
 
-def figure(value: float, digits: int = 0) -> str:
-    """`value` with so many decimals as the language writes it, with a true minus; a dash for NaN and infinity."""
+def figure(value: float, digits: int = 0, *, signed: bool = False) -> str:
+    """`value` with so many decimals as the language writes it, with a true minus, `signed` with a plus too; a dash for NaN and infinity."""
     if not math.isfinite(value):
         return DASH
-    text = f"{value:.{digits}f}"
+    text = f"{value:+.{digits}f}" if signed else f"{value:.{digits}f}"
     if float(text) == 0.0:
-        text = text.lstrip("-")
+        text = text.lstrip("+-")
     return text.replace("-", "−").replace(".", language.tongue.point)

@@ -20,12 +20,11 @@ from bridge.msgs.pilothouse_msgs import AckermannState
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import DASH, Points, rounded
-from widgets.core.language import tr
+from widgets.core.language import figure, tr
 from widgets.core.quantities import said
 from widgets.core.sensor_geometry import away_text
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.instruments.readout import figure
 from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["AckermannView", "samples"]

@@ -18,13 +18,12 @@ from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from widgets.core.canvas_ink import Word
 from widgets.core.geometry import DASH
-from widgets.core.language import mark, tr
+from widgets.core.language import DASH as LONG_DASH
+from widgets.core.language import figure, mark, tr
 from widgets.core.quantities import said
 from widgets.core.shapes import Shapes
 from widgets.core.task_words import heading_of
 from widgets.core.theme import theme
-from widgets.instruments.readout import DASH as LONG_DASH
-from widgets.instruments.readout import figure
 from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["CommandedMotion", "Figure", "samples"]

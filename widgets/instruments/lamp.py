@@ -18,15 +18,13 @@ from bridge.msgs.std_msgs import Bool
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.field_paths import value_at
-from widgets.core.language import mark, tr
+from widgets.core.language import DASH, mark, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.fields.field_kinds import TRUTH
 from widgets.parts.sensor_card import Gauge
 
 __all__ = ["Lamp"]
-
-DASH = "—"
 
 
 class Lamp(Gauge):

@@ -22,10 +22,9 @@ from bridge.msgs.sensor_msgs import JointState
 from widgets.core.canvas_ink import Word
 from widgets.core.geometry import DASH, dial_point
 from widgets.core.icons import icon
-from widgets.core.language import tr
+from widgets.core.language import figure, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.instruments.readout import figure
 from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["LegPanel", "leg_of", "samples"]

@@ -27,15 +27,15 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from widgets.core.base import RobotWidget, age_text, fitting_size, text_texture
 from widgets.core.field_paths import value_at
-from widgets.core.language import language
+from widgets.core.language import DASH, figure
 from widgets.core.quantities import SI_KINDS, digits_for, quantities, to_shown, unit_of
 from widgets.core.theme import theme
 from widgets.fields.field_kinds import ENUM, NUMBER, TEXT
 from widgets.parts.labels import spaced
 
-__all__ = ["Readout", "figure"]
+__all__ = ["Readout", "clock_figure"]
 
-DASH, MINUS, DEGREE = "—", "−", "°"
+DEGREE = "°"
 MAX_WORDS = 40
 """Letters of a text that are shown."""
 
@@ -85,16 +85,6 @@ Builder.load_string("""
             opacity: 1 if root.state == 'alarm' else 0
             pos_hint: {'center_y': .5}
 """)
-
-
-def figure(value: float, decimals: int = 1, *, signed: bool = False) -> str:
-    """`value` with so many decimals as the language writes them and a real minus sign; a dash for NaN and infinity."""
-    if not math.isfinite(value):
-        return DASH
-    text = f"{value:+.{decimals}f}" if signed else f"{value:.{decimals}f}"
-    if not any(digit in text for digit in "123456789"):
-        text = text.lstrip("+-")
-    return text.replace("-", MINUS).replace(".", language.tongue.point)
 
 
 def clock_figure(seconds: float) -> str:

@@ -20,10 +20,9 @@ from bridge.msgs.pilothouse_msgs import MotorArray
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import DASH, Points
 from widgets.core.icons import icon
-from widgets.core.language import tr
+from widgets.core.language import figure, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.instruments.readout import figure
 from widgets.map.map_marks import arrow
 from widgets.parts.sensor_card import Gauge, first_fitting, wide
 

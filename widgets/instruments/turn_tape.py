@@ -23,7 +23,7 @@ from bridge.msgs.sensor_msgs import Imu
 from widgets.core.canvas_ink import Ink, Word, tint
 from widgets.core.geometry import steady
 from widgets.core.icons import icon
-from widgets.core.language import figure, mark, tr
+from widgets.core.language import DASH, figure, mark, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.parts.sensor_card import Gauge, first_fitting, wide
@@ -32,7 +32,6 @@ __all__ = ["TurnTape"]
 
 SEEN_RATE, SEEN_LEAN = 0.1, 0.1
 """Changes that are less are not seen [deg/s], [deg]."""
-_UNKNOWN = "—"
 _TURN, _BANK, _PITCH = mark("Turn"), mark("Bank"), mark("Pitch")
 _SIDES = {
     "Turn": (mark("left"), mark("right")),
@@ -145,7 +144,7 @@ class TurnTape(Gauge):
     def _said(self, name: str, value: float, unit: str) -> tuple[str, ...]:
         """The figure with its side, without, longest first."""
         if not math.isfinite(value):
-            return (_UNKNOWN,)
+            return (DASH,)
         text = f"{figure(abs(value), 0)}{unit}"
         plus, minus = _SIDES[name]
         side = "" if text.startswith("0") else tr(plus if value > 0 else minus)

@@ -19,11 +19,10 @@ from bridge.msgs.arrays import Float64Array
 from bridge.msgs.sensor_msgs import JointState
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import DASH
-from widgets.core.language import tr
+from widgets.core.language import figure, tr
 from widgets.core.sensor_geometry import wheel_name
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.instruments.readout import figure
 from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["EncodersView", "samples"]

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import JointState
-from widgets.core.language import language
+from widgets.core.language import figure, language
 from widgets.core.quantities import quantities
-from widgets.instruments.readout import Readout, clock_figure, figure
+from widgets.instruments.readout import Readout, clock_figure
 
 
 @pytest.mark.parametrize(

@@ -37,10 +37,9 @@ from widgets.controls.goals.arm_picture import (
 from widgets.controls.slide_confirm import OUTCOMES
 from widgets.core.canvas_ink import Word
 from widgets.core.geometry import DASH
-from widgets.core.language import tr
+from widgets.core.language import figure, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.instruments.readout import figure
 from widgets.parts.sensor_card import first_fitting, wide
 
 __all__ = ["ArmPanel", "samples"]

@@ -31,9 +31,9 @@ from widgets.core.canvas_ink import Word, tint
 from widgets.core.finger_stay import FingerStay
 from widgets.core.geometry import DASH
 from widgets.core.icons import icon
+from widgets.core.language import figure
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.instruments.readout import figure
 from widgets.parts.sensor_card import Gauge
 
 __all__ = ["STEP", "TURN", "GoalPad", "samples"]

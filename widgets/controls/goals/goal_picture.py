@@ -12,10 +12,9 @@ from kivy.metrics import dp, sp
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import Points, View, nice_floor, rounded
-from widgets.core.language import tr
+from widgets.core.language import figure, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.instruments.readout import figure
 from widgets.map.map_marks import arrow
 
 __all__ = ["Box", "draw", "ground"]

@@ -13,7 +13,7 @@ from kivy.properties import BooleanProperty, ObjectProperty
 
 from bridge.msgs.std_msgs import Bool
 from widgets.controls.dead_man import DeadMan
-from widgets.core.language import mark, tr
+from widgets.core.language import DASH, mark, tr
 from widgets.parts.sensor_card import Gauge
 
 __all__ = ["REPLY_TIMEOUT", "BoolControl", "Switchable"]
@@ -21,7 +21,6 @@ __all__ = ["REPLY_TIMEOUT", "BoolControl", "Switchable"]
 REPLY_TIMEOUT = 3.0
 """How long the robot has to say that it did what was asked [s]."""
 ON, OFF = mark("on"), mark("off")
-_UNKNOWN = "—"
 
 
 class BoolControl(DeadMan, Gauge):
@@ -118,7 +117,7 @@ class Switchable(BoolControl):
         if self.outcome == "no_reply":
             return tr("no reply")
         if self.value is None:
-            return _UNKNOWN
+            return DASH
         return tr(ON if self.value else OFF)
 
     @property

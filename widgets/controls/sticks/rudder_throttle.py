@@ -20,10 +20,9 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre, RudderState
 from widgets.controls.sticks.stick import DEAD_ZONE, Stick
 from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import HULL, Points, rounded
-from widgets.core.language import tr
+from widgets.core.language import figure, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.instruments.readout import figure
 from widgets.parts.sensor_card import Gauge, wide
 
 __all__ = ["RudderThrottle", "samples"]
