@@ -73,10 +73,13 @@ class Handheld:
             EventLoop.idle()
 
     def tap(self, words: str, kind: str = "Widget") -> None:
-        """Tap what says `words`."""
-        found = self.until(lambda: self.glass.labelled(words, kind), f"something that says {words!r}")
-        self.settle(found[0])
-        self.play(self.hand.tap(middle(found[0])))
+        """Tap what says `words`, when it stands still and says them yet: a list may give its row to something else meanwhile."""
+        for _ in range(HELPS + 1):
+            found = self.until(lambda: self.glass.labelled(words, kind), f"something that says {words!r}")[0]
+            self.settle(found)
+            if found in self.glass.labelled(words, kind):
+                break
+        self.play(self.hand.tap(middle(found)))
 
     def settle(self, widget: Widget) -> None:
         """Wait until the layout leaves `widget` where it is, as a person does before touching it."""

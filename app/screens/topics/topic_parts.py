@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from kivy.lang import Builder
 from kivy.metrics import Metrics
 from kivy.properties import BooleanProperty, ObjectProperty, StringProperty
@@ -235,15 +237,23 @@ class TopicRow(RecycleDataViewBehavior, ButtonBehavior, BoxLayout):
     choose = ObjectProperty(None, allownone=True)
     """Called with the name when a finger pressed it."""
 
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._pressed = ""
+
     @property
     def edge(self) -> float:
         """Width of its border [px]."""
         return float(Metrics.density * (1.5 if self.chosen else 1.0))
 
+    def on_press(self) -> None:
+        """Keep the topic that the finger is laid on: while it lies there, a topic more may give this row another."""
+        self._pressed = self.name
+
     def on_release(self) -> None:
-        """Open it."""
+        """Open the topic that the finger was laid on."""
         if self.choose is not None:
-            self.choose(self.name)
+            self.choose(self._pressed)
 
 
 class TopicDetail(Card):

@@ -8,6 +8,7 @@ import pytest
 
 from app.screens.topics.panel_adding import AddDialog
 from app.screens.topics.ros_graph import RosGraph
+from app.screens.topics.topic_parts import TopicRow
 from tests.app.glass import Glass
 
 
@@ -41,6 +42,18 @@ def test_a_tap_on_a_head_puts_the_lines_in_its_order_and_another_turns_it_round(
     assert names(topics)[-2:] == [second, first]
     driving.tap(topics.list.heads["name"])
     assert names(topics) == sorted(names(topics))
+
+
+def test_a_finger_opens_the_topic_that_it_was_laid_on_though_its_row_is_given_to_another(
+    driving: Glass, topics: Any
+) -> None:
+    driving.stage.frames(2)
+    row = next(one for one in topics.list.table.walk(restrict=True) if isinstance(one, TopicRow))
+    meant = row.name
+    row.dispatch("on_press")
+    row.name = "/another"
+    row.dispatch("on_release")
+    assert topics.topics.opened == meant != "/another"
 
 
 def test_the_table_has_all_room_until_a_topic_is_open(driving: Glass, topics: Any) -> None:
