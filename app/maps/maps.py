@@ -171,6 +171,17 @@ class Maps:
         texture.flip_vertical()
         return PictureGround(texture, corners, source.attribution)
 
+    @staticmethod
+    def moved(ground: Ground, picture: PlacedPicture | None, datum: Datum) -> Ground:
+        """The same ground for a map whose origin is at `datum`, nothing of it read again; `picture` is what it was made of, None for tiles."""
+        from widgets.map.ground import PictureGround, TileGround
+
+        if isinstance(ground, TileGround):
+            return ground.moved(datum)
+        if picture is not None and picture.on_earth and isinstance(ground, PictureGround):
+            return ground.moved(picture.corners_on(datum))
+        return ground
+
     def size(self) -> float:
         """What is kept of servers, offline regions left out [MB]."""
         return self.store.size / MEGABYTE if (self.folder / "tiles.sqlite3").exists() else 0.0

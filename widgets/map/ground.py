@@ -29,6 +29,8 @@ PROBE_LENGTH = 100.0
 """Length of the ways by which the scale of the pictures is measured [m]."""
 MAX_ENLARGEMENT = 128.0
 """How far the sharpest tiles may be enlarged."""
+MAX_LATITUDE = 85.0
+"""North and south of it Mercator's projection has no tiles [deg]."""
 LEAST_SHARE = 0.3
 """Tiles that would be drawn at less of their size than this are too many, and are not drawn."""
 
@@ -52,7 +54,8 @@ class TileGround(Ground):
 
     def scale_at(self, zoom: float) -> float:
         """Pixels to a metre at a zoom level: the mean of east and north, which differ a little."""
-        datum, source = self.datum, self.source
+        source, latitude = self.source, min(max(self.datum.latitude, -MAX_LATITUDE), MAX_LATITUDE)
+        datum = Datum(latitude, 0.0)  # in Mercator's projection each longitude has the same scale, and 0 is far from the date line
         near, east, north = (
             datum.to_geographic(*place) for place in ((0, 0), (PROBE_LENGTH, 0), (0, PROBE_LENGTH))
         )
@@ -62,6 +65,8 @@ class TileGround(Ground):
 
     def place(self, view: View, box: Box) -> bool:
         """Tiles of the level that is enlarged least."""
+        if abs(self.datum.latitude) > MAX_LATITUDE:
+            return False
         source, (x, y, wide, high) = self.source, box
         least = self.scale_at(source.min_zoom)
         steps = math.log2(max(view.scale / least, 1.0))
@@ -76,6 +81,11 @@ class TileGround(Ground):
         self.pictures.pos, self.pictures.size = (middle[0] - wide / 2, middle[1] - high / 2), (wide, high)
         self.pictures.look_at(*self.datum.to_geographic(*view.to_world(*middle)), zoom, scale)
         return True
+
+    def moved(self, datum: Datum) -> TileGround:
+        """The same tiles, none of them read again, for a map whose origin is at `datum`; it takes the place of this one."""
+        self.pictures.unload()
+        return TileGround(self.source, datum)
 
     def finish(self) -> None:
         """Wait until the tiles in sight are there."""
@@ -99,6 +109,10 @@ class PictureGround(Ground):
         self._quad = Quad(texture=texture)
         self.canvas.add(Color(1, 1, 1, 1))
         self.canvas.add(self._quad)
+
+    def moved(self, corners: Sequence[tuple[float, float]]) -> PictureGround:
+        """The same picture at other places of the map; it takes the place of this one."""
+        return PictureGround(self._quad.texture, corners, self.attribution)
 
     def place(self, view: View, box: Box) -> bool:
         """Bring the corners to their places."""

@@ -10,9 +10,13 @@ import pytest
 import widgets
 from app.core.settings_store import Settings
 from app.maps.ground_keeper import GroundKeeper
-from app.maps.maps import KeptTiles, Maps, described
+from app.maps.map_source import Source
+from app.maps.maps import READERS, KeptTiles, Maps, described
+from app.maps.placed_picture import PlacedPicture
+from app.maps.robot_place import PLACE_PERIOD
 from app.maps.sources import NO_MAP
 from app.maps.tile_store import Stored
+from bridge.core.geo import Datum
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from tests.app.maps.test_floor_plan import write as write_plan
 from widgets.map.ground import PictureGround, TileGround
@@ -43,10 +47,17 @@ def told():
 
 
 @pytest.fixture
-def keeper(maps, told):
-    made = GroundKeeper(Map(), maps, told.get)
+def clock():
+    return [100.0]
+
+
+@pytest.fixture
+def keeper(maps, told, clock):
+    made = GroundKeeper(Map(), maps, told.get, lambda: clock[0])
     yield made
     made.close()
+    while any(thread.name == "map picture" for thread in threading.enumerate()):
+        threading.Event().wait(0.001)
 
 
 def read(keeper):
@@ -74,14 +85,80 @@ def test_nothing_is_asked_of_the_network_before_an_operator_gave_an_address(keep
     assert not maps.folder.exists(), "and nothing is kept"
 
 
-def test_a_robot_that_comes_to_be_elsewhere_has_the_map_of_that_place(keeper, told):
+def test_a_robot_that_comes_to_be_elsewhere_has_the_map_of_that_place(keeper, told, clock):
     told["/robot/info"] = HERE
     keeper.look()
     ground = keeper._map.ground
     told["/robot/info"] = RobotInfo(latitude=47.0, longitude=8.0)
+    clock[0] += PLACE_PERIOD
     keeper.look()
     assert keeper._map.ground is None
     assert ground.source.reader._closed
+
+
+def test_tiles_are_opened_once_and_follow_a_place_that_jumps(keeper, told, clock, maps, monkeypatch):
+    told["/robot/info"] = HERE
+    keeper.look()
+    source = keeper._map.ground.source
+    monkeypatch.setattr(maps, "open", lambda *_: pytest.fail("it is opened again"))
+    for number in range(1, 11):
+        clock[0] += PLACE_PERIOD
+        told["/robot/info"] = RobotInfo(latitude=HERE.latitude + number * 1e-5, longitude=HERE.longitude)
+        keeper.look()
+        ground = keeper._map.ground
+        assert (ground.source, ground.datum.latitude) == (source, told["/robot/info"].latitude)
+    assert not source.reader._closed
+
+
+def test_a_picture_on_earth_is_read_once_and_follows_a_place_that_jumps_while_it_is_read(
+    keeper, told, clock, maps, monkeypatch
+):
+    """A picture of a square of 0.01 degrees, read for as long as the robot's place jumps."""
+    reads, may_end = [], threading.Event()
+    corners = ((45.5, -73.58), (45.5, -73.57), (45.51, -73.57), (45.51, -73.58))
+
+    def slowly(path):
+        reads.append(path)
+        may_end.wait(60)
+        return PlacedPicture(1, 1, b"grey", corners)
+
+    monkeypatch.setitem(READERS, "geotiff", slowly)
+    maps.sources.put(Source("g", "geotiff", "Aerial", "/nowhere/a.tif", box=(-73.58, 45.5, -73.57, 45.51)))
+    for number in range(20):
+        told["/robot/info"] = RobotInfo(latitude=45.506 + number % 2 * 1e-3, longitude=-73.575)
+        clock[0] += PLACE_PERIOD
+        keeper.look()
+    may_end.set()
+    read(keeper)
+    assert len(reads) == 1
+    told["/robot/info"] = RobotInfo(latitude=45.508, longitude=-73.575)
+    clock[0] += PLACE_PERIOD
+    keeper.look()
+    assert len(reads) == 1
+    assert keeper._map.ground.corners[0] == pytest.approx(Datum(45.508, -73.575).to_local(*corners[0]))
+
+
+def test_no_second_picture_is_read_while_one_that_is_not_looked_at_any_more_still_is(
+    keeper, told, clock, maps, monkeypatch
+):
+    reads, may_end = [], threading.Event()
+
+    def slowly(path):
+        reads.append(path.name)
+        may_end.wait(60)
+        return PlacedPicture(1, 1, b"grey", ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)), on_earth=False)
+
+    monkeypatch.setitem(READERS, "map_server", slowly)
+    for name in ("b", "a"):
+        maps.sources.put(Source(name, "map_server", name, f"/nowhere/{name}.yaml"))
+    for number in range(20):
+        maps.sources.choose("ab"[number % 2])
+        keeper.look()
+    assert reads == ["a.yaml"]
+    may_end.set()
+    read(keeper)
+    assert (reads, keeper.source.id, keeper.problem) == (["a.yaml", "b.yaml"], "b", "")
+    assert isinstance(keeper._map.ground, PictureGround)
 
 
 def test_a_floor_plan_is_read_in_a_thread_and_lies_in_the_frame_of_the_map(keeper, maps, tmp_path):
