@@ -55,7 +55,7 @@ class TileGround(Ground):
     def scale_at(self, zoom: float) -> float:
         """Pixels to a metre at a zoom level: the mean of east and north, which differ a little."""
         source, latitude = self.source, min(max(self.datum.latitude, -MAX_LATITUDE), MAX_LATITUDE)
-        datum = Datum(latitude, 0.0)  # in Mercator's projection each longitude has the same scale, and 0 is far from the date line
+        datum = Datum(latitude, 0.0)  # each longitude has the same scale, and 0 is far from the date line
         near, east, north = (
             datum.to_geographic(*place) for place in ((0, 0), (PROBE_LENGTH, 0), (0, PROBE_LENGTH))
         )
