@@ -172,7 +172,7 @@ def _pgm(data: bytes) -> NDArray[np.float64]:
     if not (0 < wide * high <= MAX_PIXELS and 0 < most < 65536):
         raise ValueError(f"{wide} x {high} pixels")
     if data[:2] == b"P2":
-        levels = np.array(data[at:].split()[: wide * high], np.float64)
+        levels = np.fromstring(data[at:], np.float64, wide * high, sep=" ")  # no object for each number
     else:
         kind = np.dtype(np.uint8) if most < 256 else np.dtype(">u2")
         levels = np.frombuffer(data, kind, wide * high, at + 1).astype(np.float64)

@@ -183,7 +183,7 @@ class Maps:
         return ground
 
     def size(self) -> float:
-        """What is kept of servers, offline regions left out [MB]."""
+        """What is kept of servers, offline regions left out [MB]; NaN while it is being counted."""
         return self.store.size / MEGABYTE if (self.folder / "tiles.sqlite3").exists() else 0.0
 
     def close(self) -> None:

@@ -1,12 +1,13 @@
 from __future__ import annotations
 
 import math
+import os
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from app.maps.floor_plan import FREE, WALL, read_floor_plan
+from app.maps.floor_plan import FREE, MAX_PICTURE_BYTES, WALL, read_floor_plan
 from app.maps.placed_picture import MAX_TEXTURE_SIDE
 
 PLAIN = "image: a.pgm\nresolution: 0.5\norigin: [-1.0, 2.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
@@ -100,3 +101,12 @@ def test_a_large_plan_loses_no_wall(tmp_path):
 def test_what_cannot_be_shown_says_why(tmp_path, text, picture, sentence):
     with pytest.raises(ValueError, match=sentence):
         read_floor_plan(write(tmp_path, text, picture))
+
+
+def test_a_picture_without_end_or_of_gigabytes_is_not_read(tmp_path):
+    with pytest.raises(ValueError, match=r"picture zero cannot be read \(no file of at most 64 MB\)"):
+        read_floor_plan(write(tmp_path, PLAIN.replace("a.pgm", "/dev/zero")))
+    path = write(tmp_path)
+    os.truncate(tmp_path / "a.pgm", MAX_PICTURE_BYTES + 1)
+    with pytest.raises(ValueError, match="no file of at most 64 MB"):
+        read_floor_plan(path)

@@ -93,7 +93,6 @@ class MapsPane(SettingsPane):
         """Show what there is."""
         self._unbind = self.maps.sources.bind(self._list)
         self.cache.value = self.maps.sources.cache_megabytes
-        self._say_used()
         self._list()
         self.tick()
 
@@ -106,7 +105,8 @@ class MapsPane(SettingsPane):
             self.form.leave()
 
     def tick(self) -> None:
-        """Downloads go on, and a file that was chosen has been looked at."""
+        """Downloads go on, tiles are forgotten, and a file that was chosen has been looked at."""
+        self._say_used()
         if list(self.region_rows) != self.maps.regions.all:
             self._list_regions()
         for region in self.maps.regions.all:
@@ -197,7 +197,9 @@ class MapsPane(SettingsPane):
     # what is kept
 
     def _say_used(self) -> None:
-        self.used.text = tr("{size} MB are kept now.").format(size=figure(self.maps.size(), 1))
+        """How much is kept, which is counted, and made less, while this is looked at."""
+        size = tr("{size} MB are kept now.").format(size=figure(self.maps.size(), 1))
+        self.used.text = " ".join(part for part in (size, self.maps.store.problem) if part)
 
     def _clear(self) -> None:
         self.maps.store.clear()

@@ -128,7 +128,7 @@ def test_what_is_kept_is_bounded_said_and_deleted(pane, driving: Glass):
     pane.cache.count(1)
     assert driving.app.maps.sources.cache_megabytes == 220
     pane.clear.dispatch("on_release")
-    assert pane.used.text == "0.0 MB are kept now."
+    driving.until(lambda: pane.used.text == "0.0 MB are kept now.", "not said")
 
 
 def test_an_offline_region_shows_its_progress_and_is_paused_and_deleted(pane, driving: Glass, town):
