@@ -6,6 +6,7 @@ import argparse
 import logging
 import os
 import re
+import signal
 import sys
 from collections.abc import Sequence
 from typing import NoReturn
@@ -19,7 +20,7 @@ from app.screens.parts.screen_table import names
 from bridge.trust.pairing import SCHEME, PairLink
 from bridge.trust.robot_link import RobotLink, read_link
 
-__all__ = ["main", "prepare", "quieten"]
+__all__ = ["end_at_once_by_signal", "main", "prepare", "quieten"]
 
 THEMES = ("dark", "sunlight", "night")
 SIZE = re.compile(r"(\d{3,5})x(\d{3,5})")
@@ -89,6 +90,13 @@ def quieten() -> None:
     Logger.addFilter(lambda record: not str(record.msg).startswith("Cutbuffer:"))
 
 
+def end_at_once_by_signal() -> None:
+    """Have SIGTERM end the app in order: SDL would have it close the window, before which an operator may be asked."""
+    from kivy.base import EventLoop
+
+    signal.signal(signal.SIGTERM, lambda *_: setattr(EventLoop, "quit", True))
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the handheld until its window is closed; returns 0, or 2 after saying a mistake in one sentence."""
     try:
@@ -113,6 +121,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     except layouts.LayoutError as mistake:
         print(mistake, file=sys.stderr)
         return 2
+    if not is_android():  # there the system ends it otherwise
+        end_at_once_by_signal()
     app.run()
     return 0
 

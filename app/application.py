@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -262,9 +263,13 @@ class PilothouseApp(Showing, App):
     # a robot
 
     def open(self, url: str, *, watch: bool = False) -> None:
-        """Connect to a robot, or pair by its link; with `watch` without asking for control. Its screens come when it answers."""
+        """Connect to a robot, or pair by its link; with `watch` without asking for control. Its screens come when it answers.
+
+        The robot that is on the glass is left by `Leaving.leave`, which may ask first.
+        """
         if not self.robot_list.trust.asks_first(url):
-            self.visit.open(url, wants_control=not watch, on_rest=self.inputs.rest)
+            go = partial(self.visit.open, url, wants_control=not watch, on_rest=self.inputs.rest)
+            self.leaving.leave(go)
 
     def leave(self) -> None:
         """Back to the connect screen; the robot goes on with what it does."""

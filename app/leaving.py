@@ -1,4 +1,4 @@
-"""The ways out: back by one order, and no robot that moves is left without a question."""
+"""The ways out: back by one order, and no robot that this handheld has in hand is left without a question."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 from app.device import is_android
 from app.inputs.base.text_focus import typed_in
 from app.pages import Pages
+from bridge.msgs.pilothouse_msgs import TaskStatus
 
 if TYPE_CHECKING:
+    from app.inputs.inputs import Inputs
     from app.session.session import Session
 
 __all__ = ["HOME", "Leaving"]
@@ -23,6 +25,7 @@ class Host(Protocol):
 
     pages: Pages
     root: Any
+    inputs: Inputs
 
     @property
     def session(self) -> Session | None:
@@ -30,6 +33,9 @@ class Host(Protocol):
 
     def leave(self) -> None:
         """Back to the connect screen, at once."""
+
+    def stop(self) -> None:
+        """End, at once."""
 
 
 class Leaving:
@@ -62,7 +68,7 @@ class Leaving:
         return not is_android()
 
     def leave(self, then: Callable[[], object] | None = None) -> None:
-        """Leave the robot and do `then`; while it moves for this handheld only after a question."""
+        """Leave the robot and do `then`; only after a question while this handheld has it in hand."""
         app, session = self._app, self._app.session
 
         def go() -> None:
@@ -71,17 +77,44 @@ class Leaving:
                 if then is not None:
                     then()
 
-        if session is None or not self._moves(session):
+        if session is None or not self.asks(session):
             go()
             return
         from app.screens.parts.leave_dialog import LeaveDialog
 
         app.pages.close_question()
-        tasked = session.running and not session.link.driving
-        app.root.add_widget(LeaveDialog(go, robot=session.robot.name, tasked=tasked))
+        app.root.add_widget(LeaveDialog(go, robot=session.robot.name, reason=self._reason(session)))
+
+    def close_window(self) -> bool:
+        """The window shall close: True where it stays for now, because it is asked first; asked to a second time it closes."""
+        app, session = self._app, self._app.session
+        if session is None or not self.asks(session):
+            return False
+        from app.screens.parts.leave_dialog import LeaveDialog
+
+        if any(isinstance(one, LeaveDialog) for one in app.root.children):
+            return False
+        self.leave(app.stop)
+        return True
+
+    def asks(self, session: Session) -> bool:
+        """This handheld has the robot in hand: control is here, a finger or a key is on what moves it, or it moves and has no control to hold."""
+        if self._app.inputs.held:
+            return True
+        if not session.connected:
+            return False
+        return session.control == "mine" or (session.control == "none" and self._moves(session))
+
+    def _reason(self, session: Session) -> str:
+        """What is told of a robot before it is left, as in `LeaveDialog.reason`."""
+        task: TaskStatus | None = session.feeds.latest("/task/status")
+        if self._app.inputs.held or session.link.driving:
+            return "moves"
+        if task is not None and task.state == "RUNNING":
+            return "task"
+        return "moves" if self._moves(session) else "control"
 
     @staticmethod
     def _moves(session: Session) -> bool:
-        """It is on its way, or told to be, and whoever leaves it here had it in hand."""
-        held = session.control in ("mine", "none")
-        return held and session.connected and (session.link.driving or session.checks.moves)
+        """It is on its way, or told to be."""
+        return session.link.driving or session.checks.moves

@@ -51,6 +51,11 @@ class InputsApp(MethodApp, Protocol):
         """STOP ALL."""
         ...
 
+    @property
+    def leaving(self) -> Any:
+        """The ways out."""
+        ...
+
     def back(self) -> bool:
         """As Android's Back; False where the system decides."""
         ...
@@ -114,6 +119,7 @@ class Inputs:
             "on_joy_button_up": self._button_up,
             "on_joy_axis": self._axis,
             "on_touch_down": self._touch_down,
+            "on_request_close": lambda *_, **__: self._app.leaving.close_window(),
             "focus": self._focus,
             **dict.fromkeys(RESTING, self.rest),
         }
@@ -147,6 +153,11 @@ class Inputs:
     def pushed(self) -> bool:
         """A control that drives is out of its middle, whatever pushes it."""
         return any(stick.forward or stick.left for stick, _ in self.sticks)
+
+    @property
+    def held(self) -> bool:
+        """Something is pushed, or a finger rests on what could be: the will to move the robot, be it felt or not."""
+        return self.pushed or self._pushing.held
 
     def update(self) -> None:
         """Whatever pushes a control is looked at, and what is pressed on the gamepads."""

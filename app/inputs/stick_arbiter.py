@@ -78,6 +78,11 @@ class StickArbiter:
         shell = self._app.shell
         return getattr(shell.screens.get(shell.screen), "grips", []) if shell is not None else []
 
+    @property
+    def held(self) -> bool:
+        """A hand is on one of them."""
+        return any(_held(one) for one in (*self.grips, *(stick for stick, _ in self.sticks)))
+
     def update(self) -> None:
         """Whatever pushes a control is looked at: is it still there, may it still?"""
         sticks, grips = self.sticks, self.grips

@@ -1,9 +1,10 @@
-"""Back goes by one order, and a robot that moves for this handheld is left only after a question."""
+"""Back goes by one order, and a robot that this handheld has in hand is left only after a question."""
 
 from __future__ import annotations
 
 from typing import Any
 
+import pytest
 from kivy.uix.textinput import TextInput
 
 from app.screens.parts.leave_dialog import LeaveDialog
@@ -28,6 +29,8 @@ def test_from_a_screen_back_leads_to_the_mission_and_then_to_the_robots(driving:
     assert app.back()
     assert app.shell.screen == "mission"
     assert app.back()
+    assert question(driving) is not None, "control is here"
+    driving.tap(question(driving).ids.leave)
     assert app.session is None
     assert app.connect.parent is app.root
 
@@ -78,12 +81,17 @@ def test_a_robot_that_moves_is_left_only_after_a_question(driving: Glass, robot:
 def test_the_question_says_whether_a_task_goes_on(driving: Glass, robot: FakeRobot) -> None:
     moves(driving, robot)
     driving.app.leaving.leave()
-    assert not question(driving).tasked
+    assert question(driving).reason == "moves"
     driving.app.back()
     robot.publish("/task/status", TaskStatus(task_id=1, task="patrol", state="RUNNING"))
     driving.until(lambda: driving.app.session.running, "no task")
     driving.app.leaving.leave()
-    assert question(driving).tasked
+    assert question(driving).reason == "task"
+    driving.app.back()
+    robot.publish("/task/status", TaskStatus(task_id=1, task="patrol", state="PAUSED"))
+    driving.until(lambda: driving.app.session.feeds.latest("/task/status").state == "PAUSED", "no pause")
+    driving.app.leaving.leave()
+    assert question(driving).reason == "moves", "it coasts, and nothing goes on by itself"
 
 
 def test_a_robot_that_somebody_else_drives_is_left_without_a_question(
@@ -96,11 +104,64 @@ def test_a_robot_that_somebody_else_drives_is_left_without_a_question(
     assert driving.app.session is None
 
 
-def test_one_at_rest_is_left_at_once_and_what_comes_then_is_done(driving: Glass, robot: FakeRobot) -> None:
+def watches(driving: Glass, robot: FakeRobot) -> None:
+    """Control is nobody's, and this handheld does not want it."""
+    driving.app.session.authority.release()
+    robot.publish("/control/status", ControlStatus())
+    driving.until(lambda: driving.app.session.control == "free", "still ours")
+
+
+def test_one_at_rest_is_left_only_after_a_question_while_control_is_here(
+    driving: Glass, robot: FakeRobot
+) -> None:
     moves(driving, robot, 0.0)
     done: list[bool] = []
     driving.app.leaving.leave(lambda: done.append(driving.app.session is None))
+    assert (question(driving).reason, done) == ("control", []), "control is not given away at one tap"
+    driving.stage.frames(3)
+    driving.tap(question(driving).ids.stay)
+    assert driving.app.session.control == "mine"
+    driving.app.leaving.leave(lambda: done.append(driving.app.session is None))
+    driving.stage.frames(3)
+    driving.tap(question(driving).ids.leave)
     assert done == [True]
+
+
+def test_one_that_is_only_watched_is_left_at_once_and_what_comes_then_is_done(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    moves(driving, robot)
+    watches(driving, robot)
+    done: list[bool] = []
+    driving.app.leaving.leave(lambda: done.append(driving.app.session is None))
+    assert done == [True]
+
+
+def test_one_whose_link_is_gone_is_left_at_once(driving: Glass, robot: FakeRobot) -> None:
+    robot.cut()
+    driving.until(lambda: not driving.app.session.connected, "it stands")
+    driving.app.leaving.leave()
+    assert driving.app.session is None
+
+
+def test_a_finger_on_a_stick_is_asked_though_control_is_not_here_and_nothing_moves(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    watches(driving, robot)
+    stick = driving.app.screens["drive"].stick
+    finger = driving.hold(stick)
+    assert (stick.forward, stick.left) == (0.0, 0.0), "it only rests there"
+    driving.app.leaving.leave()
+    assert question(driving).reason == "moves"
+    finger.touch_up()
+
+
+def test_another_robot_is_opened_after_the_same_question(driving: Glass) -> None:
+    app, before = driving.app, driving.app.session
+    app.open("ws://127.0.0.1:9")
+    assert app.session is before
+    question(driving).answer()
+    assert app.session.robot.url == "ws://127.0.0.1:9"
 
 
 def test_an_answer_that_comes_after_the_robot_was_left_otherwise_does_nothing(
@@ -120,4 +181,25 @@ def test_the_arrow_of_the_bar_goes_back_as_the_gesture_does(driving: Glass) -> N
     driving.app.shell.bar.dispatch("on_back")
     assert (driving.app.shell.screen, driving.app.session is None) == ("mission", False)
     driving.app.shell.bar.dispatch("on_back")
-    assert driving.app.session is None
+    assert question(driving) is not None
+
+
+def test_the_window_closes_only_after_the_same_question_and_at_once_when_it_is_closed_again(
+    driving: Glass, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    window, ended = driving.stage.window, list[bool]()
+    monkeypatch.setattr(driving.app, "stop", lambda: ended.append(driving.app.session is None))
+    assert window.dispatch("on_request_close"), "it stays"
+    assert not window.dispatch("on_request_close"), "nobody is kept in"
+    assert driving.app.back()
+    assert window.dispatch("on_request_close")
+    driving.stage.frames(3)
+    driving.tap(question(driving).ids.leave)
+    assert ended == [True]
+
+
+def test_the_window_closes_at_once_where_no_robot_is_in_hand(driving: Glass, robot: FakeRobot) -> None:
+    watches(driving, robot)
+    assert not driving.stage.window.dispatch("on_request_close")
+    driving.app.leave()
+    assert not driving.stage.window.dispatch("on_request_close")

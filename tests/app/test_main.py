@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -9,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from app.__main__ import main
+from app.__main__ import end_at_once_by_signal, main
 
 ROOT = Path(__file__).parents[2]
 
@@ -76,3 +78,16 @@ def test_frames_are_paced_on_desktops_alone(android: bool, monkeypatch: pytest.M
     monkeypatch.setattr("app.application.PilothouseApp", App)
     assert main([]) == 0
     assert made[0]["poll"] is not android
+
+
+def test_a_signal_ends_the_app_in_order_and_asks_nobody() -> None:
+    from kivy.base import EventLoop
+
+    before, quits = signal.getsignal(signal.SIGTERM), EventLoop.quit
+    try:
+        end_at_once_by_signal()
+        os.kill(os.getpid(), signal.SIGTERM)
+        assert EventLoop.quit
+    finally:
+        signal.signal(signal.SIGTERM, before)
+        EventLoop.quit = quits

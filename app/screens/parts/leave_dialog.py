@@ -1,4 +1,4 @@
-"""The question before a robot that moves is left: what becomes of it then."""
+"""The question before a robot is left that this handheld has in hand: what becomes of it then."""
 
 from __future__ import annotations
 
@@ -6,11 +6,28 @@ from collections.abc import Callable
 from typing import Any
 
 from kivy.lang import Builder
-from kivy.properties import BooleanProperty, StringProperty
+from kivy.properties import OptionProperty, StringProperty
 
 from app.screens.parts.dialogs import Question
+from widgets.core.language import mark, tr
 
 __all__ = ["LeaveDialog"]
+
+REASONS = {
+    "task": (
+        mark("Leave {robot} while its task runs?"),
+        mark("Its task goes on by itself. Nobody here sees it any more."),
+    ),
+    "moves": (
+        mark("Leave {robot} while it moves?"),
+        mark("You let go of it: it stops, and nobody here sees it any more."),
+    ),
+    "control": (
+        mark("Leave {robot} and give control back?"),
+        mark("Anybody may take control then. Nobody here sees it any more."),
+    ),
+}
+"""Why it is asked, to the question and what becomes of the robot."""
 
 Builder.load_string("""
 #:import tr widgets.core.language.tr
@@ -25,11 +42,11 @@ Builder.load_string("""
         padding: dp(20)
         spacing: dp(14)
         Text:
-            text: (tr('Leave {robot} while its task runs?') if root.tasked else tr('Leave {robot} while it moves?')).format(robot=root.robot)
+            text: root.question
             bold: True
             font_size: theme.size_title
         Text:
-            text: tr('Its task goes on by itself. Nobody here sees it any more.') if root.tasked else tr('You let go of it: it stops, and nobody here sees it any more.')
+            text: root.sentence
             role: 'muted'
             font_size: sp(15)
         BoxLayout:
@@ -52,12 +69,18 @@ class LeaveDialog(Question):
 
     robot = StringProperty("")
     """Its name."""
-    tasked = BooleanProperty(False)
-    """A task moves it, and not a hand."""
+    reason = OptionProperty("control", options=list(REASONS))
+    """Why it is asked: a `task` runs, the robot `moves` or is told to by a hand, or this handheld has `control` of it at rest."""
+    question = StringProperty("")
+    """What is asked."""
+    sentence = StringProperty("")
+    """What becomes of the robot then."""
     wanted = (468.0, 240.0)
 
     def __init__(self, on_answer: Callable[[], object], **kwargs: Any) -> None:
         super().__init__(**kwargs)
+        question, sentence = REASONS[self.reason]
+        self.question, self.sentence = tr(question).format(robot=self.robot), tr(sentence)
         self._on_answer = on_answer
 
     def answer(self) -> None:

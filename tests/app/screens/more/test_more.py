@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from app.screens.more.more import ACTS
+from app.screens.parts.leave_dialog import LeaveDialog
 from app.screens.parts.screen_table import MORE, beyond
 from tests.app.glass import Glass
 from widgets.core.theme import theme
@@ -68,4 +69,8 @@ def test_help_opens_and_leaving_leads_to_the_robots(driving: Glass, more: Any) -
     driving.tap(more.tiles["help"])
     driving.until(driving.app.pages.close_question, "no help")
     driving.tap(more.tiles["leave"])
+    driving.stage.frames(3)
+    asked = next(one for one in driving.app.root.children if isinstance(one, LeaveDialog))
+    assert driving.app.session.control == "mine", "control is not given away at one tap"
+    driving.tap(asked.ids.leave)
     driving.until(lambda: driving.app.session is None, "still there")

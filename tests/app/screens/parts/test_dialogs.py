@@ -8,6 +8,7 @@ from app.discovery.simulator_options import SimulationChoice
 from app.layout.rects import Rect
 from app.screens.connect.simulator_dialog import SimulatorDialog
 from app.screens.parts.dialogs import AddressDialog, Question, free_room
+from app.screens.parts.leave_dialog import LeaveDialog
 from app.screens.shell.key_help import HelpCard
 from app.screens.trust.pair_dialog import PairDialog
 from bridge.trust.pairing import PairLink
@@ -26,6 +27,7 @@ def questions() -> list[Question]:
     return [
         help_,
         AddressDialog(lambda _: None),
+        LeaveDialog(lambda: None, robot="Patrol-1"),
         SimulatorDialog(SimulationChoice(), lambda _: None),
         PairDialog(lambda _: None, robot="Patrol-1"),
         PairDialog(lambda _: None, link=link),
