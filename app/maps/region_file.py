@@ -21,6 +21,12 @@ P = TypeVar("P")
 
 GOOD_FOR = 30 * 86400.0
 """How long a tile of a region is shown without asking the server for a newer one [s]."""
+FETCHED = """
+CREATE TABLE IF NOT EXISTS pilothouse_fetched (zoom_level INTEGER, tile_column INTEGER, tile_row INTEGER, at REAL,
+  PRIMARY KEY (zoom_level, tile_column, tile_row)) WITHOUT ROWID;
+"""
+"""When each tile was fetched [s]; files of an earlier version lack it."""
+ABOUT = "zoom_level=? AND tile_column=? AND tile_row=?"
 TABLES = """
 CREATE TABLE metadata (name TEXT PRIMARY KEY, value TEXT);
 CREATE TABLE tiles (zoom_level INTEGER, tile_column INTEGER, tile_row INTEGER, tile_data BLOB,
@@ -31,11 +37,15 @@ CREATE TABLE pilothouse_gaps (zoom_level INTEGER, tile_column INTEGER, tile_row 
 
 
 class RegionFile:
-    """Every method may be called from any thread."""
+    """Every method may be called from any thread. One connection, opened when it is first needed and kept until `close`."""
 
     def __init__(self, path: Path, about: Mapping[str, str]) -> None:
         self.path, self.about = path, about
         self._lock = threading.Lock()
+        self._file: sqlite3.Connection | None = None
+        self._written = 0.0
+        """When the file was written last before it was opened [s]: so old are tiles of which nothing better is known, at most."""
+        self._dated = self._closed = False
 
     @classmethod
     def made(cls, path: Path, source: Source, name: str, plan: object) -> RegionFile:
@@ -72,42 +82,76 @@ class RegionFile:
     def keys(self) -> set[Key]:
         """The tiles that are here, or that the server does not have."""
         columns = "zoom_level, tile_column, tile_row"
-        with self._open() as file:
-            rows = file.execute(f"SELECT {columns} FROM tiles UNION SELECT {columns} FROM pilothouse_gaps")  # noqa: S608
+        with self._lock:
+            rows = self._open().execute(
+                f"SELECT {columns} FROM tiles UNION SELECT {columns} FROM pilothouse_gaps"  # noqa: S608
+            )
             return {(zoom, column, row) for zoom, column, row in rows}
 
     def count(self) -> int:
         """How many those are."""
-        with self._open() as file:
+        with self._lock:
             both = "SELECT (SELECT COUNT(*) FROM tiles) + (SELECT COUNT(*) FROM pilothouse_gaps)"
-            return int(file.execute(both).fetchone()[0])
+            return int(self._open().execute(both).fetchone()[0])
 
-    def put(self, tile: Key, data: bytes | None) -> None:
-        """Keep a tile, or that there is none."""
-        with self._lock, self._open() as file, file:
+    def put(self, tile: Key, data: bytes | None, at: float) -> None:
+        """Keep a tile, or that there is none, fetched at `at` [s], by the system's clock; sqlite3.Error where that cannot be."""
+        with self._lock, self._open() as file:
             if data is None:
                 file.execute("INSERT OR REPLACE INTO pilothouse_gaps VALUES (?, ?, ?)", tile)
             else:
                 file.execute("INSERT OR REPLACE INTO tiles VALUES (?, ?, ?, ?)", (*tile, data))
+            if self._dated:
+                file.execute("INSERT OR REPLACE INTO pilothouse_fetched VALUES (?, ?, ?, ?)", (*tile, at))
 
     def get(self, tile: Key) -> Stored | None:
         """That tile; None where it is not here."""
-        where = "zoom_level=? AND tile_column=? AND tile_row=?"
         try:
-            with self._open() as file:
-                row = file.execute(f"SELECT tile_data FROM tiles WHERE {where}", tile).fetchone()  # noqa: S608
-            fetched = self.path.stat().st_mtime
+            with self._lock:
+                file = self._open()
+                row = file.execute(f"SELECT tile_data FROM tiles WHERE {ABOUT}", tile).fetchone()  # noqa: S608
+                fetched = self._fetched(file, tile)
         except (sqlite3.Error, OSError):
             return None  # deleted, or damaged: the network has it
         return Stored(bytes(row[0]), expires=fetched + GOOD_FOR) if row else None
 
+    def _fetched(self, file: sqlite3.Connection, tile: Key) -> float:
+        when = f"SELECT at FROM pilothouse_fetched WHERE {ABOUT}"  # noqa: S608
+        row = file.execute(when, tile).fetchone() if self._dated else None
+        return float(row[0]) if row else self._written
+
     def delete(self) -> None:
         """Delete the file."""
-        with self._lock, contextlib.suppress(OSError):
+        self.close()
+        with contextlib.suppress(OSError):
             self.path.unlink()
 
-    def _open(self) -> contextlib.closing[sqlite3.Connection]:
-        return contextlib.closing(sqlite3.connect(f"{self.path.absolute().as_uri()}?mode=rw", uri=True))
+    def close(self) -> None:
+        """Let go of the file; what comes later is neither found nor kept."""
+        with self._lock:
+            self._closed = True
+            if self._file is not None:
+                self._file.close()
+                self._file = None
+
+    def _open(self) -> sqlite3.Connection:
+        """With the lock held."""
+        if self._closed:
+            raise sqlite3.ProgrammingError(f"{self.path.name} is closed")
+        if self._file is None:
+            self._written = self.path.stat().st_mtime
+            uri = f"{self.path.absolute().as_uri()}?mode=rw"
+            file = sqlite3.connect(uri, uri=True, check_same_thread=False)
+            try:
+                with contextlib.suppress(sqlite3.OperationalError):  # a card that cannot be written is read
+                    file.executescript(FETCHED)
+                known = "SELECT 1 FROM sqlite_master WHERE name='pilothouse_fetched'"
+                self._dated = bool(file.execute(known).fetchone())
+            except sqlite3.Error:
+                file.close()
+                raise
+            self._file = file
+        return self._file
 
 
 def _box(about: Mapping[str, str]) -> Box:

@@ -12,8 +12,10 @@ import logging
 import math
 import re
 import secrets
+import shutil
 import sqlite3
 import threading
+import time
 from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -27,7 +29,7 @@ from app.maps.tile_server import NoAnswer
 from widgets.core.language import tr
 from widgets.map.tiles.tile_reader import Key
 
-__all__ = ["MAX_TILES", "USUAL_BYTES", "Region", "RegionPlan", "Regions"]
+__all__ = ["MAX_TILES", "USUAL_BYTES", "Region", "RegionPlan", "Regions", "Surroundings"]
 
 log = logging.getLogger(__name__)
 
@@ -36,6 +38,13 @@ MAX_TILES = 20_000
 MAX_REGIONS = 32
 USUAL_BYTES = 20_000
 """Of one tile's file, while there is none to measure."""
+LARGER = 3
+"""A region may take so many times what was announced, for tiles differ; what is more ends the download."""
+LEAST_BYTES = 50_000_000
+"""So much any region may take."""
+LEAST_FREE = 200_000_000
+"""What a download leaves free on the disk [bytes]: settings, recordings and the system need room too."""
+MEGABYTE = 1_000_000
 MAX_FAILED_IN_ROW = 8
 """So many failures one after the other, and the download stops and says why."""
 CLOSE_TIMEOUT = 2.0
@@ -79,6 +88,11 @@ class RegionPlan:
         return self.count * self.bytes_each
 
     @property
+    def most_bytes(self) -> int:
+        """What they may take [bytes]."""
+        return max(LARGER * self.size, LEAST_BYTES)
+
+    @property
     def refusal(self) -> str:
         """Why it is not downloaded, in one sentence; empty where it may be."""
         if self.count <= MAX_TILES:
@@ -88,10 +102,22 @@ class RegionPlan:
         ).format(count=self.count, most=MAX_TILES)
 
 
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What a download asks of the system; tests have their own."""
+
+    wait: Callable[[threading.Event, float], bool] = threading.Event.wait
+    """Waits so long [s] or until the event is set, and says whether it is."""
+    now: Callable[[], float] = time.time
+    """The system's clock [s]."""
+    free: Callable[[Path], int] = lambda folder: shutil.disk_usage(folder).free
+    """Bytes that are free on the disk of a folder."""
+
+
 class Region:
     """One region: its file, and the thread that fills it while it is being downloaded. For the UI thread but for `_run`."""
 
-    def __init__(self, file: RegionFile, clock_wait: Callable[[threading.Event, float], bool]) -> None:
+    def __init__(self, file: RegionFile, system: Surroundings) -> None:
         self.file = file
         about = file.about
         self.name, self.source = about["name"], about["pilothouse_source"]
@@ -103,7 +129,7 @@ class Region:
         """`done`, `paused`, `loading`, or `failed`, which can be resumed too."""
         self.problem = ""
         """Why it failed, in one sentence."""
-        self._wait = clock_wait
+        self._system = system
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
 
@@ -142,7 +168,7 @@ class Region:
             self._load(source, server, stop)
         except (sqlite3.Error, OSError) as fault:
             problem = tr("The region cannot be kept: {fault}.").format(fault=fault)
-        except NoAnswer as none:
+        except (NoAnswer, _NoRoom) as none:
             problem = str(none)
         except Exception as fault:  # a thread that ends silently would be downloading for ever
             log.exception("offline map")
@@ -155,6 +181,7 @@ class Region:
         left = deque(tile for tile in self.plan.tiles() if tile not in here)
         self.done = self.total - len(left)
         while left and not stop.is_set():
+            self._check_room()
             try:
                 answer = server.fetch(address, left[0])
             except NoAnswer as none:
@@ -162,24 +189,45 @@ class Region:
                 if failed >= MAX_FAILED_IN_ROW:
                     raise
                 left.rotate(-1)  # another tile may come
-                self._wait(stop, max(none.pause, min(FIRST_PAUSE * 2.0 ** (failed - 1), GREATEST_PAUSE)))
+                self._system.wait(
+                    stop, max(none.pause, min(FIRST_PAUSE * 2.0 ** (failed - 1), GREATEST_PAUSE))
+                )
                 continue
-            self.file.put(left.popleft(), answer.stored.data)
+            self.file.put(left.popleft(), answer.stored.data, self._system.now())
             failed = 0
             if not stop.is_set():
                 self.done += 1
+
+    def _check_room(self) -> None:
+        """_NoRoom where the next tile is not to be kept."""
+        if self.size >= self.plan.most_bytes:
+            raise _NoRoom(
+                tr(
+                    "The tiles are larger than was announced: they take {size} MB already. What is here stays."
+                ).format(size=self.size // MEGABYTE)
+            )
+        if full := _full(self._system.free(self.file.path.parent)):
+            raise _NoRoom(full)
+
+
+class _NoRoom(Exception):
+    """A download ends, for a reason that is one sentence for people."""
+
+
+def _full(free: int, needed: int = 0) -> str:
+    """Why so much is not kept where so much is free [bytes]; empty where it may be."""
+    if free - needed >= LEAST_FREE:
+        return ""
+    return tr("The disk has {free} MB left; a download needs {needed} MB.").format(
+        free=free // MEGABYTE, needed=(needed + LEAST_FREE) // MEGABYTE
+    )
 
 
 class Regions:
     """The regions of this handheld, one file each in `folder`. For the UI thread."""
 
-    def __init__(
-        self,
-        folder: Path,
-        wait: Callable[[threading.Event, float], bool] = threading.Event.wait,
-    ) -> None:
-        """`wait` waits so long [s] or until the event is set, and says whether it is."""
-        self._folder, self._wait = folder, wait
+    def __init__(self, folder: Path, system: Surroundings | None = None) -> None:
+        self._folder, self._system = folder, system or Surroundings()
         self._all: list[Region] | None = None
 
     @property
@@ -189,7 +237,7 @@ class Regions:
             self._all = []
             for path in sorted(self._folder.glob("*.mbtiles")):
                 try:
-                    self._all.append(Region(RegionFile.opened(path), self._wait))
+                    self._all.append(Region(RegionFile.opened(path), self._system))
                 except (sqlite3.Error, ValueError, KeyError, OSError) as fault:
                     log.warning("%s is no offline region: %s", path, fault)
         return self._all
@@ -209,7 +257,10 @@ class Regions:
         plain = re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")[:40] or "region"
         path = self._folder / f"{plain}-{secrets.token_hex(3)}.mbtiles"
         try:
-            region = Region(RegionFile.made(path, source, name, plan), self._wait)
+            self._folder.mkdir(parents=True, exist_ok=True)
+            if full := _full(self._system.free(self._folder), plan.size):
+                raise ValueError(full)
+            region = Region(RegionFile.made(path, source, name, plan), self._system)
         except (sqlite3.Error, OSError) as fault:
             raise ValueError(tr("The region cannot be kept: {fault}.").format(fault=fault)) from fault
         self.all.append(region)
@@ -228,6 +279,7 @@ class Regions:
             region.pause()
         for region in self._all or ():
             region.wait(CLOSE_TIMEOUT)
+            region.file.close()
 
 
 def _column(longitude: float, zoom: int) -> int:

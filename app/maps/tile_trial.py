@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import threading
 
@@ -14,6 +15,8 @@ from widgets.core.language import tr
 from widgets.map.tiles.tile_reader import Key
 
 __all__ = ["TileTrial", "tile_at"]
+
+log = logging.getLogger(__name__)
 
 SHOWN_ZOOM = 16
 """Level of the tile that is asked for where the robot's place is known."""
@@ -59,6 +62,9 @@ class TileTrial:
                 )
         except NoAnswer as none:
             self.problem = str(none)
+        except Exception as fault:  # a thread that ends silently would be trying for ever
+            log.exception("a tile that was tried")
+            self.problem = tr("The tile cannot be shown ({fault}).").format(fault=type(fault).__name__)
         self.over = True
 
     def wait(self, timeout: float | None = None) -> None:

@@ -1,13 +1,17 @@
 from __future__ import annotations
 
+import os
 import sqlite3
 import threading
 from contextlib import closing
+from types import SimpleNamespace
 
 import pytest
 
+from app.maps import regions as regions_module
 from app.maps.map_source import URL, Source
-from app.maps.regions import MAX_FAILED_IN_ROW, MAX_TILES, RegionPlan, Regions
+from app.maps.region_file import GOOD_FOR, RegionFile
+from app.maps.regions import LEAST_FREE, MAX_FAILED_IN_ROW, MAX_TILES, RegionPlan, Regions, Surroundings
 from app.maps.tile_server import NoAnswer, Tile
 from app.maps.tile_store import Stored
 
@@ -46,12 +50,18 @@ def waits():
 
 
 @pytest.fixture
-def regions(tmp_path, waits):
+def disk():
+    """What is free, and what time it is."""
+    return SimpleNamespace(free=10 * LEAST_FREE, now=1000.0)
+
+
+@pytest.fixture
+def regions(tmp_path, waits, disk):
     def wait(stop, seconds):
         waits.append(seconds)
         return stop.is_set()
 
-    made = Regions(tmp_path, wait)
+    made = Regions(tmp_path, Surroundings(wait, lambda: disk.now, lambda _: disk.free))
     yield made
     made.close()
 
@@ -111,7 +121,10 @@ def test_a_pause_keeps_what_is_here_and_a_restart_goes_on_from_there(regions, tm
     kept.resume(STREETS, other)
     kept.wait()
     assert (kept.state, len(other.asked)) == ("done", PLAN.count - 6)
-    assert Regions(tmp_path).all[0].state == "done"
+    again.close()
+    last = Regions(tmp_path)
+    assert last.all[0].state == "done"
+    last.close()
 
 
 def test_a_tile_that_fails_is_tried_again_later_with_longer_and_longer_pauses(regions, waits):
@@ -139,7 +152,9 @@ def test_tiles_that_a_server_does_not_have_count_as_done_and_are_not_asked_for_a
     server.gaps = set(PLAN.tiles())
     region = regions.begin(STREETS, "Sea", PLAN, server)
     region.wait()
-    assert Regions(tmp_path).all[0].state == "done"
+    again = Regions(tmp_path)
+    assert again.all[0].state == "done"
+    again.close()
     assert region.file.get(next(PLAN.tiles())) is None
 
 
@@ -165,3 +180,80 @@ def test_where_nothing_can_be_kept_it_is_one_sentence(tmp_path):
     (tmp_path / "regions").write_text("a file where the folder should be")
     with pytest.raises(ValueError, match="The region cannot be kept"):
         Regions(tmp_path / "regions").begin(STREETS, "Harbour", PLAN, Server())
+
+
+def test_a_download_leaves_room_on_the_disk_and_keeps_what_it_has(regions, disk):
+    server = Server()
+    server.may = threading.Semaphore(5)
+    region = regions.begin(STREETS, "Harbour", PLAN, server)
+    server.until_done(5)
+    disk.free = LEAST_FREE - 1
+    server.may.release()  # the tile at work
+    region.wait()
+    assert (region.state, region.done) == ("failed", 6)
+    assert region.problem == "The disk has 199 MB left; a download needs 200 MB."
+    disk.free = LEAST_FREE
+    server.may.release(10_000)
+    region.resume(STREETS, server)
+    region.wait()
+    assert (region.state, region.problem) == ("done", "")
+
+
+def test_a_download_for_which_the_disk_has_no_room_is_not_begun(regions, disk):
+    disk.free = LEAST_FREE + PLAN.size - 1
+    with pytest.raises(ValueError, match=r"The disk has \d+ MB left; a download needs \d+ MB\."):
+        regions.begin(STREETS, "Harbour", PLAN, Server())
+    assert regions.all == []
+
+
+def test_tiles_far_larger_than_was_announced_end_the_download_which_keeps_what_it_has(regions, monkeypatch):
+    monkeypatch.setattr(regions_module, "LEAST_BYTES", 0)
+    monkeypatch.setattr(regions_module, "LARGER", 2)
+    region = regions.begin(STREETS, "Harbour", PLAN, LargeTiles())
+    region.wait()
+    assert region.state == "failed"
+    assert region.problem.startswith("The tiles are larger than was announced")
+    assert 0 < region.done < PLAN.count
+    assert region.size < (regions_module.LARGER + 1) * PLAN.size
+    assert region.file.get(next(PLAN.tiles())) is not None
+
+
+class LargeTiles(Server):
+    def fetch(self, address, tile, kept=None):
+        return Tile(Stored(bytes(100_000)), None)
+
+
+def test_each_tile_is_as_old_as_it_was_when_it_was_fetched(regions, disk):
+    server = Server()
+    server.may = threading.Semaphore(5)
+    region = regions.begin(STREETS, "Harbour", PLAN, server)
+    server.until_done(5)
+    region.pause()
+    server.may.release(10_000)
+    region.wait()
+    disk.now += 50 * 86400.0
+    region.resume(STREETS, server)
+    region.wait()
+    first, last = (region.file.get(tile).expires for tile in (server.asked[0], server.asked[-1]))
+    assert (first, last) == (1000.0 + GOOD_FOR, disk.now + GOOD_FOR)
+
+
+def test_tiles_of_an_earlier_versions_file_are_as_old_as_the_file(regions, tmp_path):
+    region = regions.begin(STREETS, "Harbour", PLAN, Server())
+    region.wait()
+    regions.close()
+    with closing(sqlite3.connect(region.file.path)) as file, file:
+        file.execute("DROP TABLE pilothouse_fetched")
+    os.utime(region.file.path, (500.0, 500.0))
+    again = RegionFile.opened(region.file.path)
+    assert again.get(next(PLAN.tiles())).expires == 500.0 + GOOD_FOR
+    again.put(next(PLAN.tiles()), b"newer", 700.0)
+    assert again.get(next(PLAN.tiles())).expires == 700.0 + GOOD_FOR
+    again.close()
+
+
+def test_a_file_is_opened_once_however_many_tiles_are_asked_for(regions, monkeypatch):
+    region = regions.begin(STREETS, "Harbour", PLAN, Server())
+    region.wait()
+    monkeypatch.setattr(sqlite3, "connect", lambda *_, **__: pytest.fail("opened again"))
+    assert all(region.file.get(tile) for tile in PLAN.tiles())
