@@ -88,11 +88,10 @@ class Leaving:
     def close_window(self) -> bool:
         """The window shall close: True where it stays for now, because it is asked first; asked to a second time it closes."""
         app, session = self._app, self._app.session
-        if session is None or not self.asks(session):
-            return False
         from app.screens.parts.leave_dialog import LeaveDialog
 
-        if any(isinstance(one, LeaveDialog) for one in app.root.children):
+        asked = any(isinstance(one, LeaveDialog) for one in app.root.children)
+        if asked or session is None or not self.asks(session):
             return False
         self.leave(app.stop)
         return True
