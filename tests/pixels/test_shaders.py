@@ -13,7 +13,7 @@ from widgets.core import canvas_ink as ink
 from widgets.instruments import horizon
 from widgets.map import grid_picture
 from widgets.plots import trace_ink
-from widgets.sensors import video
+from widgets.sensors import sweep_ink, video
 
 GLSL = Path(kivy.__file__).parent / "data/glsl"
 COMPILE = """
@@ -48,6 +48,7 @@ PAIRS = {
     "ink": (ink.VERTEX, ink.FRAGMENT),
     "grid": (KIVYS, grid_picture.FRAGMENT),
     "horizon": (KIVYS, horizon.FRAGMENT),
+    "sweep": (sweep_ink.VERTEX, sweep_ink.FRAGMENT),
     "traces": (trace_ink.VERTEX, trace_ink.FRAGMENT),
     "video": (KIVYS, video.FRAGMENT),
 }

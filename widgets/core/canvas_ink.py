@@ -22,7 +22,7 @@ from widgets.core.base import RobotWidget, text_texture
 from widgets.core.shapes import FLOATS, Shapes
 from widgets.core.theme import theme
 
-__all__ = ["Drawing", "Ink", "Word", "Words", "ground", "shader", "tint"]
+__all__ = ["Drawing", "Fading", "Ink", "Word", "Words", "ground", "shader", "tint"]
 
 VERTEX = """
 #ifdef GL_ES
@@ -104,12 +104,24 @@ def shader(fragment: str, **uniforms: float) -> RenderContext:
     return context
 
 
-class Ink(RenderContext):
+class Fading(RenderContext):
+    """What draws by a shader of its own, with a uniform `seen` for the widget's opacity; a `Drawing` tells it that."""
+
+    def __init__(self, vertex: str, fragment: str) -> None:
+        super().__init__(vs=vertex, fs=fragment, use_parent_projection=True, use_parent_modelview=True)
+        self["seen"] = 1.0
+
+    def see(self, opacity: float) -> None:
+        """Follow the opacity of the widget, 0 to 1: Kivy keeps that from whoever has a shader of its own."""
+        self["seen"] = float(opacity)
+
+
+class Ink(Fading):
     """An instruction that draws `Shapes`, with edges smooth at any size."""
 
     def __init__(self) -> None:
-        super().__init__(vs=VERTEX, fs=FRAGMENT, use_parent_projection=True, use_parent_modelview=True)
-        self["strength"] = self["seen"] = 1.0
+        super().__init__(VERTEX, FRAGMENT)
+        self["strength"] = 1.0
         self._mesh = Mesh(fmt=FORMAT, mode="triangles")
         self.add(self._mesh)
 
@@ -123,10 +135,6 @@ class Ink(RenderContext):
     def fade(self, strength: float) -> None:
         """Multiply the opacity of all shapes by `strength`, 0 to 1."""
         self["strength"] = float(strength)
-
-    def see(self, opacity: float) -> None:
-        """Follow the opacity of the widget, 0 to 1: Kivy keeps that from whoever has a shader of its own."""
-        self["seen"] = float(opacity)
 
 
 @dataclass(slots=True)
@@ -217,7 +225,7 @@ class Words:
 
 def _see(group: InstructionGroup, opacity: float) -> None:
     for part in group.children:
-        if isinstance(part, Ink):
+        if isinstance(part, Fading):
             part.see(opacity)
         elif isinstance(part, InstructionGroup):
             _see(part, opacity)

@@ -10,6 +10,7 @@ import cmath
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -319,17 +320,17 @@ def scan_reach(farthest: float, before: float = 0.0) -> float:
     return before if wanted < before < 1.6 * farthest else wanted
 
 
-def not_exceeded_by(values: NDArray[np.float64], share: float) -> float:
+def not_exceeded_by(values: NDArray[np.floating[Any]], share: float) -> float:
     """What a `share` of the values, 0 to 1, does not exceed, between two of them in proportion; ValueError for none.
 
     As numpy's percentile, which loads a megabyte for masked arrays when it is first asked.
     """
     if not len(values):
         raise ValueError(tr("There are no values of which a share could be taken."))
-    ordered = np.sort(values)
-    place = (len(ordered) - 1) * share
+    place = (len(values) - 1) * share
     low = math.floor(place)
-    high = min(low + 1, len(ordered) - 1)
+    high = min(low + 1, len(values) - 1)
+    ordered = np.partition(values, (low, high))
     return float(ordered[low] + (ordered[high] - ordered[low]) * (place - low))
 
 

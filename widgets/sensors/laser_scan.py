@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
@@ -31,11 +32,24 @@ from widgets.sensors.sweep_ink import AHEAD, Look, SweepInk
 
 __all__ = ["LaserScanView", "samples"]
 
-Sweep = tuple[NDArray[np.float64], NDArray[np.float64]]
-"""Ranges [m] and directions [rad] of the beams."""
 RINGS = 3
 LOW = 2.0
 """A card this many times broader than high keeps its name beside the rings."""
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """What a message tells, read once."""
+
+    measured: NDArray[np.float32]
+    """Ranges [m]: NaN for what is not believable, the least range for what is too close."""
+    angles: NDArray[np.float64]
+    """Directions of the beams [rad], from straight ahead, to the left above 0."""
+    seen: NDArray[np.float32]
+    """The finite ones of the ranges [m]."""
+
+
+NO_SWEEP = Sweep(np.zeros(0, np.float32), np.zeros(0), np.zeros(0, np.float32))
 
 
 class LaserScanView(Glass, Drawing):
@@ -61,22 +75,28 @@ class LaserScanView(Glass, Drawing):
     def _nearest(self) -> float:
         if self.scan is None:
             return math.nan
-        measured, _ = self._returns(self.scan)
-        seen = measured[np.isfinite(measured)]
+        seen = self._sweep(self.scan).seen
         return float(seen.min()) if len(seen) else math.inf
 
     nearest = AliasProperty(_nearest, bind=["scan"], cache=True)
     """Distance of the nearest return [m]; inf when there is none, NaN before the first sweep."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self.inks = Ink(), SweepInk(), Ink()
-        self._words = Words()
+        self.inks = Ink(), Ink()
+        """Rings; the robot and the grounds of the words."""
+        self.sweep = SweepInk()
+        self._words, self._head = Words(), Words()
         self._reach = 0.0
+        self._look: tuple[object, Look] | None = None
+        self._placed: tuple[tuple[object, ...], tuple[float, float, float]] | None = None
         self._place_drawn: tuple[object, ...] = ()
         self._told: tuple[object, ...] = ()
+        self._robot = Shapes().arrays()
         self._read: tuple[LaserScan, Sweep] | None = None
+        self._beams: tuple[tuple[float, float, int], NDArray[np.float64]] | None = None
         super().__init__(**kwargs)
-        for part in (*self.inks, self._words.canvas):
+        below, above = self.inks
+        for part in (below, self.sweep, above, self._words.canvas, self._head.canvas):
             self.canvas.add(part)
 
     def show(self, msg: LaserScan) -> None:
@@ -85,61 +105,77 @@ class LaserScanView(Glass, Drawing):
 
     def draw(self) -> None:
         """Bring free space and dots up to date, and rings and words where they are others."""
-        scan = self.scan or LaserScan(angle_min=-AHEAD, angle_increment=math.pi / 180, range_max=6.0)
-        measured, angles = self._returns(scan)
-        self._reach = self.reach or scan_reach(_farthest(measured, scan.range_max), self._reach)
-        half = (
-            math.pi if not len(angles) else min(max(abs(float(angles[0])), abs(float(angles[-1]))), math.pi)
+        sweep = self._sweep(self.scan) if self.scan else NO_SWEEP
+        self._reach = self.reach or scan_reach(
+            _farthest(sweep.seen, self.scan.range_max if self.scan else 6.0), self._reach
         )
-        half = AHEAD if self.scan is None else half
+        half = _half(sweep.angles) if self.scan else AHEAD
         x, y, scale = self._place(half)
-        look = Look(
-            dp(2.3),
-            tint(theme.accent, 0.17),
-            (tuple(theme.danger), tuple(theme.warn), tuple(theme.accent)),
-            (self.close, self.near),
-        )
-        self.inks[1].put(measured, angles, (x, y), scale, self._reach, look)
+        self.sweep.put(sweep.measured, sweep.angles, (x, y), scale, self._reach, self._dots_look())
         self._draw_still((x, y), scale, half)
+
+    def _dots_look(self) -> Look:
+        key = (dp(2.3), theme.name, self.close, self.near)
+        if self._look is None or self._look[0] != key:
+            levels = tuple(theme.danger), tuple(theme.warn), tuple(theme.accent)
+            self._look = key, Look(dp(2.3), tint(theme.accent, 0.17), levels, (self.close, self.near))
+        return self._look[1]
 
     def _draw_still(self, at: tuple[float, float], scale: float, half: float) -> None:
         """Rings, words and the robot: most sweeps leave them as they are."""
-        place = (at, scale, half, self._reach, *self.size, *self.pos, theme.name)
-        if place != self._place_drawn:
-            below = Shapes()
+        place = (at, scale, half, self._reach, *self.size, *self.pos, theme.name, theme.font)
+        shown = (*place, quantities.system, language.name)
+        if shown != self._place_drawn:
+            self._place_drawn, self._told = shown, ()
+            below, above = Shapes(), Shapes()
             self._rings(below, at, scale, half)
             self.inks[0].fill(below)
-            self._place_drawn = place
-        near = self.nearest < self.near
+            words = [*self._ring_words(at, scale, half)]
+            for word in words:
+                ground(above, word, tint(theme.surface, 0.85))
+            above.polygon(arrow(*at, AHEAD, dp(15)), theme.text)
+            self._robot = above.arrays()
+            self._words.write(words)
+        self._draw_header()
+
+    def _draw_header(self) -> None:
+        """Name, rate and what is near, as far as others than before."""
+        nearest = self.nearest
+        near = nearest < self.near
         told = (
-            *(place, self.state, self.title, None if math.isnan(self.rate) else round(self.rate)),
-            *(
-                math.isnan(self.nearest),
-                near and round(self.nearest, 1 if quantities.system == "metric" else 2),
-            ),
-            *(self.nearest < self.close, quantities.system, language.name),
+            *(self.state, self.title, None if math.isnan(self.rate) else round(self.rate)),
+            *(math.isnan(nearest), near and round(nearest, 1 if quantities.system == "metric" else 2)),
+            nearest < self.close,
         )
         if told == self._told:
             return
         self._told = told
-        above = Shapes()
-        words = [*self._ring_words(at, scale, half), *self._header()]
+        above, words = Shapes(), [*self._header()]
+        above.stamp(self._robot, 0.0, 0.0)
         for word in words:
             ground(above, word, tint(theme.surface, 0.85))
-        above.polygon(arrow(*at, AHEAD, dp(15)), theme.text)
-        self.inks[2].fill(above)
-        self._words.write(words)
+        self.inks[1].fill(above)
+        self._head.write(words)
 
-    def _returns(self, scan: LaserScan) -> Sweep:
-        """Ranges with what is too close at the least range and what is not believable as NaN, and directions; read once."""
+    def _sweep(self, scan: LaserScan) -> Sweep:
+        """What the message tells; read once."""
         if self._read is None or self._read[0] is not scan:
-            measured = np.array(scan.ranges, dtype=np.float64)
-            angles = scan.angle_min + scan.angle_increment * np.arange(len(measured), dtype=np.float64)
-            measured[measured == -math.inf] = scan.range_min
-            with np.errstate(invalid="ignore"):
-                measured[measured < scan.range_min] = math.nan
-            self._read = scan, (measured, angles)
+            measured = np.array(scan.ranges, dtype=np.float32)
+            usual = measured >= scan.range_min
+            if not usual.all():
+                too_close = measured == -math.inf
+                measured[~usual] = math.nan
+                measured[too_close] = scan.range_min
+            finite = np.isfinite(measured)
+            seen = measured if finite.all() else measured[finite]
+            self._read = scan, Sweep(measured, self._angles(scan, len(measured)), seen)
         return self._read[1]
+
+    def _angles(self, scan: LaserScan, count: int) -> NDArray[np.float64]:
+        key = scan.angle_min, scan.angle_increment, count
+        if self._beams is None or self._beams[0] != key:
+            self._beams = key, key[0] + key[1] * np.arange(count, dtype=np.float64)
+        return self._beams[1]
 
     def _low(self) -> bool:
         return bool(self.width > LOW * self.height)
@@ -210,9 +246,13 @@ class LaserScanView(Glass, Drawing):
             yield Word(line, self.x + dp(13), y, sp(12), theme.muted, anchor=(0, 0.5))
 
 
-def _farthest(measured: NDArray[np.float64], range_max: float) -> float:
+def _half(angles: NDArray[np.float64]) -> float:
+    """How far a sweep goes to both sides [rad]."""
+    return min(max(abs(float(angles[0])), abs(float(angles[-1]))), math.pi) if len(angles) else math.pi
+
+
+def _farthest(seen: NDArray[np.float32], range_max: float) -> float:
     """Distance that nine in ten returns do not exceed [m]; the sensor's own range when it sees nothing."""
-    seen = measured[np.isfinite(measured)]
     return not_exceeded_by(seen, 0.9) if len(seen) else min(max(range_max, 1.0), 6.0)
 
 

@@ -1,7 +1,10 @@
-"""Ink of a laser sweep: free space as a fan and a dot for each return, in vertices that are made once and then moved.
+"""Ink of a laser sweep: free space as a fan and a dot for each return, by two floats to a beam.
 
 ink = SweepInk()
 ink.put(measured, angles, at=(x, y), scale=50.0, reach=6.0, look=Look(...))
+
+The graphics card scales them, tints them by their distance and makes them round. A dot is a point of OpenGL: a beam has one vertex,
+where a quad has four, and what Kivy does for a vertex is most of what a sweep costs.
 """
 
 from __future__ import annotations
@@ -9,23 +12,79 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
+from kivy.graphics import Callback, ChangeState, Mesh
+from kivy.graphics.opengl import GL_VERSION, glEnable, glGetString
 from numpy.typing import NDArray
 
-from widgets.core.canvas_ink import Ink
-from widgets.core.shapes import EDGES, FLOATS
+from widgets.core.canvas_ink import Fading
 
 __all__ = ["Look", "SweepInk"]
 
 AHEAD = math.pi / 2
 """Where straight ahead is on the screen [rad]."""
-MAX_BEAMS = 13_000
+MAX_BEAMS = 65_000
 """More have no room in a mesh of 16 bit indices; of a longer sweep every second, third … is drawn."""
-_FAR, _FEATHER = 1e3, 1.0
-"""As in `widgets.core.shapes`: the distance to an edge that is none, and how far a shape is drawn beyond its own edge [px]."""
-_CORNERS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], np.float32)
-_QUAD = np.array([0, 1, 2, 2, 3, 0], np.int64)
+_BEYOND = 1.001
+"""Free space whose end is not seen is drawn to so many reaches: there its beam is known by to have no dot."""
+_ROUNDING = 1e-4
+"""What 32 bits may take from a distance [m]: a return at a bound is on its farther side."""
+_FEATHER = 1.0
+"""How far a dot is drawn beyond its own edge [px]."""
+_SIZED_POINTS, _POINT_COORDINATES = 0x8642, 0x8861
+"""GL_PROGRAM_POINT_SIZE and GL_POINT_SPRITE, which OpenGL ES has always on."""
+
+DESKTOP = "#version 120\n"
+"""Without it the language of a desktop's shaders has no places within a point."""
+
+VERTEX = """
+#ifdef GL_ES
+precision highp float;
+#endif
+attribute vec2 at_place;
+varying vec4 ink;
+uniform float dotted;
+uniform vec2 middle;
+uniform float scale;
+uniform float reach;
+uniform float radius;
+uniform vec2 bounds;
+uniform vec4 free;
+uniform vec4 close;
+uniform vec4 near;
+uniform vec4 farther;
+uniform mat4 modelview_mat;
+uniform mat4 projection_mat;
+void main() {
+    float away = length(at_place);
+    bool shown = dotted < 0.5 || (away > 0.0 && away <= reach);
+    vec4 place = projection_mat * modelview_mat * vec4(middle + at_place * scale, 0.0, 1.0);
+    ink = dotted < 0.5 ? free : (away < bounds.x ? close : (away < bounds.y ? near : farther));
+    gl_PointSize = 2.0 * (radius + 1.0);
+    gl_Position = shown ? place : vec4(2.0, 2.0, 2.0, 1.0);
+}
+"""
+
+FRAGMENT = """
+#ifdef GL_ES
+precision highp float;
+#endif
+varying vec4 ink;
+uniform float dotted;
+uniform float radius;
+uniform float seen;
+void main() {
+    float inside = 1.0;
+    if (dotted > 0.5) {
+        inside = radius - length(gl_PointCoord - 0.5) * 2.0 * (radius + 1.0);
+    }
+    gl_FragColor = vec4(ink.rgb, ink.a * seen * clamp(inside + 0.5, 0.0, 1.0));
+}
+"""
+
+FORMAT = [(b"at_place", 2, "float")]
 
 
 @dataclass(frozen=True)
@@ -42,22 +101,31 @@ class Look:
     """Up to where a return is too close, and up to where it is near [m]."""
 
 
-class SweepInk(Ink):
-    """A beam whose return is not known has neither dot nor free space: its corners fall together."""
+class SweepInk(Fading):
+    """A beam whose return is not known has neither dot nor free space: its place is that of the robot."""
 
     def __init__(self) -> None:
-        super().__init__()
-        self._made: tuple[object, ...] = ()
-        self._units = np.zeros((0, 2))
-        self._corners = _CORNERS
-        self._vertices = np.zeros((0, FLOATS), np.float32)
-        self._indices = np.zeros(0, np.uint16)
-        self._colours = np.zeros((3, 4), np.float32)
-        self._levels: NDArray[np.int8] | None = None
+        dialect = "" if _on_es() else DESKTOP
+        super().__init__(dialect + VERTEX, dialect + FRAGMENT)
+        self.fan, self.dots = Mesh(fmt=FORMAT, mode="triangle_fan"), Mesh(fmt=FORMAT, mode="points")
+        parts = (
+            ChangeState(dotted=0.0),
+            self.fan,
+            Callback(_allow_points),
+            ChangeState(dotted=1.0),
+            self.dots,
+        )
+        for part in parts:
+            self.add(part)
+        self._told: dict[str, object] = {}
+        self._made: tuple[object, ...] | None = None
+        self._units = np.zeros((0, 2), np.float32)
+        self._ends = np.zeros((0, 1), np.float32)
+        self._places = np.zeros((1, 2), np.float32)
 
     def put(
         self,
-        measured: NDArray[np.float64],
+        measured: NDArray[np.float32],
         angles: NDArray[np.float64],
         at: tuple[float, float],
         scale: float,
@@ -70,62 +138,59 @@ class SweepInk(Ink):
         """
         step = -(-len(measured) // MAX_BEAMS) if len(measured) else 1
         measured, angles = measured[::step], angles[::step]
-        count = len(measured)
-        if not count:
-            self._made = ()
-            self._mesh.vertices, self._mesh.indices = np.zeros(FLOATS, np.float32), np.zeros(3, np.uint16)
-            return
-        key = (count, float(angles[0]), float(angles[-1]), look)
+        key = (len(measured), float(angles[0]), float(angles[-1])) if len(measured) else ()
         if key != self._made:
-            self._make(angles, look)
+            self._make(angles)
             self._made = key
-        known = measured == measured  # noqa: PLR0124 - false for NaN alone
-        ends = (
-            np.fmin(measured, reach) * known
-            if known.all()
-            else np.where(known, np.fmin(measured, reach), 0.0)
-        )
-        rim = self._units * (ends * scale)[:, None]
-        rim += at
-        self._vertices[0, :2] = at
-        self._vertices[1 : count + 1, :2] = rim
-        dots = self._vertices[count + 1 :].reshape(count, 4, FLOATS)
-        hit = known & (measured <= reach)
-        places = rim[:, None, :] + self._corners
-        if not hit.all():
-            places[~hit] = rim[~hit][:, None, :]
-        dots[:, :, :2] = places
-        self._tint(dots, measured, look)
-        self._mesh.vertices = self._vertices.ravel()
+        if key:
+            ends = self._ends[:, 0]
+            np.minimum(measured, reach * _BEYOND, out=ends)
+            if math.isnan(ends.min()):
+                ends[np.isnan(ends)] = 0.0
+            np.multiply(self._units, self._ends, out=self._places[1:])
+        self._tell("middle", at)
+        self._tell("scale", scale)
+        self._tint(reach, look)
+        flat = self._places.reshape(-1)
+        self.fan.vertices = self.dots.vertices = flat
 
-    def _tint(self, dots: NDArray[np.float32], measured: NDArray[np.float64], look: Look) -> None:
-        close, near = look.bounds
-        levels = (measured >= close).astype(np.int8)
-        levels += measured >= near
-        if self._levels is None or not np.array_equal(levels, self._levels):
-            self._levels = levels
-            dots[:, :, 8:] = self._colours[levels][:, None, :]
+    def _tint(self, reach: float, look: Look) -> None:
+        self._tell("radius", look.radius)
+        self._tell("reach", reach * (1 + _BEYOND) / 2)
+        self._tell("bounds", tuple(bound - _ROUNDING for bound in look.bounds))
+        for name, colour in zip(("free", "close", "near", "farther"), (look.free, *look.levels), strict=True):
+            self._tell(name, colour)
 
-    def _make(self, angles: NDArray[np.float64], look: Look) -> None:
-        """All that stays the same while the beams and their look do."""
+    def _tell(self, name: str, value: float | Sequence[float]) -> None:
+        """Give a uniform its value, where that is another."""
+        if self._told.get(name) != value:
+            self._told[name] = value
+            self[name] = float(value) if isinstance(value, (int, float)) else tuple(map(float, value))
+
+    def _make(self, angles: NDArray[np.float64]) -> None:
+        """All that stays the same while the beams do."""
         count = len(angles)
-        self._units = np.stack([np.cos(angles + AHEAD), np.sin(angles + AHEAD)], axis=1)
-        self._vertices = np.zeros((1 + 5 * count, FLOATS), np.float32)
-        fan = self._vertices[: count + 1]
-        fan[:, 2:6] = _FAR, _FAR, EDGES, _FAR
-        fan[:, 8:] = look.free
-        self._corners = _CORNERS * (look.radius + _FEATHER)
-        dots = self._vertices[count + 1 :].reshape(count, 4, FLOATS)
-        dots[:, :, 2:4] = self._corners
-        dots[:, :, 5] = look.radius
-        self._colours = np.array(look.levels, np.float32)
-        self._levels = None
-        order = np.arange(1, count + 1)
-        if _goes_round(angles):
-            order = np.append(order, 1)
-        free = np.stack([np.zeros(len(order) - 1, np.int64), order[:-1], order[1:]], axis=1).ravel()
-        quads = ((count + 1 + 4 * np.arange(count))[:, None] + _QUAD).ravel()
-        self._mesh.indices = np.concatenate([free, quads]).astype(np.uint16)
+        turned = angles + AHEAD
+        self._units = np.stack([np.cos(turned), np.sin(turned)], axis=1).astype(np.float32)
+        self._ends = np.zeros((count, 1), np.float32)
+        self._places = np.zeros((count + 1, 2), np.float32)
+        order = np.arange(count + 1, dtype=np.uint16)
+        self.fan.indices = np.append(order, order[1:2]) if _goes_round(angles) else order
+        # Kivy's mesh cannot be emptied: the robot's own place has no dot
+        self.dots.indices = order[1:] if count else order
+
+
+@cache
+def _on_es() -> bool:
+    """OpenGL is that of phones."""
+    return b"OpenGL ES" in (glGetString(GL_VERSION) or b"")
+
+
+def _allow_points(_: object) -> None:
+    """Let shaders say how large a point is and where in it they are."""
+    if not _on_es():
+        glEnable(_SIZED_POINTS)
+        glEnable(_POINT_COORDINATES)
 
 
 def _goes_round(angles: NDArray[np.float64]) -> bool:

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 import math
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
@@ -10,7 +10,8 @@ from bridge.msgs.arrays import Float32Array
 from bridge.msgs.sensor_msgs import LaserScan
 from widgets.core.base import text_texture
 from widgets.core.geometry import scan_reach
-from widgets.core.shapes import EDGES, FLOATS, LINE
+from widgets.core.quantities import quantities
+from widgets.core.shapes import FLOATS, LINE
 from widgets.core.theme import theme
 from widgets.sensors.laser_scan import LaserScanView, samples
 
@@ -35,28 +36,32 @@ def view(stage):
 
 
 def drawn(view: LaserScanView, stage) -> np.ndarray:
-    """Vertices of everything, in the order in which it is drawn."""
+    """Vertices of rings, robot and grounds, in the order in which they are drawn."""
     stage.frames(2)
     return np.concatenate([np.asarray(ink._mesh.vertices).reshape(-1, FLOATS) for ink in view.inks])
+
+
+def places(view: LaserScanView, mesh) -> np.ndarray:
+    """Where the vertices of a mesh of the sweep are that are drawn, shape (n, 2) [px]."""
+    made = np.asarray(mesh.vertices).reshape(-1, 2)[np.asarray(mesh.indices)]
+    return made * view.sweep["scale"] + np.array(view.sweep["middle"])
 
 
 def free_space(view: LaserScanView, stage) -> np.ndarray:
     """Triangles of free space that have an area, shape (n, 3, 2) [px]."""
     stage.frames(2)
-    mesh = view.inks[1]._mesh
-    made = np.asarray(mesh.vertices).reshape(-1, FLOATS)
-    corners = made[np.asarray(mesh.indices).reshape(-1, 3)]
-    corners = corners[(corners[:, :, 4] == EDGES).all(axis=1)][:, :, :2]
+    middle, *rim = places(view, view.sweep.fan)
+    corners = np.array([(middle, one, other) for one, other in pairwise(rim)]).reshape(-1, 3, 2)
     one, other = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     return corners[np.abs(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]) > 1.0]
 
 
 def dots(view: LaserScanView, stage) -> np.ndarray:
-    """Centres of the dots [px], shape (n, 2)."""
-    drawn(view, stage)
-    made = np.asarray(view.inks[1]._mesh.vertices).reshape(-1, FLOATS)
-    corners = made[(made[:, 4] == 0) & (made[:, 5] > 0)][:, :2].reshape(-1, 4, 2)
-    return corners.mean(axis=1)[np.ptp(corners, axis=1).any(axis=1)]
+    """Centres of the dots [px], shape (n, 2), as the shader leaves them."""
+    stage.frames(2)
+    made = np.asarray(view.sweep.dots.vertices).reshape(-1, 2)[np.asarray(view.sweep.dots.indices)]
+    away = np.hypot(*made.T)
+    return places(view, view.sweep.dots)[(away > 0) & (away <= view.sweep["reach"])]
 
 
 def said(view: LaserScanView) -> list[str]:
@@ -82,15 +87,6 @@ def test_too_close_to_measure_is_a_danger_at_the_least_range(view):
     assert view.nearest == pytest.approx(0.1)
 
 
-def test_a_dot_has_the_colour_of_its_distance(view, stage):
-    view.show(sweep(0.5, 0.6, 1.19, 1.2, 5.0))
-    drawn(view, stage)
-    made = np.asarray(view.inks[1]._mesh.vertices).reshape(-1, FLOATS)
-    colours = made[(made[:, 4] == 0) & (made[:, 5] > 0)][::4, 8:]
-    roles = [theme.danger, theme.warn, theme.warn, theme.accent, theme.accent]
-    assert colours == pytest.approx(np.array(roles))
-
-
 def test_free_space_ends_where_nothing_is_known(view, stage):
     view.show(sweep(2.0, 2.0, math.nan, 2.0, math.inf))
     assert len(free_space(view, stage)) == 2
@@ -105,25 +101,69 @@ def test_each_sweep_is_drawn_as_if_it_were_the_first(view, stage):
         fresh._reach = view._reach
         fresh.show(scan)
         assert drawn(fresh, stage) == pytest.approx(kept)
+        assert np.array_equal(dots(fresh, stage), dots(view, stage))
+        assert np.array_equal(fresh.sweep.fan.vertices, view.sweep.fan.vertices)
         stage.window.remove_widget(fresh)
 
 
 def test_of_more_beams_than_a_mesh_has_room_for_some_are_drawn(view, stage):
-    view.show(sweep(*[2.0] * 30_000))
-    assert len(dots(view, stage)) == 10_000
+    view.show(sweep(*[2.0] * 100_000))
+    assert len(dots(view, stage)) == 50_000
 
 
 def test_a_sweep_that_changes_nothing_else_leaves_rings_and_words_alone(view, stage, monkeypatch):
     view.show(sweep(2.0, 3.0, 4.0))
     stage.frames(2)
     written = []
-    monkeypatch.setattr(view._words, "write", written.append)
+    for words in (view._words, view._head):
+        monkeypatch.setattr(words, "write", written.append)
     view.show(sweep(2.1, 3.1, 4.0))
     stage.frames(2)
     assert not written
     view.show(sweep(2.1, 0.3, 4.0))
     stage.frames(2)
     assert len(written) == 1
+
+
+def changed(view, stage, change) -> list[bytes]:
+    """What is on the glass, as bytes, before and after `change`, with the newest sweep."""
+    seen = []
+    for act in (lambda: None, change):
+        act()
+        stage.frames(2)
+        sweep_place = repr(sorted(view.sweep._told.items())).encode()
+        seen.append(
+            drawn(view, stage).tobytes() + sweep_place + repr((view._words.texts, view._head.texts)).encode()
+        )
+    return seen
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda view: setattr(view, "size", (228, 326)),
+        lambda view: setattr(view, "pos", (30, 40)),
+        lambda _: setattr(theme, "name", "sunlight"),
+        lambda view: setattr(view, "state", "alarm"),
+        lambda view: setattr(view, "reach", 12.0),
+        lambda view: setattr(view, "near", 0.1),
+        lambda view: setattr(view, "title", "Rear laser"),
+        lambda _: setattr(quantities, "system", "imperial"),
+    ],
+    ids=["size", "place", "theme", "state", "reach", "near", "title", "units"],
+)
+def test_a_change_between_two_sweeps_looks_as_if_it_had_always_been_so(view, stage, change):
+    scan = sweep(2.0, 0.9, 3.0)
+    view.show(scan)
+    try:
+        before, after = changed(view, stage, lambda: (change(view), view.redraw()))
+        assert before != after
+        fresh = stage.show(LaserScanView(state=view.state, title=view.title, near=view.near), size=view.size)
+        fresh.pos, fresh.reach = view.pos, view.reach
+        fresh.show(scan)
+        assert changed(fresh, stage, lambda: None)[1] == after
+    finally:
+        theme.name, quantities.system = "dark", "metric"
 
 
 @pytest.mark.parametrize(("half", "triangles"), [(math.pi, 8), (math.pi / 2, 7)])
@@ -146,9 +186,9 @@ def test_only_a_sweep_all_round_is_closed(view, stage, half, triangles):
 def test_everything_stays_inside_the_card(view, stage):
     for scan in (sweep(2.0, 30.0, 2.0), sweep(*[9.0] * 90, half=math.pi), sweep(*[0.3] * 9, half=0.4)):
         view.show(scan)
-        places = drawn(view, stage)[:, :2]
-        assert (places >= 0).all()
-        assert (places <= view.size).all()
+        made = np.concatenate([drawn(view, stage)[:, :2], dots(view, stage), *free_space(view, stage)])
+        assert (made >= 0).all()
+        assert (made <= view.size).all()
 
 
 def test_the_rings_grow_at_once_and_shrink_late():
@@ -212,8 +252,13 @@ def test_words_stand_on_a_ground_above_the_dots(view, stage):
     view.show(sweep(*[2.0] * 50))
     made = drawn(view, stage)
     grounds = np.flatnonzero((made[:, 4] == LINE) & (made[:, 11] == np.float32(0.85)))
-    assert len(grounds) == 4 * len(view._words.texts)
-    assert grounds.min() > np.flatnonzero(made[:, 4] == 0).max()
+    assert len(grounds) == 4 * len(view._words.texts + view._head.texts)
+    assert (
+        view.canvas.indexof(view.inks[0])
+        < view.canvas.indexof(view.sweep)
+        < view.canvas.indexof(view.inks[1])
+    )
+    assert grounds.min() >= len(np.asarray(view.inks[0]._mesh.vertices)) // FLOATS
 
 
 def test_an_alarm_shows_one_sign(view):
