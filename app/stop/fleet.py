@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from app.discovery.known_robots import Entry
 from app.stop.fleet_lanes import FleetLanes, Lane, Meant, stop_lane
+from app.stop.robot_count import count
 from app.stop.same_robot import Row, SameRobots, Seen
 from app.stop.stop_state import ANSWER_TIMEOUT, UNCONFIRMED, silence
 from bridge.client.credentials import Credentials
@@ -26,7 +27,7 @@ from widgets.core.language import tr
 if TYPE_CHECKING:
     from app.stop.stop_lane import Report  # when STOP ALL is pressed, for a quick start
 
-__all__ = ["MAX_ROBOTS", "Connected", "Fleet", "Row", "known"]
+__all__ = ["MAX_ROBOTS", "Connected", "Fleet", "Row"]
 
 MAX_ROBOTS = 100
 """So many robots are stopped at once at most; those that are connected, saved or paired come on top."""
@@ -232,7 +233,8 @@ class Fleet:
         """How many of `entries` STOP ALL was not meant for: they came after it was pressed."""
         boots = {robot.boot_by_link for robot in self._robots.values() if robot.boot_by_link}
         fresh = [one for one in entries if one.url not in self._robots and one.boot not in boots]
-        return known(fresh, None) - self.untried if self.meant_all and len(fresh) > self.untried else 0
+        robots = count(fresh, None).robots
+        return robots - self.untried if self.meant_all and len(fresh) > self.untried else 0
 
     def let_go(self) -> None:
         """Send nothing any more. Robots with a STOP of their own stay stopped; the others may be driven again."""
@@ -328,19 +330,6 @@ class Fleet:
         robot.begun = robot.begun or connected.robot_stop.phase != "ready"
         robot.last = _linked_row(connected, begun=robot.begun)
         return robot.last
-
-
-def known(entries: Iterable[Entry], connected: Connected | None) -> int:
-    """How many robots there are, one that says to be the same at two addresses counted once; none where none was ever met.
-
-    Those that are saved or paired are never counted as another: what they say may be a stranger's claim.
-    """
-    found = {
-        entry.url: entry.url if entry.kept else entry.boot or entry.url for entry in entries if entry.met
-    }
-    if connected is not None and connected.ever_connected:
-        found[connected.robot.url] = connected.boot or connected.robot.url
-    return len(set(found.values()))
 
 
 def _is_for_link(robot: Meant | None, connected: Connected) -> bool:

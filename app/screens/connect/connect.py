@@ -17,7 +17,8 @@ from app.screens.parts.method_chip import InputsChip  # noqa: F401 - its rule dr
 from app.screens.parts.safe_area import safe_area
 from app.screens.parts.themes import THEMES
 from app.session.last_pictures import LastPictures
-from widgets.core.language import mark, tr, trn
+from app.stop.robot_count import count
+from widgets.core.language import mark, tr
 from widgets.core.surfaces import EdgedBox  # noqa: F401 - its rule draws the bar
 from widgets.core.theme import theme
 from widgets.parts.kit import Banner, Text
@@ -217,10 +218,9 @@ class ConnectScreen(FloatLayout):
             card.show_entry(entry, me)
             card.show_place(twin=entry.name in double)
             card.show_thumb(self.app.visit.seen.of(entry.url) if self.app is not None else None)
-        live = sum(entry.state == "live" for entry in entries)
-        near = trn("{count} robot nearby", "{count} robots nearby", live)
-        self.nearby = near if live else tr("Looking for robots")
-        self.nearby_short = tr("{count} nearby").format(count=live) if live else tr("searching")
+        known = count(entries, None)
+        self.nearby = known.words if known.robots else tr("Looking for robots")
+        self.nearby_short = known.brief_words if known.robots else tr("searching")
         if entries and self._hint.parent is not None:
             self.ids.notices.remove_widget(self._hint)
         elif not entries and self._hint.parent is None:

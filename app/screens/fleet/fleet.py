@@ -17,8 +17,9 @@ from app.screens.parts.robot_screen import RobotScreen
 from app.screens.parts.screen_table import SCREENS
 from app.screens.shell import status_text as standing
 from app.session.session import Session
+from app.stop.robot_count import count
 from bridge.msgs.pilothouse_msgs import TaskStatus
-from widgets.core.language import tr, trn
+from widgets.core.language import tr
 from widgets.core.task_words import TASKS
 from widgets.parts.column import Grid
 from widgets.parts.kit import Roll, Text
@@ -113,8 +114,7 @@ class FleetScreen(RobotScreen):
             if entry.url == self.session.link.url:
                 self._show_own(card)
             card.saved = False  # what is forgotten is forgotten on the connect page
-        live = sum(entry.state == "live" or entry.url == self.session.link.url for entry in entries)
-        self.head.text = trn("{count} robot in reach", "{count} robots in reach", live)
+        self.head.text = count(entries, self.session).words
 
     def _known(self) -> list[Entry]:
         """All of the list, the one on the glass first, be it heard or not."""

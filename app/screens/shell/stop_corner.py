@@ -18,7 +18,8 @@ from app.layout.arrange import Rect, StopPlace
 from app.screens.connect.connect import ConnectScreen
 from app.screens.parts.placing import put
 from app.screens.parts.safe_area import safe_area
-from app.stop.fleet import Fleet, known
+from app.stop.fleet import Fleet
+from app.stop.robot_count import count
 from widgets import StopAll
 from widgets.core.language import tr
 
@@ -125,7 +126,7 @@ class StopCorner:
         fleet, button = self._fleet, self.button
         fleet.update(self._app.session)
         entries, session = self._app.robots.entries(), self._app.session
-        button.robots = known(entries, session)
+        button.robots, button.lost, button.silent = count(entries, session)
         folded = self._list is None or self._list.parent is None
         button.active = fleet.active and (fleet.meant_all or folded)  # else the list says it all
         button.stopped, button.total = fleet.stopped, fleet.total

@@ -9,7 +9,8 @@ from dataclasses import replace
 import pytest
 
 from app.discovery.known_robots import Entry
-from app.stop.fleet import HEAD_START, Fleet, known
+from app.stop.fleet import HEAD_START, Fleet
+from app.stop.robot_count import count
 from app.stop.stop_lane import Report
 from bridge.msgs.pilothouse_msgs import ControlStatus
 from bridge.msgs.std_msgs import Time
@@ -160,8 +161,8 @@ def test_one_robot_that_says_hello_from_two_addresses_is_counted_once(fleet: Fle
     link = Link("ws://localhost:9090")
     link.boot = "log of the boat"
     entries = [replace(heard(url, "Boat"), boot="log of the boat") for url in (A, B)]
-    assert known(entries, None) == known(entries, link) == 1
-    assert known([*entries, heard(C)], link) == 2
+    assert count(entries, None).robots == count(entries, link).robots == 1
+    assert count([*entries, heard(C)], link).robots == 2
     fleet.press(entries[:1], link)
     assert fleet.since(entries) == 0, "it is the one that is stopped"
     assert fleet.since([*entries, heard(C)]) == 1
@@ -377,7 +378,7 @@ def test_an_address_where_nothing_was_ever_met_gets_stop_and_is_not_counted(
     fleet: Fleet, lanes: Lanes
 ) -> None:
     entries = [heard(A, "Boat"), mistyped(B)]
-    assert known(entries, None) == 1
+    assert count(entries, None).robots == 1
     fleet.press(entries)
     until(lambda: set(lanes.open) == {A, B}, "not tried")
     lanes.reports = {A: Report("stopped", reached=True), B: Report("no_answer", "No reply.")}
@@ -408,7 +409,7 @@ def test_who_answers_at_such_an_address_is_a_robot_from_then_on(fleet: Fleet, la
 def test_a_robot_that_was_met_and_is_lost_is_tried_and_counted(
     fleet: Fleet, lanes: Lanes, entry: Entry
 ) -> None:
-    assert known([entry], None) == 1
+    assert count([entry], None).robots == 1
     fleet.press([entry])
     until(lambda: B in lanes.open, "not tried")
     lanes.reports[B] = Report("no_answer", "No reply.")
@@ -419,7 +420,7 @@ def test_a_robot_that_was_met_and_is_lost_is_tried_and_counted(
 def test_a_link_to_a_mistyped_address_is_told_and_not_counted_until_a_robot_answers(fleet: Fleet) -> None:
     link = Link(A)
     link.ever_connected = link.connected = False
-    assert known([], link) == 0
+    assert count([], link).robots == 0
     fleet.press([], link)
     fleet.update(link)
     assert (link.stops, fleet.total, fleet.unmet) == (1, 0, 1)

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import pytest
 
-from app.stop.fleet import Fleet, known
+from app.stop.fleet import Fleet
+from app.stop.robot_count import count
 from app.stop.stop_lane import Report
 from bridge.client.credentials import Credentials
 from bridge.msgs.std_msgs import Time
@@ -131,4 +132,4 @@ def test_a_claimed_boot_does_not_keep_a_robot_from_being_announced_as_new(fleet:
 
 def test_what_says_to_be_a_saved_robot_is_counted_beside_it() -> None:
     saved, claim = replace(heard(A), boot="b1", kept=True), replace(heard(B), boot="b1")
-    assert known([saved, claim], None) == 2
+    assert count([saved, claim], None).robots == 2

@@ -15,8 +15,9 @@ from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
 from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.widget import Widget
 
+from widgets.controls.stop.robot_words import brief_robot_words, robot_words
 from widgets.core.base import Control, fitting_size
-from widgets.core.language import tr, trn
+from widgets.core.language import tr
 from widgets.core.surfaces import Outlined
 
 __all__ = ["StopAll"]
@@ -75,6 +76,10 @@ class StopAll(Outlined, Control, AnchorLayout):
 
     robots = NumericProperty(0)
     """So many are known."""
+    lost = NumericProperty(0)
+    """Of them were heard and are not now; STOP is sent to them all the same."""
+    silent = NumericProperty(0)
+    """Of them were not heard yet; STOP is sent to them all the same."""
     active = BooleanProperty(False)
     """It was pressed and not let go."""
     stopped = NumericProperty(0)
@@ -113,13 +118,20 @@ class StopAll(Outlined, Control, AnchorLayout):
     word = AliasProperty(_word, bind=["active", "stopped", "total", "tight"], cache=True)
 
     def _note(self) -> str:
-        note = tr("STOPPED") if self.active else trn("{count} robot", "{count} robots", int(self.robots))
-        across = fitting_size([note], sp(MIN_FONT_SIZE), self.width - dp(8)) >= sp(MIN_FONT_SIZE)
         lines = 2 if self.tight and not self.active else 1
-        below = self.height - lines * self.word_size * LINE_HEIGHT >= sp(MIN_FONT_SIZE) * LINE_HEIGHT
-        return note if across and below else ""
+        if self.height - lines * self.word_size * LINE_HEIGHT < sp(MIN_FONT_SIZE) * LINE_HEIGHT:
+            return ""
+        size, room = sp(MIN_FONT_SIZE), self.width - dp(8)
+        return next((note for note in self._notes() if fitting_size([note], size, room) >= size), "")
 
-    note = AliasProperty(_note, bind=["active", "robots", "size", "word_size"], cache=True)
+    def _notes(self) -> list[str]:
+        """What may be said below the word, the fullest first."""
+        if self.active:
+            return [tr("STOPPED")]
+        known = int(self.robots), int(self.lost), int(self.silent)
+        return [robot_words(*known), brief_robot_words(*known)]
+
+    note = AliasProperty(_note, bind=["active", "robots", "lost", "silent", "size", "word_size"], cache=True)
     """Below the word, where there is room for it."""
 
     def _word_size(self) -> float:
@@ -156,6 +168,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
 
     states: dict[str, dict[str, Any]] = {
         "ready": {"robots": 3},
+        "one lost": {"robots": 3, "lost": 1},
         "waiting": {"robots": 3, "active": True, "stopped": 2, "total": 3},
         "stopped": {"robots": 3, "active": True, "stopped": 3, "total": 3},
     }

@@ -52,6 +52,25 @@ def press(glass: Glass) -> None:
     glass.tap(glass.app.corner.button)
 
 
+def test_every_place_tells_one_number_of_robots_and_those_that_are_lost_are_tried_all_the_same(
+    driving: Glass, robot: FakeRobot, other: FakeRobot
+) -> None:
+    app = driving.app
+    app.robots.heard(Hello(name="Gone", kind="wheels", url=other.url), app.now() - 10.0)
+    app.show("fleet")
+    button, fleet = app.corner.button, app.screens["fleet"]
+    driving.until(lambda: button.lost == 1, "not counted")
+    driving.until(lambda: other.url in fleet.cards, "not listed")
+    assert (button.robots, fleet.head.text) == (2, "2 robots, 1 lost")
+    assert button.note in ("2 robots, 1 lost", "2 · 1 lost"), "as there is room for it"
+    assert fleet.cards[other.url].driver_text == "lost"
+    press(driving)
+    driving.until(lambda: words(driving).get("Gone") == "STOPPED", "a lost one is not tried")
+    driving.app.leave()
+    driving.until(lambda: app.connect.nearby.startswith("1 robot,"), "the one that was left says no HELLO")
+    assert app.connect.nearby == "1 robot, 1 lost"
+
+
 def test_it_is_there_when_a_robot_is_known_and_counts_who_is_stopped(
     glass: Glass, robot: FakeRobot, other: FakeRobot
 ) -> None:

@@ -34,6 +34,9 @@ def test_a_finger_beside_it_commands_nothing(stage, stop_all):
     [
         ({"robots": 1}, ("STOP ALL", "1 robot")),
         ({"robots": 4}, ("STOP ALL", "4 robots")),
+        ({"robots": 2, "lost": 1}, ("STOP ALL", "2 robots, 1 lost")),
+        ({"robots": 12, "lost": 8, "silent": 3}, ("STOP ALL", "12 robots, 8 lost, 3 silent")),
+        ({"width": 150, "robots": 12, "lost": 8, "silent": 3}, ("STOP ALL", "12 · 11 silent")),
         ({"active": True, "stopped": 2, "total": 3}, ("2 of 3", "STOPPED")),
     ],
 )
@@ -56,6 +59,7 @@ def test_it_is_filled_until_all_are_stopped(stop_all):
 def test_its_words_stay_within_it(stage, stop_all, size, active):
     stop_all.size = size
     stop_all.active, stop_all.stopped, stop_all.total, stop_all.robots = active, 48, 50, 50
+    stop_all.lost = 7
     stage.frames(2)
     for label in stop_all.children[0].children:
         assert label.texture_size[0] <= size[0] - 4
