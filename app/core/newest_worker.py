@@ -44,6 +44,12 @@ class NewestWorker(Generic[T]):
         if self._thread is not None:
             self._thread.join(5.0)
 
+    def drop(self) -> None:
+        """End the thread without waiting for it: what waits is not done, and later items are ignored."""
+        with self._ready:
+            self._closed, self._waiting = True, []
+            self._ready.notify()
+
     def _run(self) -> None:
         while True:
             with self._ready:

@@ -5,6 +5,7 @@ Nothing here knows a link: what is played can be looked at, and nothing else.
 
 from __future__ import annotations
 
+import logging
 import math
 import threading
 from collections.abc import Callable
@@ -18,11 +19,15 @@ from app.link.feeds import Feeds, Mailbox, Post
 from app.replay.playback import Playback
 from app.replay.recording_file import RecordingError
 from app.replay.recording_index import Index, index_of, series
+from app.replay.recording_list import CANNOT
 from bridge.core.camera_frames import Frame
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import CompressedImage
+from widgets.core.language import tr
 
 __all__ = ["SPEEDS", "Player"]
+
+log = logging.getLogger(__name__)
 
 SPEEDS = (0.5, 1.0, 2.0, 5.0, 10.0, 20.0)
 PICTURES = "/camera/image/compressed"
@@ -70,22 +75,32 @@ class Player:
             index = index_of(self.path, self._told)
             if index is not None:
                 self._mailbox.queue(_OPENED, index, 0.0)
-        except RecordingError as error:
-            self._mailbox.queue(_FAILED, str(error), 0.0)
-        except OSError as error:
-            self._mailbox.queue(_FAILED, f"{self.path.name}: {error.strerror or error}", 0.0)
+        except Exception as fault:  # noqa: BLE001 - a thread that ends silently would be reading for ever
+            self._fail(fault)
 
     def _gather(self, index: Index, key: tuple[str, str]) -> None:
         try:
             found = series(index, *key, lambda _: self._cancelled.is_set())
-        except (OSError, RecordingError):
+        except Exception as fault:  # noqa: BLE001 - same
             found = None
+            self._fail(fault)
         self._mailbox.queue(_SERIES, (key, found), 0.0)
+
+    def _fail(self, fault: Exception) -> None:
+        """Say why it cannot be read; in any thread."""
+        if isinstance(fault, RecordingError):
+            sentence = str(fault)
+        elif isinstance(fault, OSError):
+            sentence = f"{self.path.name}: {fault.strerror or fault}"
+        else:
+            log.error("%s cannot be read", self.path, exc_info=fault)
+            sentence = tr(CANNOT).format(name=self.path.name, fault=type(fault).__name__)
+        self._mailbox.queue(_FAILED, sentence, 0.0)
 
     # in the UI thread
 
     def close(self) -> None:
-        """End all threads and let go of the file."""
+        """Have all threads end and the file let go of; none of that is waited for."""
         self._cancelled.set()
         self.listeners.clear()
         self._jobs.shutdown(wait=False, cancel_futures=True)  # fingers are not held up by a long file
@@ -104,7 +119,7 @@ class Player:
         if channel == _PROGRESS:
             self.progress = post.value
         elif channel == _FAILED:
-            self.problem = post.value
+            self.problem, self.playing = post.value, False
         elif channel == _OPENED:
             self._opened(post.value)
         elif channel == _SERIES:
@@ -129,7 +144,7 @@ class Player:
     def _opened(self, index: Index) -> None:
         self.index, self.progress = index, 1.0
         self.feeds.link(True)
-        self._playback = Playback(index, self._deliver)
+        self._playback = Playback(index, self._deliver, self._fail)
         self.seek(index.start)
 
     def _deliver(self, topic: str, message: Msg, at: float) -> None:

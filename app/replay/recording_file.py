@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Iterator
+import zlib
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
-from typing import Any
 
 from bridge.core.errors import ProtocolError
 from bridge.msgs import TYPES, Msg, ros1_name
@@ -24,8 +24,19 @@ CHUNK_HEAD = struct.Struct("<QQQ")
 SCHEMA, CHANNEL, MESSAGE, CHUNK = 3, 4, 5, 6
 ENDS = (2, 15)
 """The index of the whole file, which is not needed here, or its end."""
+MESSAGE_HEAD = struct.Struct("<HIQQ")
+"""Before what a message says: its channel, number, and times of coming and sending [ns]."""
 MAX_PIECE = 64 * 2**20
-"""Longest record, and longest chunk once unpacked, that is read [byte]: a damaged length is not believed."""
+"""Longest record, and longest chunk once unpacked, that is read [byte]: neither a damaged length nor a chunk that unpacks to more than it
+claims is followed any further."""
+MAX_RECORDS = 300_000
+"""Of one piece; one with more is left out: it is made to fill the memory."""
+MAX_MESSAGE = 16 * 2**20
+"""Longest message that is read [byte]."""
+MAX_TOPIC = 400
+"""Letters of a topic's name, and of its type's."""
+ASK_EVERY = 1000
+"""Records that are passed over before it is asked whether to go on."""
 PLAIN_PIECE = 2**20
 """So much of a file without chunks is one piece [byte]."""
 NO_RECORDING = mark("{name} is no recording: it does not begin as an MCAP file.")
@@ -80,9 +91,11 @@ class Record:
         from bridge import codec
 
         kind = self.channel.type
+        if kind is None or len(self.raw) > MAX_MESSAGE:
+            return None
         try:
-            return codec.from_json(self.raw, kind) if kind is not None else None
-        except ProtocolError:
+            return codec.from_json(self.raw, kind)
+        except (ProtocolError, RecursionError):
             return None
 
 
@@ -104,7 +117,7 @@ class RecordingFile:
         if begin != MAGIC:
             self._file.close()
             sentence = tr(NO_RECORDING) if begin else tr(EMPTY)
-            raise RecordingError(tr(sentence).format(name=path.name))
+            raise RecordingError(sentence.format(name=path.name))
 
     def close(self) -> None:
         """Let go of the file."""
@@ -114,10 +127,16 @@ class RecordingFile:
         if sentence not in self.problems:
             self.problems.append(sentence)
 
-    def pieces(self) -> Iterator[Piece]:
-        """All pieces in their order, found by their lengths alone; ends where the file ends or makes no sense."""
-        place, plain = len(MAGIC), 0
+    def pieces(self, ends: Callable[[int], bool] = lambda _: False) -> Iterator[Piece]:
+        """All pieces in their order, found by their lengths alone; ends where the file ends or makes no sense.
+
+        `ends` is told every so many records how far it is [byte]; where it says True nothing more is looked for.
+        """
+        place, plain, count = len(MAGIC), 0, 0
         while True:
+            count += 1
+            if count % ASK_EVERY == 0 and ends(place):
+                return
             self._file.seek(place)
             frame = self._file.read(FRAME.size)
             opcode, length = FRAME.unpack(frame) if len(frame) == FRAME.size else (0, 0)
@@ -152,51 +171,78 @@ class RecordingFile:
         return first / 1e9, last / 1e9
 
     def read(self, piece: Piece) -> list[Record]:
-        """The messages of a piece, in the order of the file; none of one that is damaged."""
-        from mcap.exceptions import McapError
-
+        """The messages of a piece, in the order of the file; none of one that is damaged, or larger than may be."""
         self._file.seek(piece.place)
         data = self._file.read(piece.size)
         try:
-            parts = self._unpack(data) if piece.packed else self._split(data)
-        except (McapError, ValueError, struct.error, EOFError, RuntimeError, OSError):
-            self._blame(tr(DAMAGED))
-            return []
+            return self._records(_unpacked(data) if piece.packed else data)
         except Exception:  # noqa: BLE001 - what unpacks has errors of its own, which the library hands on
             self._blame(tr(DAMAGED))
             return []
-        return self._records(parts)
 
-    def _unpack(self, data: bytes) -> list[Any]:
-        from mcap.data_stream import ReadDataStream
-        from mcap.records import Chunk
-        from mcap.stream_reader import breakup_chunk
-
-        if CHUNK_HEAD.unpack_from(data)[2] > MAX_PIECE:
-            raise ValueError(tr("a chunk that is too large"))
-        return list(breakup_chunk(Chunk.read(ReadDataStream(BytesIO(data))), validate_crc=True))
-
-    @staticmethod
-    def _split(data: bytes) -> list[Any]:
-        from mcap.records import Chunk
-        from mcap.stream_reader import breakup_chunk
-
-        return list(breakup_chunk(Chunk("", data, 0, 0, 0, len(data))))
-
-    def _records(self, parts: list[Any]) -> list[Record]:
-        from mcap import records
-
+    def _records(self, data: bytes) -> list[Record]:
+        """What stands in a piece; ValueError or struct.error where its lengths make no sense."""
         found: list[Record] = []
-        for part in parts:
-            if isinstance(part, records.Schema):
-                self._kinds[part.id] = ros1_name(part.name)
-            elif isinstance(part, records.Channel):
-                if part.id in self.channels:  # known from the index; its schema may stand in another piece
-                    continue
-                kind = self._kinds.get(part.schema_id, "")
-                self.channels[part.id] = Channel(part.topic, kind, part.message_encoding)
-                if part.message_encoding != "json":
-                    self._blame(tr(FOREIGN).format(encoding=part.message_encoding))
-            elif part.channel_id in self.channels:
-                found.append(Record(self.channels[part.channel_id], part.log_time / 1e9, part.data))
+        at = count = 0
+        while at < len(data):
+            opcode, length = FRAME.unpack_from(data, at)
+            at, count = at + FRAME.size, count + 1
+            if at + length > len(data) or count > MAX_RECORDS:
+                raise ValueError(f"{count} records, the last of {length} bytes")
+            if opcode == MESSAGE:
+                number, _, time, _ = MESSAGE_HEAD.unpack_from(data, at)
+                if number in self.channels:
+                    raw = data[at + MESSAGE_HEAD.size : at + length]
+                    found.append(Record(self.channels[number], time / 1e9, raw))
+            elif opcode in (SCHEMA, CHANNEL):
+                self._learn(opcode, data[at : at + length])
+            at += length
         return found
+
+    def _learn(self, opcode: int, data: bytes) -> None:
+        """Take in the name of a type, or a topic."""
+        from mcap import records
+        from mcap.data_stream import ReadDataStream
+
+        stream = ReadDataStream(BytesIO(data))
+        if opcode == SCHEMA:
+            schema = records.Schema.read(stream)
+            self._kinds[schema.id] = ros1_name(schema.name[:MAX_TOPIC])
+            return
+        channel = records.Channel.read(stream)
+        if channel.id in self.channels:  # known from the index; its schema may stand in another piece
+            return
+        if len(channel.topic) > MAX_TOPIC:
+            self._blame(tr(DAMAGED))
+            return
+        kind = self._kinds.get(channel.schema_id, "")
+        self.channels[channel.id] = Channel(channel.topic, kind, channel.message_encoding)
+        if channel.message_encoding != "json":
+            self._blame(tr(FOREIGN).format(encoding=channel.message_encoding[:40]))
+
+
+def _unpacked(data: bytes) -> bytes:
+    """What a chunk holds; ValueError, or what its packing raises, where that is damaged or not as long as it claims."""
+    from mcap.data_stream import ReadDataStream
+    from mcap.records import Chunk
+
+    size = CHUNK_HEAD.unpack_from(data)[2]
+    if size > MAX_PIECE:
+        raise ValueError(f"a chunk of {size} bytes")
+    chunk = Chunk.read(ReadDataStream(BytesIO(data)))
+    if chunk.compression == "zstd":
+        import zstandard
+
+        with zstandard.ZstdDecompressor(max_window_size=MAX_PIECE).stream_reader(chunk.data) as stream:
+            plain = stream.read(size + 1)
+    elif chunk.compression == "lz4":
+        import lz4.frame
+
+        plain = lz4.frame.LZ4FrameDecompressor().decompress(chunk.data, max_length=size + 1)
+    else:
+        plain = chunk.data
+    if len(plain) != size:
+        raise ValueError(f"a chunk that does not hold the {size} bytes that it claims")
+    if chunk.uncompressed_crc not in (0, zlib.crc32(plain)):
+        raise ValueError("a chunk that is damaged")
+    return plain

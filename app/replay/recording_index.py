@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -20,6 +20,10 @@ from widgets.core.language import mark, tr
 __all__ = ["Index", "Stretch", "Topic", "index_of", "series"]
 
 EVENTS, POSE, INFO = "/events", "/pose", "/robot/info"
+MAX_STRETCHES = 200_000
+"""Pieces of a recording that are known; the app's own are of a megabyte."""
+MAX_NOTED = 256 * 2**10
+"""Longest event or description of a robot that is kept [byte]."""
 MAX_EVENTS = 5000
 """Events that are kept; later ones are in the file alone."""
 MAX_TRAIL = 20_000
@@ -27,6 +31,8 @@ MAX_TRAIL = 20_000
 MAX_SERIES = 200_000
 """Samples that are gathered before they are thinned."""
 NOTHING = mark("{name} holds no messages that this app can show.")
+
+TOO_LONG = mark("Its end is left out: it is too long.")
 
 Progress = Callable[[float], bool]
 """Is told which part is done, 0 to 1; True ends the work."""
@@ -84,25 +90,32 @@ class Index:
         return max(0.0, self.end - self.start)
 
 
-def _stretches(file: RecordingFile) -> Iterator[tuple[Piece, list[Record]]]:
-    for piece in file.pieces():
-        yield piece, file.read(piece)
-
-
 def index_of(path: Path, progress: Progress = lambda _: False) -> Index | None:
     """The index of a recording; None where `progress` ended the work.
 
     RecordingError for a file that holds nothing to be shown, OSError for one that cannot be read.
     """
     file = RecordingFile(path)
+    ended = False
+
+    def ends(place: int) -> bool:
+        nonlocal ended
+        ended = ended or progress(place / max(file.size, 1))
+        return ended
+
     try:
         index, trail = Index(path, file.size), _Trail()
-        for piece, records in _stretches(file):
-            if progress(piece.place / max(file.size, 1)):
-                return None
-            _take(index, piece, records, trail)
+        for piece in file.pieces(ends):
+            if ends(piece.place):
+                break
+            if len(index.stretches) >= MAX_STRETCHES:
+                file.problems.append(tr(TOO_LONG))
+                break
+            _take(index, piece, file.read(piece), trail)
     finally:
         file.close()
+    if ended:
+        return None
     if not index.stretches or not any(topic.type for topic in index.topics.values()):
         foreign = " ".join(file.problems)
         raise RecordingError(f"{tr(NOTHING).format(name=path.name)} {foreign}".strip())
@@ -129,6 +142,8 @@ def _take(index: Index, piece: Piece, records: list[Record], trail: _Trail) -> N
 
 
 def _note(index: Index, record: Record, trail: _Trail) -> None:
+    if len(record.raw) > MAX_NOTED:
+        return
     message = record.message()
     if isinstance(message, Event) and len(index.events) < MAX_EVENTS:
         index.events.append((record.time, message))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import threading
 from collections.abc import Callable
@@ -11,13 +12,22 @@ from pathlib import Path
 
 from app.core.waking import wake_trigger
 from app.link.feeds import Mailbox
-from app.replay.recording_file import RecordingError, RecordingFile
+from app.replay.recording_file import ASK_EVERY, RecordingError, RecordingFile
 from bridge.msgs.pilothouse_msgs import RobotInfo
+from widgets.core.language import mark, tr
 
-__all__ = ["Glimpse", "RecordingList", "glimpse"]
+__all__ = ["CANNOT", "Glimpse", "RecordingList", "glimpse"]
+
+log = logging.getLogger(__name__)
+
+CANNOT = mark("{name} cannot be read ({fault}).")
 
 MAX_LISTED = 200
 """More of them nobody looks through; the newest are shown."""
+MAX_STEPS = 200_000
+"""Records and chunks that are passed over to find the end of one: a second or two of a slow device."""
+MAX_NAME = 80
+"""Letters of a robot's name that are shown."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,8 +51,11 @@ class Glimpse:
         return self.end - self.start
 
 
-def glimpse(path: Path) -> Glimpse:
-    """Look at both ends of a recording; what goes wrong is its `problem`."""
+def glimpse(path: Path, ended: Callable[[], bool] = lambda: False) -> Glimpse:
+    """Look at both ends of a recording; what goes wrong is its `problem`.
+
+    Where it takes long to find the end, because the file has no chunks, or `ended` says so, that end is not known.
+    """
     try:
         file = RecordingFile(path)
     except RecordingError as error:
@@ -50,17 +63,34 @@ def glimpse(path: Path) -> Glimpse:
     except OSError as error:
         return Glimpse(path, problem=f"{path.name}: {error.strerror or error}")
     try:
-        pieces = list(file.pieces())
-        first = file.read(pieces[0]) if pieces else []
-        start, end = (file.span(pieces[0])[0], file.span(pieces[-1])[1]) if pieces else (math.nan, math.nan)
+        return _ends(file, ended)
     except OSError as error:
         return Glimpse(path, file.size, problem=f"{path.name}: {error.strerror or error}")
     finally:
         file.close()
-    infos = (record.message() for record in first if record.channel.topic == "/robot/info")
+
+
+def _ends(file: RecordingFile, ended: Callable[[], bool]) -> Glimpse:
+    asked = 0
+
+    def enough(_: int) -> bool:
+        nonlocal asked
+        asked += 1
+        return asked * ASK_EVERY > MAX_STEPS or ended()
+
+    pieces = file.pieces(enough)
+    first = last = next(pieces, None)
+    for last in pieces:  # noqa: B007 - only the last one counts
+        pass
+    if first is None or last is None:
+        return Glimpse(file.path, file.size, problem=" ".join(file.problems))
+    records = file.read(first)
+    known = not ended() and asked * ASK_EVERY <= MAX_STEPS
+    start, end = file.span(first)[0], file.span(last)[1] if known else math.nan
+    infos = (record.message() for record in records if record.channel.topic == "/robot/info")
     info = next((one for one in infos if isinstance(one, RobotInfo)), None)
-    problem = " ".join(file.problems)
-    return Glimpse(path, file.size, info.name if info is not None else "", start, end, problem)
+    robot = info.name[:MAX_NAME] if info is not None else ""
+    return Glimpse(file.path, file.size, robot, start, end, " ".join(file.problems))
 
 
 def _size(path: Path) -> int:
@@ -99,14 +129,21 @@ class RecordingList:
             key = path, _size(path)
             if key not in self._known and key not in self._asked:
                 if self._jobs is None:
-                    self._ended.clear()
+                    self._ended = threading.Event()  # that of a thread which has not ended yet stays set
                     self._jobs = ThreadPoolExecutor(1, "recordings")
                 self._asked.add(key)
-                self._jobs.submit(self._look, key)
+                self._jobs.submit(self._look, key, self._ended)
 
-    def _look(self, key: tuple[Path, int]) -> None:
-        if not self._ended.is_set():
-            self._mailbox.queue("glimpse", (key, glimpse(key[0])), 0.0)
+    def _look(self, key: tuple[Path, int], ended: threading.Event) -> None:
+        if ended.is_set():
+            return
+        try:
+            seen = glimpse(key[0], ended.is_set)
+        except Exception as fault:  # a thread that ends silently would be looking for ever
+            log.exception("%s", key[0])
+            seen = Glimpse(*key, problem=tr(CANNOT).format(name=key[0].name, fault=type(fault).__name__))
+        if not ended.is_set():
+            self._mailbox.queue("glimpse", (key, seen), 0.0)
 
     def drain(self) -> None:
         """Take in what has been seen."""
@@ -114,6 +151,8 @@ class RecordingList:
             key, seen = post.value
             self._known[key] = seen
             self._asked.discard(key)
+        listed = {(path, _size(path)) for path in self._files()[:MAX_LISTED]}
+        self._known = {key: seen for key, seen in self._known.items() if key in listed}
         self.on_change()
 
     def close(self) -> None:

@@ -33,3 +33,23 @@ def test_after_closing_nothing_is_done() -> None:
     worker.close()
     worker.put(1)
     assert done == []
+
+
+def test_one_that_is_dropped_is_not_waited_for_and_does_no_more() -> None:
+    done: list[int] = []
+    busy, go_on = threading.Event(), threading.Event()
+
+    def work(item: int) -> None:
+        busy.set()
+        go_on.wait(60)
+        done.append(item)
+
+    worker = NewestWorker(work, "test")
+    worker.put(1)
+    busy.wait(60)
+    worker.put(2)
+    worker.drop()
+    assert done == [], "it is still at work"
+    go_on.set()
+    worker.close()
+    assert done == [1]

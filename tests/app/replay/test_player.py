@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from app.link.feeds import Post
+from app.replay import player
 from app.replay.player import Player
 from tests.app.glass import PATIENCE
 from tests.app.replay.made import START, recorded
@@ -149,3 +150,45 @@ def test_a_file_that_is_none_is_said(tmp_path: Path, stage: Any) -> None:
     played.player.play()
     played.player.seek(START)
     played.player.close()
+
+
+@pytest.mark.parametrize("fault", [MemoryError(), RecursionError(), KeyError("x")])
+def test_whatever_goes_wrong_while_it_is_opened_is_a_sentence(
+    tmp_path: Path, stage: Any, monkeypatch: pytest.MonkeyPatch, fault: Exception, caplog: Any
+) -> None:
+    def fails(*_: object) -> None:
+        raise fault
+
+    monkeypatch.setattr(player, "index_of", fails)
+    played = Played(tmp_path / "run.mcap")
+    played.until(lambda: played.player.problem)
+    assert played.player.problem == f"run.mcap cannot be read ({type(fault).__name__})."
+    played.player.close()
+
+
+def test_whatever_goes_wrong_while_it_is_played_is_a_sentence_and_it_stands(
+    played: Played, caplog: Any
+) -> None:
+    played.until(played.heard_at(0.0))
+    playback = played.player._playback
+    assert playback is not None
+    played.until(lambda: not playback._lock.locked())
+    playback._let_go()
+    played.player.path.write_bytes(b"another file")
+    played.player.play()
+    played.pass_(0.5)
+    played.until(lambda: played.player.problem)
+    assert "is no recording" in played.player.problem
+    assert not played.player.playing
+
+
+def test_a_number_that_cannot_be_gathered_is_said(
+    played: Played, monkeypatch: pytest.MonkeyPatch, caplog: Any
+) -> None:
+    def fails(*_: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr(player, "series", fails)
+    played.player.series("/odom", "twist.twist.linear.x", lambda _: None)
+    played.until(lambda: played.player.problem)
+    assert played.player.problem == "run.mcap cannot be read (MemoryError)."

@@ -3,13 +3,28 @@
 from __future__ import annotations
 
 import math
+import struct
+import tracemalloc
 from pathlib import Path
 
+import lz4.frame
 import pytest
+import zstandard
 from mcap.writer import CompressionType, Writer
 
-from app.replay.recording_file import CUT, DAMAGED, MAX_PIECE, RecordingError, RecordingFile
-from app.replay.recording_index import index_of, series
+from app.replay import recording_file, recording_index, recording_list
+from app.replay.recording_file import (
+    ASK_EVERY,
+    CUT,
+    DAMAGED,
+    FRAME,
+    MAGIC,
+    MAX_PIECE,
+    MAX_RECORDS,
+    RecordingError,
+    RecordingFile,
+)
+from app.replay.recording_index import TOO_LONG, index_of, series
 from app.replay.recording_list import glimpse
 from tests.app.replay.made import PERIOD, START, recorded
 
@@ -125,6 +140,116 @@ def test_a_length_that_no_chunk_has_is_not_believed(whole: Path, tmp_path: Path)
     index = index_of(path)
     assert index is not None
     assert DAMAGED in index.problem
+
+
+def record(opcode: int, body: bytes) -> bytes:
+    return FRAME.pack(opcode, len(body)) + body
+
+
+def chunk(packing: str, data: bytes, claimed: int) -> bytes:
+    """A chunk that claims so many bytes once it is unpacked."""
+    name = packing.encode()
+    head = struct.pack("<QQQII", 0, 1, claimed, 0, len(name)) + name
+    return record(6, head + struct.pack("<Q", len(data)) + data)
+
+
+@pytest.mark.parametrize("packing", ["zstd", "lz4"])
+def test_a_chunk_is_unpacked_no_further_than_it_claims(tmp_path: Path, packing: str) -> None:
+    """40 MB of zeros in some kilobytes."""
+    plain = bytes(40 * 2**20)
+    packed = zstandard.compress(plain) if packing == "zstd" else lz4.frame.compress(plain)
+    path = tmp_path / "bomb.mcap"
+    path.write_bytes(MAGIC + chunk(packing, packed, claimed=1000))
+    del plain
+    file = RecordingFile(path)
+    tracemalloc.start()
+    try:
+        assert file.read(next(file.pieces())) == []
+        most = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+        file.close()
+    assert most < 5 * 2**20
+    assert file.problems == [DAMAGED]
+
+
+@pytest.mark.parametrize("packing", ["zstd", "lz4", ""])
+def test_what_is_packed_in_either_way_is_read(whole: Path, tmp_path: Path, packing: str) -> None:
+    file = RecordingFile(whole)
+    piece = next(file.pieces())
+    plain = recording_file._unpacked(whole.read_bytes()[piece.place : piece.place + piece.size])
+    expected = file.read(piece)
+    file.close()
+    packed = {"zstd": zstandard.compress, "lz4": lz4.frame.compress, "": bytes}[packing](plain)
+    path = tmp_path / "packed.mcap"
+    path.write_bytes(MAGIC + chunk(packing, packed, claimed=len(plain)))
+    other = RecordingFile(path)
+    assert other.read(next(other.pieces())) == expected
+    other.close()
+
+
+def test_a_chunk_of_more_records_than_memory_has_room_for_is_left_out(tmp_path: Path) -> None:
+    plain = record(
+        4, struct.pack("<HHI", 1, 0, 2) + b"/a" + struct.pack("<I", 4) + b"json" + struct.pack("<I", 0)
+    )
+    plain += record(5, bytes(22)) * MAX_RECORDS
+    path = tmp_path / "many.mcap"
+    path.write_bytes(MAGIC + chunk("zstd", zstandard.compress(plain), claimed=len(plain)))
+    with pytest.raises(RecordingError, match=r"A part of it is damaged and was left out\."):
+        index_of(path)
+
+
+def test_a_long_file_without_chunks_is_passed_over_only_so_far_and_only_as_long_as_wanted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "loose.mcap"
+    path.write_bytes(MAGIC + record(12, b"") * (20 * ASK_EVERY))
+    asked: list[int] = []
+    file = RecordingFile(path)
+    assert list(file.pieces(lambda place: len(asked.append(place) or asked) == 3)) == []  # type: ignore[func-returns-value]
+    file.close()
+    assert asked == [len(MAGIC) + (number * ASK_EVERY - 1) * FRAME.size for number in (1, 2, 3)]
+    ended: list[bool] = []
+    glimpse(path, lambda: bool(ended.append(True)) or True)
+    assert len(ended) == 1, "looking ends when it is asked to"
+    assert index_of(path, lambda _: True) is None, "reading too, where nothing is found for long"
+    looks: list[int] = []
+    monkeypatch.setattr(recording_list, "MAX_STEPS", 5 * ASK_EVERY)
+    glimpse(path, lambda: bool(looks.append(1)))
+    assert len(looks) == 5
+
+
+def test_where_the_end_is_not_found_in_time_the_length_is_not_known(
+    whole: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(recording_list, "MAX_STEPS", 0)
+    monkeypatch.setattr(recording_file, "ASK_EVERY", 3)
+    seen = glimpse(whole)
+    assert (seen.robot, seen.start, seen.problem) == ("Patrol-1", START, "")
+    assert math.isnan(seen.duration)
+
+
+def test_more_pieces_than_are_known_are_left_out_and_that_is_said(
+    whole: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(recording_index, "MAX_STRETCHES", 3)
+    index = index_of(whole)
+    assert index is not None
+    assert (len(index.stretches), index.problem) == (3, TOO_LONG)
+
+
+def test_a_message_that_fills_the_memory_is_not_read_and_an_event_of_that_size_not_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = recorded(tmp_path / "run.mcap", 2.0)
+    monkeypatch.setattr(recording_index, "MAX_NOTED", 10)
+    index = index_of(whole)
+    assert index is not None
+    assert (index.events, index.info, len(index.trail)) == ([], None, 0)
+    monkeypatch.setattr(recording_file, "MAX_MESSAGE", 10)
+    found = series(index, "/odom", "twist.twist.linear.x")
+    assert found is not None
+    assert all(math.isnan(value) for value in found[1])
 
 
 def test_a_file_without_chunks_is_read_as_well(tmp_path: Path) -> None:
