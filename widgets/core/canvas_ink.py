@@ -22,7 +22,7 @@ from widgets.core.base import RobotWidget, text_texture
 from widgets.core.shapes import FLOATS, Shapes
 from widgets.core.theme import theme
 
-__all__ = ["Drawing", "Fading", "Ink", "Word", "Words", "ground", "shader", "tint"]
+__all__ = ["Drawing", "Fading", "Ink", "Sheet", "Told", "Word", "Words", "ground", "shader", "tint"]
 
 VERTEX = """
 #ifdef GL_ES
@@ -104,11 +104,30 @@ def shader(fragment: str, **uniforms: float) -> RenderContext:
     return context
 
 
-class Fading(RenderContext):
+Uniform = float | Sequence[float]
+
+
+class Told(RenderContext):
+    """A context whose uniforms are told only what is new to them: each telling is a pass over its instructions."""
+
+    def __init__(self, vertex: str | None, fragment: str) -> None:
+        """Without `vertex` it is Kivy's for textured rectangles."""
+        sources = {"fs": fragment} if vertex is None else {"vs": vertex, "fs": fragment}
+        super().__init__(**sources, use_parent_projection=True, use_parent_modelview=True)
+        self._told: dict[str, float | tuple[float, ...]] = {}
+
+    def tell(self, name: str, value: Uniform) -> None:
+        """Give a uniform its value, where that is another."""
+        told = float(value) if isinstance(value, (int, float)) else tuple(map(float, value))
+        if self._told.get(name) != told:
+            self._told[name] = self[name] = told
+
+
+class Fading(Told):
     """What draws by a shader of its own, with a uniform `seen` for the widget's opacity; a `Drawing` tells it that."""
 
     def __init__(self, vertex: str, fragment: str) -> None:
-        super().__init__(vs=vertex, fs=fragment, use_parent_projection=True, use_parent_modelview=True)
+        super().__init__(vertex, fragment)
         self["seen"] = 1.0
 
     def see(self, opacity: float) -> None:
@@ -116,25 +135,41 @@ class Fading(RenderContext):
         self["seen"] = float(opacity)
 
 
-class Ink(Fading):
-    """An instruction that draws `Shapes`, with edges smooth at any size."""
+class Sheet(Mesh):
+    """A pile of shapes that an `Ink` draws."""
 
     def __init__(self) -> None:
-        super().__init__(VERTEX, FRAGMENT)
-        self["strength"] = 1.0
-        self._mesh = Mesh(fmt=FORMAT, mode="triangles")
-        self.add(self._mesh)
+        super().__init__(fmt=FORMAT, mode="triangles")
 
     def fill(self, shapes: Shapes) -> None:
         """Show these shapes instead of those before."""
         vertices, indices = shapes.arrays()
         # Kivy's mesh cannot be emptied: nothing is drawn as a triangle without area
-        self._mesh.vertices = vertices if len(vertices) else NO_VERTICES
-        self._mesh.indices = indices if len(indices) else NO_INDICES
+        self.vertices = vertices if len(vertices) else NO_VERTICES
+        self.indices = indices if len(indices) else NO_INDICES
+
+
+class Ink(Fading):
+    """An instruction that draws `Shapes`, with edges smooth at any size."""
+
+    def __init__(self) -> None:
+        super().__init__(VERTEX, FRAGMENT)
+        self.tell("strength", 1.0)
+        self._mesh = self.sheet()
+
+    def fill(self, shapes: Shapes) -> None:
+        """Show these shapes instead of those before."""
+        self._mesh.fill(shapes)
+
+    def sheet(self) -> Sheet:
+        """One more pile of shapes, above those before: a shader that is set once for both costs a twentieth of another ink."""
+        made = Sheet()
+        self.add(made)
+        return made
 
     def fade(self, strength: float) -> None:
         """Multiply the opacity of all shapes by `strength`, 0 to 1."""
-        self["strength"] = float(strength)
+        self.tell("strength", strength)
 
 
 @dataclass(slots=True)
@@ -191,6 +226,17 @@ class Words:
         for index, (x, y) in enumerate(points[: self._shown]):
             aside, above = self._anchors[index]
             self._place(index, round(x - aside), round(y - above))
+
+    def slide(self, across: Sequence[float], up: float, strengths: Sequence[float]) -> None:
+        """Move the texts that are written, in their order, along a line `up` [px], and give each its opacity, 0 to 1."""
+        slots = zip(self._slots, self._anchors, across, strengths, strict=False)
+        for index, ((colour, _), (aside, above), x, strength) in enumerate(slots):
+            hue = self._tones[index]
+            if hue[3] != strength:
+                self._tones[index] = (hue[0], hue[1], hue[2], strength)
+                colour.a = strength
+            if strength:
+                self._place(index, round(x - aside), round(up - above))
 
     def _put(self, index: int, word: Word, strength: float) -> None:
         if index == len(self._slots):

@@ -59,23 +59,18 @@ class Compass(Drawing):
     """Diameter of the whole instrument [px]."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self._card, self._marks, self._words, self._reading = Ink(), Ink(), Words(), Words()
+        self._ink, self._words, self._reading = Ink(), Words(), Words()
         self._place, self._turn = Translate(), Rotate(axis=(0, 0, 1))
         self._card_look: tuple[object, ...] = ()
         self._marks_look: tuple[object, ...] = ()
         self._written: tuple[object, ...] = ()
+        for instruction in (PushMatrix(), self._place, self._turn):
+            self._ink.add(instruction)
+        self._card = self._ink.sheet()
+        self._ink.add(PopMatrix())
+        self._marks = self._ink.sheet()
         super().__init__(**kwargs)
-        parts = (
-            PushMatrix(),
-            self._place,
-            self._turn,
-            self._card,
-            PopMatrix(),
-            self._marks,
-            self._words.canvas,
-            self._reading.canvas,
-        )
-        for part in parts:
+        for part in (self._ink, self._words.canvas, self._reading.canvas):
             self.canvas.add(part)
         self.bind(side=self._round)
         self._round()
@@ -103,8 +98,8 @@ class Compass(Drawing):
         strength = 1.0 if known else UNKNOWN
         self._place.xy = self.center
         self._turn.angle = self.heading if known else 0.0
-        self._card.fade(strength)
-        self._draw_marks(known, strength)
+        self._ink.fade(strength)
+        self._draw_marks()
         written = (*look, known, theme.font)
         if written == self._written:
             self._words.move(self._figure_places(known))
@@ -113,14 +108,13 @@ class Compass(Drawing):
             self._words.write(self._figures(known), strength)
         self._reading.write([self._reading_word(known)], strength)
 
-    def _draw_marks(self, known: bool, strength: float) -> None:
+    def _draw_marks(self) -> None:
         """The pointer, and where the bow should point: most messages leave them as they are."""
         aside = self.wanted - self.heading
         look = (*self.center, self.side, theme.name, None if math.isnan(aside) else aside)
         if look != self._marks_look:
             self._marks_look = look
             self._marks.fill(self._mark_shapes())
-        self._marks.fade(strength)
 
     def _card_shapes(self) -> Shapes:
         shapes, radius = Shapes(), self.side / 2 - dp(3)

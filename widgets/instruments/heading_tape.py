@@ -7,7 +7,7 @@ robot.on("/imu/data", tape.show)
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any, ClassVar
 
 import numpy as np
@@ -15,13 +15,14 @@ from kivy.lang import Builder
 from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, NumericProperty
 from kivy.uix.widget import Widget
+from numpy.typing import NDArray
 
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import Imu
-from widgets.core.canvas_ink import Drawing, Ink, Word, Words, tint
+from widgets.core.canvas_ink import Drawing, Ink, Word, Words
 from widgets.core.geometry import CARDINALS, DASH, heading_of, shortest_turn, steady, tape_marks
-from widgets.core.shapes import Shapes
+from widgets.core.shapes import FLOATS, Shapes
 from widgets.core.surfaces import Glass
 from widgets.core.theme import theme
 
@@ -36,6 +37,68 @@ STEP, LABELLED = 5, 15
 """Between two ticks and between two labels [deg]."""
 SEEN = 0.25
 """A shift that is less is not seen [px]."""
+FADE_STEP = 0.125
+"""A tick pales in steps of this shift, of less than a shade each [deg]."""
+
+
+class Strip:
+    """Ticks and labels round a label in the middle, and how they pale as they slide from there by up to a label's distance."""
+
+    def __init__(self, tape: HeadingTape, look: tuple[object, ...]) -> None:
+        self.look = look
+        """What it was made for."""
+        self.pace = tape.per_degree
+        self.limit = tape.span / 2 - dp(10) / self.pace
+        """From the middle to where there is no tick any more [deg]."""
+        self.end = (tape.end - tape.width / 2) / self.pace
+        """From the middle to where the strip ends [deg]."""
+        self.fall = 2.2 / tape.span
+        """How much a tick pales to the sides [1/deg]."""
+        self.marks: list[int] = []
+        """Ticks, from the label in the middle [deg]: first those with a label, then the others."""
+        self.labelled: list[int] = []
+        self._draw(tape)
+        self._made = self.vertices.reshape(-1, 4, FLOATS)
+        self._rest = self._made[:, :, 0].copy()
+        shifts = -np.arange(0.0, LABELLED, FADE_STEP)[:, None]
+        ticks = shifts + np.array(self.marks)
+        self._strengths = self._faded(ticks, -self.limit, min(self.limit, self.end)).astype(np.float32)
+        labels, margin = shifts + np.array(self.labelled), dp(18) / self.pace
+        left, right = max(margin - tape.span / 2, -self.limit), min(self.end - margin, self.limit)
+        self._label_strengths = self._faded(labels, left, right).tolist()
+
+    def _draw(self, tape: HeadingTape) -> None:
+        marks = tape_marks(LABELLED / 2, 2 * self.limit + LABELLED, STEP) or [0]
+        high, shapes = tape.top - tape.height * 0.14, Shapes()
+        for every, length, width in ((LABELLED, 0.26, 2.0), (STEP, 0.13, 1.6)):
+            own = [mark for mark in marks if (mark % LABELLED == 0) == (every == LABELLED)]
+            top = np.array([(tape.center_x + mark * self.pace, high) for mark in own]).reshape(-1, 2)
+            shapes.segments(top, top - np.array([0, tape.height * length]), dp(width), theme.text)
+            self.marks += own
+        self.labelled = [mark for mark in self.marks if mark % LABELLED == 0]
+        self.vertices, self.indices = shapes.arrays()
+
+    def _faded(self, places: NDArray[np.float64], left: float, right: float) -> NDArray[np.float64]:
+        """Opacity at places [deg from the middle]; none outside of `left` to `right`."""
+        return np.asarray(
+            np.clip(1.4 - self.fall * np.abs(places), 0.2, 1.0) * ((places > left) & (places < right))
+        )
+
+    def slid(self, by: float) -> NDArray[np.float32]:
+        """Vertices when the middle is `by` [deg] to the right of the label, less than to the next; they are changed in place."""
+        np.add(self._rest, -by * self.pace, out=self._made[:, :, 0])
+        self._made[:, :, 11] = self._strengths[_step(by)][:, None]
+        return self.vertices
+
+    def labels(self, by: float) -> tuple[list[float], list[float]]:
+        """Of each label then, how far it is from the middle [px] and its opacity."""
+        pace = self.pace
+        return [(mark - by) * pace for mark in self.labelled], self._label_strengths[_step(by)]
+
+
+def _step(by: float) -> int:
+    """Row of the tables for a shift [deg]; rounding may make it that to the next label."""
+    return min(int(by / FADE_STEP), round(LABELLED / FADE_STEP) - 1)
 
 
 class HeadingTape(Glass, Drawing):
@@ -65,7 +128,8 @@ class HeadingTape(Glass, Drawing):
     badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "pos", "size"], cache=True)
     """The age stands at the end; the strip ends before it."""
 
-    def _end(self) -> float:
+    @property
+    def end(self) -> float:
         """Where ticks and labels end, from the left edge [px]."""
         if self.badge:
             return float(self.badge_pos[0] - self.x - dp(4))
@@ -73,6 +137,10 @@ class HeadingTape(Glass, Drawing):
 
     def __init__(self, **kwargs: Any) -> None:
         self._ink, self._words = Ink(), Words()
+        self._ticks, self._pointers = self._ink.sheet(), self._ink.sheet()
+        self._strip: Strip | None = None
+        self._written: tuple[object, ...] = ()
+        self._pointed: tuple[object, ...] = ()
         super().__init__(**kwargs)
         self.canvas.add(self._ink)
         self.canvas.add(self._words.canvas)
@@ -86,45 +154,51 @@ class HeadingTape(Glass, Drawing):
         return shortest_turn(self.heading, heading) * self.per_degree
 
     def draw(self) -> None:
-        """Bring ticks, labels and pointers up to date."""
-        shapes = Shapes()
+        """Bring ticks, labels and pointers up to date: the strip slides, and is made anew only where it is another."""
+        look = (*self.pos, *self.size, self.span, self.badge, self.state)
+        look += (theme.name, theme.font, dp(1), sp(1))
         if math.isnan(self.heading):
-            words = [Word(DASH, self.center_x, self.y + self.height * 0.36, sp(18), theme.text, bold=True)]
+            self._strip = None
+            self._ticks.fill(Shapes())
+            self._written = ()
+            x, y = self.center_x, self.y + self.height * 0.36
+            self._words.write([Word(DASH, x, y, sp(18), theme.text, bold=True)])
         else:
-            words = [*self._strip(shapes)]
-            self._wanted_mark(shapes)
-        self._pointer(shapes, self.center_x, theme.accent, dp(9))
-        self._ink.fill(shapes)
-        self._words.write(words)
+            if self._strip is None or look != self._strip.look:
+                self._strip = Strip(self, look)
+                self._ticks.indices = self._strip.indices
+            self._slide(self._strip)
+        self._draw_pointers(look)
 
-    def _strip(self, shapes: Shapes) -> Iterator[Word]:
-        edge = dp(10) / self.per_degree
-        marks = tape_marks(self.heading, self.span - 2 * edge, STEP)
-        places = self.center_x + np.array([(mark - self.heading) * self.per_degree for mark in marks])
-        shown = np.clip(1.4 - 1.1 * np.abs(places - self.center_x) / (self.width / 2), 0.2, 1.0)
-        high = self.top - self.height * 0.14
-        for every, length, width in ((LABELLED, 0.26, 2.0), (STEP, 0.13, 1.6)):
-            own = np.array([(mark % LABELLED == 0) == (every == LABELLED) for mark in marks])
-            own &= places - self.x < self._end()
-            top = np.stack([places[own], np.full(own.sum(), high)], axis=1)
-            colours = np.tile(np.asarray(theme.text, np.float32), (len(top), 1))
-            colours[:, 3] = shown[own]
-            shapes.segments(top, top - np.array([0, self.height * length]), dp(width), colours)
-        for mark, place, strength in zip(marks, places, shown, strict=True):
-            if mark % LABELLED == 0 and dp(18) < place - self.x < self._end() - dp(18):
-                yield self._label(mark % 360, float(place), float(strength))
+    def _slide(self, strip: Strip) -> None:
+        middle = math.floor(self.heading / LABELLED) * LABELLED
+        by = self.heading - middle
+        self._ticks.vertices = strip.slid(by)
+        if (written := (strip, middle)) != self._written:
+            self._written = written
+            self._words.write([self._label((middle + mark) % 360) for mark in strip.labelled])
+        aside, strengths = strip.labels(by)
+        x = self.center_x
+        self._words.slide([x + each for each in aside], self.y + self.height * 0.34, strengths)
 
-    def _label(self, heading: int, place: float, strength: float) -> Word:
-        main = heading in CARDINALS
+    def _label(self, heading: int) -> Word:
         role = theme.danger if heading == 0 else theme.text
-        text, y = CARDINALS.get(heading, f"{heading}"), self.y + self.height * 0.34
-        return Word(text, place, y, sp(16), tint(role, strength), bold=main)
+        text = CARDINALS.get(heading, f"{heading}")
+        return Word(text, self.center_x, self.y, sp(16), role, bold=heading in CARDINALS)
 
-    def _wanted_mark(self, shapes: Shapes) -> None:
-        if not math.isnan(self.wanted):
+    def _draw_pointers(self, look: tuple[object, ...]) -> None:
+        """The own heading's, and that of where it should point."""
+        wanted = self.place_of(self.wanted)
+        pointed = (*look, None if math.isnan(wanted) else wanted)
+        if pointed == self._pointed:
+            return
+        self._pointed = pointed
+        shapes = Shapes()
+        if not math.isnan(wanted):
             limit = self.width / 2 - dp(12)
-            place = min(max(self.place_of(self.wanted), -limit), limit)
-            self._pointer(shapes, self.center_x + place, theme.plan, dp(7))
+            self._pointer(shapes, self.center_x + min(max(wanted, -limit), limit), theme.plan, dp(7))
+        self._pointer(shapes, self.center_x, theme.accent, dp(9))
+        self._pointers.fill(shapes)
 
     def _pointer(self, shapes: Shapes, x: float, colour: Any, half: float) -> None:
         top = self.top + dp(1)

@@ -17,7 +17,7 @@ from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.sensor_msgs import Imu
-from widgets.core.canvas_ink import Drawing, Ink, Word, Words, shader
+from widgets.core.canvas_ink import Drawing, Ink, Told, Word, Words
 from widgets.core.geometry import DASH, dial_point, horizon_rise, screen_angle, steady
 from widgets.core.shapes import Shapes
 from widgets.core.surfaces import Glass
@@ -111,7 +111,8 @@ class ArtificialHorizon(Glass, Drawing):
     """Where the horizon is drawn [px]: at `rise`, but never off the instrument."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self._world = shader(FRAGMENT, radius=1, roll=0, rise=0, true_rise=0, rung=1, strength=1)
+        self._world = Told(None, FRAGMENT)
+        self._world.tell("strength", 1.0)
         # without a texture Kivy counts v from the top
         self._quad = Rectangle(tex_coords=(0, 0, 1, 0, 1, 1, 0, 1))
         self._world.add(self._quad)
@@ -162,15 +163,18 @@ class ArtificialHorizon(Glass, Drawing):
     def _paint_world(self, roll: float) -> None:
         radius, world = self.radius, self._world
         half = radius + 2.0
-        self._quad.pos, self._quad.size = (self.center_x - half, self.center_y - half), (2 * half, 2 * half)
+        box = (self.center_x - half, self.center_y - half), (2 * half, 2 * half)
+        if (self._quad.pos, self._quad.size) != box:
+            self._quad.pos, self._quad.size = box
         # while nothing is known the ground covers all, without horizon or ladder
         low = self.horizon if self.known else 3 * radius
         true = self.rise if self.known else 9 * radius
-        world["radius"], world["roll"] = float(radius), float(roll)
-        world["rise"], world["true_rise"], world["rung"] = float(low), float(true), float(radius * RUNG)
-        world["sky"] = tuple(map(float, theme.sky))
-        world["ground"] = tuple(map(float, theme.ground if self.known else theme.raised))
-        world["ink"] = tuple(map(float, theme.text))
+        for name, value in (("radius", radius), ("roll", roll), ("rise", low), ("true_rise", true)):
+            world.tell(name, value)
+        world.tell("rung", radius * RUNG)
+        world.tell("sky", theme.sky)
+        world.tell("ground", theme.ground if self.known else theme.raised)
+        world.tell("ink", theme.text)
 
     def _bank_scale(self) -> Shapes:
         shapes, radius = Shapes(), self.radius

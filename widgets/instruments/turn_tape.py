@@ -7,7 +7,7 @@ robot.on("/imu/data", tape.show)
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import Any, ClassVar
 
@@ -20,11 +20,11 @@ from numpy.typing import NDArray
 from bridge.msgs.geometry_msgs import Quaternion, Vector3
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import Imu
-from widgets.core.canvas_ink import Ink, Word, tint
+from widgets.core.canvas_ink import NO_INDICES, NO_VERTICES, Word, Words, tint
 from widgets.core.geometry import steady
 from widgets.core.icons import icon
-from widgets.core.language import DASH, figure, mark, tr
-from widgets.core.shapes import Shapes
+from widgets.core.language import DASH, figure, language, mark, tr
+from widgets.core.shapes import FLOATS, Shapes
 from widgets.core.theme import theme
 from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
@@ -63,11 +63,21 @@ class TurnTape(Gauge):
     """From here on a lean is marked as much [deg]."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self._still = Ink()
-        self._still_look: tuple[object, ...] = ()
+        self._rows: list[_Row] = []
+        self._look: tuple[object, ...] = ()
+        self._kinds: list[tuple[object, ...]] = []
         super().__init__(**kwargs)
-        self.canvas.insert(self.canvas.indexof(self._ink), self._still)
+        self._still, self._moving, self._over = (self._ink.sheet() for _ in range(3))
+        self._pointers = _Pointers()
+        self._figures = [Words() for _ in range(3)]
+        for words in self._figures:
+            self.canvas.add(words.canvas)
         self.veil_radius = self.card_corner
+
+    @property
+    def texts(self) -> list[str]:
+        """What is written: the names, then figures and signs."""
+        return self._words.texts + [text for row in self._rows for text in row.words.texts]
 
     def show(self, msg: Imu | Odometry) -> None:
         """Take turn rate and attitude; an Imu that measures no orientation, or no turn, leaves that unknown."""
@@ -87,85 +97,162 @@ class TurnTape(Gauge):
         self.bank = steady(self.bank, bank, SEEN_LEAN)
         self.pitch = steady(self.pitch, pitch, SEEN_LEAN)
 
-    def marks(self, shapes: Shapes) -> Iterator[Word]:
+    def draw(self) -> None:
+        """Move pointers, and write the figures that are others; all the rest is drawn anew where it is another."""
+        look: tuple[object, ...] = (*self.pos, *self.size, self.state, self.card, language.name)
+        look += (self.max_turn_rate, self.max_lean, self.warn_lean, theme.name, theme.font, dp(1), sp(1))
+        if look != self._look:
+            self._look, self._kinds = look, []
+            self._lay()
+        values = (self.turn_rate, self.bank, self.pitch)
+        kinds, places = [], []
+        for row, value in zip(self._rows, values, strict=False):
+            known = self.state != "never" and math.isfinite(value)
+            much = known and abs(value) >= row.warns
+            row.write(value if known else math.nan, much=much)
+            kind, place = row.pointer(value, much=much) if known else ((), 0.0)
+            kinds.append(kind)
+            places.append(place)
+        if kinds != self._kinds:
+            self._kinds = kinds
+            self._pointers = _Pointers(self._rows, kinds)
+            self._moving.indices = self._pointers.indices
+            self._zero()
+        self._moving.vertices = self._pointers.moved(places)
+
+    def _lay(self) -> None:
         """The scales one below the other; where there is little height, that of turning alone."""
-        rows = [
-            (_TURN, self.turn_rate, self.max_turn_rate, "°/s", math.inf),
-            (_BANK, self.bank, self.max_lean, "°", self.warn_lean),
-            (_PITCH, self.pitch, self.max_lean, "°", self.warn_lean),
-        ]
         inner = self.height - 2 * self.edge
         fitting = max(1, min(3, int(inner / sp(34))))
         high = min(inner / fitting, dp(64))
-        middles = [self.top - self.edge - (row + 0.5) * inner / fitting for row in range(fitting)]
-        self._draw_still([middle - high * 0.2 for middle in middles])
-        for middle, row in zip(middles, rows, strict=False):
-            yield from self._row(shapes, middle, high, row)
-
-    def _ends(self) -> tuple[float, float]:
-        """Of the scales [px]; an alarm has its sign behind them."""
-        right = self.right - self.edge - (dp(20) if self.alarmed else 0)
-        return self.x + self.edge + dp(4), right - dp(4)
-
-    def _draw_still(self, places: list[float]) -> None:
-        """Ticks and lines of the scales at these heights [px]: most messages leave them as they are."""
-        look = (*places, *self._ends(), theme.name, dp(1))
-        if look == self._still_look:
-            return
-        self._still_look = look
+        left = self.x + self.edge
+        right = self.right - self.edge - (dp(20) if self.alarmed else 0)  # an alarm has its sign behind them
+        self._rows = []
+        for words in self._figures:
+            words.write(())
+        for name, unit, most, warns in (
+            (_TURN, "°/s", self.max_turn_rate, math.inf),
+            (_BANK, "°", self.max_lean, self.warn_lean),
+            (_PITCH, "°", self.max_lean, self.warn_lean),
+        )[:fitting]:
+            middle = self.top - self.edge - (len(self._rows) + 0.5) * inner / fitting
+            at = (left, right, middle + high * 0.24, middle - high * 0.2)
+            self._rows.append(_Row(name, unit, most, warns, at, self._figures[len(self._rows)]))
         shapes = Shapes()
-        for y in places:
-            _ticks(shapes, self._ends(), y)
+        for row in self._rows:
+            _ticks(shapes, row.ends, row.scale_y)
         self._still.fill(shapes)
+        self._words.write(row.title for row in self._rows)
 
-    def _row(
-        self, shapes: Shapes, y: float, high: float, row: tuple[str, float, float, str, float]
-    ) -> Iterator[Word]:
-        name, value, most, unit, warns = row
-        known = self.state != "never" and math.isfinite(value)
-        start, end = self._ends()
-        left, right = start - dp(4), end + dp(4)
-        text_y, scale_y = y + high * 0.24, y - high * 0.2
-        much = known and abs(value) >= warns
-        role = theme.warn if much else theme.text if known else theme.muted
-        said = self._said(name, value if known else math.nan, unit)
+    def _zero(self) -> None:
+        """The mark in the middle of a turn that is known, above its bar."""
+        shapes = Shapes()
+        for row, kind in zip(self._rows, self._kinds, strict=True):
+            if row.name == _TURN and kind:
+                shapes.stamp(_stamp("zero", tuple(theme.text), dp(1)), row.middle, row.scale_y)
+        self._over.fill(shapes)
+
+
+class _Row:
+    """A scale with its name and figure."""
+
+    def __init__(
+        self,
+        name: str,
+        unit: str,
+        most: float,
+        warns: float,
+        at: tuple[float, float, float, float],
+        words: Words,
+    ) -> None:
+        """`most` is at its ends, from `warns` on it is much; `at` is left, right, height of the words and of the scale [px]."""
+        self.name, self.unit, self.most, self.warns, self.words = name, unit, most, warns, words
+        self.left, self.right, self.text_y, self.scale_y = at
+        self.ends = self.left + dp(4), self.right - dp(4)
+        self.middle, self.half = (self.ends[0] + self.ends[1]) / 2, (self.ends[1] - self.ends[0]) / 2
         title = tr(name).upper()
-        yield Word(title, left, text_y, sp(11.5), theme.muted, anchor=(0, 0.5))
-        sign = dp(22) if much else 0.0
-        room = right - left - wide(title, sp(11.5)) - dp(8) - sign
-        shown = first_fitting(said, sp(15), room, bold=True)
-        yield Word(shown, right, text_y, sp(15), role, bold=True, anchor=(1, 0.5))
-        if much:  # a lean is no lean by its colour alone
-            at = right - wide(shown, sp(15), bold=True) - dp(13)
-            yield Word(icon("warning_fill"), at, text_y, sp(17), role, font=theme.icons)
-        if known:
-            self._pointer(shapes, (start, end), scale_y, value / most, name, much)
+        self.title = Word(title, self.left, self.text_y, sp(11.5), theme.muted, anchor=(0, 0.5))
+        self._room = self.right - self.left - wide(title, sp(11.5)) - dp(8)
+        self._written: tuple[object, ...] = ()
 
-    def _said(self, name: str, value: float, unit: str) -> tuple[str, ...]:
+    def write(self, value: float, *, much: bool) -> None:
+        """The figure of a value, NaN for not known, with a sign where it is much: a lean is no lean by its colour alone."""
+        known = math.isfinite(value)
+        written = (round(value) if known else None, value > 0, much)
+        if written == self._written:
+            return
+        self._written = written
+        role = theme.warn if much else theme.text if known else theme.muted
+        shown = first_fitting(self._said(value), sp(15), self._room - (dp(22) if much else 0.0), bold=True)
+        words = [Word(shown, self.right, self.text_y, sp(15), role, bold=True, anchor=(1, 0.5))]
+        if much:
+            at = self.right - wide(shown, sp(15), bold=True) - dp(13)
+            words.append(Word(icon("warning_fill"), at, self.text_y, sp(17), role, font=theme.icons))
+        self.words.write(words)
+
+    def _said(self, value: float) -> tuple[str, ...]:
         """The figure with its side, without, longest first."""
         if not math.isfinite(value):
             return (DASH,)
-        text = f"{figure(abs(value), 0)}{unit}"
-        plus, minus = _SIDES[name]
+        text = f"{figure(abs(value), 0)}{self.unit}"
+        plus, minus = _SIDES[self.name]
         side = "" if text.startswith("0") else tr(plus if value > 0 else minus)
         return (f"{text} {side}".strip(), text)
 
-    def _pointer(
-        self, shapes: Shapes, ends: tuple[float, float], y: float, share: float, name: str, much: bool
-    ) -> None:
-        """Zero is in the middle; a value above 0 is to the left, as the robot turns and leans, and pitch to the right."""
-        middle, half = (ends[0] + ends[1]) / 2, (ends[1] - ends[0]) / 2
-        colour = tuple(theme.warn if much else theme.accent)
+    def pointer(self, value: float, *, much: bool) -> tuple[tuple[object, ...], float]:
+        """What points at a value, and where [px].
+
+        Zero is in the middle; a value above 0 is to the left, as the robot turns and leans, and pitch to the right.
+        """
+        share = value / self.most
         limited = min(max(share, -1.0), 1.0)
-        at = middle + half * (limited if name == _PITCH else -limited)
-        if name == _TURN:
-            if abs(at - middle) > dp(1):
-                shapes.line(np.array([(middle, y), (at, y)]), dp(7), colour)
-            shapes.stamp(_stamp("zero", tuple(theme.text), dp(1)), middle, y)
+        at = self.middle + self.half * (limited if self.name == _PITCH else -limited)
+        colour = tuple(theme.warn if much else theme.accent)
+        kind = "pointer" if self.name != _TURN else "bar"
         if abs(share) > 1.0:
-            shapes.stamp(_stamp("right" if at > middle else "left", colour, dp(1)), at, y)
-        elif name != _TURN:
-            shapes.stamp(_stamp("pointer", colour, dp(1)), at, y)
+            kind = "right" if at > self.middle else "left"
+        elif kind == "bar" and abs(at - self.middle) <= dp(1):
+            at = self.middle
+        return (kind, colour), at
+
+
+class _Pointers:
+    """What points at the values of some rows; `moved` moves it in place."""
+
+    def __init__(self, rows: Sequence[_Row] = (), kinds: Sequence[tuple[Any, ...]] = ()) -> None:
+        """Of each row what it has: a bar or a mark in its colour, or nothing."""
+        shapes, moves = Shapes(), []
+        for number, (row, kind) in enumerate(zip(rows, kinds, strict=True)):
+            if not kind:
+                continue
+            name, colour = kind
+            if row.name == _TURN:  # a bar from the middle: two of its corners move
+                shapes.line(
+                    np.array([(row.middle, row.scale_y), (row.middle + 1, row.scale_y)]), dp(7), colour
+                )
+                moves += [
+                    (number, row.middle, 0),
+                    (number, row.middle, 0),
+                    (number, 0.0, 1),
+                    (number, 0.0, 1),
+                ]
+            if name != "bar":
+                mark_ = _stamp(name, colour, dp(1))
+                shapes.stamp(mark_, 0.0, row.scale_y)
+                moves += [(number, float(x), 1) for x in mark_[0].reshape(-1, FLOATS)[:, 0]]
+        vertices, self.indices = shapes.arrays()
+        self._vertices = vertices if moves else NO_VERTICES
+        self.indices = self.indices if moves else NO_INDICES
+        self._made = self._vertices.reshape(-1, FLOATS)
+        table = np.array(moves or [(0, 0.0, 0)])
+        self._rows, self._rest, self._share = table[:, 0].astype(np.int64), table[:, 1], table[:, 2]
+
+    def moved(self, places: Sequence[float]) -> NDArray[np.float32]:
+        """Vertices with each row's mark at its place [px]."""
+        at = np.array(places)[self._rows] if places else self._rest
+        at *= self._share
+        np.add(at, self._rest, out=self._made[:, 0], casting="same_kind")
+        return self._vertices
 
 
 def _ticks(shapes: Shapes, ends: tuple[float, float], y: float) -> None:

@@ -117,7 +117,6 @@ class SweepInk(Fading):
         )
         for part in parts:
             self.add(part)
-        self._told: dict[str, object] = {}
         self._made: tuple[object, ...] | None = None
         self._units = np.zeros((0, 2), np.float32)
         self._ends = np.zeros((0, 1), np.float32)
@@ -148,24 +147,18 @@ class SweepInk(Fading):
             if math.isnan(ends.min()):
                 ends[np.isnan(ends)] = 0.0
             np.multiply(self._units, self._ends, out=self._places[1:])
-        self._tell("middle", at)
-        self._tell("scale", scale)
+        self.tell("middle", at)
+        self.tell("scale", scale)
         self._tint(reach, look)
         flat = self._places.reshape(-1)
         self.fan.vertices = self.dots.vertices = flat
 
     def _tint(self, reach: float, look: Look) -> None:
-        self._tell("radius", look.radius)
-        self._tell("reach", reach * (1 + _BEYOND) / 2)
-        self._tell("bounds", tuple(bound - _ROUNDING for bound in look.bounds))
+        self.tell("radius", look.radius)
+        self.tell("reach", reach * (1 + _BEYOND) / 2)
+        self.tell("bounds", tuple(bound - _ROUNDING for bound in look.bounds))
         for name, colour in zip(("free", "close", "near", "farther"), (look.free, *look.levels), strict=True):
-            self._tell(name, colour)
-
-    def _tell(self, name: str, value: float | Sequence[float]) -> None:
-        """Give a uniform its value, where that is another."""
-        if self._told.get(name) != value:
-            self._told[name] = value
-            self[name] = float(value) if isinstance(value, (int, float)) else tuple(map(float, value))
+            self.tell(name, colour)
 
     def _make(self, angles: NDArray[np.float64]) -> None:
         """All that stays the same while the beams do."""

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from widgets.core import canvas_ink as ink
-from widgets.core.canvas_ink import Drawing, Ink, Word, Words, tint
+from widgets.core.canvas_ink import Drawing, Ink, Told, Word, Words, tint
 from widgets.core.shapes import FLOATS, Shapes
 from widgets.core.theme import theme
 from widgets.instruments import horizon
@@ -135,6 +135,51 @@ def test_words_that_are_moved_lie_where_new_ones_would():
     moved.write(words(10, 20))  # and back: what is known of a place is where it was moved to
     fresh.write(words(10, 20))
     assert places(moved) == places(fresh)
+
+
+def test_words_that_slide_lie_and_fade_as_new_ones_would():
+    def words(x, strength):
+        return [Word("a", x, 20, 16, (1, 0, 0, strength)), Word("b", x + 30, 20, 16, (1, 1, 1, 1 - strength))]
+
+    def seen(of):
+        return [(tuple(colour.rgba), tuple(box.pos)) for colour, box in of._slots]
+
+    slid, fresh = Words(), Words()
+    slid.write(words(10, 0.5))
+    slid.slide([70.3, 100.3], 41.8, [0.25, 0.75])
+    fresh.write([Word("a", 70.3, 41.8, 16, (1, 0, 0, 0.25)), Word("b", 100.3, 41.8, 16, (1, 1, 1, 0.75))])
+    assert seen(slid) == seen(fresh)
+    slid.write(words(10, 0.5))  # and back: what is known of a tone is what it slid to
+    fresh.write(words(10, 0.5))
+    assert seen(slid) == seen(fresh)
+
+
+def test_a_uniform_is_told_what_is_new_to_it_and_nothing_else():
+    class Counted(Told):
+        told = 0
+
+        def __setitem__(self, name, value):
+            self.told += 1
+            super().__setitem__(name, value)
+
+    context, colour = Counted(None, "void main() { gl_FragColor = vec4(1.0); }"), [1, 0, 0, 1]
+    context.tell("sky", colour)
+    context.tell("sky", tuple(colour))
+    assert context.told == 1
+    colour[1] = 1  # the same list, changed in place as Kivy's are
+    context.tell("sky", colour)
+    assert (context.told, context["sky"]) == (2, (1.0, 1.0, 0.0, 1.0))
+
+
+def test_a_sheet_lies_above_those_before_in_the_same_ink():
+    drawn, shapes = Ink(), Shapes()
+    shapes.disc(1, 1, 5, (1, 1, 1, 1))
+    lower, upper = drawn.sheet(), drawn.sheet()
+    upper.fill(shapes)
+    assert drawn.indexof(lower) < drawn.indexof(upper)
+    assert len(upper.vertices) == 4 * FLOATS
+    upper.fill(Shapes())
+    assert not np.asarray(upper.vertices).any()
 
 
 def test_ink_can_be_wiped_away():

@@ -83,7 +83,7 @@ def test_the_mark_of_the_wanted_heading_stays_with_the_card(compass, stage):
     for heading, wanted in ((10.0, 40.0), (20.0, 50.0), (20.0, 80.0), (math.nan, 80.0)):
         compass.heading, compass.wanted = heading, wanted
         stage.frames()
-        marks.append(list(compass._marks._mesh.vertices))
+        marks.append(list(compass._marks.vertices))
     assert marks[0] == marks[1] != marks[2]
     assert len(marks[3]) == len(marks[2]) / 2  # the pointer alone
 

@@ -6,6 +6,7 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Quaternion
 from bridge.msgs.sensor_msgs import Imu
+from widgets.core.theme import theme
 from widgets.instruments.horizon import RUNG, ArtificialHorizon, samples
 
 TEN = math.pi / 18
@@ -101,3 +102,21 @@ def test_the_dash_goes_with_the_first_attitude(horizon, stage):
 @pytest.mark.parametrize("name", samples())
 def test_every_sample_can_be_shown(stage, name):
     assert stage.show(samples()[name]()).width == 194
+
+
+def test_a_world_that_is_told_only_what_is_new_follows_theme_and_room(stage):
+    horizon = stage.show(ArtificialHorizon(roll=0.2, pitch=0.1, state="live"), size=(200, 200))
+    stage.frames()
+    names = ("radius", "roll", "rise", "true_rise", "rung", "sky", "ground", "ink")
+    before = [horizon._world[name] for name in names]
+    theme.name = "sunlight"
+    try:
+        horizon.size = 150, 150
+        stage.frames()
+        fresh = ArtificialHorizon(roll=0.2, pitch=0.1, state="live", size=(150, 150))
+        fresh.draw()
+        after = [horizon._world[name] for name in names]
+        assert after == [fresh._world[name] for name in names]
+        assert [one == other for one, other in zip(before, after, strict=True)].count(True) == 1  # the roll
+    finally:
+        theme.name = "dark"

@@ -16,6 +16,8 @@ from bridge.msgs.geometry_msgs import (
 )
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import Imu
+from widgets.core.language import language
+from widgets.core.theme import theme
 from widgets.instruments.turn_tape import TurnTape
 
 UNMEASURED = [-1.0, *[0.0] * 8]
@@ -105,29 +107,81 @@ def test_noise_that_nobody_sees_draws_nothing_anew(tape):
     assert tape.turn_rate == before
 
 
-def inked(ink) -> list[float]:
-    return [float(value) for value in ink._mesh.vertices]
+def looks(tape) -> tuple[list[float], ...]:
+    """Vertices of scales, pointers and marks, and what is written where in which colour."""
+    words = [tape._words, *tape._figures]
+    slots = [slot for one in words for slot in one._slots if slot[1].size[0]]
+    written = [(tuple(colour.rgba), *text.pos, *text.size, text.texture) for colour, text in slots]
+    return (*(list(sheet.vertices) for sheet in (tape._still, tape._moving, tape._over)), written)
 
 
-@pytest.mark.parametrize("rate", [-2.0, 0.0, 0.4])
-def test_after_many_messages_it_looks_like_one_that_is_new(stage, tape, rate):
-    for turn, roll in ((0.9, 3), (-0.3, -28), (rate, 12)):
-        tape.show(Imu(orientation=leaning(roll=roll), angular_velocity=Vector3(z=turn)))
+@pytest.mark.parametrize("rate", [-2.0, 0.0, 0.01, 0.4])
+@pytest.mark.parametrize("roll", [12, -25])
+def test_after_many_messages_it_looks_like_one_that_is_new(stage, tape, rate, roll):
+    unknown = Imu(orientation_covariance=UNMEASURED, angular_velocity_covariance=UNMEASURED)
+    tape.show(unknown)
+    stage.frames(2)
+    for turn, lean in ((0.9, 3), (-0.3, -28), (1.7, 40), (rate, roll)):
+        tape.show(Imu(orientation=leaning(roll=lean), angular_velocity=Vector3(z=turn)))
         stage.frames(2)
     fresh = TurnTape(state="live", size=tape.size, pos=tape.pos)
-    fresh.show(Imu(orientation=leaning(roll=12), angular_velocity=Vector3(z=rate)))
+    fresh.show(Imu(orientation=leaning(roll=roll), angular_velocity=Vector3(z=rate)))
     fresh.draw()
-    assert inked(tape._ink) == inked(fresh._ink)
-    assert inked(tape._still) == inked(fresh._still)
+    assert looks(tape) == looks(fresh)
 
 
-def test_the_scales_follow_the_room_and_the_state(stage, tape):
-    tape.show(Imu(orientation=Quaternion(w=1.0)))
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"width": 250},
+        {"y": 40},
+        {"state": "alarm"},
+        {"state": "never"},
+        {"height": 60},
+        {"max_turn_rate": 20.0},
+        {"warn_lean": 5.0},
+        {"card": False},
+    ],
+    ids=str,
+)
+def test_it_follows_the_room_the_state_and_its_limits(stage, tape, change):
+    message = Imu(orientation=leaning(roll=12), angular_velocity=Vector3(z=0.5))
+    tape.show(message)
     stage.frames(2)
-    seen = [inked(tape._still)]
-    for change in ({"width": 250}, {"y": 40}, {"state": "alarm"}, {"height": 60}):
-        for name, value in change.items():
-            setattr(tape, name, value)
+    before = looks(tape)
+    for name, value in change.items():
+        setattr(tape, name, value)
+    stage.frames(2)
+    fresh = TurnTape(size=tape.size, pos=tape.pos, **{"state": "live", **change, "y": tape.y})
+    fresh.show(message)
+    fresh.draw()
+    assert looks(tape) == looks(fresh) != before
+
+
+@pytest.mark.parametrize(("which", "chosen", "usual"), [(theme, "sunlight", "dark"), (language, "de", "en")])
+def test_it_follows_the_theme_and_the_language(stage, tape, which, chosen, usual):
+    message = Imu(orientation=leaning(roll=12), angular_velocity=Vector3(z=0.5))
+    tape.show(message)
+    stage.frames(2)
+    before = looks(tape)
+    which.name = chosen
+    try:
+        tape.redraw()
         stage.frames(2)
-        seen.append(inked(tape._still))
-    assert len({tuple(each) for each in seen}) == len(seen)
+        fresh = TurnTape(state="live", size=tape.size, pos=tape.pos)
+        fresh.show(message)
+        fresh.draw()
+        assert looks(tape) == looks(fresh) != before
+    finally:
+        which.name = usual
+
+
+def test_a_scale_that_comes_back_makes_nothing_new(stage, tape):
+    tape.show(Imu(orientation=leaning(roll=12)))
+    stage.frames(2)
+    before, parts = looks(tape), list(tape.canvas.children)
+    for height in (60, 100, 150):
+        tape.height = height
+        stage.frames(2)
+    assert looks(tape) == before
+    assert list(tape.canvas.children) == parts
