@@ -25,6 +25,7 @@ __all__ = [
     "drives",
     "is_hand",
     "only_shows",
+    "tells",
 ]
 
 FIGURES, SENSES = "readouts", "senses"
@@ -76,6 +77,12 @@ def only_shows(name: str) -> bool:
     """The widget of that name shows messages, and commands nothing."""
     kind = getattr(widgets, name)
     return bool(kind.accepts) and not issubclass(kind, Control)
+
+
+def tells(name: str) -> bool:
+    """The widget of that name sends what a finger says to a topic of the robot's own, and does not drive."""
+    kind = getattr(widgets, name)
+    return issubclass(kind, Control) and kind.publishes and hasattr(kind, "at_rest")
 
 
 def is_hand(name: str) -> bool:

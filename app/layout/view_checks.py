@@ -10,13 +10,14 @@ from itertools import combinations
 from app.layout.hand_checks import Check, check_hand, check_hand_keys, refuse
 from app.layout.layout_faults import FaultList, check_apart, check_field, one_of
 from app.layout.layout_tables import SAYS, SLIDER
-from app.layout.layout_widgets import check_shows, drives, is_hand, only_shows
+from app.layout.layout_widgets import check_shows, drives, is_hand, only_shows, tells
 from app.layout.panel_grid import COLUMNS, FORMS, MAX_ROWS, Place
 from app.layout.views import MAX_PANELS, MAX_VIEWS, Panel, View, stacks_of
+from app.link.commands import SERVICES
 from bridge.core.toml_files import shown
 from bridge.core.topics import TOPICS
 
-__all__ = ["check_views", "is_control", "says"]
+__all__ = ["check_views", "is_control", "is_signal", "says"]
 
 TOPIC_NAME = re.compile(r"/[A-Za-z][A-Za-z0-9_]*(/[A-Za-z0-9_]+)*")
 FIELD_PATH = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(\[\d{1,4}\])?(\.[A-Za-z_][A-Za-z0-9_]*(\[\d{1,4}\])?)*")
@@ -26,6 +27,11 @@ _TYPES = {entry.name: entry.type for entry in TOPICS if entry.to == "handheld"}
 def is_control(widget: str) -> bool:
     """The widget of that name, which the catalogue has, drives or asks for something."""
     return widget == SLIDER or is_hand(widget)
+
+
+def is_signal(widget: str) -> bool:
+    """The widget of that name, which the catalogue has, tells the robot something that does not drive it."""
+    return widget != SLIDER and tells(widget)
 
 
 def says(panel: Panel) -> tuple[str, ...]:
@@ -66,6 +72,8 @@ def _check_panel(check: Check, where: str, panel: Panel, known: Sequence[str]) -
     usual = [name for name in panel.topics if name in _TYPES]
     if is_hand(panel.widget):
         check_hand(check, where, _Usual(panel, usual), known)
+    elif tells(panel.widget):
+        check("topic", _check_told, where, panel)
     elif not only_shows(panel.widget):
         check("widget", refuse, f"{where}: {panel.widget} shows no topic, so it is no panel.")
     elif not panel.topic:
@@ -74,6 +82,14 @@ def _check_panel(check: Check, where: str, panel: Panel, known: Sequence[str]) -
         check("topic", check_shows, where, panel.widget, usual)
         if panel.widget == "Readout" and panel.topic in _TYPES:
             check("field", check_field, where, _TYPES[panel.topic], panel.field)
+
+
+def _check_told(where: str, panel: Panel) -> None:
+    """A switch names a topic of the robot's own, none that Pilothouse uses itself."""
+    if not panel.topic:
+        refuse(f"{where}: topic is missing.")
+    if panel.topic in SERVICES or any(entry.name == panel.topic for entry in TOPICS):
+        refuse(f"{where}: {panel.widget} sends to a topic of the robot's own, not to {panel.topic}.")
 
 
 class _Usual:

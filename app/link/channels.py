@@ -25,6 +25,7 @@ __all__ = [
     "MISSED",
     "OUTCOME",
     "SEEN",
+    "SIGNAL",
     "Answer",
     "LinkPosts",
     "watched",
@@ -36,6 +37,8 @@ KNOWN = "known"
 """Newest wins: how far the robot's events are `KnownEvents`; it comes after them."""
 ANSWER = "answer"
 """`Answer`s of services that are no commands, queued."""
+SIGNAL = "signal"
+"""`SignalNews` of what controls of a view tell the robot, queued."""
 ANSWER_TIMEOUT = 5.0
 """Longest time for the answer of a service that is no command [s]."""
 CAPABILITIES, SEEN = "offer", "seen"

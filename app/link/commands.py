@@ -57,7 +57,7 @@ from bridge.msgs.pilothouse_msgs import (
 from widgets.core.language import mark, tr, within
 from widgets.core.task_words import title
 
-__all__ = ["COMMANDS", "Commands", "Kind", "Outcome"]
+__all__ = ["COMMANDS", "SERVICES", "Commands", "Kind", "Outcome"]
 
 VALID_FOR = 5.0
 """A one-shot command is void when it reaches the robot later than this [s]."""
@@ -194,6 +194,8 @@ COMMANDS: dict[str, Kind] = {
     "stop_release": Kind("/stop/release", CommandRequest, "release STOP"),
 }
 """Every one-shot command by its name in the app."""
+SERVICES = frozenset(kind.service for kind in COMMANDS.values())
+"""What Pilothouse calls of a robot; nothing else of these names is sent to."""
 
 
 @dataclass(frozen=True, slots=True)

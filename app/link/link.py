@@ -15,14 +15,15 @@ from app.link.advertising import INITIAL_POSE, Advertiser
 from app.link.camera_watch import CameraWatch
 from app.link.capabilities import Capabilities
 from app.link.capability_watch import CapabilityWatch
-from app.link.channels import CAPABILITIES, EVENT, LINK, MISSED, OUTCOME, LinkPosts
-from app.link.commands import Commands
+from app.link.channels import CAPABILITIES, EVENT, LINK, MISSED, OUTCOME, SIGNAL, LinkPosts
+from app.link.commands import SERVICES, Commands
 from app.link.drive_sender import DriveSender
 from app.link.drive_slot import Drive
 from app.link.event_fetch import EventFetch
 from app.link.event_order import KnownEvents
 from app.link.feeds import Mailbox
 from app.link.link_health import LinkHealth
+from app.link.signals.signal_sender import SignalSender
 from app.link.subscriptions import Peek, Sources, Watches
 from app.link.task_set import TaskSet
 from bridge.client.ask_as_stranger import even_as_stranger
@@ -82,6 +83,10 @@ class Link:
         self._sender = DriveSender(
             client, network, self._robot, self.health, now=now, forbidden=lambda: self.commands.stopping
         )
+        self.signals = SignalSender(
+            client, network, self._robot, self.health, now, self._is_stopping, SERVICES, posts.queue(SIGNAL)
+        )
+        """What controls of a view tell topics of the robot's own."""
         self._events = EventFetch(
             client,
             self._tasks,
@@ -143,10 +148,7 @@ class Link:
         self._running = None
 
     def drive(self, order: Drive) -> None:
-        """Drive so until told otherwise; leaves at once. A manoeuvre goes only to a robot that `steers`.
-
-        ValueError for a manoeuvre that is no drive command.
-        """
+        """As of `DriveSender.want`; a manoeuvre goes only to a robot that `steers`."""
         self._sender.want(order)
 
     def amend(self, order: Drive) -> None:
@@ -173,10 +175,7 @@ class Link:
         self._sender.slot.beat()
 
     def command(self, name: str, /, **fields: Any) -> None:
-        """Send a one-shot command of `app.link.commands.COMMANDS`; its `Outcome`s come through the mailbox.
-
-        It has the origin that is current now.
-        """
+        """Send a one-shot command of `app.link.commands.COMMANDS` from the current origin; its `Outcome`s come through the mailbox."""
         self._spawn(partial(self.commands.send, name, origins.current(), **fields))
 
     def ask(self, service: str, request: Msg, response: type[Msg]) -> None:
@@ -184,11 +183,9 @@ class Link:
         self._spawn(partial(self._posts.answer, self._client, service, request, response))
 
     def stop(self) -> None:
-        """STOP: the stick is let go and the robot is told until it confirms.
-
-        A robot without that service, or not yet known to have it, is sent zero speed until `unlatch`.
-        """
+        """STOP: controls let go and the robot is told until it confirms; without, or before, that service it gets zero speed until `unlatch`."""
         self._sender.slot.want(Twist())
+        self.signals.drop()
         capabilities = self._robot.capabilities
         ours = capabilities is not None and capabilities.ours
         if not ours:
@@ -234,24 +231,25 @@ class Link:
         self._network.call(lambda: self._tasks.start(begin()))
 
     async def _run(self) -> None:
-        sender = self._tasks.start(self._sender.run())
+        senders = [self._tasks.start(one.run()) for one in (self._sender, self.signals)]
         try:
             await self._client.run()
         finally:
-            sender.cancel()
+            for sender in senders:
+                sender.cancel()
+
+    def _is_stopping(self) -> bool:
+        return self.commands.stopping or self._sender.slot.latched
 
     def _on_state(self, state: LinkState) -> None:
         self._posts.queue(LINK)(state)
-        if state.phase is Phase.CONNECTED:
+        connected = state.phase is Phase.CONNECTED
+        if connected:
             self.health.on_sign(self._now())
-            self._sender.on_connected()
-            self._events.on_connected()
-            self._robot.on_connected()
+        for part in (self._sender, self.signals, self._events, self._robot):
+            (part.on_connected if connected else part.on_lost)()
+        if connected:
             self.watches.renew()
-        else:
-            self._sender.on_lost()
-            self._robot.on_lost()
-            self._events.on_lost()
 
     def _on_arrived(self, known: bool) -> None:
         """The robot was asked what it offers; where it did not answer, the usual names are listened to."""
@@ -285,6 +283,7 @@ class Link:
 
     async def _close(self) -> None:
         self._sender.finish()
+        self.signals.finish()
         self._camera.show(None)
         self._peek.close()
         await self._client.close()

@@ -6,6 +6,7 @@ import logging
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 from bridge.core.network_thread import NetworkThread
 from tests.bridge.client.foreign_server import ForeignServer
@@ -61,6 +62,11 @@ class Strange:
         del self._server.topics[self._server.command]
         self._server.command = name
         self._server.topic(name, kind)
+
+    def take(self, name: str, kind: str = "std_msgs/Bool") -> list[dict[str, Any]]:
+        """Have the robot listen to a topic beside its command; what it hears there, oldest first."""
+        self._server.topic(name, kind)
+        return self._server.taken.setdefault(name, [])
 
     def vanish(self) -> None:
         """Break every connection, and take no other: whoever connects is refused."""

@@ -10,8 +10,10 @@ from typing import Any
 import pytest
 
 from app.link.capabilities import CAMERA
+from app.link.signals.signal_sender import SignalNews
 from app.session.topic_list import TopicListing
 from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.std_msgs import Bool, String
 from tests.app.link.test_link import AHEAD, Operator
 from tests.app.strange import Strange, strange_robot
 
@@ -244,3 +246,66 @@ def test_a_robot_that_takes_stamped_commands_is_driven_by_them(tmp_path: Path) -
         operator.close()
     assert advertised["type"] == "geometry_msgs/msg/TwistStamped"
     assert all(abs(msg["header"]["stamp"]["sec"] - time.time()) < 60 for msg in sent)
+
+
+HORN, ON, OFF = "/horn", Bool(True), Bool(False)
+
+
+def honks(operator: Operator) -> Callable[[], None]:
+    """What a finger does on a button for the horn; it may from now on."""
+    signals = operator.link.signals
+    signals.look({HORN: Bool})
+    operator.until(lambda: ("signal", SignalNews(HORN)) in operator.said)
+    return lambda: signals.hold(HORN, ON, OFF)
+
+
+def test_a_bool_that_it_listens_to_is_true_while_it_is_held_and_stop_ends_it(tmp_path: Path) -> None:
+    with strange_robot(2) as strange:
+        heard = strange.take(HORN)
+        operator = Operator(strange.url, tmp_path, wants_control=True)
+        operator.until(lambda: operator.session.robot.foreign and operator.session.connected)
+        press = honks(operator)
+        operator.until(lambda: press() or len(heard) > 2)
+        assert all(msg == {"data": True} for msg in heard)
+        operator.session.stop()
+        operator.until(lambda: press() or heard[-1] == {"data": False})
+        quiet = len([msg for msg in heard if msg["data"]])
+        holds(operator, 0.5, press)
+        assert len([msg for msg in heard if msg["data"]]) == quiet
+        (advertised,) = (op for op in strange.operations("advertise") if op["topic"] == HORN)
+        assert advertised["type"] == "std_msgs/msg/Bool"
+        operator.close()
+
+
+def test_a_bool_that_was_held_when_the_link_was_cut_is_false_first_of_all_over_the_next(
+    tmp_path: Path,
+) -> None:
+    with strange_robot() as strange:
+        heard = strange.take(HORN)
+        operator = Operator(strange.url, tmp_path, wants_control=True)
+        operator.until(lambda: operator.session.robot.foreign and operator.session.connected)
+        press = honks(operator)
+        operator.until(lambda: press() or heard)
+        strange.cut()
+        operator.until(lambda: not operator.session.connected)
+        before = len(heard)
+        operator.until(lambda: press() or len(heard) > before)
+        assert heard[before:][0] == {"data": False}
+        operator.close()
+
+
+def test_what_it_says_itself_or_nobody_listens_to_is_sent_nothing(tmp_path: Path) -> None:
+    with strange_robot() as strange:
+        operator = Operator(strange.url, tmp_path, wants_control=True)
+        operator.until(lambda: operator.session.robot.foreign and operator.session.connected)
+        signals = operator.link.signals
+        signals.look({"/cmd_vel": Bool, "/scan": Bool, "/robot_description": String, "/nowhere": Bool})
+        operator.until(lambda: len([one for channel, one in operator.said if channel == "signal"]) == 4)
+        assert all(one.problem for channel, one in operator.said if channel == "signal")
+        for topic in ("/cmd_vel", "/scan", "/nowhere"):
+            signals.say(topic, ON)
+            signals.hold(topic, ON, OFF)
+        signals.say("/robot_description", String("no"))
+        holds(operator, 0.5)
+        assert strange.operations("publish") == []
+        operator.close()

@@ -136,7 +136,8 @@ class RosApi:
 
     def _subscribers(self, topic: str) -> dict[str, Any]:
         bridge = any(topic in peer.wishes for peer in self._server.peers)
-        return {"subscribers": ["/disc"] * (topic == "/cmd_vel") + ["/rosbridge_websocket"] * bridge}
+        takes = topic == "/cmd_vel" or topic in self._server.taken
+        return {"subscribers": ["/disc"] * takes + ["/rosbridge_websocket"] * bridge}
 
     def _get_param(self, name: str, default: str) -> dict[str, Any]:
         return {"value": self.params.get(name, default or "null")}

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 from app.layout.views import View
 from app.screens.panels.edited_screen import EditedScreen
-from app.screens.panels.fault_dialog import FaultDialog
-from app.screens.panels.share_dialog import ShareDialog
+from app.screens.panels.sharing.fault_dialog import FaultDialog
+from app.screens.panels.sharing.share_dialog import ShareDialog
 
 __all__ = ["share", "tell_faults"]
 

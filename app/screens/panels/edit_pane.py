@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from app.link.capabilities import Capabilities
 from app.screens.panels.offers import shown_topics, title_of
+from app.screens.panels.panel_signals import sendable
 from app.screens.panels.side_pane import AddList, Inspector, SidePane
 from app.screens.panels.view_pane import ViewPane
 from app.screens.panels.view_tabs import Act
+from app.session.session import Session
+from bridge.msgs.std_msgs import Bool
 from widgets.core.language import tr
 
 __all__ = ["edit_acts", "fill", "view_acts"]
@@ -36,11 +38,13 @@ def edit_acts(form: str, *, undo: bool, redo: bool) -> list[Act]:
     return acts
 
 
-def fill(pane: SidePane, editor: Any, offer: Capabilities | None, form: str) -> None:
+def fill(pane: SidePane, editor: Any, session: Session, form: str) -> None:
     """Show the selected panel in the pane or, where none is, what can be added of what the robot offers."""
     view, index = editor.view, editor.selected
     if index is None:
-        listed = AddList(shown_topics(offer) if offer is not None else [], editor.add, editor.add_control)
+        offer = session.robot.capabilities
+        topics = shown_topics(offer) if offer is not None else []
+        listed = AddList(topics, editor.add, editor.add_control, lambda topic: sendable(session, topic, Bool))
         listed.add_widget(ViewPane(view.title, editor.act_on_view))
         pane.show(tr("Add from this robot"), listed, closable=form != "wide")
         return

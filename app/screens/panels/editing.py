@@ -85,6 +85,7 @@ class Editing:
         if not self._editor.views:
             self._editor.add_view(tr("View 1"))
         self._selected, self._listed, self._shown = None, False, None
+        screen.session.link.ask_offer()
         screen.edit(True)
         screen.settle()
 
@@ -264,7 +265,7 @@ class Editing:
             self._shown = None
         elif shown != self._shown:
             self._shown = shown
-            fill(pane, self, screen.session.robot.capabilities, form)
+            fill(pane, self, screen.session, form)
 
     def on_key(self, key: int, modifiers: list[str]) -> bool:
         """What a key does while panels are edited and no text is typed; whether it did anything."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from app.layout.layout_tables import SLIDER
 from app.layout.sensible_view import panel_of
+from app.layout.view_checks import is_signal
 from app.layout.views import Panel
 from app.link.capabilities import Capabilities
 from bridge.core.topics import TOPICS
@@ -27,6 +28,7 @@ MAX_OFFERS = 12
 CONTROLS = (
     ("Joystick", mark("Stick")),
     ("LiftLever", mark("Lever")),
+    ("DPad", mark("Arrow pad")),
     ("TiltCircle", mark("Tilt")),
     (SLIDER, mark("Speed limit")),
 )
@@ -41,10 +43,18 @@ _COMMANDS = frozenset(entry.name for entry in TOPICS if entry.to != "handheld")
 """Topics that the robot listens to."""
 
 
-def offers_for(topic: str, kind: str) -> list[Offer]:
-    """Widgets for a topic of that type (its ROS 1 name), best first, at least one. What commands is no panel of a topic."""
-    found = [one for one in offers(kind, topic, commanded=False) if one.kind != COMMAND]
-    return found[:MAX_OFFERS]
+def offers_for(topic: str, kind: str, *, sends: bool = False) -> list[Offer]:
+    """Widgets for a topic of that type (its ROS 1 name), best first, at least one.
+
+    What commands is no panel of a topic, but where it `sends`: then its switches and buttons come first.
+    """
+    told = (
+        [one for one in offers(kind, topic, commanded=True) if one.kind == COMMAND and is_signal(one.widget)]
+        if sends
+        else []
+    )
+    shown = [one for one in offers(kind, topic, commanded=False) if one.kind != COMMAND]
+    return [*told, *shown][:MAX_OFFERS]
 
 
 def shown_topics(offer: Capabilities) -> list[tuple[str, str]]:

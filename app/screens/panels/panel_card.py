@@ -63,9 +63,9 @@ Builder.load_string("""
         id: place
         size_hint: None, None
         x: root.x + root.inset
-        y: root.y + root.inset
+        y: root.y + root.inset + beneath.height
         width: max(root.width - 2 * root.inset, dp(1))
-        height: max(root.height - root.head - root.inset - dp(4), dp(1))
+        height: max(root.height - root.head - root.inset - dp(4) - beneath.height, dp(1))
         opacity: .35 if root.away else 1
     Text:
         text: root.problem
@@ -77,6 +77,16 @@ Builder.load_string("""
         center_x: root.center_x
         center_y: place.center_y
         opacity: 1 if root.problem else 0
+    Text:
+        id: beneath
+        text: root.beneath
+        role: 'warn'
+        font_size: sp(13)
+        size_hint: None, None
+        x: root.x + root.inset
+        y: root.y + dp(6)
+        width: max(root.width - 2 * root.inset, dp(1))
+        height: self.texture_size[1] if root.beneath else 0
     BoxLayout:
         id: buttons
         size_hint: None, None
@@ -173,6 +183,8 @@ class PanelCard(Outlined, FloatLayout):
     """Its name where there is little room."""
     problem = StringProperty("")
     """Why its widget shows nothing, in one sentence; empty for none."""
+    beneath = StringProperty("")
+    """What is said below its widget, in one sentence; empty for nothing."""
     editing = BooleanProperty(False)
     selected = BooleanProperty(False)
     """It is the one that the inspector is about."""

@@ -14,6 +14,7 @@ from kivy.uix.scrollview import ScrollView
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.layout.panel_grid import COLUMNS, MAX_ROWS, Place
+from app.layout.view_checks import is_signal
 from app.layout.views import Panel
 from app.screens.panels.offers import CONTROLS, Offer, offer_name, offers_for, widget_name
 from widgets.core.language import tr
@@ -174,14 +175,15 @@ class AddList(Column):
         topics: Sequence[tuple[str, str]],
         add: Callable[[str, Offer], object],
         add_control: Callable[[str], object],
+        sends: Callable[[str], bool] = lambda _: False,
         controls: Sequence[tuple[str, str]] = CONTROLS,
     ) -> None:
-        """`topics` are names and types. A topic with one widget is added at once, one with several asks which."""
+        """`topics` are names and types. A topic with one widget is added at once, one with several asks which; a bool that the app `sends` has switches among them."""
         super().__init__(spacing="10dp", padding=(0, 0, dp(6), dp(8)))
         self._add, self._open = add, ""
         self._rows: dict[str, OfferRow] = {}
         for name, kind in topics:
-            offers = offers_for(name, kind)
+            offers = offers_for(name, kind, sends=sends(name))
             words = ", ".join(dict.fromkeys(widget_name(one.widget).lower() for one in offers[:3]))
             row = OfferRow(topic=name, kind=kind, icon=ICONS.get(kind, "data_object"), fits=words)
             row.bind(on_release=lambda _, name=name, offers=offers: self._press(name, offers))
@@ -237,6 +239,9 @@ class Inspector(Column):
         self._field("Name", panel.title, lambda text: change(title=text))
         if panel.topic:
             self._field(tr("Topic"), panel.topic, lambda text: change(topic=text))
+        if is_signal(panel.widget):
+            state = panel.also[0] if panel.also else ""
+            self._field(tr("State from topic"), state, lambda text: change(also=(text,) if text else ()))
         if panel.widget in ("Readout", "Plot"):
             self._field(tr("Field"), panel.field, lambda text: change(field=text))
             self._field(tr("Unit"), panel.unit, lambda text: change(unit=text))

@@ -8,7 +8,7 @@ from typing import Any
 import msgspec
 
 from app.layout.panel_grid import FORMS
-from app.layout.view_checks import is_control
+from app.layout.view_checks import is_control, is_signal
 from app.layout.views import Panel, View, places_of, stacks_of
 from app.link.camera_decoder import Picture
 from app.link.feeds import Post
@@ -17,6 +17,7 @@ from app.screens.panels.offers import title_of
 from app.screens.panels.panel_card import PanelCard
 from app.screens.panels.panel_controls import PanelControls
 from app.screens.panels.panel_feeds import PanelFeeds
+from app.screens.panels.panel_signals import PanelSignals
 from app.screens.panels.panel_widgets import make_instrument
 from app.screens.shell.screen_host import ScreenHost
 from app.session.session import Session
@@ -36,6 +37,7 @@ class ViewShow:
         self._board, self._session, self._app, self._on_act = board, session, app, on_act
         self._feeds = PanelFeeds(session)
         self._controls: PanelControls | None = None
+        self._signals: PanelSignals | None = None
         self._view = View("")
         self._cards: dict[int, PanelCard] = {}
         """By the index of the first panel of a stack."""
@@ -65,7 +67,9 @@ class ViewShow:
         """The cards of the view, with the widgets that are in sight."""
         view, editing = self._view, self._board.editing
         self._feeds = PanelFeeds(self._session)
-        self._controls = PanelControls(self._shown_panels(), self._session, self._app, self._seen)
+        panels = self._shown_panels()
+        self._controls = PanelControls(panels, self._session, self._app, self._seen)
+        self._signals = PanelSignals(panels, self._session, self._seen)
         for group in stacks_of(view.panels):
             there = [index for index in group if editing or not view.panels[index].hidden]
             if there:
@@ -93,16 +97,26 @@ class ViewShow:
         card.brief = title_of(panel, brief=True)
         names = [title_of(self._view.panels[one], brief=True) for one in card.indices]
         card.name_tabs(names, number)
-        controls = self._controls.widgets if self._controls is not None else {}
-        widget = (
-            controls.get(index) if is_control(panel.widget) else make_instrument(panel, self._kind(panel))
-        )
-        card.put(widget)
-        if widget is not None and index not in controls:
+        widget = self._hands.get(index)
+        if widget is None and not _commands(panel):
+            widget = make_instrument(panel, self._kind(panel))
             self._bind(card, panel, widget)
+        elif widget is not None and is_signal(panel.widget) and panel.also:
+            self._feeds.bind(widget, panel.also[0], lambda: card.widget is widget, fresh=False)
+        card.put(widget)
         if opened and self.active:
             self._feeds.open()
             self._rest_unseen()
+
+    @property
+    def _parts(self) -> list[PanelControls | PanelSignals]:
+        """What of the view a finger commands with."""
+        return [part for part in (self._controls, self._signals) if part is not None]
+
+    @property
+    def _hands(self) -> dict[int, Any]:
+        """Their widgets by the index of the panel."""
+        return {index: widget for part in self._parts for index, widget in part.widgets.items()}
 
     def _kind(self, panel: Panel) -> str:
         """Type of a panel's topic, its ROS 1 name; empty where the robot has not said it."""
@@ -135,9 +149,9 @@ class ViewShow:
 
     def clear(self) -> None:
         """Take everything off the board; every control lets go first."""
-        if self._controls is not None:
-            self._controls.leave()
-        self._controls = None
+        for part in self._parts:
+            part.leave()
+        self._controls = self._signals = None
         self._feeds.close()
         self._cards.clear()
         self._board.clear()
@@ -163,7 +177,7 @@ class ViewShow:
     @property
     def grips(self) -> list[Any]:
         """What a finger may hold besides and is in sight."""
-        return self._controls.grips if self._controls is not None else []
+        return [grip for part in self._parts for grip in part.grips]
 
     @property
     def videos(self) -> list[Video]:
@@ -175,8 +189,8 @@ class ViewShow:
         """Come onto the glass."""
         self.active = True
         self._feeds.open()
-        if self._controls is not None:
-            self._controls.enter()
+        for part in self._parts:
+            part.enter()
         self._say_problems()
 
     def leave(self) -> None:
@@ -186,22 +200,22 @@ class ViewShow:
 
     def rest(self) -> None:
         """Every control lets go."""
-        if self._controls is not None:
-            self._controls.rest()
+        for part in self._parts:
+            part.rest()
 
     def on_post(self, channel: str, post: Post) -> None:
         """A message came."""
         if not self.active:
             return
         self._feeds.on_post(channel, post)
-        if self._controls is not None:
-            self._controls.on_post(channel, post)
+        for part in self._parts:
+            part.on_post(channel, post)
 
     def tick(self) -> None:
         """Bring up to date what time changes."""
         self._feeds.tick()
-        if self._controls is not None:
-            self._controls.tick()
+        for part in self._parts:
+            part.tick()
         self._say_problems()
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
@@ -212,8 +226,11 @@ class ViewShow:
 
     def _say_problems(self) -> None:
         for card in self._cards.values():
-            topic = self._view.panels[int(card.shown)].topic
-            card.problem = self._feeds.problem(topic) if topic else ""
+            index = int(card.shown)
+            topic = self._view.panels[index].topic
+            told = self._signals is not None and index in self._signals.widgets
+            card.beneath = self._signals.problem(index) if self._signals is not None and told else ""
+            card.problem = self._feeds.problem(topic) if topic and not told else ""
         videos = self.videos
         for video in videos[1:]:
             video.state, video.age = videos[0].state, videos[0].age
@@ -226,13 +243,18 @@ class ViewShow:
         return card is not None and self._board.in_sight(card)
 
     def _rest_unseen(self) -> None:
-        if self._controls is not None:
-            self._controls.rest_unseen()
+        for part in self._parts:
+            part.rest_unseen()
 
     def _scrolled(self) -> None:
         self._rest_unseen()
         if self.active:
             self._feeds.refresh()
+
+
+def _commands(panel: Panel) -> bool:
+    """A finger commands with it."""
+    return is_control(panel.widget) or is_signal(panel.widget)
 
 
 def _without_places(view: View) -> list[Panel]:

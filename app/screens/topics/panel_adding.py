@@ -10,8 +10,10 @@ from typing import Any
 from kivy.lang import Builder
 
 from app.screens.panels.offers import offer_name, offers_for
+from app.screens.panels.panel_signals import sendable
 from app.screens.parts.dialogs import Question
 from app.screens.shell.screen_host import ScreenHost
+from bridge.msgs.std_msgs import Bool
 from widgets.core.language import tr
 from widgets.fitting import Offer
 from widgets.parts.kit import QuietButton
@@ -81,7 +83,7 @@ class AddDialog(Question):
             self.ids.views.add_widget(button)
         self.choose(self.view)
         self.ways: dict[str, QuietButton] = {}
-        for offer in offers_for(topic, kind):
+        for offer in offers_for(topic, kind, sends=sendable(screen.session, topic, Bool)):
             name = offer_name(offer)
             button = QuietButton(text=name, icon="add")
             button.bind(on_release=lambda _, offer=offer: self.add(offer))

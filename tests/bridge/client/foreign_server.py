@@ -303,11 +303,11 @@ class ForeignServer:
         self, ros: int = 1, *, nagle: bool | None = None, now: Callable[[], float] = time.time
     ) -> None:
         """`ros` is whose manners, 1 or 2. `nagle` None means as that one's sockets."""
-        self.ros = ros
-        self.port = 0
+        self.ros, self.port = ros, 0
         self.robot = ForeignRobot()
         self.topics: dict[str, Topic] = {}
         self.command = "/cmd_vel"
+        self.taken: dict[str, list[dict[str, Any]]] = {}  # what the robot heard beside its command
         self.offered: dict[str, tuple[Peer, str]] = {}
         self.performers: dict[str, tuple[Peer, str]] = {}
         self.calls: dict[str, Answer] = {}
@@ -411,6 +411,7 @@ class ForeignServer:
         topic.last = made
         if name == self.command:
             self.robot.command(made.get("twist", made))
+        self.taken.get(name, []).append(made)
         for peer in list(self.peers):
             if name in peer.wishes:
                 peer.wishes[name].offer(kind, made)

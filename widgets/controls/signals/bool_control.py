@@ -28,6 +28,8 @@ class BoolControl(DeadMan, Gauge):
 
     sends = (Bool,)
     publishes: ClassVar = True
+    at_rest: ClassVar[Bool | None] = None
+    """What ends that which it sends while it is held; None for one that asks once."""
     grid_size: ClassVar = (3, 2)
     drawn_from: ClassVar[tuple[str, ...]] = ("value", "pressed")
 
@@ -97,10 +99,6 @@ class Switchable(BoolControl):
         else:
             self.value = value
         self.dispatch("on_command", Bool(value))
-
-    def rest(self) -> None:
-        """Let the finger go; what was asked for stays asked."""
-        super().rest()
 
     def _no_reply(self, *_: object) -> None:
         self._settle("no_reply")

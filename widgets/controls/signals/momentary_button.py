@@ -41,6 +41,7 @@ class MomentaryButton(BoolControl):
     """
 
     accepts: ClassVar = (Bool,)
+    at_rest: ClassVar = Bool(False)
     specificity: ClassVar = 0.8
     drawn_from: ClassVar = (*BoolControl.drawn_from, "icon")
 

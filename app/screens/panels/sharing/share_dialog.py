@@ -18,7 +18,7 @@ from app.layout.views import View
 from app.profiles.profile_choice import ProfileChoice
 from app.profiles.profile_code import code_of
 from app.profiles.profile_link import BadProfileLink, fits_code, is_profile_link, link_of, text_of_link
-from app.screens.panels.fault_dialog import FaultRows
+from app.screens.panels.sharing.fault_dialog import FaultRows
 from app.screens.parts.dialogs import Question
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from widgets.core.language import tr, trn
