@@ -67,6 +67,10 @@ def _of_call(node: ast.Call, where: str) -> Iterator[Found]:
             yield (first, second), None, where
         elif isinstance(first, str) and first:
             yield first, second if isinstance(second, str) else None, where
+        elif isinstance(node.args[0], ast.IfExp):
+            for branch in (node.args[0].body, node.args[0].orelse):
+                one = ast.Call(node.func, [branch, *node.args[1:]], node.keywords, lineno=node.lineno)
+                yield from _of_call(one, where)
         elif name == "mark" or isinstance(node.args[0], ast.JoinedStr):
             raise SystemExit(
                 f"{where}, line {node.lineno}: {name} takes a sentence as it stands; values go in by format."

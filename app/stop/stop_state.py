@@ -94,8 +94,8 @@ def judge(known: StopFacts, now: float) -> Verdict:
     if now - since < ANSWER_TIMEOUT:
         return Verdict("sent")
     if not math.isnan(known.taken_at):
-        return Verdict("no_answer", "STOP received; the robot has not reported that it rests.")
-    return Verdict("no_answer", "It does not answer; STOP is sent again and again.")
+        return Verdict("no_answer", tr("STOP received; the robot has not reported that it rests."))
+    return Verdict("no_answer", tr("It does not answer; STOP is sent again and again."))
 
 
 def _latched(known: StopFacts, now: float) -> Verdict:

@@ -117,8 +117,8 @@ class CourseDial(Grip, Gauge):
         if math.isnan(self.off):
             return ""
         if abs(self.off) <= ON_COURSE:
-            return "on course"
-        return f"{abs(self.off):.0f}° {'right' if self.off > 0 else 'left'}"
+            return tr("on course")
+        return f"{abs(self.off):.0f}° {tr('right') if self.off > 0 else tr('left')}"
 
     @property
     def course(self) -> tuple[float, str]:
@@ -257,12 +257,14 @@ class CourseDial(Grip, Gauge):
         small = min(max(radius * 0.13, sp(10.5)), sp(14))
         size = fitting_size([heading_text(course)], radius * 0.34, room, bold=True)
         shift = radius * 0.05 if math.isfinite(course) else 0.0  # the degree sign hangs over
-        yield Word("COURSE", x, y + radius * 0.33, small * 0.85, theme.plan, bold=True)
+        yield Word(tr("Course").upper(), x, y + radius * 0.33, small * 0.85, theme.plan, bold=True)
         yield Word(heading_text(course), x + shift, y + radius * 0.1, size, theme.text, bold=True)
         lower = fitting_size([told], small, room)
         yield Word(told, x, y - radius * 0.16, lower, self._said_ink(said))
         bow = heading_text(self.heading)
-        yield Word(f"bow {bow}", x, y - radius * 0.36, small, theme.accent, bold=True)
+        yield Word(
+            tr("bow {heading}").format(heading=bow), x, y - radius * 0.36, small, theme.accent, bold=True
+        )
 
     def _said_ink(self, said: str) -> Any:
         return theme.danger if self.outcome in ("refused", "no_reply") and said else theme.muted
@@ -278,9 +280,9 @@ class CourseDial(Grip, Gauge):
         high = free / lines
         large = sp(28 if high > dp(58) else 18)
         told = said or self.off_words
-        first = said.upper() if said not in ("", tr(INVITES)) and lines == 2 else "COURSE"
+        first = said.upper() if said not in ("", tr(INVITES)) and lines == 2 else tr("Course").upper()
         for row, (name, value, ink) in enumerate(
-            ((first, course, theme.plan), ("HEADING", self.heading, theme.accent))
+            ((first, course, theme.plan), (tr("Heading").upper(), self.heading, theme.accent))
         ):
             up = top - row * high
             small = fitting_size([name], sp(11.5), room, bold=True)

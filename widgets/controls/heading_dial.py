@@ -19,6 +19,7 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from widgets.core.base import Control
+from widgets.core.language import tr
 from widgets.core.task_words import heading_of
 
 __all__ = ["HeadingDial"]
@@ -55,7 +56,7 @@ Builder.load_string("""
             pos: root.knob[0] - dp(15), root.knob[1] - dp(15)
             size: dp(30), dp(30)
     DialWord:
-        text: 'N'
+        text: tr('N', 'compass')
         bold: True
         pos: root.center_x - self.width / 2, root.center_y + root.reach * .86 - self.height / 2
     DialWord:
@@ -172,7 +173,11 @@ class HeadingDial(Control, Widget):
     """Corners of the arrow that says where the robot points [px]."""
 
     def _robot_words(self) -> str:
-        return f"robot {heading_of(self.robot)}" if self.located and not self.pointed else ""
+        return (
+            tr("robot {heading}").format(heading=heading_of(self.robot))
+            if self.located and not self.pointed
+            else ""
+        )
 
     robot_words = AliasProperty(_robot_words, bind=["robot", "value"], cache=True)
     """What the arrow is, as in `robot 055°`; empty while that is not known, or the needle may lie there."""

@@ -19,7 +19,7 @@ from bridge.core.units import heading_from_yaw, yaw_from_heading
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import Imu
-from widgets.core.language import tr
+from widgets.core.language import brief_figure, mark, tr
 from widgets.core.quantities import quantities, to_shown, unit_of
 
 __all__ = [
@@ -54,7 +54,12 @@ __all__ = [
 Points = NDArray[np.float64]
 """Shape (n, 2)."""
 
-CARDINALS: dict[int, str] = {0: "N", 90: "E", 180: "S", 270: "W"}
+CARDINALS: dict[int, str] = {
+    0: mark("N", "compass"),
+    90: mark("E", "compass"),
+    180: mark("S", "compass"),
+    270: mark("W", "compass"),
+}
 """Letters of the four main headings [deg]."""
 
 DASH = "–"
@@ -225,7 +230,7 @@ def dial_point(bearing: float, radius: float, heading: float = 0.0) -> tuple[flo
 
 def dial_text(bearing: int) -> str:
     """What a compass card says at `bearing` [deg, a multiple of 30]: N, E, S, W or tens of degrees."""
-    return CARDINALS.get(bearing % 360) or str(bearing % 360 // 10)
+    return tr(CARDINALS.get(bearing % 360, "")) or str(bearing % 360 // 10)
 
 
 def heading_text(heading: float) -> str:
@@ -254,10 +259,10 @@ def nice_floor(value: float) -> float:
 def length_text(metres: float) -> str:
     """A length with its unit: `20 cm`, `5 m`, `2 km`; in another unit of the operator's to one decimal."""
     if quantities.system == "imperial":
-        return f"{round(to_shown(metres, 'height'), 1):g} {unit_of('height')}"
+        return f"{brief_figure(round(to_shown(metres, 'height'), 1))} {unit_of('height')}"
     if metres < 1.0:
-        return f"{metres * 100:g} cm"
-    return f"{metres:g} m" if metres < 1000.0 else f"{metres / 1000:g} km"
+        return f"{brief_figure(metres * 100)} cm"
+    return f"{brief_figure(metres)} m" if metres < 1000.0 else f"{brief_figure(metres / 1000)} km"
 
 
 def rounded(left: float, low: float, width: float, height: float, radius: float) -> Points:

@@ -16,6 +16,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Self
 
 __all__ = [
     "FOLDER",
@@ -24,6 +25,7 @@ __all__ = [
     "VARIABLE",
     "Language",
     "Tongue",
+    "brief_figure",
     "figure",
     "language",
     "mark",
@@ -142,9 +144,26 @@ language = Language()
 """The one language of this process."""
 
 
+class _InContext(str):
+    """A marked word that has two meanings in English, and which of them is meant."""
+
+    __slots__ = ("context",)
+
+    context: str
+
+    def __new__(cls, text: str, context: str) -> Self:
+        """`text` with its context."""
+        made = super().__new__(cls, text)
+        made.context = context
+        return made
+
+
 def tr(text: str, context: str = "") -> str:
-    """`text`, a sentence or word in English, in the language of the glass; `context` tells two meanings of one word apart."""
-    return language.words(text, context)
+    """`text`, a sentence or word in English, in the language of the glass; `context` tells two meanings of one word apart.
+
+    What `mark` was given a context for has its own.
+    """
+    return language.words(text, context or getattr(text, "context", ""))
 
 
 def trn(one: str, many: str, count: int) -> str:
@@ -152,9 +171,13 @@ def trn(one: str, many: str, count: int) -> str:
     return language.counted(one, many, count)
 
 
-def mark(text: str) -> str:
-    """`text` as it is: a constant that `tr` translates where it is shown, for which the catalogues are told of it here."""
-    return text
+def mark(text: str, context: str = "") -> str:
+    """`text` as it is: a constant that `tr` translates where it is shown, for which the catalogues are told of it here.
+
+    `context` is for a word of two meanings, `mark("Home", "place")` and `mark("Home", "key")`; `tr` finds it by itself
+    in the object that this returns, which is equal to `text`.
+    """
+    return _InContext(text, context) if context else text
 
 
 def within(text: str) -> str:
@@ -175,3 +198,10 @@ def figure(value: float, digits: int = 0, *, signed: bool = False) -> str:
     if float(text) == 0.0:
         text = text.lstrip("+-")
     return text.replace("-", "−").replace(".", language.tongue.point)
+
+
+def brief_figure(value: float) -> str:
+    """`value` as the language writes it, with as many decimals as it has, as in `0.25` or `5`; a dash for NaN and infinity."""
+    if not math.isfinite(value):
+        return DASH
+    return f"{value:g}".replace("-", "−").replace(".", language.tongue.point)

@@ -16,7 +16,7 @@ from typing import NamedTuple
 from kivy.event import EventDispatcher
 from kivy.properties import OptionProperty
 
-from widgets.core.language import DASH, figure, language, mark, tr
+from widgets.core.language import DASH, brief_figure, figure, mark, tr
 
 __all__ = [
     "DASH",
@@ -249,5 +249,4 @@ def round_length(most: float) -> tuple[float, str]:
     rows = list(zip(units[quantities.system], signs[quantities.system], strict=True))
     si, sign = next((row for row in reversed(rows) if most >= row[0] * (1 - 1e-9)), rows[0])
     whole = round_floor(most / si)
-    text = f"{whole:g}".replace(".", language.tongue.point)
-    return whole * si, f"{text}{NO_BREAK}{sign}"
+    return whole * si, f"{brief_figure(whole)}{NO_BREAK}{sign}"

@@ -99,7 +99,7 @@ class AckermannView(Gauge):
         """Of the turn, as in `9.4 m`; `none` straight ahead, or a dash."""
         if math.isnan(self.radius):
             return DASH
-        return "none" if abs(self.radius) > STRAIGHT else away_text(abs(self.radius))
+        return tr("none", "radius") if abs(self.radius) > STRAIGHT else away_text(abs(self.radius))
 
     @property
     def speed_words(self) -> str:
@@ -134,10 +134,10 @@ class AckermannView(Gauge):
         room = right - left - wide(self.speed_words, size, bold=True) - dp(10)
         turn = (
             tr("no turn")
-            if self.radius_words == "none"
+            if abs(self.radius) > STRAIGHT
             else tr("radius {radius}").format(radius=self.radius_words)
         )
-        brief = "" if self.radius_words in ("none", DASH) else f"r {self.radius_words}"
+        brief = "" if not abs(self.radius) <= STRAIGHT else f"r {self.radius_words}"
         yield Word(first_fitting((turn, brief), size, room), right, y, size, theme.muted, anchor=(1, 0.5))
 
     def _column(self, box: tuple[float, float, float, float]) -> Iterator[Word]:

@@ -20,7 +20,7 @@ from bridge.msgs.pilothouse_msgs import ControlStatus, Manoeuvre
 from bridge.msgs.sensor_msgs import FluidPressure
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import DASH, Points, nice_floor
-from widgets.core.language import tr
+from widgets.core.language import brief_figure, tr
 from widgets.core.quantities import said, to_shown, unit_of
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -120,17 +120,21 @@ class DepthGauge(Gauge):
         yield from self._value(self.words, left, middle, size, "text")
         y = middle - size * 0.62 - sp(16)
         if self.rises:
-            told = (
-                first_fitting((tr("stopped, floats up"), tr("floats up")), sp(13), room, bold=True) or "rises"
+            told = first_fitting((tr("stopped, floats up"), tr("floats up")), sp(13), room, bold=True) or tr(
+                "rises"
             )
             yield Word(told, left, y, sp(13), theme.warn, bold=True, anchor=(0, 0.5))
         elif math.isfinite(self.wanted):
-            yield Word("TARGET", left, y, sp(11.5), theme.plan, anchor=(0, 0.5))
+            yield Word(tr("Target").upper(), left, y, sp(11.5), theme.plan, anchor=(0, 0.5))
             told = said(self.wanted, "height", 1).text
             small = self._fitting(told, f" {unit_of('height')}", room, min(size * 0.7, sp(26)))
             yield from self._value(told, left, y - sp(8) - small * 0.6, small, "plan")
         else:
-            texts = (tr("held where it is"), "held") if self.held else (tr("no target depth"), "no target")
+            texts = (
+                (tr("held where it is"), tr("held"))
+                if self.held
+                else (tr("no target depth"), tr("no target"))
+            )
             role = "plan" if self.held else "muted"
             yield Word(
                 first_fitting(texts, sp(12), room), left, y, sp(12), theme.roles[role], anchor=(0, 0.5)
@@ -166,7 +170,7 @@ class DepthGauge(Gauge):
             y = top - deep / reach * span
             start, end = np.array([[bar_right - dp(9), y]]), np.array([[bar_right, y]])
             shapes.segments(start, end, dp(1.5), theme.muted)
-            yield Word(f"{deep:g}", right, y, sp(11.5), theme.muted, anchor=(1, 0.5))
+            yield Word(brief_figure(deep), right, y, sp(11.5), theme.muted, anchor=(1, 0.5))
         if math.isfinite(self.wanted):
             y = top - min(self.wanted, self.reach) / self.reach * span
             ends = np.array([[bar_left, y], [bar_right, y]])
@@ -210,13 +214,19 @@ class DepthGauge(Gauge):
         """Words behind the depth in one line, the longest first."""
         unit = unit_of("height")
         if self.words == DASH:
-            return (" depth", "")
+            return (f" {tr('depth')}", "")
         if self.rises:
-            return (tr(" {unit}, floats up").format(unit=unit), f" {unit}, rises", f" {unit}")
+            return (tr(" {unit}, floats up").format(unit=unit), f" {unit}, {tr('rises')}", f" {unit}")
         if math.isfinite(self.wanted) and self.wanted > 0:
             told = said(self.wanted, "height", 1).text
-            return (f" {unit}, holds {told}", f" {unit} → {told}", f" → {told}")
-        return (f" {unit}, held", " held") if self.held else (f" {unit} depth", f" {unit}")
+            return (
+                tr(" {unit}, holds {depth}").format(unit=unit, depth=told),
+                f" {unit} → {told}",
+                f" → {told}",
+            )
+        if self.held:
+            return (f" {unit}, {tr('held')}", f" {tr('held')}")
+        return (f" {unit} {tr('depth')}", f" {unit}")
 
 
 def _waves(left: float, right: float, y: float) -> Points:

@@ -22,6 +22,7 @@ from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import Imu
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words
 from widgets.core.geometry import CARDINALS, DASH, heading_of, shortest_turn, steady, tape_marks
+from widgets.core.language import tr
 from widgets.core.shapes import FLOATS, Shapes
 from widgets.core.surfaces import Glass
 from widgets.core.theme import theme
@@ -183,7 +184,7 @@ class HeadingTape(Glass, Drawing):
 
     def _label(self, heading: int) -> Word:
         role = theme.danger if heading == 0 else theme.text
-        text = CARDINALS.get(heading, f"{heading}")
+        text = tr(CARDINALS.get(heading, f"{heading}"))
         return Word(text, self.center_x, self.y, sp(16), role, bold=heading in CARDINALS)
 
     def _draw_pointers(self, look: tuple[object, ...]) -> None:

@@ -19,7 +19,7 @@ from bridge.msgs.pilothouse_msgs import ControlStatus, FlightState
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import DASH, nice_floor
-from widgets.core.language import mark, tr
+from widgets.core.language import brief_figure, mark, tr
 from widgets.core.quantities import from_shown, said, to_shown, unit_of
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -35,6 +35,14 @@ TIGHT = 130
 """Lower than this the phase stands where else its name is [dp]."""
 STEADY = 0.05
 """Climbing or sinking slower than this is neither [m/s]."""
+PHASE_WORDS = {
+    "landed": mark("Landed"),
+    "taking_off": mark("Taking off"),
+    "flying": mark("Flying"),
+    "landing": mark("Landing"),
+    "turned_over": mark("Turned over"),
+}
+"""Phases of a flight to what they are called."""
 SHORT = {"taking_off": mark("Rising")}
 """A phase in a shorter word, where there is no room for its own."""
 HOVERS = mark("Hovers")
@@ -85,7 +93,11 @@ class HeightTape(Gauge):
     @property
     def phase_words(self) -> str:
         """The phase in words; `Hovers` for what is stopped in the air."""
-        return tr(HOVERS) if self.hovers else self.phase.replace("_", " ").capitalize()
+        return (
+            tr(HOVERS)
+            if self.hovers
+            else tr(PHASE_WORDS.get(self.phase, self.phase.replace("_", " ").capitalize()))
+        )
 
     @property
     def hovers(self) -> bool:
@@ -193,7 +205,9 @@ class HeightTape(Gauge):
             shapes.segments(np.array([[left, y]]), np.array([[left + reach, y]]), dp(1.5), theme.muted)
             inside = bottom + sp(8) < y < bottom + high - sp(8)
             if whole and number and inside and abs(y - middle) > sp(15):
-                yield Word(f"{number * rung / 2:g}", left + dp(15), y, sp(12), theme.muted, anchor=(0, 0.5))
+                yield Word(
+                    brief_figure(number * rung / 2), left + dp(15), y, sp(12), theme.muted, anchor=(0, 0.5)
+                )
         self._target(shapes, (left, right), (bottom, high), scale)
         word = Word(self.words, left + dp(15), middle, sp(13), theme.text, bold=True, anchor=(0, 0.5))
         ground(shapes, word, theme.surface)
@@ -250,7 +264,13 @@ class HeightTape(Gauge):
             )
             return
         unit = unit_of("height")
-        tail = " high" if self.words == DASH else f" {unit}, hovers" if self.hovers else f" {unit} high"
+        tail = (
+            f" {tr('high')}"
+            if self.words == DASH
+            else tr(" {unit}, hovers").format(unit=unit)
+            if self.hovers
+            else f" {unit} {tr('high')}"
+        )
         behind = max(size * 0.56, sp(12))
         if self.hovers:
             behind = min(behind, fitting_size([tail], behind, room - wide(self.words, size, bold=True)))

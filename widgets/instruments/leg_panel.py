@@ -22,14 +22,14 @@ from bridge.msgs.sensor_msgs import JointState
 from widgets.core.canvas_ink import Word
 from widgets.core.geometry import DASH, dial_point
 from widgets.core.icons import icon
-from widgets.core.language import figure, tr
+from widgets.core.language import figure, mark, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["LegPanel", "leg_of", "samples"]
 
-SIDES = {"left": "L", "right": "R"}
+SIDES = {"left": mark("L", "left"), "right": mark("R", "right")}
 ROWS = {"front": 1, "fore": 1, "middle": 2, "mid": 2, "rear": 3, "back": 3, "hind": 3}
 USUAL = ("L1", "L2", "L3", "R1", "R2", "R3")
 """Legs that are drawn before the first report."""
@@ -45,6 +45,11 @@ def leg_of(name: str) -> str:
     side = next((SIDES[word] for word in words if word in SIDES), "")
     row = next((ROWS[word] for word in words if word in ROWS), 0)
     return f"{side}{row}" if side and row else ""
+
+
+def leg_words(leg: str) -> str:
+    """A name of `leg_of` with the letter of the side that the language has."""
+    return f"{tr(leg[:1], 'left' if leg[:1] == SIDES['left'] else 'right')}{leg[1:]}"
 
 
 class LegPanel(Gauge):
@@ -105,8 +110,10 @@ class LegPanel(Gauge):
             return
         worst = self.hottest
         role = self.role(worst) if worst else "muted"
-        word = {"danger": "hot", "warn": "warm"}.get(role, "")
-        yield from self.header((f"{worst} is {word}", f"{worst} {word}", word) if word else (), role)
+        word = {"danger": tr("hot"), "warn": tr("warm")}.get(role, "")
+        named = leg_words(worst) if worst else ""
+        said = (tr("{leg} is {word}").format(leg=named, word=word), f"{named} {word}", word)
+        yield from self.header(said if word else (), role)
         top, legs = self.top - self.edge - sp(12) - dp(6), self.legs
         columns, rows = self._grid(len(legs), top - self.y - self.edge)
         across = (self.width - 2 * self.edge) / columns
@@ -188,7 +195,8 @@ class LegPanel(Gauge):
             return Word(DASH, self.center_x, self.center_y, sp(14), theme.muted)
         role = self.role(leg)
         told = f"{figure(self.temperatures[leg], 0)} °C"
-        texts = (f"legs · {leg} {told}", f"{leg} {told}", told)
+        named = f"{leg_words(leg)} {told}"
+        texts = (tr("legs · {leg}").format(leg=named), named, told)
         text = first_fitting(texts, sp(14), self.width - 2 * self.edge, bold=True)
         return Word(text, *self.center, sp(14), theme.roles["text" if role == "muted" else role], bold=True)
 

@@ -16,6 +16,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from widgets.core.base import RobotWidget
+from widgets.core.language import figure, tr, trn
 from widgets.parts.labels import Chip
 
 __all__ = ["LinkQuality", "quality"]
@@ -44,6 +45,11 @@ def quality(rtt: float, lost: int) -> str:
     if rtt >= BAD or lost >= BROKEN:
         return "bad"
     return "fair" if rtt >= SLOW or lost >= LOSSY else "good"
+
+
+def _with_lost(milliseconds: str, lost: int) -> str:
+    """The round trip, and how many answers were lost."""
+    return f"{milliseconds} · {trn('{count} lost', '{count} lost', lost)}"
 
 
 class LinkQuality(RobotWidget, BoxLayout):
@@ -81,9 +87,9 @@ class LinkQuality(RobotWidget, BoxLayout):
         if self.quality == "unknown":
             return "—"
         if self.quality == "silent":
-            return f"silent {self.silence:.1f} s"
-        milliseconds = f"{self.rtt * 1000:.0f} ms" if self.rtt < 1 else f"{self.rtt:.1f} s"
-        return milliseconds if self.brief else f"{milliseconds} · {self.lost:.0f} lost"
+            return tr("silent {silence} s").format(silence=figure(self.silence, 1))
+        milliseconds = f"{self.rtt * 1000:.0f} ms" if self.rtt < 1 else f"{figure(self.rtt, 1)} s"
+        return milliseconds if self.brief else _with_lost(milliseconds, int(self.lost))
 
     text = AliasProperty(_text, bind=["quality", "rtt", "lost", "silence", "sentence", "brief"], cache=True)
 
@@ -99,7 +105,7 @@ class LinkQuality(RobotWidget, BoxLayout):
         self._chip.icon, self._chip.role = LOOKS[self.quality]
         self._chip.text = self.text
         self._chip.edge = dp(7) if self.tight else dp(13)
-        self._chip.usual = "288 ms" if self.brief else "288 ms · 0 lost"
+        self._chip.usual = "288 ms" if self.brief else _with_lost("288 ms", 0)
         self._chip.outlined = self.quality == "lost"
         self.width = self._chip.width
 

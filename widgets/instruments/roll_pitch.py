@@ -22,7 +22,7 @@ from bridge.msgs.std_msgs import Header, Time
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import DASH, Points
-from widgets.core.language import mark, tr
+from widgets.core.language import figure, mark, tr, within
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.parts.sensor_card import Gauge, first_fitting, wide
@@ -53,6 +53,7 @@ class _View:
     """One of the two."""
 
     name: str
+    title: str
     hull: Sequence[tuple[float, float]]
     zero: float
     """Where its scale has 0 [rad]: above for roll, at the bow for pitch."""
@@ -61,8 +62,8 @@ class _View:
 
 
 VIEWS = (
-    _View("roll", STERN, math.pi / 2, (mark("right"), mark("left"))),
-    _View("pitch", SIDE, 0.0, (mark("bow down"), mark("bow up"))),
+    _View("roll", mark("Roll"), STERN, math.pi / 2, (mark("right"), mark("left"))),
+    _View("pitch", mark("Pitch"), SIDE, 0.0, (mark("bow down"), mark("bow up"))),
 )
 
 
@@ -113,13 +114,13 @@ class RollPitch(Gauge):
             return DASH, ""
         degrees = math.degrees(angle)
         positive, negative = map(tr, next(view.words for view in VIEWS if view.name == name))
-        side = "level" if abs(degrees) < LEVEL else positive if degrees > 0 else negative
+        side = tr("level") if abs(degrees) < LEVEL else positive if degrees > 0 else negative
         return f"{abs(degrees):.0f}°", side
 
     def most(self, name: str) -> str:
         """How far it went lately, as in `most 12°`; empty before anything is known."""
         past = self.rolled if name == "roll" else self.pitched
-        return f"most {math.degrees(max(map(abs, past))):.0f}°" if past else ""
+        return tr("most {angle}°").format(angle=figure(math.degrees(max(map(abs, past))))) if past else ""
 
     def role(self, name: str) -> str:
         """Role of an angle's colour."""
@@ -154,7 +155,7 @@ class RollPitch(Gauge):
         radius = max(min(width / 2, (height - foot - sp(18)) / 2), dp(8))
         x = left + width / 2
         self._draw_view(shapes, view, x, low + foot + (height - foot - sp(18)) / 2, radius)
-        yield Word(view.name.upper(), left, low + height - sp(6), sp(11.5), theme.muted, anchor=(0, 0.5))
+        yield Word(tr(view.title).upper(), left, low + height - sp(6), sp(11.5), theme.muted, anchor=(0, 0.5))
         y = low + foot - size * 0.6 - dp(2)
         ink = theme.roles[self.role(view.name)]
         yield Word(figure, left, y, size, ink, bold=True, anchor=(0, 0.5))
@@ -233,7 +234,7 @@ class RollPitch(Gauge):
         room = self.width - 2 * self.edge
         for number, view in enumerate(VIEWS):
             figure, side = self.words(view.name)
-            said = f"{view.name} {figure}"
+            said = f"{within(tr(view.title))} {figure}"
             text = first_fitting((f"{said} {side}".strip(), said, figure), sp(13), room, bold=True)
             y = self.center_y + sp(9) * (1 - 2 * number)
             yield Word(text, self.center_x, y, sp(13), theme.roles[self.role(view.name)], bold=True)

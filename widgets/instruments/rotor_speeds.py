@@ -82,10 +82,10 @@ class RotorSpeeds(Gauge):
     def _trouble(self) -> tuple[str, str]:
         """What is wrong, in a word, and the role of its colour; empty when nothing is."""
         if any(self.stands(speed) for _, speed, _ in self.rotors):
-            return "stopped", "danger"
+            return tr("stopped"), "danger"
         known = [warmth for *_, warmth in self.rotors if math.isfinite(warmth)]
         if known and max(known) >= self.warm:
-            return ("hot", "danger") if max(known) >= self.hot else ("warm", "warn")
+            return (tr("hot"), "danger") if max(known) >= self.hot else (tr("warm"), "warn")
         return "", "muted"
 
     def marks(self, shapes: Shapes) -> Iterator[Word]:
@@ -95,8 +95,8 @@ class RotorSpeeds(Gauge):
             yield self._brief()
             return
         trouble, role = self._trouble()
-        figures = (f"one {trouble}", trouble) if trouble == "stopped" else (trouble,)
-        yield from self.header(figures if trouble else ("rpm",), role if trouble else "muted", told=False)
+        figures = (tr("one stopped"), trouble) if trouble == tr("stopped") else (trouble,)
+        yield from self.header(figures if trouble else (tr("rpm"),), role if trouble else "muted", told=False)
         bottom, top = self.y + self.edge, self.top - self.edge - sp(12) - dp(4)
         room, high = self.width - 2 * self.edge, top - bottom
         x, y = self.center_x, (bottom + top) / 2
@@ -157,7 +157,12 @@ class RotorSpeeds(Gauge):
         if not known:
             return Word(DASH, *self.center, sp(14), theme.muted)
         told = figure(round(sum(known) / len(known) * RPM, -1), 0)
-        text = first_fitting((f"rotors {told} rpm", f"{told} rpm", told), sp(14), room, bold=True)
+        text = first_fitting(
+            (tr("rotors {speed} rpm").format(speed=told), f"{told} {tr('rpm')}", told),
+            sp(14),
+            room,
+            bold=True,
+        )
         return Word(text, *self.center, sp(14), theme.text, bold=True)
 
 

@@ -16,6 +16,7 @@ from widgets.core.base import text_texture
 from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import Points, View, nice_floor, thinned
 from widgets.core.icons import icon
+from widgets.core.language import tr
 from widgets.core.quantities import round_length
 from widgets.core.shapes import Shapes
 from widgets.core.task_words import KINDS
@@ -279,7 +280,7 @@ def north_mark(shapes: Shapes, x: float, y: float, turn: float) -> Word:
     tip, base, half = radius + dp(7), radius - dp(3), dp(6)
     corners = [(tip, 0.0), (base, half), (base, -half)]
     shapes.polygon([(x + cos * u - sin * v, y + sin * u + cos * v) for u, v in corners], theme.danger)
-    return Word("N", x, y, sp(14), theme.text, bold=True)
+    return Word(tr("N", "compass"), x, y, sp(14), theme.text, bold=True)
 
 
 def ghost_mark(shapes: Shapes, view: View, pose: tuple[float, float, float], radius: float) -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 import time
 
+from widgets.core.language import figure, language
+
 __all__ = ["clock_text", "nice_range", "nice_step", "tick_text", "ticks", "time_step"]
 
 MINUS = "−"
@@ -57,9 +59,10 @@ def tick_text(value: float, step: float) -> str:
     if abs(value) < step * 1e-6:
         return "0"
     if not MIN_PLAIN <= step < MAX_PLAIN or abs(value) >= 1e7:
-        return f"{value:.3g}".replace("e+0", "e").replace("e-0", "e-").replace("-", MINUS)
+        text = f"{value:.3g}".replace("e+0", "e").replace("e-0", "e-").replace("-", MINUS)
+        return text.replace(".", language.tongue.point)
     decimals = max(0, -math.floor(math.log10(step) + 1e-9))
-    return f"{value:.{decimals}f}".replace("-", MINUS)
+    return figure(value, decimals)
 
 
 def clock_text(at: float, step: float) -> str:

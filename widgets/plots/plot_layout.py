@@ -11,7 +11,7 @@ from kivy.metrics import dp, sp
 
 from widgets.core.base import text_texture
 from widgets.core.canvas_ink import Ink, Word, Words, tint
-from widgets.core.language import figure, tr
+from widgets.core.language import figure, language, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.parts.labels import spaced
@@ -245,7 +245,7 @@ def value_text(scales: Scales, value: float) -> str:
     """A value of the legend: as many decimals as tell two apart on this scale; a dash for NaN."""
     size = scales.high - scales.low
     if math.isfinite(value) and value and not 1e-4 <= abs(value) < 1e7:
-        return f"{value:.2e}".replace("-", MINUS)
+        return f"{value:.2e}".replace("-", MINUS).replace(".", language.tongue.point)
     decimals = 3 - math.ceil(math.log10(size)) if size > 0 else 2
     return figure(value, min(max(decimals, 0), 6))
 

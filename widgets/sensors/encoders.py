@@ -62,7 +62,8 @@ class EncodersView(Gauge):
         edge, shown = self.edge, self.wheels[:MAX_WHEELS]
         top = self.top - edge
         more = len(self.wheels) - len(shown)
-        figures = (f"rad/s · {more} more", f"{more} more", f"+{more}") if more else ("rad/s",)
+        others = tr("{count} more").format(count=more)
+        figures = (f"rad/s · {others}", others, f"+{more}") if more else ("rad/s",)
         if not self.low:
             yield from self.header(figures, "muted", told=False)
             top -= sp(12) + dp(4)

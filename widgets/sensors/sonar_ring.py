@@ -232,7 +232,7 @@ class SonarRingView(Gauge):
     def _above(self) -> Iterator[Word]:
         """Name and nearest distance over the ring; a contact takes the distance's place."""
         figures = (
-            (self.bump, "bump") if self.touched else (f"{self.figure} {self.where}".strip(), self.figure)
+            (self.bump, tr("bump")) if self.touched else (f"{self.figure} {self.where}".strip(), self.figure)
         )
         yield from self.header(figures, "danger" if self.touched else self.nearest_role)
 
@@ -248,15 +248,17 @@ class SonarRingView(Gauge):
         yield Word(self.figure, left, y, size, theme.roles[self.nearest_role], bold=True, anchor=(0, 0.5))
         if self.touched and self.height < dp(112):
             yield Word(
-                "bump", left, y - size * 0.5 - sp(11), sp(13), theme.danger, bold=True, anchor=(0, 0.5)
+                tr("bump"), left, y - size * 0.5 - sp(11), sp(13), theme.danger, bold=True, anchor=(0, 0.5)
             )
             return
-        where = first_fitting((self.where, self.where.replace("all ", "")), sp(13), room)
+        where = first_fitting(
+            (self.where, tr("around") if self.figure == tr("clear") else self.where), sp(13), room
+        )
         yield Word(where, left, y - size * 0.5 - sp(11), sp(13), theme.muted, anchor=(0, 0.5))
         y = self.y + self.edge + sp(8)
         ink = theme.danger if self.touched else theme.muted
         room += place.radius * 0.25 - sp(20)
-        brief = "bump" if self.touched else ""
+        brief = tr("bump") if self.touched else ""
         words = first_fitting((self.bump, brief), sp(13), room, bold=self.touched)
         if words and self.height >= dp(112):
             sign = icon("warning" if self.touched else "check")

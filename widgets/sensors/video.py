@@ -33,7 +33,7 @@ from widgets.core.canvas_ink import Drawing, Ink, Word, Words, shader
 from widgets.core.detected import kind_word
 from widgets.core.geometry import contain, cover
 from widgets.core.icons import icon
-from widgets.core.language import tr
+from widgets.core.language import figure, tr
 from widgets.core.rounded import Rounded
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -244,7 +244,11 @@ class Video(Drawing):
             y1, y2 = min(y1, self.top - dp(2)), max(y2, self.y + dp(2))
             if x2 - x1 > 1 and y1 - y2 > 1:
                 yield draw_box(
-                    shapes, (x1, y2, x2, y1), f"{kind_word(label, score)} {score:.2f}", frame, small=small
+                    shapes,
+                    (x1, y2, x2, y1),
+                    f"{kind_word(label, score)} {figure(score, 2)}",
+                    frame,
+                    small=small,
                 )
 
     def _pointers(self, shapes: Shapes) -> Iterator[Word]:
@@ -299,13 +303,17 @@ class Video(Drawing):
         """The picture is too old to drive by."""
         return self.latency > MAX_LATENCY
 
+    def _delay(self) -> str:
+        delay = figure(self.latency * 1000)
+        return tr("{delay} ms late").format(delay=delay) if self.late else f"{delay} ms"
+
     def chip_text(self) -> str:
         """Size, rate and latency of the picture in words; what is not known is left out, and what there is no room for."""
         parts = [f"{self.frame_size[0]}×{self.frame_size[1]}"] if all(self.frame_size) else []
         if not math.isnan(self.rate):
             parts.append(tr("{rate:.0f} fps").format(rate=self.rate))
         if not math.isnan(self.latency):
-            parts.append(f"{self.latency * 1000:.0f} ms{' late' if self.late else ''}")
+            parts.append(self._delay())
         while len(parts) > 1 and chip_width(" · ".join(parts)) > self.chip_room:
             parts.pop(0)
         return " · ".join(parts)

@@ -40,13 +40,13 @@ def why_not(session: Session) -> str:
     if session.robot.foreign:
         return "" if session.robot_stop.local.latched else tr("This robot has no topic to drive it by.")
     if session.robot_stop.latched:
-        return "STOP is pressed; hold it to release."
+        return tr("STOP is pressed; hold it to release.")
     if session.control == "other":
-        return f"{session.authority.status.driver} has control; ask for it."
+        return tr("{name} has control; ask for it.").format(name=session.authority.status.driver)
     if session.link.silent:
-        return "The link is silent; the stick counts again when the robot is heard."
+        return tr("The link is silent; the stick counts again when the robot is heard.")
     if not math.isfinite(session.link.robot_time()):
-        return "The robot's clock is not known yet; try again in a moment."
+        return tr("The robot's clock is not known yet; try again in a moment.")
     return ""
 
 

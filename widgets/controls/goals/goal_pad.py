@@ -31,7 +31,7 @@ from widgets.core.canvas_ink import Word, tint
 from widgets.core.finger_stay import FingerStay
 from widgets.core.geometry import DASH
 from widgets.core.icons import icon
-from widgets.core.language import figure
+from widgets.core.language import brief_figure, figure, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.parts.sensor_card import Gauge
@@ -161,7 +161,7 @@ class GoalPad(GoalChoice, Grip, Gauge):
         else:
             yield from self._table(figures)
             left, low, width, height = self._cell(2, 2)
-            for row, step in ((-1, f"{self.step:g} m"), (1, f"{math.degrees(TURN):.0f}°")):
+            for row, step in ((-1, f"{brief_figure(self.step)} m"), (1, f"{math.degrees(TURN):.0f}°")):
                 yield Word(step, left + width / 2, low + height / 2 - row * sp(9), sp(12), theme.muted)
 
     def _draw_button(self, shapes: Shapes, name: str) -> Iterator[Word]:
@@ -208,11 +208,12 @@ class GoalPad(GoalChoice, Grip, Gauge):
         if aside:
             y = low + height - sp(9)
             yield Word(icon("my_location"), left + dp(11), y, sp(12), theme.text, font=theme.icons)
-        yield from self._corner(here, "ROBOT", self._figures(self.actual), theme.accent, aside)
+        yield from self._corner(here, tr("Robot").upper(), self._figures(self.actual), theme.accent, aside)
         if self.wanted:
-            told, figures = "NEW" if self.followed else "GOAL", self._figures(self.wanted)
+            told, figures = tr("New" if self.followed else "Goal", "goal").upper(), self._figures(self.wanted)
         else:  # until there is a goal it says what a press does
-            told, figures = "STEP", (f"{self.step:g}", f"{self.step:g}", f"{math.degrees(TURN):.0f}°")
+            step = brief_figure(self.step)
+            told, figures = tr("Step").upper(), (step, step, f"{math.degrees(TURN):.0f}°")
         yield from self._corner(there, told, figures, theme.plan, 0)
 
     def _corner(
@@ -236,12 +237,12 @@ class GoalPad(GoalChoice, Grip, Gauge):
         left, low, width, height = box
         right, rows = left + width, height / 4
         middle = left + sp(22) + (width - sp(22)) / 2
-        new = "NEW GOAL" if width > sp(170) else "NEW"
+        new = tr("New goal") if width > sp(170) else tr("New", "goal")
         for x, name, place, colour in (
-            (middle, "ROBOT", self.actual, theme.accent),
-            (right, new if self.followed else "GOAL", self.wanted, theme.plan),
+            (middle, tr("Robot"), self.actual, theme.accent),
+            (right, new if self.followed else tr("Goal", "goal"), self.wanted, theme.plan),
         ):
-            yield Word(name, x, low + rows * 3.5, sp(11), colour, bold=True, anchor=(1, 0.5))
+            yield Word(name.upper(), x, low + rows * 3.5, sp(11), colour, bold=True, anchor=(1, 0.5))
             units = (" m", " m", "") if width > dp(116) else ("", "", "")
             told = zip(self._figures(place), units, strict=True)
             shown = [text + (unit if place else "") for text, unit in told]

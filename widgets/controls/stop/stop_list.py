@@ -29,12 +29,12 @@ MIN_HEAD_WIDTH = 320
 """A narrower line has no cross [dp]."""
 
 WORDS = {
-    "sent": ("SENT", "warn", "hourglass_top"),
-    "stopped": ("STOPPED", "ok", "lock"),
-    "moves": ("MOVES", "danger", "warning"),
-    "no_answer": ("NO ANSWER", "danger", "signal_disconnected"),
-    "lost": ("NO ANSWER", "danger", "signal_disconnected"),
-    "released": ("RELEASED", "muted", "lock_open"),
+    "sent": (mark("SENT"), "warn", "hourglass_top"),
+    "stopped": (mark("STOPPED"), "ok", "lock"),
+    "moves": (mark("MOVES"), "danger", "warning"),
+    "no_answer": (mark("NO ANSWER"), "danger", "signal_disconnected"),
+    "lost": (mark("NO ANSWER"), "danger", "signal_disconnected"),
+    "released": (mark("RELEASED"), "muted", "lock_open"),
 }
 """What became of a robot's STOP to its word, the role of that, and its icon."""
 
@@ -169,7 +169,8 @@ class StopRow(BoxLayout):
     def update(self, robot: Stopped) -> None:
         """Show what is known of the robot."""
         self.title, self.detail = robot.name, robot.sentence
-        self.word, self.role, self.icon = WORDS[robot.phase]
+        word, self.role, self.icon = WORDS[robot.phase]
+        self.word = tr(word)
 
 
 class HoldButton(Hold, QuietButton):
@@ -261,9 +262,12 @@ class StopList(Control, BoxLayout):
             self.ids.column.add_widget(self._rows[-1])
         for row, robot in zip(self._rows, robots, strict=True):
             row.update(robot)
-        self.title, self.all_stopped = f"STOPPED {stopped} of {total}", stopped == total
+        self.title, self.all_stopped = (
+            tr("STOPPED {count} of {total}").format(count=stopped, total=total),
+            stopped == total,
+        )
         worst = robots[0] if robots and robots[0].phase != "stopped" else None
-        self.worst = f"{worst.name}: {WORDS[worst.phase][0]}" if worst is not None else ""
+        self.worst = f"{worst.name}: {tr(WORDS[worst.phase][0])}" if worst is not None else ""
         held = sum(robot.foreign for robot in robots)
         open_ones = sum(robot.phase not in ("stopped", "released") for robot in robots)
         self.footnote = _footnote(open_ones, held, untried, since, unmet) or tr(HINT)
