@@ -67,7 +67,7 @@ class DesktopPicking:
             chosen = filechooser.open_file(multiple=True) or []
         except Exception as fault:  # noqa: BLE001 - plyer raises what it likes where a desktop has no dialogue
             log.info("no file dialogue: %s", fault)
-            done([], "This desktop has no file dialogue; type the file's path.")
+            done([], tr("This desktop has no file dialogue; type the file's path."))
         else:
             done([Path(str(path)) for path in chosen[:MAX_FILES]], "")
 

@@ -89,8 +89,8 @@ class NoMotion:
     kinds: frozenset[Kind] = frozenset()
     possible = False
 
-    def __init__(self, sentence: str = "This computer has no motion sensor.") -> None:
-        self.sentence = sentence
+    def __init__(self, sentence: str = "") -> None:
+        self.sentence = sentence or tr("This computer has no motion sensor.")
 
     def start(self, kinds: Collection[Kind], hear: Hear) -> None:
         """MotionError, always."""

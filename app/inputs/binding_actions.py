@@ -134,7 +134,7 @@ class BindingActions:
             )
         if press.source == "pad":
             return (
-                tr("{device} is silent").format(device=press.device or "The gamepad")
+                tr("{device} is silent").format(device=press.device or tr("The gamepad"))
                 if self._silent(press.number)
                 else None
             )

@@ -35,7 +35,8 @@ class PadNews:
                 else tr("its left stick drives")
             )
             stop = button_words(self._gamepads().profile(news.name).stops[0]).partition(",")[0]
-            shell.say(f"{news.name}: {hands}, {stop} is STOP.", "info", about="gamepad")
+            words = tr("{name}: {hands}, {button} is STOP.")
+            shell.say(words.format(name=news.name, hands=hands, button=stop), "info", about="gamepad")
         elif news.what == "unplugged":
             shell.say(tr("{name} is unplugged.").format(name=news.name), "info", about="gamepad")
         elif news.what == "unplugged driving":

@@ -113,5 +113,7 @@ class MethodPermits:
             void = void or len(right) < len(row)
             found[method] = right
         if void:
-            self.problem = "The stored permissions could not be read in part; that part is reset to default."
+            self.problem = tr(
+                "The stored permissions could not be read in part; that part is reset to default."
+            )
         return found

@@ -50,7 +50,7 @@ class OpenQuestion:
         if self._asked() == self._answer_question:
             card = self._app.shell.question
             if card.cut and card.held:
-                return tr("{question} Not yet: {held}").format(question=card.question, held=HELD)
+                return tr("{question} Not yet: {held}").format(question=card.question, held=tr(HELD))
         return self.why_not_answer()
 
     def _answer_reset(self, yes: bool) -> str:

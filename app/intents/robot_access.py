@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, cast
 
 from app.intents.executor_app import ScreenApp
 from bridge.msgs.pilothouse_msgs import TaskStatus
-from widgets.core.language import tr
+from widgets.core.language import mark, tr
 
 if TYPE_CHECKING:
     from app.session.session import Session
 
 __all__ = ["HELD", "RobotAccess"]
 
-HELD = "STOP is pressed; release it first."
+HELD = mark("STOP is pressed; release it first.")
 
 
 class RobotAccess:
@@ -53,4 +53,4 @@ class RobotAccess:
 
     def why_latched(self) -> str:
         """Why nothing may move; empty while STOP is not pressed."""
-        return HELD if self._session.robot_stop.latched else ""
+        return tr(HELD) if self._session.robot_stop.latched else ""

@@ -86,7 +86,7 @@ class TaskIntents(RobotAccess):
         if not (session.robot.knows(order.task) and session.robot.offers("/task/start")):
             return tr("This robot knows no such task: {name}.").format(name=TASKS[order.task].name)
         if self.runs() and self.status is not None:
-            return f"{title(TaskOrder(task=self.status.task))} runs; end it first."
+            return tr("{task} runs; end it first.").format(task=title(TaskOrder(task=self.status.task)))
         if order.task == "patrol" and not order.places and session.mission.state == "empty":
             return tr("There are no points on the map to patrol.")
         refused: str = session.refusals.order(order, session.mission.draft)

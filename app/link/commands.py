@@ -191,7 +191,7 @@ COMMANDS: dict[str, Kind] = {
     "reset": Kind("/robot/reset", CommandRequest, mark("put the robot back")),
     "stop": Kind("/stop", CommandRequest, "STOP"),
     "stop_hold": Kind("/stop/hold", CommandRequest, mark("hold Release")),
-    "stop_release": Kind("/stop/release", CommandRequest, "release STOP"),
+    "stop_release": Kind("/stop/release", CommandRequest, mark("release STOP")),
 }
 """Every one-shot command by its name in the app."""
 SERVICES = frozenset(kind.service for kind in COMMANDS.values())

@@ -74,6 +74,8 @@ class Recorder:
         """Messages that did not get into the file."""
         self.problem = ""
         """One sentence when the disk failed; empty when all is well."""
+        self._fault = ""
+        """What the system says of that."""
         self._wall = wall
         self._file = path.open("xb")
         self._writer = Writer(self._file, chunk_size=piece)
@@ -107,7 +109,7 @@ class Recorder:
         self._thread.join()
         if self.problem and not _size(self.path):
             self.path.unlink(missing_ok=True)
-            self.problem = self.problem.replace("The recording has ended", "Nothing was recorded")
+            self.problem = tr("Nothing was recorded: {strerror}.").format(strerror=self._fault)
 
     def _run(self) -> None:
         while (item := self._queue.get()) is not None:
@@ -126,7 +128,8 @@ class Recorder:
 
     def _fail(self, error: OSError) -> None:
         self.dropped += 1
-        self.problem = tr("The recording has ended: {strerror}.").format(strerror=error.strerror or error)
+        self._fault = str(error.strerror or error)
+        self.problem = tr("The recording has ended: {strerror}.").format(strerror=self._fault)
         log.warning("%s", self.problem)
 
     def _write(self, topic: str, message: Msg, at: float) -> None:

@@ -241,7 +241,8 @@ class Watches:
             if topic in self._peeks:
                 continue
             if len(self._peeks) >= MAX_WATCHED:
-                sentence = f"{MAX_WATCHED} topics are shown already; take one away to see {topic}."
+                words = tr("{count} topics are shown already; take one away to see {topic}.")
+                sentence = words.format(count=MAX_WATCHED, topic=topic)
                 self._tell(Seen(topic, problem=sentence), float("nan"))
                 continue
             peek = Peek(self._client, self._take)

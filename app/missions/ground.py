@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from bridge.msgs.nav_msgs import OccupancyGrid
 from widgets.core.language import figure, tr
+from widgets.core.quantities import said
 
 __all__ = ["Fault", "Ground"]
 
@@ -85,7 +86,7 @@ class Ground:
 
         `robot` is where it is [m]; None while it is not known, when nothing is said about ways.
         """
-        where = tr("{name} at ({x:.1f}, {y:.1f})").format(name=name, x=x, y=y)
+        where = tr("{name} at ({x}, {y})").format(name=name, x=figure(x, 1), y=figure(y, 1))
         row, column = self._block_at(x, y)
         if not (0 <= row < self._shape[0] and 0 <= column < self._shape[1]):
             return Fault(tr("{where} is off the map.").format(where=where), tr("off the map"))
@@ -99,9 +100,9 @@ class Ground:
         if room == SOLID:
             return Fault(tr("{where} is in a wall or another obstacle.").format(where=where), tr("in a wall"))
         if room < self._need:
-            words = tr("{where} is {room} m from an obstacle; the robot needs {need} m.")
-            said = words.format(where=where, room=figure(room, 2), need=figure(self._need, 2))
-            return Fault(said, tr("{room} m free").format(room=figure(room, 2)))
+            free, need = said(room, "height", 2).words, said(self._need, "height", 2).words
+            words = tr("{where} is {room} from an obstacle; the robot needs {need}.")
+            return Fault(words.format(where=where, room=free, need=need), tr("{room} free").format(room=free))
         if robot is not None and self._cut_off(row, column, robot):
             return Fault(tr("There is no way to {where}.").format(where=where), tr("no way there"))
         return None

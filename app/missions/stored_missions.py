@@ -68,7 +68,7 @@ class StoredMissions:
     def lacking(self, name: str) -> str:
         """What is missing before the points on the map can be kept under a name, as a sentence; empty when nothing."""
         if not self._robot.mission.draft.points:
-            return "There are no points on the map to save; set some on the mission screen."
+            return tr("There are no points on the map to save; set some on the mission screen.")
         return "" if name.strip() else tr("Enter a name.")
 
     # what comes in

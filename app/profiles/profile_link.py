@@ -57,23 +57,25 @@ def text_of_link(link: str) -> str:
     link = link.strip()
     if len(link) > MAX_LINK:
         raise BadProfileLink(
-            tr("A link of a profile has at most {max_link:,} letters.").format(max_link=MAX_LINK)
+            tr("A link of a profile has at most {max_link} letters.").format(max_link=MAX_LINK)
         )
     try:
         parts = urlsplit(link)
         fields = parse_qsl(parts.query, keep_blank_values=True, strict_parsing=True, max_num_fields=4)
     except ValueError as error:
-        raise BadProfileLink("This is no link of a profile; one begins with pilothouse://layout.") from error
+        raise BadProfileLink(
+            tr("This is no link of a profile; one begins with pilothouse://layout.")
+        ) from error
     said = dict(fields)
     if parts.scheme != SCHEME or parts.netloc != HOST or parts.path.strip("/") or set(said) != {"v", "d"}:
-        raise BadProfileLink("This is no link of a profile; one begins with pilothouse://layout.")
+        raise BadProfileLink(tr("This is no link of a profile; one begins with pilothouse://layout."))
     if said["v"] != VERSION:
-        raise BadProfileLink("This profile was made by a newer app; update this one.")
+        raise BadProfileLink(tr("This profile was made by a newer app; update this one."))
     return _unpacked(said["d"])
 
 
 def _unpacked(packed: str) -> str:
-    cut = BadProfileLink("This link of a profile is not complete; copy it again.")
+    cut = BadProfileLink(tr("This link of a profile is not complete; copy it again."))
     try:
         content = base64.b64decode(packed + "=" * (-len(packed) % 4), altchars=b"-_", validate=True)
         unpacker = zlib.decompressobj()

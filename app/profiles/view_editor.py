@@ -81,7 +81,7 @@ class ViewEditor:
 
     def rename_view(self, view: int, title: str) -> None:
         """EditError for a name that is empty or too long."""
-        self._put(view, View(_titled(title, "view"), self._views[view].panels))
+        self._put(view, View(_titled(title), self._views[view].panels))
 
     # panels
 
@@ -127,7 +127,7 @@ class ViewEditor:
     def change(self, view: int, panel: int, **keys: object) -> None:
         """Set keys of a panel, as its title or its topic; EditError where that is wrong."""
         if "title" in keys:
-            keys["title"] = _titled(str(keys["title"]), "panel", empty=True)
+            keys["title"] = _titled(str(keys["title"]), panel=True)
         self._set(view, panel, msgspec.structs.replace(self._views[view].panels[panel], **keys))
 
     def stack(self, view: int, panel: int, other: int) -> None:
@@ -180,13 +180,17 @@ class ViewEditor:
         self._views = views
 
 
-def _titled(title: str, what: str, *, empty: bool = False) -> str:
-    """The title without spaces round it; EditError where it is too long, or empty and must not be."""
+def _titled(title: str, *, panel: bool = False) -> str:
+    """The title of a view, or of a `panel`, without spaces round it; EditError where it is too long, or that of a view empty."""
     title = title.strip()
-    if not title and not empty:
-        raise EditError(tr("Enter a name for the {what}.").format(what=what))
+    if not title and not panel:
+        raise EditError(tr("Enter a name for the view."))
     if len(title) > 60:
-        raise EditError(tr("The name of a {what} has at most 60 letters.").format(what=what))
+        raise EditError(
+            tr("The name of a panel has at most 60 letters.")
+            if panel
+            else tr("The name of a view has at most 60 letters.")
+        )
     return title
 
 

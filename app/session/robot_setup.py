@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from app.core.robot_docs import ROLES
 from app.link.channels import ANSWER, LINK, OUTCOME, Answer
 from app.link.commands import Outcome
 from app.link.feeds import Post
@@ -119,14 +120,16 @@ class RobotSetup:
         """Why nothing can be switched from here, as one sentence; empty where it can."""
         session = self._session
         if not session.connected:
-            return "There is no link; what can be seen was so before."
+            return tr("There is no link; what can be seen was so before.")
         offer = session.robot.capabilities
         if offer is not None and not (offer.serves("/gateways/bring_up") or offer.serves("/payloads/set")):
             return tr("This robot's protocols and payloads cannot be switched from here.")
         if self._role is None:
             return tr("Asking the robot what may be switched from here …")
         if self._role < Role.MANAGE:
-            return f"Only who manages the robot switches these; this handheld has the role {self._role.word}."
+            return tr("Only who manages the robot switches these; this handheld has the role {role}.").format(
+                role=tr(ROLES[self._role.word])
+            )
         return ""
 
     @property
@@ -148,7 +151,9 @@ class RobotSetup:
             )
             return f"{self.why_not}{since}", "warn"
         if self.age > 0.0:
-            return f"The robot is silent; what can be seen is {self.age:.0f} s old.", "warn"
+            return tr("The robot is silent; what can be seen is {age:.0f} s old.").format(
+                age=self.age
+            ), "warn"
         if self.why_not:
             return self.why_not, "muted"
         if not self.gateways and not self.payloads:
@@ -171,7 +176,7 @@ class RobotSetup:
             return (f"{word} …", "accent") if self.age == 0.0 else (_ago(word, self.age), "warn")
         if gateway.package:
             return tr("Needs {package}, which the robot lacks.").format(package=gateway.package), "warn"
-        return (gateway.fault, "warn") if gateway.fault else (gateway.doc, "muted")
+        return (gateway.fault, "warn") if gateway.fault else (tr(gateway.doc), "muted")
 
     @staticmethod
     def _up(gateway: Gateway) -> str:
@@ -197,7 +202,7 @@ class RobotSetup:
         asked = self._asked_for(payload)
         if asked is not None:
             return asked
-        return (payload.why, "muted") if payload.why else (payload.doc, "muted")
+        return tr(payload.why or payload.doc), "muted"
 
     def on_or_off(self, payload: Payload) -> State:
         """The same in a word, with its age where the robot is not heard."""
@@ -215,7 +220,12 @@ class RobotSetup:
         if wish.phase == "sent" and self.age == 0.0:
             return tr("Asked for …"), "accent"
         since = max(0.0, self._session.now() - wish.sent)
-        return f"Asked for {'on' if wish.fields['on'] else 'off'}; not answered for {since:.0f} s", "warn"
+        asked = (
+            tr("Asked for on; not answered for {since:.0f} s")
+            if wish.fields["on"]
+            else tr("Asked for off; not answered for {since:.0f} s")
+        )
+        return asked.format(since=since), "warn"
 
     def refusal(self, kind: str, name: str) -> str:
         """What the robot has against what was last asked of it, `kind` `GATEWAYS` or `PAYLOADS`; empty for nothing."""

@@ -356,7 +356,7 @@ def _unproven(row: Row) -> Row:
     """What is said at the address of a paired robot by one that has not proved to be it."""
     if row.phase not in ("stopped", "released", "moves"):
         return row
-    return replace(row, phase="no_answer", sentence="It has not proved to be your paired robot.")
+    return replace(row, phase="no_answer", sentence=tr("It has not proved to be your paired robot."))
 
 
 def _identity(connected: Connected) -> tuple[str, str, Time] | None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from app.link.feeds import Mailbox
 from bridge.core.network_thread import NetworkThread
 from bridge.trust.pairing import BadPairing, PairLink
+from widgets.core.language import tr
 
 if TYPE_CHECKING:
     from bridge.client.pairing import Paired  # when somebody pairs, for a quick start
@@ -81,5 +82,5 @@ class PairingAttempts:
             ended = Attempt(number, None, str(failure))
         except Exception:
             log.exception("Pairing failed")
-            ended = Attempt(number, None, "Pairing failed for an unknown reason; the log says more.")
+            ended = Attempt(number, None, tr("Pairing failed for an unknown reason; the log says more."))
         self._mailbox.queue(PAIRING, ended, self._now())

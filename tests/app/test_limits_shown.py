@@ -55,7 +55,7 @@ def test_a_point_in_a_fingers_grip_is_judged_where_the_finger_is(fenced):
     touch = fenced.stage.touch(*area.to_window(*area.view.to_screen(5.0, 5.0)))
     touch.touch_down()
     touch.touch_move(*area.to_window(*area.view.to_screen(5.0, 9.8)))
-    assert "needs 0.60 m" in mission.selection.trouble
+    assert "needs 0.60\u00a0m" in mission.selection.trouble
     touch.touch_move(*area.to_window(*area.view.to_screen(5.0, 6.0)))
     assert mission.selection.trouble == ""
     touch.touch_up()

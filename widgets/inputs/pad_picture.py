@@ -118,7 +118,7 @@ class PadPicture(Control, Drawing):
             self._bar(shapes, place, share, self._role(name))
         extra = [name.rpartition(" ")[2] for name in self.down if name.startswith("button ")]
         if self.state == "never":
-            words.append(self._word(self.nothing, (WIDTH / 2, -0.5), 4.6, theme.muted))
+            words.append(self._word(tr(self.nothing), (WIDTH / 2, -0.5), 4.6, theme.muted))
         elif extra:
             words.append(
                 self._word(

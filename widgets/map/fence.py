@@ -13,7 +13,8 @@ import numpy as np
 from bridge.core.fence import Border, FenceGeometry
 from bridge.msgs.pilothouse_msgs import Limits
 from widgets.core.geometry import Points
-from widgets.core.language import tr
+from widgets.core.language import figure, tr
+from widgets.core.quantities import said
 
 __all__ = ["GOAL_ROOM", "MAX_CORNERS", "Border", "Fence"]
 
@@ -59,7 +60,7 @@ class Fence(FenceGeometry):
         if not self or not (math.isfinite(x) and math.isfinite(y)):
             return ""
         where, need, here = (
-            tr("{name} at ({x:.1f}, {y:.1f})").format(name=name, x=x, y=y),
+            tr("{name} at ({x}, {y})").format(name=name, x=figure(x, 1), y=figure(y, 1)),
             radius + GOAL_ROOM,
             np.array([[x, y]]),
         )
@@ -67,7 +68,9 @@ class Fence(FenceGeometry):
             return tr("{where} is outside the robot's fence.").format(where=where)
         room = float(self.border.distance(here)[0])
         if room < need:
-            return f"{where} is {room:.2f} m from the robot's fence; the robot needs {need:.2f} m."
+            words = tr("{where} is {room} from the robot's fence; the robot needs {need}.")
+            free, wanted = said(room, "height", 2).words, said(need, "height", 2).words
+            return words.format(where=where, room=free, need=wanted)
         return ""
 
 

@@ -15,6 +15,7 @@ from kivy.uix.widget import Widget
 
 import widgets.parts.rows  # noqa: F401 - its rules draw what scrolls
 from widgets.core.base import Control
+from widgets.core.language import tr
 from widgets.parts.labels import Text
 
 __all__ = ["Listing"]
@@ -43,4 +44,4 @@ class Listing(Control, BoxLayout):
         for row in rows:
             column.add_widget(row)
         if not column.children:
-            column.add_widget(Text(text=self.nothing, role="muted", font_size="15sp"))
+            column.add_widget(Text(text=tr(self.nothing), role="muted", font_size="15sp"))

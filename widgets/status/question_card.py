@@ -129,7 +129,7 @@ class QuestionCard(Outlined, Control, BoxLayout):
 
     def _sentence(self) -> str:
         if self.old:
-            return f"Asked before the link was lost; {self.old}."
+            return tr("Asked before the link was lost; {age}.").format(age=self.old)
         return self.why or self.reason
 
     said = AliasProperty(_sentence, bind=["why", "reason", "old"], cache=True)

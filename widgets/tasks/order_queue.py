@@ -91,7 +91,7 @@ class OrderQueue(Control, BoxLayout):
         for row in self._rows:
             column.add_widget(row)
         if not self._rows:
-            self._sentence.text = self.nothing
+            self._sentence.text = tr(self.nothing)
             column.add_widget(self._sentence)
         self._mark()
         self._place()

@@ -74,7 +74,7 @@ Builder.load_string("""
                     on_text: root.type('tag', self.text)
             Segmented:
                 id: way
-                options: [('any', 'Stands in any direction'), ('set', 'Faces ' + root.faces)]
+                options: [('any', tr('Stands in any direction')), ('set', tr('Faces {heading}').format(heading=root.faces))]
                 value: 'any' if root.yaw != root.yaw else 'set'
                 on_choose: root.face(args[1])
 """)

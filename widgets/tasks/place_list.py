@@ -151,7 +151,7 @@ class PlaceList(Control, BoxLayout):
             sentence = (
                 tr("No place is called “{search}”.").format(search=self.search)
                 if self.places
-                else self.nothing
+                else tr(self.nothing)
             )
             column.add_widget(Text(text=sentence, role="muted"))
         self.ids.roll.scroll_y = 1

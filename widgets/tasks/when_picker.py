@@ -31,7 +31,7 @@ Builder.load_string("""
 <WhenPicker>:
     spacing: dp(8)
     Segmented:
-        options: [('at', 'At a time'), ('every', 'Every so often')]
+        options: [('at', tr('At a time')), ('every', tr('Every so often'))]
         value: root.way
         on_choose: root.choose(way=args[1])
     BoxLayout:

@@ -65,14 +65,14 @@ Builder.load_string("""
                 spacing: dp(8) if self.text else 0
                 edge: dp(13) if self.text else dp(8)
                 pressable: True
-                scan_words: 'Setup'
+                scan_words: tr('Setup')
                 pos_hint: {'center_y': .5}
                 on_release: root.app.show_setup()
             Chip:
                 id: theme
                 icon: root.theme_icon
                 role: 'text'
-                text: tr(root.theme_text) if root.columns > 1 else ''
+                text: root.theme_text if root.columns > 1 else ''
                 spacing: dp(8) if self.text else 0
                 edge: dp(13) if self.text else dp(8)
                 pressable: True
@@ -115,7 +115,7 @@ Builder.load_string("""
                 QuietButton:
                     id: simulate
                     icon: 'play_circle'
-                    text: tr(root.simulator_text)
+                    text: root.simulator_text
                     size_hint_x: None
                     width: root.action_width
                     disabled: not root.can_simulate or root.simulating
@@ -164,8 +164,8 @@ class ConnectScreen(FloatLayout):
     """All robots that can be connected to."""
 
     app: ObjectProperty[Host] = ObjectProperty()
-    nearby = StringProperty(mark("Looking for robots"))
-    nearby_short = StringProperty("searching")
+    nearby = StringProperty("")
+    nearby_short = StringProperty("")
     card_width = NumericProperty("300dp")
     """[px]"""
     columns = NumericProperty(1)
@@ -177,14 +177,16 @@ class ConnectScreen(FloatLayout):
     action_width = NumericProperty("300dp")
     """[px]"""
     theme_icon = StringProperty("light_mode")
-    theme_text = StringProperty(mark("Sunlight"))
+    theme_text = StringProperty("")
     can_simulate = BooleanProperty(False)
     simulating = BooleanProperty(False)
-    simulator_text = StringProperty(mark("Start the built-in simulator"))
+    simulator_text = StringProperty("")
     cards = ListProperty()
     """The cards on the glass, in their order."""
 
     def __init__(self, **kwargs: Any) -> None:
+        self.simulator_text = tr("Start the built-in simulator")
+        self.nearby, self.nearby_short = tr("Looking for robots"), tr("searching")
         super().__init__(**kwargs)
         self._banner: Banner | None = None
         self._hint = Text(text=tr(HINT), role="muted", halign="center", padding=(16, 24))
@@ -195,7 +197,8 @@ class ConnectScreen(FloatLayout):
         self._arrange()
 
     def _follow_theme(self, *_: object) -> None:
-        self.theme_icon, self.theme_text, _name = THEMES[theme.name]
+        self.theme_icon, title, _ = THEMES[theme.name]
+        self.theme_text = tr(title)
 
     def _arrange(self, *_: object) -> None:
         dp = Metrics.density
@@ -236,7 +239,7 @@ class ConnectScreen(FloatLayout):
     def _card(self) -> RobotCard:
         card = RobotCard(width=self.card_width)
         card.bind(
-            on_connect=lambda one: self.app.open(one.entry.url, watch=one.action == "Watch"),
+            on_connect=lambda one: self.app.open(one.entry.url, watch=one.watches),
             on_remove=lambda one: self.app.robot_list.forget(one.entry.url),
         )
         return card

@@ -200,7 +200,9 @@ class RobotCard(Card):
     driver_icon = StringProperty("")
     """Stands for `driven by` where a card has no room for the words."""
     driver_role = StringProperty("ok")
-    action = StringProperty(mark("Connect"))
+    action = StringProperty("")
+    watches = BooleanProperty(False)
+    """Another person drives, and the big button only looks on."""
     button_height = NumericProperty("52dp")
     trust_text = StringProperty("")
     """How it is reached, in a word; empty within this machine."""
@@ -279,12 +281,13 @@ class RobotCard(Card):
                 "warn",
             )
         else:
-            self.driver_text, self.driver_role = "free", "ok"
+            self.driver_text, self.driver_role = tr("free"), "ok"
         self.driver_icon = "person" if other and self.driver_text == _shortened(entry.driver, 10) else ""
         self.quiet = self.lost
-        self.action = tr("Retry") if self.lost else "Watch" if other and not mine else tr("Connect")
+        self.watches = other and not mine and not self.lost
+        self.action = tr("Retry") if self.lost else tr("Watch") if self.watches else tr("Connect")
         if entry.trust == "stranger" and not self.lost:
-            self.action = tr("Pair")
+            self.watches, self.action = False, tr("Pair")
 
     def on_connect(self) -> None:
         """The big button was pressed."""

@@ -86,7 +86,7 @@ Builder.load_string("""
                 on_release: root.close()
             PrimaryButton:
                 id: start
-                text: tr(root.action)
+                text: root.action
                 disabled: not root.offered
                 opacity: 1 if root.offered else .4
                 on_release: root.answer()
@@ -107,8 +107,8 @@ class SimulatorDialog(Question):
     """What the words of the longest row need, so that all are alike [px]."""
     world_height = NumericProperty(0)
     """The same of the worlds [px]."""
-    sentence = StringProperty(ASKING)
-    action = StringProperty(mark("Start"))
+    sentence = StringProperty("")
+    action = StringProperty("")
 
     def __init__(
         self, choice: SimulationChoice, on_answer: Callable[[SimulationChoice], object], **kwargs: Any
@@ -130,11 +130,11 @@ class SimulatorDialog(Question):
         robots.clear_widgets()
         worlds.clear_widgets()
         for robot in offered.robots:
-            row = self._add(robots, "robot", robot.name, robot_icon(robot.icon), robot.title)
-            row.detail = robot.description
+            row = self._add(robots, "robot", robot.name, robot_icon(robot.icon), tr(robot.title))
+            row.detail = tr(robot.description)
             row.bind(on_release=lambda _, name=robot.name: self.tap(name))
         for world in offered.worlds:
-            row = self._add(worlds, "world", world.name, WORLD, world.title)
+            row = self._add(worlds, "world", world.name, WORLD, tr(world.title))
             row.bind(on_release=lambda _, name=world.name: self.move(name))
         self.offered = offered
         self._tell()

@@ -40,7 +40,7 @@ class MissionPane(BoxLayout):
         super().__init__(**kwargs)
         self._session = session
         self.head = PaneHead()
-        self.field = TextField(hint_text=tr("Name, as in Night patrol"), label="Name")
+        self.field = TextField(hint_text=tr("Name, as in Night patrol"), label=tr("Name"))
         self.add_widget(self.head)
         self.add_widget(self.field)
         self.add_widget(Widget())

@@ -14,7 +14,7 @@ from app.screens.parts.pane_head import PaneHead
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Place, PlaceArray
 from widgets import PlaceForm
-from widgets.core.language import mark, tr
+from widgets.core.language import tr
 
 __all__ = ["PlacePane"]
 
@@ -32,7 +32,7 @@ class PlacePane(BoxLayout):
 
     open = BooleanProperty(False)
     """A new place is being made, which has no number yet."""
-    title = StringProperty(mark("Places"))
+    title = StringProperty("")
 
     def __init__(self, session: Session, **kwargs: Any) -> None:
         super().__init__(**kwargs)

@@ -36,14 +36,12 @@ TILE_WIDTH, TILE_HEIGHT = 170, 84
 ACTS = {
     "control": ("person", mark("Control")),
     "record": ("fiber_manual_record", mark("Record")),
-    "theme": ("light_mode", mark("Sunlight")),
+    "theme": ("light_mode", mark("Theme")),
     "people": ("lock", mark("Who has a key")),
     "help": ("keyboard", mark("Keys and gamepad")),
     "leave": ("arrow_back", mark("Leave the robot")),
 }
 """What no screen does, by its name, to its icon and words."""
-NEXT_THEME = {"dark": mark("Sunlight"), "sunlight": mark("Night"), "night": mark("Dark")}
-"""Theme to the words for the one that comes next."""
 
 
 class MoreScreen(RobotScreen):
@@ -134,8 +132,9 @@ class MoreScreen(RobotScreen):
         record.about = self.app.records.clock if running else tr("Everything that comes, into a file")
         record.icon = "fiber_manual_record_fill" if running else "fiber_manual_record"
         record.role = "danger" if running else "accent"
-        tint.icon, tint.words = THEMES[theme.name][0], tr(NEXT_THEME[theme.name])
-        tint.about = tr("Colours of the screen")
+        (tint.icon, title, following) = THEMES[theme.name]
+        tint.words = tr("Theme: {theme}").format(theme=tr(title))
+        tint.about = tr("A tap changes it to: {theme}").format(theme=tr(THEMES[following][1]))
         people = self.tiles["people"]
         people.icon, people.role = ("lock", "ok") if self.session.protected else ("lock_open", "warn")
         people.about = tr("Protected") if self.session.protected else tr("Not protected")

@@ -236,7 +236,7 @@ class Inspector(Column):
         super().__init__(spacing="10dp", padding=(0, 0, dp(6), dp(8)))
         self._change, self._put, self._act = change, put, act
         self._place, self._form = place, form
-        self._field("Name", panel.title, lambda text: change(title=text))
+        self._field(tr("Name"), panel.title, lambda text: change(title=text))
         if panel.topic:
             self._field(tr("Topic"), panel.topic, lambda text: change(topic=text))
         if is_signal(panel.widget):

@@ -63,7 +63,7 @@ Builder.load_string("""
             on_text: root.problem = ''
             on_text_validate: root.answer()
         Text:
-            text: root.problem or 'The port is 9090 unless it is given, as in 192.168.1.7:9091.'
+            text: root.problem or tr('The port is 9090 unless it is given, as in 192.168.1.7:9091.')
             role: 'danger' if root.problem else 'muted'
             font_size: sp(14)
         BoxLayout:

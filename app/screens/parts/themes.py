@@ -10,12 +10,12 @@ from widgets.core.theme import theme
 __all__ = ["THEMES", "TITLES", "Themes"]
 
 THEMES = {
-    "dark": ("light_mode", mark("Sunlight"), "sunlight"),
-    "sunlight": ("bedtime", mark("Night"), "night"),
-    "night": ("dark_mode", mark("Dark"), "dark"),
+    "dark": ("dark_mode", mark("Dark", "theme"), "sunlight"),
+    "sunlight": ("light_mode", mark("Sunlight"), "night"),
+    "night": ("bedtime", mark("Night", "theme"), "dark"),
 }
-"""Name of each to the icon and the text of the button that leads on from it, and to the theme that comes next."""
-TITLES = {"dark": mark("Dark"), "sunlight": mark("Sunlight"), "night": mark("Night")}
+"""Name of each to its icon and what it is called, which is what a button that leads on from it shows, and to the next theme."""
+TITLES = {name: title for name, (_, title, _) in THEMES.items()}
 """Name of each to what it is called."""
 
 

@@ -114,7 +114,7 @@ class ReplayScreen(RobotScreen):
     app = ObjectProperty()
     opened = StringProperty("")
     """Name of the file of the recording that is open; empty for the list."""
-    badge = StringProperty("REPLAY")
+    badge = StringProperty("")
     title = StringProperty("")
     form = OptionProperty("wide", options=["wide", "short", "tall"])
     tab = StringProperty("map")
@@ -233,7 +233,7 @@ class ReplayScreen(RobotScreen):
         self.player = Player(path, self.app.now)
         self._kept = (path, at)
         self.player.speed = self.speed
-        self.opened, self.badge = path.name, "REPLAY"
+        self.opened, self.badge = path.name, tr("Replay").upper()
         self.title = tr("Reading {name}: {part} %").format(name=path.name, part=0)
         self._lay()
 
@@ -271,7 +271,7 @@ class ReplayScreen(RobotScreen):
         self.line.position = player.position
         self.transport.playing = player.playing
         when = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(player.position))
-        self.badge = f"REPLAY · {when}"
+        self.badge = f"{tr('Replay').upper()} · {when}"
 
     def seek(self, at: float) -> None:
         """Go to a moment [s since 1970]."""

@@ -6,13 +6,14 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from urllib.parse import parse_qs, quote, unquote, urlencode, urlsplit
 
-from widgets.core.language import tr
+from app.core.robot_docs import ROLES as ROLE_WORDS
+from widgets.core.language import brief_figure, mark, tr
 
 __all__ = ["MAX_RATE", "OWN", "ROLES", "SITE", "BadForm", "GatewayForm"]
 
 SITE, OWN = "site", "own"
 """Schemes of the robot's own web site, which has its address, and of a broker of its own."""
-ROLES = (("", "usual"), ("none", "nothing"), ("watch", "watch"), ("drive", "drive"))
+ROLES = (("", mark("usual", "role")), *((role, ROLE_WORDS[role]) for role in ("none", "watch", "drive")))
 """What everybody may who shows no token, with words for it."""
 MAX_RATE = 50.0
 """Most messages a second of a topic [Hz], as docs/gateways.md says."""
@@ -99,8 +100,8 @@ class GatewayForm:
             if not 0 < given <= MAX_RATE:
                 raise BadForm(
                     "rate",
-                    tr("The rate is above 0 and at most {max_rate:g} Hz, not {rate!r}.").format(
-                        max_rate=MAX_RATE, rate=rate
+                    tr("The rate is above 0 and at most {max_rate} Hz, not {rate!r}.").format(
+                        max_rate=brief_figure(MAX_RATE), rate=rate
                     ),
                 )
             yield "rate", rate

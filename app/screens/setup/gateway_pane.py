@@ -53,11 +53,11 @@ class GatewayPane(Roll):
     def show(self, gateway: Gateway) -> None:
         """Bring everything up to date with what the robot said last."""
         self._gateway = gateway
-        self.doc.text = gateway.doc
+        self.doc.text = tr(gateway.doc)
         said, self.state.role = self._setup.gateway_state(gateway)
         age = self._setup.age
         down = tr("Down {age:.0f} s ago").format(age=age) if age > 0.0 else tr("Down", context="gateway")
-        self.state.text = broken(down if said == gateway.doc else said, self.column.width - dp(8), sp(17))
+        self.state.text = broken(down if said == self.doc.text else said, self.column.width - dp(8), sp(17))
         self.refusal.text = self._setup.refusal(GATEWAYS, self.name)
         runs = gateway.state in ("up", "lost")
         options = [_words(option) for option in gateway.options]

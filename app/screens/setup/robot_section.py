@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from app.core.robot_docs import payload_title
 from app.link.feeds import Post
 from app.screens.setup.gateway_pane import GatewayPane
 from app.screens.setup.payload_pane import PayloadPane
@@ -59,7 +60,7 @@ class RobotSection:
     def row(self, key: Key, choose: Callable[[Key], object]) -> SetupRow:
         """A row, which a finger chooses."""
         kind, name = key
-        row = SetupRow(icon=ICONS.get(name, USUAL[kind]), title=name.replace("_", " "))
+        row = SetupRow(icon=ICONS.get(name, USUAL[kind]), title=payload_title(name))
         row.bind(on_release=lambda _: choose(key), on_turn=lambda _, on: self._turn(key, on))
         return row
 

@@ -41,7 +41,7 @@ class UrlForm(Column):
         usual = GatewayForm.of(gateway.usual)
         self.scheme = Segmented(options=list(self._ports), value=usual.scheme)
         self.scheme.bind(on_choose=lambda _, scheme: self._choose(scheme))
-        self.role = Segmented(options=list(ROLES), value=usual.role)
+        self.role = Segmented(options=[(role, tr(words)) for role, words in ROLES], value=usual.role)
         for choice in (self.scheme, self.role):
             choice.height = max(choice.height, theme.target)
         self.fields = {
@@ -101,7 +101,10 @@ class UrlForm(Column):
             self.fields[shown[0]].bind(height=row.setter("height"))
             self.add_widget(row)
         self.add_widget(
-            Remark(text=f"Without a token everybody there may; usual: {self._usual_role()}", role="muted")
+            Remark(
+                text=tr("Without a token everybody there may; usual: {role}").format(role=self._usual_role()),
+                role="muted",
+            )
         )
         self.add_widget(self.role)
         self.add_widget(self.problem)

@@ -124,7 +124,7 @@ class ControlCards:
         card.who = how.who if how else ""
         card.ready = waits or bool(queue is not None and queue.orders)
         if session.robot_stop.latched:
-            card.why_not = "STOP is pressed; hold it to release."
+            card.why_not = tr("STOP is pressed; hold it to release.")
         else:
             card.why_not = (
                 tr("{driver} has control.").format(driver=session.authority.status.driver) if other else ""

@@ -68,7 +68,7 @@ Builder.load_string("""
         id: trust
         icon: 'lock' if root.protected else 'lock_open'
         role: 'ok' if root.protected else 'warn'
-        text: '' if root.protected or root.form != 'wide' else 'Not protected'
+        text: '' if root.protected or root.form != 'wide' else tr('Not protected')
         tinted: True
         spacing: dp(8) if self.text else 0
         edge: dp(8)
@@ -117,7 +117,7 @@ Builder.load_string("""
         spacing: dp(8) if self.text else 0
         edge: dp(13) if self.text else dp(7)
         pressable: True
-        scan_words: 'Stop recording'
+        scan_words: tr('Stop recording')
         pos_hint: {'center_y': .5}
         on_release: root.dispatch('on_record')
     Chip:
@@ -139,7 +139,7 @@ Builder.load_string("""
         width: dp(40)
         height: min(theme.target, root.height)
         pos_hint: {'center_y': .5}
-        scan_words: 'More'
+        scan_words: tr('More')
         on_release: root.dispatch('on_more')
 """)
 

@@ -11,7 +11,7 @@ from kivy.uix.boxlayout import BoxLayout
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets import OrderQueue, TaskCard
-from widgets.core.language import mark, tr
+from widgets.core.language import tr
 
 __all__ = ["CurrentTask"]
 
@@ -75,7 +75,7 @@ class CurrentTask(BoxLayout):
     """There is a task to end."""
     main = StringProperty("")
     """`pause`, `resume` or nothing."""
-    main_words = StringProperty(mark("Pause"))
+    main_words = StringProperty("")
     may_undo = BooleanProperty(False)
     brief = BooleanProperty(False)
     """Takes little room."""
@@ -132,6 +132,6 @@ class CurrentTask(BoxLayout):
         )
         these = tr("Go on") if self.brief else tr("Go on with this") if count == 1 else tr("Go on with these")
         self.main_words = {"pause": tr("Pause"), "": tr("Pause")}.get(
-            self.main, these if waiting else "Resume"
+            self.main, these if waiting else tr("Resume")
         )
         self.queue.state = "live" if may else "disabled"

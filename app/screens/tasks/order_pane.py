@@ -34,7 +34,7 @@ Builder.load_string("""
         opacity: 1 if root.titled else 0
         spacing: dp(6)
         Text:
-            text: tr(root.title)
+            text: root.title
             bold: True
             font_size: theme.size_title
             pos_hint: {'center_y': .5}
@@ -52,7 +52,7 @@ Builder.load_string("""
             pos_hint: {'center_y': .5}
         Text:
             id: said
-            text: tr(root.sentence)
+            text: root.sentence or tr("Choose a task.")
             font_size: sp(15)
             role: 'text' if root.complete else 'muted'
             pos_hint: {'center_y': .5}
@@ -64,7 +64,9 @@ def why_not_now(session: Session, *, timed: bool = False) -> str:
     if not session.connected:
         return tr("Not now: there is no link to the robot.")
     if session.control == "other":
-        return f"Not now: {session.authority.status.driver} has control; ask for it first."
+        return tr("Not now: {name} has control; ask for it first.").format(
+            name=session.authority.status.driver
+        )
     status: TaskStatus | None = session.feeds.latest("/task/status")
     if timed:
         return ""
@@ -93,8 +95,8 @@ class OrderPane(BoxLayout):
     """The `ScheduledTask` that is being made; None for an order of now."""
     page = StringProperty("what")
     """`what` or `when`, where they are on two pages."""
-    title = StringProperty(mark("New task"))
-    sentence = StringProperty(mark("Choose a task."))
+    title = StringProperty("")
+    sentence = StringProperty("")
     complete = BooleanProperty(False)
     refused = BooleanProperty(False)
     """The sentence says why the robot would not take it; it can be asked all the same."""

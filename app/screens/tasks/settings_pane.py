@@ -69,12 +69,12 @@ class SettingsPane(BoxLayout):
         session = self._session
         status: ControlStatus | None = session.feeds.latest("/control/status")
         if not session.connected:
-            return "There is no link; they can be switched when it is back."
+            return tr("There is no link; they can be switched when it is back.")
         if not session.robot.offers("/settings/set"):
             return tr("This robot has no settings to switch.")
         if session.control == "other" and status is not None:
             return tr("{driver} has control and can switch them.").format(
-                driver=status.driver or "Another person"
+                driver=status.driver or tr("Another person")
             )
         return tr("Kept by the robot, for everybody who uses it.")
 

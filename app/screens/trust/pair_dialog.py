@@ -106,7 +106,7 @@ class PairDialog(Question):
     """
 
     wanted = (468.0, 560.0)
-    title = StringProperty(mark("Pair with a robot"))
+    title = StringProperty("")
     sentence = StringProperty(HINT)
     problem = StringProperty("")
     """Why it did not work, as a sentence."""
@@ -151,7 +151,7 @@ class PairDialog(Question):
         self.ids.field.bind(text=self._typed)
         if link is not None:
             self.types = False
-            self.title = tr("Pair with {name}?").format(name=link.name or "this robot")
+            self.title = tr("Pair with {name}?").format(name=link.name or tr("this robot"))
             self.sentence = tr(
                 "Its link names {host}:{port}. Pair only if you opened the link yourself."
             ).format(host=link.host, port=link.port)

@@ -36,7 +36,7 @@ from widgets.parts.rows import ListRow
 __all__ = ["PeopleDialog", "seen_text"]
 
 ICONS = {"handheld": "touch_app", "token": "vpn_key", "guest": "person"}
-ROLES = {"watch": "watches", "drive": "drives", "manage": "manages"}
+ROLES = {"watch": mark("watches"), "drive": mark("drives"), "manage": mark("manages")}
 GUEST_TIME = 3600.0
 """How long a guest is let in [s]."""
 REMOVE = mark("Tap again to remove. It cannot come in any more.")
@@ -47,8 +47,10 @@ REMOVE_LAST = mark(
 NOT_PROTECTED = mark(
     "This link is not protected: anybody in this network can read and change it. Pair by the robot's link."
 )
-BY_CODE = "Scan it with the other handheld's camera, or type the code there. For one, which may drive; for ten minutes."
-GUEST_BY_CODE = (
+BY_CODE = mark(
+    "Scan it with the other handheld's camera, or type the code there. For one, which may drive; for ten minutes."
+)
+GUEST_BY_CODE = mark(
     "Scan it with the guest's camera, or type the code there. For one, which may drive; for one hour."
 )
 NOT_SHOWN = mark("Who manages this robot sees here who has a key, and lets others in.")
@@ -168,7 +170,7 @@ class PersonRow(ListRow):
         title = person.name or tr("Somebody")
         self.title = tr("{name} · this handheld").format(name=title) if mine else title
         self.chosen = mine
-        self._detail = ", ".join(part for part in (ROLES.get(person.role, person.role), seen) if part)
+        self._detail = ", ".join(part for part in (tr(ROLES.get(person.role, person.role)), seen) if part)
         self.detail = self._detail
         self._remove = IconButton(icon="delete", role="muted", bare=True, disabled=not manages)
         self._remove.bind(on_release=lambda _: on_remove(self))
@@ -188,8 +190,8 @@ class PeopleDialog(Question):
     """Asks the robot who is there, and what the buttons say."""
 
     wanted = (640.0, 420.0)
-    title = StringProperty(mark("People"))
-    sentence = StringProperty(mark("Asking the robot …"))
+    title = StringProperty("")
+    sentence = StringProperty("")
     problem = StringProperty("")
     warning = StringProperty("")
     """What is to be known of the link; empty for a protected one."""
@@ -260,9 +262,9 @@ class PeopleDialog(Question):
         if isinstance(found, GetPeopleResponse):
             self._show(found.people)
         elif isinstance(found, InvitePersonResponse):
-            self._show_code(found, BY_CODE, found.open_until)
+            self._show_code(found, tr(BY_CODE), found.open_until)
         elif isinstance(found, InviteGuestResponse):
-            self._show_code(found, GUEST_BY_CODE, found.ends)
+            self._show_code(found, tr(GUEST_BY_CODE), found.ends)
         elif answer.service == "/people/remove":
             self._list()
         elif answer.service == "/people/list":

@@ -48,7 +48,7 @@ def test_points_and_home_are_called_as_the_robot_calls_them(refusals):
     found = refusals.draft(Draft(points=((5.0, 5.0), (11.0, 5.0)), home=(9.5, 5.0)))
     assert found == {
         "Point 2": "Point 2 at (11.0, 5.0) is outside the robot's fence.",
-        "Home": "Home at (9.5, 5.0) is 0.50 m from the robot's fence; the robot needs 0.65 m.",
+        "Home": "Home at (9.5, 5.0) is 0.50\u00a0m from the robot's fence; the robot needs 0.65\u00a0m.",
     }
 
 

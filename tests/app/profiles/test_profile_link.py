@@ -59,7 +59,7 @@ def test_the_longest_link_that_is_said_to_fit_into_a_code_does() -> None:
         (linked(zlib.compress(b"x" * 1000))[:-4], "not complete"),
         (linked(zlib.compress(b"\xff\xfe")), "not complete"),
         (linked(zlib.compress(b"x" * 50_000_000)), "more than 200 kB"),
-        ("pilothouse://layout?v=1&d=".ljust(MAX_LINK + 1, "a"), "at most 100,000 letters"),
+        ("pilothouse://layout?v=1&d=".ljust(MAX_LINK + 1, "a"), "at most 100000 letters"),
     ],
 )
 def test_what_a_stranger_made_is_refused_in_a_sentence(link: str, sentence: str) -> None:

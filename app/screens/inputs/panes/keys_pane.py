@@ -49,7 +49,7 @@ class KeysPane(BoxLayout):
         column.add_widget(group_label(tr("Driving")))
         self._drive_row, self.drives = switch_row(
             "keyboard", tr("Keys drive while held"),
-            "W A S D push the left control, the arrows the right one; where there is one control, both push it.",
+            tr("W A S D push the left control, the arrows the right one; where there is one control, both push it."),
             lambda on: self._keep(replace(self._table, drives=on)),
         )  # fmt: skip
         self._rise_row, self.rise = number_row(

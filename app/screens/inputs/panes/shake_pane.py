@@ -21,11 +21,11 @@ from widgets.parts.rows import group_label
 
 __all__ = ["ShakePane"]
 
-HOW = (
+HOW = mark(
     "Hold the device and shake it three times to and fro. Left and right is STOP and acts while you shake; "
     "the others act when you have stopped."
 )
-ACTS = "Listening. A shake acts here as anywhere; the result appears here."
+ACTS = mark("Listening. A shake acts here as anywhere; the result appears here.")
 TRY = mark("Shake: the result appears here, and only STOP acts.")
 LESSON = mark("Ten seconds: left and right, up and down, forward and back, as you would do it.")
 FRESH = 6.0
@@ -52,7 +52,7 @@ class ShakePane(BoxLayout):
         self.trial.bind(on_release=lambda _: self._try())
         column.add_widget(self.standing)
         column.add_widget(self.trial)
-        column.add_widget(Remark(text=HOW, font_size="15sp"))
+        column.add_widget(Remark(text=tr(HOW), font_size="15sp"))
         column.add_widget(group_label(tr("What it means")))
         for axis in AXES:
             row = self.rows[axis] = ListRow(icon="mobile_vibrate", title=tr(WORDS[axis]), whole=True)
@@ -147,7 +147,7 @@ class ShakePane(BoxLayout):
         if not self.shaking.on:
             here = "" if self.trial.disabled else tr(", or try it here")
             return tr("Off: nothing is measured. Switch it on in the list of inputs{here}.").format(here=here)
-        return ACTS
+        return tr(ACTS)
 
     def _follow_lesson(self, now: float) -> None:
         lesson = self.shaking.lesson
@@ -171,7 +171,7 @@ class ShakePane(BoxLayout):
     def _write(self) -> None:
         shaking = self.shaking
         self.rows["lr"].detail, self.rows["lr"].role, self.rows["lr"].icon = (
-            "STOP, always",
+            tr("STOP, always"),
             "danger",
             "front_hand",
         )

@@ -64,7 +64,7 @@ NUMBERS: dict[str, tuple[str, str, str, float, str]] = {
 BY_ITSELF = ("interval", "first", "loops")
 """Those of a mark that moves by itself."""
 FELT: dict[str, tuple[str, str, str]] = {
-    "tones": ("volume_up", mark("Each step is heard"), "A short tone; another one for a press."),
+    "tones": ("volume_up", mark("Each step is heard"), mark("A short tone; another one for a press.")),
     "vibrates": ("mobile_vibrate", mark("Each step is felt"), mark("On a handheld that vibrates.")),
     "spoken": ("text_fields", mark("The mark is spoken"), mark("By the voice chosen in Voice.")),
 }
@@ -301,7 +301,8 @@ class SwitchPane(BoxLayout):
     @staticmethod
     def _explained(options: Options) -> str:
         if options.one:
-            return f"The mark moves by itself; the switch presses the target. {_held('b', options)}"
+            moves = tr("The mark moves by itself; the switch presses the target.")
+            return f"{moves} {_held('b', options)}"
         return tr(
             "The first switch moves the mark, the second presses the target on release. The first press only wakes it."
         )

@@ -74,7 +74,7 @@ SWITCHES = {
 }
 """Name to icon, title and what it does while it is on."""
 FREE = mark("Off: neutral is however it is held when the clutch closes.")
-FIXED = "Neutral stays as it was set; it drives once it has been there."
+FIXED = mark("Neutral stays as it was set; it drives once it has been there.")
 
 Builder.load_string("""
 <TiltPane>:
@@ -204,7 +204,7 @@ class TiltPane(BoxLayout):
     def _tell_neutral(self) -> None:
         tilt = self.tilting.tilt
         row, fixed = self._rows["fixed"], tilt.neutral is not None
-        row.detail = FIXED if fixed else tr(FREE)
+        row.detail = tr(FIXED if fixed else FREE)
         row.disabled = self.toggles["fixed"].disabled = not fixed and tilt.up is None
 
     def _tell(self) -> None:

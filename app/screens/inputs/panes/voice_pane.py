@@ -231,7 +231,7 @@ class VoicePane(BoxLayout):
                 "Off: nothing listens and nothing is loaded. Switch it on in the list of inputs, or try it here."
             )
         return {"listening": tr("Listening."), "hold to talk": tr("Ready.")}.get(
-            speaking.standing, "One moment …"
+            speaking.standing, tr("One moment …")
         )
 
     def _show_meter(self, speaking: VoiceInput) -> None:

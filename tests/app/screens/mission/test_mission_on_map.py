@@ -53,7 +53,7 @@ def test_a_point_in_a_wall_is_red_says_why_and_start_is_not_lit_until_it_is_move
     for place in (FREE, IN_WALL):
         mission.map.dispatch("on_add", *place)
     driving.until(lambda: not mission.panel.tasks.disabled, "nothing can be asked")
-    said = "Point 2 at (0.2, -3.0) is in a wall or another obstacle."
+    said = "Point 2 at (0.2, −3.0) is in a wall or another obstacle."
     assert list(mission.map.refused) == [(*IN_WALL, "in a wall")]
     assert (mission.panel._send.note, mission.selection.trouble) == (said, said)
     driving.stage.frames(8)
