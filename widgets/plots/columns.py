@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from widgets.plots.history import History
 
-__all__ = ["FLOATS", "LINE", "NOTHING", "Columns", "empty_quads", "quad_indices"]
+__all__ = ["FLOATS", "LINE", "NOTHING", "PIECE", "Columns", "empty_quads", "quad_indices"]
 
 FLOATS = 7
 """Of a vertex: from (time, value), to (time, value), corner (2), kind."""
@@ -26,6 +26,8 @@ MAX_VALUE = 1e30
 CORNERS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], np.float32)
 EMPTY = -(2**62)
 """Number of a column that there is not."""
+PIECE = 48
+"""Quads that go to the graphics card together: a new sample changes one or two of these pieces, not all that is seen."""
 MARKS = 64
 """Marks that a trace has in sight at most."""
 
@@ -54,6 +56,8 @@ class Columns:
         """Columns that there is room for."""
         self.quads = empty_quads(1)
         """Bars, then the lines to them, then marks; a column's place is its number modulo `count`."""
+        self.changed: set[int] = {0}
+        """Which pieces of so many quads as `PIECE` are others than whoever draws them has seen; it takes out what it has."""
         self.gap = math.inf
         """Two samples farther apart [s] are not joined."""
         self._origin, self._base, self._wide = 0.0, 0.0, 1.0
@@ -88,6 +92,7 @@ class Columns:
         """
         self._origin, self._base, self._wide = origin, base, wide
         self.quads[:, :, 6] = NOTHING
+        self.changed = set(range(-(-len(self.quads) // PIECE)))
         self._numbers[:] = EMPTY
         self._last, self._mark, self._next_mark = None, 0, math.inf
         first, last = history.within(left, right)
@@ -186,11 +191,14 @@ class Columns:
         self._column = number
 
     def _empty(self, slot: int) -> None:
-        self.quads[slot, :, 6] = self.quads[self.count + slot, :, 6] = NOTHING
+        for place in (slot, self.count + slot):
+            self.quads[place, :, 6] = NOTHING
+            self.changed.add(place // PIECE)
         self._numbers[slot] = EMPTY
 
     def _put(self, slot: int, *numbers: float) -> None:
         time, value, to_time, to_value, kind = numbers
+        self.changed.add(slot // PIECE)
         quad = self.quads[slot]
         quad[:, 0:4] = time, value, to_time, to_value
         quad[:, 6] = kind

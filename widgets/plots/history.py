@@ -73,6 +73,11 @@ class History:
         return self._values[self._start : self._start + self._count]
 
     @property
+    def oldest(self) -> float:
+        """Time of the oldest sample that is kept [s]; NaN before the first."""
+        return float(self._times[self._start]) if self._count else math.nan
+
+    @property
     def newest(self) -> float:
         """Time of the newest sample [s]; NaN before the first."""
         return float(self._times[self._start + self._count - 1]) if self._count else math.nan

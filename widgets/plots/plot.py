@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 from kivy.clock import Clock
+from kivy.graphics import InstructionGroup
 from kivy.metrics import dp
 from kivy.properties import BooleanProperty, NumericProperty
 from kivy.uix.widget import Widget
@@ -72,7 +73,15 @@ class Plot(PlotBase, Drawing):
         self._write_later = Clock.create_trigger(self._write_figures, LEGEND_PERIOD)
         super().__init__(**kwargs)
         self.button.bind(on_release=self._toggle)
-        for part in (self._grid, self._ink, self._over, self._keys, self._words.canvas, self._figures.canvas):
+        self._above = InstructionGroup()
+        for part in (
+            self._grid,
+            self._ink,
+            self._above,
+            self._keys,
+            self._words.canvas,
+            self._figures.canvas,
+        ):
             self.canvas.add(part)
         for name in ("until", "pausable"):
             self.fbind(name, self._show_button)
@@ -131,11 +140,6 @@ class Plot(PlotBase, Drawing):
         self.redraw()
 
     # the picture
-
-    def _on_opacity(self, *args: object) -> None:
-        super()._on_opacity(*args)
-        for ink in (self._ink, self._keys):
-            ink.see(self.opacity)
 
     def _on_theme(self, *args: object) -> None:
         self._laid = None
@@ -265,7 +269,10 @@ class Plot(PlotBase, Drawing):
         shown = left - 1 <= x <= right + 1
         if not shown and not self._cursor_drawn:
             return
-        self._cursor_drawn = shown
+        if shown != self._cursor_drawn:  # what draws nothing costs as much as what draws
+            self._cursor_drawn = shown
+            (self._above.add if shown else self._above.remove)(self._over)
+            self._over.see(self.opacity)
         shapes = Shapes()
         if shown:
             shapes.line(np.array([[x, low], [x, top]]), dp(1.5), theme.text)

@@ -106,7 +106,7 @@ class PlotBase(TimeView):
         kept = [trace.history for trace in self.traces if len(trace.history)]
         if not kept:
             return math.nan, math.nan
-        return min(float(one.times[0]) for one in kept), max(one.newest for one in kept) + self.lateness
+        return min([one.oldest for one in kept]), max([one.newest for one in kept]) + self.lateness
 
     @property
     def silent(self) -> bool:

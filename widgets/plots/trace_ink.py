@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from kivy.graphics import Color, Mesh, RenderContext
+from kivy.graphics import Color, InstructionGroup, Mesh
 
-from widgets.plots.columns import Columns, Quads, empty_quads, quad_indices
+from widgets.core.canvas_ink import Fading
+from widgets.plots.columns import PIECE, Columns, Quads, empty_quads, quad_indices
 
 __all__ = ["MARK_KINDS", "TraceInk"]
 
@@ -104,65 +105,89 @@ FORMAT = [
 ]
 
 
-class TraceInk(RenderContext):
+NO_QUADS = empty_quads(1)
+
+
+class _Layer(InstructionGroup):
+    """Quads of one colour, in pieces: Kivy copies each vertex of a mesh that is told anything, and most pieces are as they were."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._colour, self._painted = Color(), (1.0, 1.0, 1.0, 1.0)
+        self.add(self._colour)
+        self._quads = NO_QUADS
+        self._meshes: list[Mesh] = []
+        self.show(NO_QUADS)
+
+    def paint(self, colour: tuple[float, ...]) -> None:
+        """Have this colour."""
+        if colour != self._painted:
+            self._colour.rgba = self._painted = colour
+
+    def show(self, quads: Quads) -> None:
+        """Draw these quads, all anew."""
+        self._quads = quads
+        pieces = [quads[start : start + PIECE] for start in range(0, len(quads), PIECE)]
+        for mesh in self._meshes[len(pieces) :]:
+            self.remove(mesh)
+        del self._meshes[len(pieces) :]
+        while len(self._meshes) < len(pieces):
+            self._meshes.append(Mesh(fmt=FORMAT, mode="triangles"))
+            self.add(self._meshes[-1])
+        for mesh, piece in zip(self._meshes, pieces, strict=True):
+            if len(mesh.indices) != 6 * len(piece):
+                mesh.indices = quad_indices(len(piece))
+            mesh.vertices = piece.reshape(-1)
+
+    def follow(self, columns: Columns) -> None:
+        """Draw the quads of a trace, which change in place: only those pieces anew that have changed."""
+        if self._quads is not columns.quads:
+            self.show(columns.quads)
+        else:
+            for piece in columns.changed:
+                self._meshes[piece].vertices = columns.quads[piece * PIECE : (piece + 1) * PIECE].reshape(-1)
+        columns.changed.clear()
+
+
+class TraceInk(Fading):
     """All traces of one plot, or the marks of its legend. What it is given is kept and may be changed in place."""
 
     def __init__(self) -> None:
-        super().__init__(vs=VERTEX, fs=FRAGMENT, use_parent_projection=True, use_parent_modelview=True)
-        self["seen"] = 1.0
-        self._layers: list[tuple[Color, Mesh]] = []
-        self._nothing = empty_quads(1)
-        self._uniforms: dict[str, tuple[float, ...]] = {}
+        super().__init__(VERTEX, FRAGMENT)
+        self._layers: list[_Layer] = []
         self.place((0.0, 0.0, 1.0, 1.0), (1.0, 1.0), (0.0, 0.0))
         self.widths(1.0, 4.0)
-
-    def _tell(self, name: str, numbers: tuple[float, ...]) -> None:
-        if self._uniforms.get(name) != numbers:
-            self._uniforms[name] = numbers
-            self[name] = numbers
 
     def place(
         self, frame: tuple[float, ...], scale: tuple[float, float], offset: tuple[float, float]
     ) -> None:
         """Cut everything to `frame`: left, low, right, top [px]; scale what the quads hold [px each], then move it [px]."""
         for name, numbers in (("frame", frame), ("scale", scale), ("offset", offset)):
-            self._tell(name, tuple(map(float, numbers)))
+            self.tell(name, numbers)
 
     def widths(self, line: float, mark: float) -> None:
         """Half the width of lines and of marks [px]."""
-        self._tell("halves", (float(line), float(mark)))
-
-    def see(self, opacity: float) -> None:
-        """Follow the opacity of the widget, 0 to 1: Kivy keeps that from whoever has a shader of its own."""
-        self["seen"] = float(opacity)
+        self.tell("halves", (line, mark))
 
     def layers(self, count: int) -> None:
         """Draw so many layers, the first lowest; what is beyond shows nothing."""
         while len(self._layers) < count:
-            self._layers.append((Color(), Mesh(fmt=FORMAT, mode="triangles")))
-            for instruction in self._layers[-1]:
-                self.add(instruction)
-            self._fill(self._layers[-1][1], self._nothing)
-        for _, mesh in self._layers[count:]:
-            self._fill(mesh, self._nothing)
+            self._layers.append(_Layer())
+            self.add(self._layers[-1])
+        for layer in self._layers[count:]:
+            layer.show(NO_QUADS)
 
     def paint(self, layer: int, colour: Sequence[float]) -> None:
         """Give a layer its colour."""
-        self._layers[layer][0].rgba = tuple(colour)
+        self._layers[layer].paint(tuple(colour))
 
     def fill_layer(self, layer: int, quads: Quads) -> None:
-        """Show these quads on a layer, which may be those of before with other numbers."""
-        self._fill(self._layers[layer][1], quads)
-
-    @staticmethod
-    def _fill(mesh: Mesh, quads: Quads) -> None:
-        if len(mesh.indices) != 6 * len(quads):
-            mesh.indices = quad_indices(len(quads))
-        mesh.vertices = quads.reshape(-1)
+        """Show these quads on a layer."""
+        self._layers[layer].show(quads)
 
     def draw_columns(self, layer: int, columns: Columns) -> None:
-        """Show a trace on a layer."""
-        self.fill_layer(layer, columns.quads)
+        """Show a trace on a layer: what has changed since it was drawn last."""
+        self._layers[layer].follow(columns)
 
     def draw_marks(self, layer: int, marks: Sequence[tuple[float, float, int]]) -> None:
         """Show marks on a layer: x, y [px], kind; a kind of 0 is a short piece of a line."""

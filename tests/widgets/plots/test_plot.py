@@ -8,9 +8,12 @@ import pytest
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import JointState
+from widgets.core.theme import theme
+from widgets.plots.columns import FLOATS, NOTHING, PIECE
 from widgets.plots.plot import Plot, samples
 from widgets.plots.plot_layout import ago_text, value_text
 from widgets.plots.trace import MAX_TRACES, ROLES, Trace
+from widgets.plots.trace_ink import _Layer
 
 PERIOD = 1 / 16
 """Between two messages of these tests [s]; exact in binary."""
@@ -35,6 +38,107 @@ def drawn(trace: Trace) -> int:
     """Columns of a line that show something."""
     columns = trace.columns
     return int((columns.quads[: columns.count, 0, 6] >= 0).sum())
+
+
+def on_glass(plot, layer: int) -> np.ndarray:
+    """Quads of a line as the graphics card has been given them last; a mesh keeps a view, so that each is asked when it is told."""
+    return np.concatenate([piece for piece in plot.sent[layer] if piece is not None])
+
+
+@pytest.fixture
+def sent(plot, monkeypatch):
+    """Copies of what is given to the graphics card, by layer and piece, and how many pieces that were."""
+    told = {"pieces": 0}
+    plot.sent = [[], []]
+
+    def follow(layer, columns):
+        seen = plot.sent[plot._ink._layers.index(layer)]
+        if layer._quads is not columns.quads:
+            seen[:] = [None] * -(-len(columns.quads) // PIECE)
+            changed = set(range(len(seen)))
+        else:
+            changed = set(columns.changed)
+        plain(layer, columns)
+        told["pieces"] += len(changed)
+        for piece in changed:
+            seen[piece] = np.array(layer._meshes[piece].vertices).reshape(-1, 4, FLOATS)
+
+    plain = _Layer.follow
+    monkeypatch.setattr(_Layer, "follow", follow)
+    plot.refresh()
+    return told
+
+
+def test_what_goes_to_the_graphics_card_is_what_has_changed_and_no_less(plot, stage, sent):
+    plot.span = 5.0
+    drive(plot, stage, 4)
+    before = sent["pieces"]
+    drive(plot, stage, 150, ahead=lambda number: math.sin(number * 0.3), turn=math.cos)
+    for layer, trace in enumerate(plot.traces):
+        assert np.array_equal(on_glass(plot, layer), trace.columns.quads)
+    whole = -(-len(plot.traces[0].columns.quads) // PIECE)
+    assert sent["pieces"] - before < 150 * 2 * whole / 3  # two lines
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"size": (300, 200)},
+        {"span": 2.0},
+        {"until": 1003.0},
+        {"state": "stale", "age": 1.0},
+        {"paths": ["linear.y", "linear.x"]},
+    ],
+    ids=str,
+)
+def test_after_any_change_the_graphics_card_has_the_whole_lines(plot, stage, sent, change):
+    drive(plot, stage, 80, ahead=lambda number: math.sin(number * 0.3))
+    for name, value in change.items():
+        setattr(plot, name, value)
+    drive(plot, stage, 3, ahead=lambda _: 9.0)
+    for layer, trace in enumerate(plot.traces):
+        assert np.array_equal(on_glass(plot, layer), trace.columns.quads)
+
+
+def test_a_line_that_is_taken_away_leaves_its_layer_to_the_next(plot, stage, sent):
+    drive(plot, stage, 40, ahead=lambda number: number / 40, turn=lambda _: -1.0)
+    plot.remove(plot.traces[0])
+    drive(plot, stage, 2, turn=lambda _: -2.0)
+    assert np.array_equal(on_glass(plot, 0), plot.traces[0].columns.quads)
+    left = plot._ink._layers[1]._meshes
+    assert [np.asarray(mesh.vertices).reshape(-1, FLOATS)[0, 6] for mesh in left] == [NOTHING]
+
+
+def test_ink_for_a_cursor_is_there_while_a_cursor_is(plot, stage):
+    drive(plot, stage, 40)
+    assert plot._above.children == []
+    plot.opacity = 0.5
+    plot.pause()
+    plot.cursor = plot.known[1] - 0.5
+    stage.frames(2)
+    assert plot._above.children == [plot._over]
+    assert plot._over["seen"] == 0.5
+    plot.cursor = math.nan
+    stage.frames(2)
+    assert plot._above.children == []
+
+
+def test_lines_fade_with_the_plot(plot, stage):
+    plot.opacity = 0.25
+    stage.frames(2)
+    assert [ink["seen"] for ink in (plot._grid, plot._ink, plot._keys)] == [0.25] * 3
+
+
+def test_a_line_has_its_role_in_each_theme(plot, stage):
+    drive(plot, stage, 3)
+    try:
+        for name in ("dark", "sunlight", "night"):
+            theme.name = name
+            stage.frames(2)
+            inks = [tuple(layer._colour.rgba) for layer in plot._ink._layers]
+            assert inks == [pytest.approx(tuple(theme.roles[trace.role])) for trace in plot.traces]
+    finally:
+        theme.name = "dark"
 
 
 def test_it_takes_the_fields_at_its_paths(plot, stage):
