@@ -16,7 +16,10 @@ from bridge.core.link_state import CONTROL_TIMEOUT
 from bridge.msgs.pilothouse_msgs import ControlStatus
 from widgets.core.language import tr
 
-__all__ = ["Authority", "ControlledRobot", "Line"]
+__all__ = ["LAPSE_PERIOD", "Authority", "ControlledRobot", "Line"]
+
+LAPSE_PERIOD = 60.0
+"""Control that lapses again within this is said once, with how often it did [s]."""
 
 News = Callable[[str, str], None]
 """A sentence for the operator and its level, as of a banner."""
@@ -46,6 +49,9 @@ class ControlledRobot(Protocol):
     @property
     def connected(self) -> bool:
         """The link stands."""
+
+    def now(self) -> float:
+        """Our clock [s]."""
 
     def command(self, name: str, /, **fields: Any) -> None:
         """Send a one-shot command of `app.link.commands.COMMANDS`."""
@@ -79,6 +85,8 @@ class Authority:
         """The link was gone since control was last known to be ours."""
         self._lapsed = ""
         """When control that was ours lapsed, in words, until it is had again or somebody else's."""
+        self._lapses, self._lapsed_at = 0, -math.inf
+        """How often control lapsed in a row, each time within `LAPSE_PERIOD` after the last, and when it did last [s]."""
         self._released = self._withdrawn = False
         """We gave control back, or took back that we ask for it."""
 
@@ -183,8 +191,10 @@ class Authority:
     def _report(self, status: ControlStatus) -> None:
         before, self._before = self._before, status
         news = self._end(before, status) or self._beginning(before, status)
+        counted = False
         mine = status.driver_id == self._session.own_id
         if mine:
+            counted = bool(self._lapsed) and self._lapses > 1  # what was said of that stays true
             news = news or self._regained()
             self._held, self._away = True, False
         elif self._held:
@@ -194,12 +204,14 @@ class Authority:
             self._lapsed = ""
         if news:
             self.on_news(*news)
-        elif _parties(before) != _parties(status):
+        elif not counted and _parties(before) != _parties(status):
             self.on_past()
 
     def _regained(self) -> tuple[str, str] | None:
         """Control lapsed and is ours again: that it did must not go by unseen."""
         when, self._lapsed = self._lapsed, ""
+        if self._lapses > 1:  # as it was counted
+            return None
         words = tr("You have control again; it lapsed {when}.")
         return (words.format(when=when), "info") if when else None
 
@@ -242,10 +254,22 @@ class Authority:
             return tr("{driver} has control now.").format(driver=status.driver), "info"
         silence = tr("after {control_timeout:.0f} s without contact").format(control_timeout=CONTROL_TIMEOUT)
         when = tr("while the link was away") if self._away else silence
+        again = self._count_lapse() if self.wanted and not status.driver else 1
+        if again > 1:
+            self._lapsed = when
+            words = tr("Control lapsed {count} times, last {when}.")
+            return words.format(count=again, when=when), "warn"
         free = tr("Requesting it again…") if self.wanted else tr("It is free.")
         now = tr("{driver} has it now.").format(driver=status.driver) if status.driver else free
         self._lapsed = when if self.wanted else ""
         return tr("Control lost {when}. {now}").format(when=when, now=now), "warn"
+
+    def _count_lapse(self) -> int:
+        """How often control has lapsed in a row now."""
+        now = self._session.now()
+        self._lapses = self._lapses + 1 if now - self._lapsed_at <= LAPSE_PERIOD else 1
+        self._lapsed_at = now
+        return self._lapses
 
 
 def _parties(status: ControlStatus) -> tuple[str, str]:

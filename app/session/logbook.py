@@ -22,6 +22,8 @@ MAX_LOGS = 50
 """Logs of which it is remembered how far they are known."""
 NEWS_AGE = 15.0
 """What happened longer ago is no news when it comes [s]."""
+TOLD = ("control", "command")
+"""Kinds of warnings that ask for nothing: who has control stands in the bar, and a refusal where it was asked."""
 REMEMBERED = "events"
 """Name in the settings."""
 
@@ -78,6 +80,11 @@ class Logbook:
             found = [one for one in self._events.values() if one.level in GRAVE and not one.acknowledged_by]
             self._open = [one for one in found if not boot or one.boot == boot]
         return list(self._open)
+
+    @property
+    def asking(self) -> list[Event]:
+        """Of those, what asks the operator for something: that control came or went and what was refused was said where it was so."""
+        return [one for one in self.open if one.level == "alarm" or one.kind not in TOLD]
 
     @property
     def alarms(self) -> int:

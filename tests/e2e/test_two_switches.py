@@ -81,8 +81,9 @@ def test_a_patrol_is_planned_started_paused_stopped_and_released_by_two_keys(
         keys.update()
         keys.choose("Release STOP")  # asked once more, since no finger stays on it
         glass.until(lambda: not app.session.robot_stop.latched, "STOP to be released")
-        keys.choose("Back", within="Top bar")  # first what a press on the map would do
-        keys.update()
+        assert app.screens["mission"].mode == "view", (
+            "a press on the map of a robot that was set going draws nothing"
+        )
         keys.choose("Back", within="Top bar")
         keys.update()
         keys.choose("Leave")  # its patrol waits, so that it is asked first

@@ -19,12 +19,12 @@ import widgets.parts.sliders  # noqa: F401 - its rules draw what is used here
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskStatus
 from widgets.core.base import RobotWidget
-from widgets.core.language import tr
+from widgets.core.language import figure, tr
 from widgets.core.surfaces import Outlined
 from widgets.core.task_words import STATES, TASKS, distance_words, span_words, title
 from widgets.parts.column import Column
 
-__all__ = ["TaskCard", "figures_words"]
+__all__ = ["TaskCard", "figures_words", "is_lap_only"]
 
 Builder.load_string("""
 <TaskCard>:
@@ -70,9 +70,17 @@ Builder.load_string("""
 """)
 
 
+def is_lap_only(status: TaskStatus) -> bool:
+    """Progress and time left are those of the lap under way: the patrol goes on until it is stopped."""
+    return status.task == "patrol" and not status.laps and status.waypoints > 1
+
+
 def figures_words(status: TaskStatus, progress: TaskProgress | None) -> str:
-    """How far and how long still, as in `Point 2 of 6 · lap 1 of 3 · 38 % · 3 min left`; empty when nothing is known."""
-    parts = []
+    """How far and how long still, as in `Point 2 of 6 · lap 1 of 3 · 38 % · 3 min left`; empty when nothing is known.
+
+    Of a patrol without an end: `Point 2 of 6 · lap 3 · 38 % of this lap · 3 min to its end`.
+    """
+    parts, of_lap = [], is_lap_only(status)
     if status.waypoint:
         parts.append(
             (tr("Point {at} of {all}") if status.task == "patrol" else tr("Place {at} of {all}")).format(
@@ -80,10 +88,12 @@ def figures_words(status: TaskStatus, progress: TaskProgress | None) -> str:
             )
         )
     if status.lap and status.task == "patrol":
-        parts.append(f"lap {status.lap}" + (f" of {status.laps}" if status.laps else ""))
+        words = tr("lap {lap} of {laps}") if status.laps else tr("lap {lap}")
+        parts.append(words.format(lap=status.lap, laps=status.laps))
     if progress is not None:
         if math.isfinite(progress.progress):
-            parts.append(f"{progress.progress * 100:.0f} %")
+            done = f"{figure(progress.progress * 100)} %"
+            parts.append(tr("{done} of this lap").format(done=done) if of_lap else done)
         if math.isfinite(progress.distance_to_next) and progress.distance_to_next > 0:
             parts.append(
                 tr("{distance_to_next} to go").format(
@@ -91,7 +101,8 @@ def figures_words(status: TaskStatus, progress: TaskProgress | None) -> str:
                 )
             )
         if math.isfinite(progress.time_left):
-            parts.append(f"{span_words(progress.time_left)} left")
+            words = tr("{span} to its end") if of_lap else tr("{span} left")
+            parts.append(words.format(span=span_words(progress.time_left)))
     return " · ".join(parts)
 
 

@@ -39,6 +39,10 @@ HINTS = {
 }
 
 
+SETS_GOING = ("start", "resume", "home")
+"""Commands of the task's buttons after which the robot drives by what was drawn."""
+
+
 class EditedMap(Protocol):
     """The mission screen, as far as fingers on its map need it."""
 
@@ -139,8 +143,9 @@ class MapPointing:
         self.show()
 
     def set_going(self, name: str) -> None:
-        """Who sets the robot going is not placing it any more."""
-        if name != "stop" and self._screen.mode == "place_robot":
+        """Who sets the robot going is not placing it any more, nor drawing its way: a tap that is meant otherwise changed it."""
+        placing, drawing = self._screen.mode == "place_robot", self._screen.mode in ("points", "home")
+        if (placing and name != "stop") or (drawing and name in SETS_GOING):
             self._screen.mode = "view"
 
     def tick(self) -> None:

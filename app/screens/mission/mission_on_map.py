@@ -30,6 +30,8 @@ class MissionOnMap:
     ) -> None:
         self._session, self._maps, self._panel, self._pointing = session, maps, panel, pointing
         self._judged = -math.inf
+        self._ran = False
+        """A task ran when the robot last told of it."""
 
     def show_draft(self) -> None:
         """Bring the draft up to date, on the map and in the panel."""
@@ -85,3 +87,7 @@ class MissionOnMap:
         coming = status.waypoint if same and status.task == "patrol" else 0
         area.coming = coming - 1 if coming else -1
         area.visited = max(0, coming - 1) if status.motion != "random" else 0
+        runs = status.state == "RUNNING"
+        if runs and not self._ran:  # whoever has started it
+            self._pointing.set_going("start")
+        self._ran = runs

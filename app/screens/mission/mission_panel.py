@@ -7,7 +7,7 @@ from typing import Any
 
 from kivy.clock import Clock
 from kivy.lang import Builder
-from kivy.properties import BooleanProperty, NumericProperty, OptionProperty, StringProperty
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
@@ -17,11 +17,11 @@ from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskStatus
 from widgets import EventLog, MotionSelector, Readout, TaskButtons
-from widgets.core.language import mark, tr, trn
+from widgets.core.language import figure, mark, tr, trn
 from widgets.parts.column import Column
 from widgets.parts.kit import Card
 from widgets.status.event_log import ago, appearance
-from widgets.tasks.task_card import figures_words
+from widgets.tasks.task_card import figures_words, is_lap_only
 
 __all__ = ["MissionPanel"]
 
@@ -98,12 +98,13 @@ Builder.load_string("""
             shorten: True
             shorten_from: 'right'
         Text:
-            text: '' if root.value != root.value else '%.0f %%' % (root.value * 100)
+            text: root.done
             role: 'muted'
             font_size: sp(14)
             halign: 'right'
+            shorten: True
             size_hint_x: None
-            width: dp(54)
+            width: sp(142) if root.of_lap else sp(54)
 
 <LatestEvent>:
     size_hint_y: None
@@ -149,6 +150,17 @@ class ProgressRow(Column):
 
     value = NumericProperty(math.nan)
     """0 to 1; NaN while nothing runs."""
+    of_lap = BooleanProperty(False)
+    """How far this lap is: the task goes on until it is stopped."""
+
+    def _done(self) -> str:
+        if math.isnan(self.value):
+            return ""
+        done = f"{figure(self.value * 100)} %"
+        return tr("{done} of this lap").format(done=done) if self.of_lap else done
+
+    done = AliasProperty(_done, bind=["value", "of_lap"], cache=True)
+    """The same in words; empty while nothing runs."""
     where = StringProperty("")
     titled = BooleanProperty(True)
     """Has its name over it."""
@@ -196,9 +208,9 @@ class MissionPanel(BoxLayout):
         self._shown: tuple[object, ...] = ()
         self.readouts = Card(floating=True, padding=("14dp", "10dp"))
         self.figures = GridLayout(cols=2, spacing=("12dp", "6dp"))
-        for figure in (self.speed, self.next, self.lap, self.left):
-            figure.fitted, figure.size_hint_x = False, 1
-            self.figures.add_widget(figure)
+        for readout in (self.speed, self.next, self.lap, self.left):
+            readout.fitted, readout.size_hint_x = False, 1
+            self.figures.add_widget(readout)
         self._send.ids.send.bind(on_release=lambda _: session.send_mission())
         self.motion.bind(on_command=lambda _, choice: session.mission.set_motion(**choice))
         self.tasks.bind(on_command=lambda _, name: self._command(name))
@@ -228,8 +240,8 @@ class MissionPanel(BoxLayout):
         for figures in (self.figures, self.plain):
             figures.size_hint_y = 1 if wide else None
             figures.height = "58dp" if tall and figures is self.figures else "96dp"
-        for figure in (self.speed, self.next, self.lap, self.left):
-            figure.font_size = "26sp" if wide else "22sp"
+        for readout in (self.speed, self.next, self.lap, self.left):
+            readout.font_size = "26sp" if wide else "22sp"
         self.tasks.brief = self.motion.brief = not wide
         self.next.name = tr("Next", context="point") if tall else tr("Next point")
         self._progress.titled = wide
@@ -320,12 +332,16 @@ class MissionPanel(BoxLayout):
             if self._patrols
             else tr("Send {points}").format(points=points)
             if count
-            else tr("Send to the robot")
+            else tr("Remove its points")
+            if self._removes
+            else tr("Send points")
         )
         self._send.calls = self._patrols
         note, role = tr(STATES[state][0]), STATES[state][1]
-        if state == "draft" and not count and mission.draft.home is not None:
-            note, role = tr("Home is drawn, not on the robot yet. Choose Points, then tap the map."), "muted"
+        if state == "draft" and not count and not self._removes:
+            note, role = tr(STATES["empty"][0]), "muted"
+            if mission.draft.home is not None:
+                note = tr("Home is drawn, not on the robot yet. Choose Points, then tap the map.")
         if state == "draft" and mission.failed:
             note, role = mission.outcome, "danger"
         elif state != "empty" and self.refused:
@@ -334,6 +350,12 @@ class MissionPanel(BoxLayout):
         icons = {"stored": "check_circle", "sent": "schedule", "empty": "info"}
         self._send.icon = "block" if self.refused and note == self.refused else icons.get(state, "edit")
         self.motion.show(mission.draft.message())
+
+    @property
+    def _removes(self) -> bool:
+        """The robot has points and none are drawn: they can be taken from it, and nothing else be sent."""
+        mission = self._session.mission
+        return bool(not mission.draft.points and mission.stored is not None and mission.stored.points)
 
     @property
     def _patrols(self) -> bool:
@@ -351,7 +373,9 @@ class MissionPanel(BoxLayout):
             self.next.value = self.left.value = math.nan
         lap = status.lap if status.task == "patrol" else 0  # the way home has neither laps nor points
         self.lap.words = f"{lap}" if lap else ""
-        self.lap.unit = f"of {status.laps}" if status.laps and lap else ""
+        self.lap.unit = tr("of {laps}").format(laps=status.laps) if status.laps and lap else ""
+        of_lap = self._progress.of_lap = is_lap_only(status) and self._session.running
+        self.left.name = tr("Lap ends in") if of_lap else tr("Time left")
         # the robot's own sentence stands under the buttons
         going = [figures_words(status, None), status.phase if self._session.running else ""]
         self._progress.where = " · ".join(filter(None, going)) or status.reason or tr("No task runs.")
@@ -378,14 +402,15 @@ class MissionPanel(BoxLayout):
         self.tasks.empty = not session.mission.draft.points
         self.tasks.ready = not (self.tasks.empty or self.refused)
         self.tasks.held = session.robot_stop.latched
-        self._send.may_send = int(mine and missions and session.mission.state == "draft")
+        something = bool(session.mission.draft.points) or self._removes
+        self._send.may_send = int(mine and missions and something and session.mission.state == "draft")
         if not missions:
             self._send.note = tr(NO_MISSIONS)
             self._send.role, self._send.icon = "muted", "block"
         state = session.feeds.state("/task/status")
-        for figure in (self.next, self.lap, self.left):
-            figure.state = state
-            figure.age = session.feeds.age("/task/status")
+        for readout in (self.next, self.lap, self.left):
+            readout.state = state
+            readout.age = session.feeds.age("/task/status")
         now = session.link.robot_time()
         if math.isfinite(now) and not abs(now - self.events.now) < 1.0:
             self.events.now = now

@@ -18,7 +18,7 @@ from app.replay.player import Player
 from app.replay.recording_index import Index
 from app.replay.recording_list import RecordingList
 from app.screens.parts.field_chooser import FieldChooser
-from app.screens.parts.placing import Area, put  # noqa: F401 - a rule names the area
+from app.screens.parts.placing import Area, above, put  # noqa: F401 - a rule names the area
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.replay.moment_view import MomentView
 from app.screens.replay.places import replay, replay_alone
@@ -135,6 +135,7 @@ class ReplayScreen(RobotScreen):
         self.chooser: FieldChooser | None = None
         self._places: dict[str, Rect] = {}
         self._dp = 1.0
+        self._cover: Rect | None = None
         self._kept: tuple[Path, float] | None = None
         """What was open when the screen was left, and at which moment."""
         self._active = self._watching = False
@@ -165,6 +166,11 @@ class ReplayScreen(RobotScreen):
     def spread(self, body: Rect, form: str, dp: float) -> None:
         """The same where there is no robot."""
         self.form, self._dp, self._places = form, dp, replay_alone(body, form, dp)
+        self._lay()
+
+    def clear(self, cover: Rect | None) -> None:
+        """Have the list end above what is said over the screen."""
+        self._cover = cover
         self._lay()
 
     def enter(self) -> None:
@@ -329,7 +335,7 @@ class ReplayScreen(RobotScreen):
         ready = open_ and self._watching
         head = Rect(main.x, main.top - 52 * dp, main.width, 52 * dp)
         rest = Rect(main.x, main.y, main.width, head.y - 4 * dp - main.y)
-        self._place(self.ids.listed, Rect(main.x, main.y, main.width, main.height), not open_)
+        self._place(self.ids.listed, above(main, self._cover, dp), not open_)
         self._place(self.ids.head, head, open_)
         self.ids.choose.disabled = not ready
         phone = self.form != "wide"

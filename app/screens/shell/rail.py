@@ -139,7 +139,8 @@ class Rail(Edged, FloatLayout):
     def show(self, screen: str, *, waiting: Sequence[Event] = (), talk: str = "") -> None:
         """Bring the looks up to date: which `screen` is on the glass, and what goes on.
 
-        `waiting` for somebody to see to them are warnings and alarms; they are counted where they are listed.
+        `waiting` for somebody to see to them are the warnings and alarms that ask for something, as of `Logbook.asking`; they are
+        counted where they are listed.
         `talk` is how voice stands, of `TALKS`, empty while it is off.
         """
         self.voice = talk

@@ -226,7 +226,7 @@ class Shell(FloatLayout):
     def _show_rail(self) -> None:
         self.nav.show(
             self.screen,
-            waiting=self.session.logbook.open,
+            waiting=self.session.logbook.asking,
             talk=getattr(self.app.methods.made("voice"), "sign", ""),
         )
 

@@ -81,7 +81,7 @@ class TaskLists:
         clock = session.link.robot_time()
         if math.isfinite(clock) and not abs(clock - self.schedule.now) < CLOCK_STEP:
             self.schedule.now = self.runs.now = self.missions.now = clock
-        self.tabs.waiting, self.tabs.has_settings = len(session.logbook.open), not session.robot.lacks_tasks
+        self.tabs.waiting, self.tabs.has_settings = len(session.logbook.asking), not session.robot.lacks_tasks
         self.events.tick()
         self.schedule.state = session.feeds.state("/schedule") if mine else "disabled"
 

@@ -11,6 +11,7 @@ from app.core.settings_store import Settings
 from app.link.channels import LINK
 from app.link.feeds import Feeds, Post
 from app.screens.shell import status_text as standing
+from app.session.authority import LAPSE_PERIOD
 from app.session.session import Session
 from bridge.client.client import LinkState, Phase
 from bridge.core.identity import public_id
@@ -194,6 +195,30 @@ def test_control_that_lapsed_and_came_back_is_said_in_its_place(watch: Watch) ->
     watch.told(BOBS)
     watch.told(MINE)
     assert watch.news[-1][0].startswith("Control lost"), "had again is not said twice"
+
+
+def test_control_that_lapses_again_and_again_is_said_once_with_how_often(watch: Watch) -> None:
+    watch.session.authority.wanted = True
+    for _ in range(3):
+        watch.told(MINE)
+        watch.told(FREE)
+        watch.clock.time += 4.0
+    watch.told(MINE)
+    after = "after 2\u00a0s without contact"
+    assert watch.news == [
+        (f"Control lost {after}. Requesting it again…", "warn"),
+        (f"You have control again; it lapsed {after}.", "info"),
+        (f"Control lapsed 2 times, last {after}.", "warn"),
+        (f"Control lapsed 3 times, last {after}.", "warn"),
+    ]
+    assert watch.past == 1, "nothing is taken back: it was heard at first, and what is counted stays true"
+    watch.clock.time += LAPSE_PERIOD + 1.0
+    watch.told(FREE)
+    assert watch.news[-1] == watch.news[0], "long after that it is news again"
+    watch.told(BOBS)
+    watch.told(MINE)
+    watch.told(BOBS)
+    assert "Bob has it now." in watch.news[-1][0], "that somebody else has it is said however often it lapsed"
 
 
 @pytest.mark.parametrize("then", ["FREE", "CAROL", "ASKED"])

@@ -65,6 +65,15 @@ def test_only_warnings_and_alarms_wait_for_somebody(book: Logbook) -> None:
     assert book.alarms == 1
 
 
+def test_what_was_said_where_it_was_so_asks_for_nothing_but_an_alarm_always_does(book: Logbook) -> None:
+    book.add(event(1, "warn", kind="control"))
+    book.add(event(2, "warn", kind="command"))
+    book.add(event(3, "warn", kind="battery"))
+    book.add(event(4, "alarm", kind="control"))
+    assert [one.id for one in book.asking] == [3, 4]
+    assert len(book.open) == 4, "all of them are still listed to be seen to"
+
+
 def test_one_that_is_acknowledged_is_asked_for_once_until_there_is_an_answer(
     book: Logbook, asked: Asked
 ) -> None:

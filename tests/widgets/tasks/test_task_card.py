@@ -35,6 +35,15 @@ def test_a_patrol_counts_points_and_laps():
     assert figures_words(RUNS, TOLD) == "Point 3 of 6 · lap 1 of 2 · 38 % · 7 m to go · 3 min left"
 
 
+def test_of_a_patrol_without_an_end_progress_and_time_are_said_to_be_those_of_this_lap():
+    endless = TaskStatus(task_id=4, task="patrol", state="RUNNING", waypoint=3, waypoints=6, lap=2)
+    assert figures_words(endless, TOLD) == (
+        "Point 3 of 6 · lap 2 · 38 % of this lap · 7 m to go · 3 min to its end"
+    )
+    to_one = TaskStatus(task_id=4, task="patrol", state="RUNNING", waypoint=1, waypoints=1, lap=1)
+    assert "lap ·" not in figures_words(to_one, TOLD), "a single point is visited once"
+
+
 def test_what_is_not_known_is_left_out():
     unknown = TaskProgress(task_id=4, progress=math.nan, distance_to_next=math.nan, time_left=math.nan)
     assert figures_words(TaskStatus(task="hold", state="RUNNING"), unknown) == ""

@@ -9,7 +9,7 @@ import pytest
 from bridge.msgs.arrays import Int8Array
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
-from bridge.msgs.pilothouse_msgs import Check, Checklist, Mission, RobotInfo, Waypoint
+from bridge.msgs.pilothouse_msgs import Check, Checklist, Mission, RobotInfo, TaskStatus, Waypoint
 from bridge.msgs.sensor_msgs import NavSatFix, NavSatStatus
 from bridge.msgs.std_msgs import Header
 from tests.app.fakes import FakeRobot
@@ -191,3 +191,26 @@ def test_home_is_drawn_at_the_start_where_the_robot_is_sure_to_be_and_it_is_said
     assert any(text.startswith("Home is here") for text in driving.banners())
     assert services(robot) == [], "it is only drawn"
     assert mission.panel._send.note.startswith("Home is drawn, not on the robot yet.")
+
+
+@pytest.mark.parametrize("mode", ["points", "home"])
+def test_a_tap_on_the_map_of_a_robot_that_was_set_going_changes_no_point(
+    driving: Glass, robot: FakeRobot, mission: Any, mode: str
+) -> None:
+    mission.map.dispatch("on_add", *FREE)
+    mission.mode = mode
+    mission.panel.tasks.ask("pause")
+    assert mission.mode == mode, "who pauses may go on drawing"
+    runs = TaskStatus(task_id=1, task="patrol", state="RUNNING", waypoints=1)
+    robot.publish("/task/status", runs)  # as by another handheld, or by voice
+    driving.until(lambda: mission.mode == "view", "it is drawn on")
+    area = mission.map
+    driving.stage.tap(area.center_x + 60, area.center_y + 60)
+    assert driving.app.session.mission.draft.points == (FREE,)
+    assert not mission.selection.text, "nobody is told to tap"
+    mission.mode = mode
+    robot.publish(
+        "/task/status", TaskStatus(task_id=1, task="patrol", state="RUNNING", waypoint=1, waypoints=1)
+    )
+    driving.until(lambda: driving.app.session.feeds.latest("/task/status").waypoint, "not told")
+    assert mission.mode == mode, "who chose it while it drives means it"

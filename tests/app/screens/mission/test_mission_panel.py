@@ -13,6 +13,7 @@ from app.core.settings_store import Settings
 from app.link.capabilities import Capabilities
 from app.link.channels import EVENT
 from app.link.feeds import Feeds, Post
+from app.missions.mission_editor import Draft
 from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.client.client import LinkState, Phase
@@ -139,6 +140,59 @@ def test_the_way_home_has_no_laps_and_no_next_point(
     assert panel.lap.words == lap
     assert panel.next.value == pytest.approx(metres, nan_ok=True)
     assert panel.left.value == 9.0
+
+
+@both
+@pytest.mark.parametrize(
+    ("laps", "left", "done"), [(0, "Lap ends in", "2 % of this lap"), (3, "Time left", "2 %")]
+)
+def test_the_figures_of_a_patrol_without_an_end_are_said_to_be_of_this_lap(
+    stage: Stage, session: Session, panel: Any, laps: int, left: str, done: str
+) -> None:
+    dashboard = panel.dashboard_of_test
+    dashboard.enter()
+    for topic, message in (
+        ("/task/status", TaskStatus(task="patrol", state="RUNNING", waypoints=2, lap=1, laps=laps)),
+        ("/task/progress", TaskProgress(progress=0.02, time_left=80.0)),
+    ):
+        tell(session, topic, message)
+        dashboard.deliver(topic, message)
+    assert (panel.left.name, panel._progress.done) == (left, done)
+    ended = TaskStatus(task="patrol", state="SUCCEEDED", waypoints=2, lap=1, laps=laps)
+    tell(session, "/task/status", ended)
+    dashboard.deliver("/task/status", ended)
+    assert (panel.left.name, panel._progress.done) == ("Time left", "")
+
+
+@both
+def test_without_points_nothing_can_be_sent_and_one_reason_is_said(
+    stage: Stage, session: Session, panel: Any
+) -> None:
+    session.robot.capabilities = Capabilities({}, frozenset({"/task/start", "/mission/set"}))
+    tell(session, "/control/status", ControlStatus(driver_id=session.own_id, driver="me"))
+    session.mission.robot_has(Draft().message())
+    session.mission.set_home(1.0, 2.0)
+    panel.show_draft()
+    settle(stage, panel)
+    assert (panel.ids["send"].disabled, panel.tasks.inviting) == (True, False)
+    assert panel._send.note == "Home is drawn, not on the robot yet. Choose Points, then tap the map."
+    session.mission.set_motion(laps=3)
+    session.mission.add(3.0, 2.0)
+    panel.show_draft()
+    settle(stage, panel)
+    assert not panel.ids["send"].disabled
+    assert (panel._send.calls, panel.tasks.inviting) == (False, True), "one is lit: Start sends too"
+
+
+@both
+def test_points_that_the_robot_has_can_be_taken_from_it(stage: Stage, session: Session, panel: Any) -> None:
+    session.robot.capabilities = Capabilities({}, frozenset({"/task/start", "/mission/set"}))
+    tell(session, "/control/status", ControlStatus(driver_id=session.own_id, driver="me"))
+    session.mission.robot_has(Draft(points=((1.0, 2.0),)).message())
+    session.mission.clear()
+    panel.show_draft()
+    settle(stage, panel)
+    assert (panel.ids["send"].disabled, panel._send.words) == (False, "Remove its points")
 
 
 @both

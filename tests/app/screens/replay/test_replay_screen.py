@@ -129,3 +129,23 @@ def test_nothing_of_the_past_reaches_the_robot_of_now_and_stop_does(glass: Glass
     assert {topic for topic, _ in robot.heard[heard:]} <= {"/cmd_vel"}
     glass.tap(app.shell.stop)
     glass.until(lambda: "/stop" in robot.services(), "STOP did not reach the robot")
+
+
+def test_a_notice_covers_nothing_of_the_list_nor_of_the_sentence_that_stands_in_its_place(
+    driving: Glass,
+) -> None:
+    app, before = driving.app, tuple(driving.stage.window.size)
+    try:
+        for size in ((412, 892), (892, 412), (1280, 800)):
+            driving.stage.window.size = app.root.size = size
+            app.show("replay")
+            driving.stage.frames(4)
+            app.shell.say("Control lapsed 4 times, last after 2 s without contact.", "warn")
+            driving.stage.frames(4)
+            listed = app.screens["replay"].ids.listed
+            assert app.shell.notices.height > 20
+            assert listed.y >= app.shell.notices.top or listed.x < 0, size
+            app.shell.notices.hush()
+            driving.until(lambda one=listed: one.x >= 0 and one.y < app.shell.notices.top + 40, "it stays")
+    finally:
+        driving.stage.window.size = app.root.size = before
