@@ -16,6 +16,7 @@ from app.discovery.known_robots import check_address
 from app.garbage_collector import spare_the_start
 from app.layout import layout as layouts
 from app.lean_kivy import be_lean
+from app.profiles.profile_link import is_profile_link, text_of_link
 from app.screens.parts.screen_table import names
 from bridge.trust.pairing import SCHEME, PairLink
 from bridge.trust.robot_link import RobotLink, read_link
@@ -36,7 +37,9 @@ class _Parser(argparse.ArgumentParser):
 def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser = _Parser(prog="main.py", description="Pilothouse: supervise and drive robots.")
     parser.add_argument(
-        "url", nargs="?", help="address of the robot, as in ws://192.168.1.7:9090, or its link"
+        "url",
+        nargs="?",
+        help="address of the robot, as in ws://192.168.1.7:9090, or its link, or that of a layout",
     )
     parser.add_argument(
         "--pair", action="append", default=[], metavar="LINK", help="pair by this link without a question"
@@ -51,7 +54,9 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     arguments = parser.parse_args(argv)
     for link in arguments.pair:
         PairLink.read(link)
-    if arguments.url is not None and arguments.url.startswith(f"{SCHEME}:"):
+    if arguments.url is not None and is_profile_link(arguments.url):
+        text_of_link(arguments.url)
+    elif arguments.url is not None and arguments.url.startswith(f"{SCHEME}:"):
         link = read_link(arguments.url)
         arguments.url = link.url if isinstance(link, RobotLink) else arguments.url
     elif arguments.url is not None:

@@ -30,6 +30,7 @@ from app.layout.layout_choice import LayoutChoice
 from app.leaving import Leaving
 from app.link.feeds import Post
 from app.network_side import NetworkSide
+from app.opened_profiles import OpenedProfiles
 from app.pages import LONE, Pages, lone_page
 from app.profiles.profile_choice import ProfileChoice
 from app.profiles.profile_store import ProfileStore
@@ -122,6 +123,7 @@ class PilothouseApp(Showing, App):
         self.corner = StopCorner(self, self.fleet, self.say)
         self.visit, self.leaving = self._make_visit(), Leaving(self)
         self.renewal, self.sounds = Renewal(self), Sounds(self.settings)
+        self.opened = OpenedProfiles(self, self.profiles, self.robot_list.trust)
         self.preferences.on_anew = self.renewal.ask
         root.over = self.corner.layer
         self.pages.show_connect()
@@ -165,6 +167,7 @@ class PilothouseApp(Showing, App):
         self.pages.on_show = self.corner.tick  # STOP ALL is never where STOP is, not for a frame
         self._idle = get_ready(self)
         self._list()
+        self.opened.begin()
         self.robot_list.trust.begin(self._pair)
         if self._url:
             self.open(self._url)
@@ -176,6 +179,7 @@ class PilothouseApp(Showing, App):
     def on_stop(self) -> None:
         """Leave the robot at rest, end every thread and the simulator."""
         self._idle.close()
+        self.opened.close()
         self.renewal.close()
         self.end_tour()
         self.sounds.close()

@@ -11,6 +11,7 @@ from kivy.clock import Clock
 from app.device.opened_links import watch_links
 from app.discovery.known_robots import KnownRobots, plain_name
 from app.link.feeds import Post
+from app.profiles.profile_link import is_profile_link
 from app.screens.connect.connect import ConnectScreen
 from app.trust.keyring import Keyring, RobotKey, host_of, place_of
 from app.trust.pairing_attempts import PAIRING, Attempt, PairingAttempts
@@ -63,6 +64,8 @@ class RobotTrust:
         """The question that is on the glass."""
         self.on_address: Callable[[str], object] = app.open
         """Takes the address of a link without a secret that was opened; any web page can open one."""
+        self.on_profile: Callable[[str], object] = lambda _: None
+        """Takes the link of a layout that was opened."""
         self.attempts: PairingAttempts
         """What carries attempts out; there while the app runs."""
         self._number = -1
@@ -152,7 +155,10 @@ class RobotTrust:
         )
 
     def open_link(self, text: str) -> None:
-        """Somebody opened a robot's link: ask whether to pair, or to connect by one without a secret."""
+        """Somebody opened a link: ask whether to pair, or to connect by one without a secret; that of a layout is handed on."""
+        if is_profile_link(text):
+            self.on_profile(text)
+            return
         try:
             link = read_link(text)
         except BadPairing as mistake:

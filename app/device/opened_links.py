@@ -1,4 +1,4 @@
-"""Links that the system opens with this app: the phone's camera reads a robot's QR code, and Android starts the app with it."""
+"""Links that the system opens with this app: the phone's camera reads the QR code of a robot or a layout, and Android starts the app with it."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from app.device import is_android
 
 __all__ = ["link_of", "watch_links"]
 
-MAX_LINK = 600
-"""Characters of a link; longer ones are no pairing link."""
+MAX_LINK = 100_000
+"""Characters of a link; longer ones are none of ours. Who reads it bounds it further."""
 
 
 def link_of(intent: Any) -> str:

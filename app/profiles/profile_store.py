@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
+import errno
 import os
 import re
-from collections.abc import Iterable
+import stat
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from app.layout.layout import Layout, LayoutError, LayoutFault, parse
 from app.layout.layout_text import text_of
 from widgets.core.language import tr
 
-__all__ = ["MAX_BYTES", "ProfileStore", "file_name"]
+__all__ = ["MAX_BYTES", "ProfileStore", "file_name", "write_whole"]
 
 MAX_BYTES = 200_000
 """Of a profile's file; a longer one is not read [bytes]."""
@@ -21,6 +24,38 @@ BACKUP = ".bak"
 def file_name(title: str) -> str:
     """A file's name of letters, digits and dashes for a profile with that title; never empty."""
     return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")[:40] or "profile"
+
+
+def write_whole(path: Path, text: str, first: Callable[[], object] = lambda: None) -> None:
+    """Put a text into the place of a file, or leave that as it is; `first` is done before. OSError where it cannot be written.
+
+    It is written beside the file at first; what could not be written to its end is not left there.
+    """
+    fresh = path.with_name(f"{path.name}.new")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        with fresh.open("w", encoding="utf-8") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        first()
+        fresh.replace(path)
+    except OSError:
+        with contextlib.suppress(OSError):
+            fresh.unlink()
+        raise
+
+
+def _read(path: Path) -> bytes:
+    """At most one byte more than a profile may have; OSError where it cannot be read, or is a pipe, a device or a folder.
+
+    Whoever opens a pipe that nobody writes to would wait for ever.
+    """
+    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+    with os.fdopen(os.open(path, flags), "rb") as file:
+        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+            raise OSError(errno.EINVAL, tr("it is no ordinary file"))
+        return file.read(MAX_BYTES + 1)
 
 
 class ProfileStore:
@@ -56,8 +91,7 @@ class ProfileStore:
     def text(path: Path) -> str:
         """Text of a file of any origin; LayoutError where it cannot be read."""
         try:
-            with path.open("rb") as file:
-                content = file.read(MAX_BYTES + 1)
+            content = _read(path)
             if len(content) > MAX_BYTES:
                 raise LayoutError(
                     tr("Layout {stem} has more than {max_bytes} kB.").format(
@@ -78,15 +112,8 @@ class ProfileStore:
 
     def save(self, layout: Layout) -> None:
         """Replace the profile's file as a whole; the one before is kept beside it, a faulty one for good. OSError where that fails."""
-        path, fresh = self.path(layout.name), self.path(layout.name).with_suffix(".new")
-        self.folder.mkdir(parents=True, exist_ok=True)
-        with fresh.open("w", encoding="utf-8") as file:
-            file.write(text_of(layout))
-            file.flush()
-            os.fsync(file.fileno())
-        if path.exists():
-            self._set_aside(path)
-        fresh.replace(path)
+        path = self.path(layout.name)
+        write_whole(path, text_of(layout), lambda: self._set_aside(path) if path.exists() else None)
 
     def _set_aside(self, path: Path) -> None:
         try:

@@ -30,6 +30,10 @@ ROOT = Path(__file__).parents[2]
             "This is no link of a robot; one begins with pilothouse:// and is complete.",
         ),
         (
+            ["pilothouse://layout?v=1&d=x"],
+            "This link of a profile is not complete; copy it again.",
+        ),
+        (
             ["--pair", "ws://10.0.0.3"],
             "This is no pairing link of a robot; one begins with pilothouse:// and is complete.",
         ),

@@ -130,9 +130,9 @@ class Editing:
 
     def share(self) -> None:
         """Show how the profile is handed on and taken in."""
-        share(self._screen, self.views if self._screen.editing else None, self._imported)
+        share(self._screen, self.views if self._screen.editing else None, self.imported)
 
-    def _imported(self) -> None:
+    def imported(self) -> None:
         """Another profile was taken in for the robot."""
         if self._screen.editing:
             self._end()

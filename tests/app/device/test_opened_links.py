@@ -31,7 +31,7 @@ class Intent:
         (Intent(MAIN, LINK), ""),
         (Intent(VIEW, None), ""),
         (Intent(None, None), ""),
-        (Intent(VIEW, "pilothouse://" + "x" * 600), ""),
+        (Intent(VIEW, "pilothouse://" + "x" * 100_000), ""),
         (None, ""),
     ],
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 from pathlib import Path
 
@@ -55,6 +56,20 @@ def test_a_file_that_cannot_be_written_leaves_the_one_before(
     with pytest.raises(OSError, match="No space"):
         store.save(replace(PATROL, title="Other"))
     assert store.load("mine") == PATROL
+    assert sorted(path.name for path in store.folder.iterdir()) == ["mine.toml"]
+
+
+@pytest.mark.parametrize("kind", ["pipe", "device", "folder"])
+def test_what_is_no_ordinary_file_is_refused_at_once_in_a_sentence(
+    store: ProfileStore, tmp_path: Path, kind: str
+) -> None:
+    path = Path("/dev/zero") if kind == "device" else tmp_path / "layout.toml"
+    if kind == "pipe":
+        os.mkfifo(path)  # whoever opens it waits for somebody who writes
+    elif kind == "folder":
+        path.mkdir()
+    with pytest.raises(LayoutError, match="cannot be read: (it is no ordinary file|Is a directory)"):
+        store.text(path)
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ from kivy.core.clipboard import Clipboard
 from kivy.lang import Builder
 from kivy.properties import BooleanProperty, ListProperty, StringProperty
 
+from app.device.file_picking import FilePicking, file_picking
 from app.device.sharing import sharing
 from app.layout.layout import Layout, LayoutError
 from app.layout.layout_text import text_of
@@ -18,12 +19,14 @@ from app.layout.views import View
 from app.profiles.profile_choice import ProfileChoice
 from app.profiles.profile_code import code_of
 from app.profiles.profile_link import BadProfileLink, fits_code, is_profile_link, link_of, text_of_link
+from app.profiles.profile_store import write_whole
 from app.screens.panels.sharing.fault_dialog import FaultRows
+from app.screens.panels.sharing.summary import summary
 from app.screens.parts.dialogs import Question
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from widgets.core.language import tr, trn
 
-__all__ = ["ShareDialog", "summary"]
+__all__ = ["ShareDialog"]
 
 Builder.load_string("""
 #:import tr widgets.core.language.tr
@@ -83,11 +86,21 @@ Builder.load_string("""
                     hint_text: tr('Link, or path of a .toml file')
                     wrong: root.wrong
                     on_text_validate: root.read(self.text)
-                QuietButton:
-                    id: read
-                    text: tr('Look at it first')
-                    icon: 'search'
-                    on_release: root.read(field.text)
+                GridLayout:
+                    cols: 2
+                    size_hint_y: None
+                    height: theme.target
+                    spacing: dp(10)
+                    QuietButton:
+                        id: browse
+                        text: tr('Choose a file')
+                        icon: 'folder_open'
+                        on_release: root.browse()
+                    QuietButton:
+                        id: read
+                        text: tr('Look at it first')
+                        icon: 'search'
+                        on_release: root.read(field.text)
                 Text:
                     text: root.found
                     role: 'danger' if root.wrong else 'text'
@@ -109,23 +122,6 @@ Builder.load_string("""
                 disabled: not root.usable
                 on_release: root.use()
 """)
-
-
-def summary(layout: Layout) -> str:
-    """What a profile holds, in a few lines, before it takes the place of anything."""
-    lines = [layout.title]
-    drive = trn("{count} instrument", "{count} instruments", len(layout.instruments))
-    hands = trn("{count} control", "{count} controls", len(layout.controls))
-    lines.append(
-        tr("Drive screen: {instruments}, {controls}").format(
-            instruments=drive.format(count=len(layout.instruments)),
-            controls=hands.format(count=len(layout.controls)),
-        )
-    )
-    for view in layout.views:
-        panels = trn("{count} panel", "{count} panels", len(view.panels)).format(count=len(view.panels))
-        lines.append(f"{view.title}: {panels}")
-    return "\n".join(lines)
 
 
 class ShareDialog(Question):
@@ -154,6 +150,8 @@ class ShareDialog(Question):
         layout = profiles.of(info)
         self._layout = layout if views is None else replace(layout, views=views)
         self._read: Layout | None = None
+        self._picking: FilePicking | None = None
+        self._incoming = profiles.store.folder / "incoming"
         self.text = text_of(self._layout)
         """The profile's file."""
         self.link = link_of(self.text)
@@ -181,8 +179,7 @@ class ShareDialog(Question):
         folder = self._profiles.store.folder / "exported"
         path = folder / f"{self._layout.name}.toml"
         try:
-            folder.mkdir(parents=True, exist_ok=True)
-            path.write_text(self.text, encoding="utf-8")
+            write_whole(path, self.text)
             way = sharing()
             if way is not None:
                 way.share(path)
@@ -191,6 +188,24 @@ class ShareDialog(Question):
             self.told = tr("The file could not be written: {reason}.").format(reason=error.strerror or error)
         else:
             self.told = tr("Saved: {path}").format(path=where)
+
+    def browse(self) -> None:
+        """Let the operator choose a file by what the system has for it."""
+        if self._picking is None:
+            self._picking = file_picking()
+        if self._picking is not None:
+            self._picking.pick(self._incoming, self._picked)
+
+    def _picked(self, paths: list[Path], problem: str) -> None:
+        """What was chosen; copies of it that the system made for this are not kept."""
+        if self.parent is not None and problem:
+            self.found, self.wrong = problem, True
+        elif self.parent is not None and paths:
+            self.ids.field.text = str(paths[0])
+            self.read(str(paths[0]))
+        for path in paths:
+            if path.parent == self._incoming:
+                path.unlink(missing_ok=True)
 
     def read(self, text: str) -> None:
         """Look at what a link or a file brings; nothing is used yet."""
