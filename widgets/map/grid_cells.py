@@ -11,7 +11,8 @@ so does a gap of one.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
+import struct
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -29,6 +30,8 @@ HALF, SURE = 127, 30
 """What divides the sides in a byte, and how far from it every cell stays."""
 REACH = 2
 """Cells over which an edge is softened, either way."""
+BAND = 64
+"""Rows that are softened together: so many stay in the processor's cache from one step to the next."""
 Bytes = NDArray[np.uint8]
 
 _LEVEL = np.zeros(256, np.uint8)
@@ -56,7 +59,7 @@ class Piece:
     pixels: Bytes | None = None
     """Two bytes a cell of the texture, row by row; None before it is made ready."""
     digest: bytes = b""
-    """Of the pixels: a piece that is as it was is not carried over again."""
+    """Of the cells that it is made from: a piece that is as it was is neither made nor carried over again."""
     shaded: bool = False
     """Some of its cells are a little occupied."""
 
@@ -87,49 +90,60 @@ def _side(count: int, at: int, length: int) -> int:
     return int(1 << max(0, held - 1).bit_length())
 
 
-def piece(cells: NDArray[np.int8], place: Piece) -> Piece:
-    """The piece at that place, its pixels made ready."""
-    wide, high = place.side
-    rows, columns = cells.shape
-    # beyond the grid the cells of its border go on; so do they in the rest of the texture, which is never shown
-    down = np.clip(
-        np.arange(place.row - place.low - REACH, place.row - place.low + high + REACH), 0, rows - 1
-    )
-    over = np.clip(
-        np.arange(place.column - place.left - REACH, place.column - place.left + wide + REACH), 0, columns - 1
-    )
-    part = np.ascontiguousarray(cells[down[0] : down[-1] + 1, over[0] : over[-1] + 1]).view(np.uint8)
-    part = part[down - down[0]][:, over - over[0]]
-    pixels = np.empty((high, wide, 2), np.uint8)
-    level = _LEVEL[part]
-    pixels[:, :, 0] = _softened(level, level > HALF)
-    known = _KNOWN[part]
-    pixels[:, :, 1] = _softened(known, known > HALF)
+def piece(cells: NDArray[np.int8], place: Piece, drawn: Collection[bytes] = ()) -> Piece:
+    """The piece at that place, its pixels made ready; without pixels where its digest is one of `drawn`, which it looks like."""
+    part = _around(cells, place)
+    shape = struct.pack("<2I", *place.side)
+    digest = hashlib.blake2b(part.data, digest_size=16, salt=shape).digest()
     shaded = bool(((part > 0) & (part < OCCUPIED)).any())
-    flat = pixels.reshape(-1)
-    digest = hashlib.blake2b(flat.data, digest_size=16).digest()
-    return replace(place, pixels=flat, digest=digest, shaded=shaded)
+    if digest in drawn:
+        return replace(place, digest=digest, shaded=shaded)
+    wide, high = place.side
+    pixels = np.empty((high, wide, 2), np.uint8)
+    for low in range(0, high, BAND):
+        band = part[low : low + BAND + 2 * REACH]
+        for channel, table in enumerate((_LEVEL, _KNOWN)):
+            values = table[band]
+            least = int(values.min())
+            even = least == int(values.max())
+            pixels[low : low + BAND, :, channel] = least if even else _softened(values)
+    return replace(place, pixels=pixels.reshape(-1), digest=digest, shaded=shaded)
 
 
-def _softened(levels: Bytes, above: NDArray[np.bool_]) -> Bytes:
+def _around(cells: NDArray[np.int8], place: Piece) -> Bytes:
+    """The cells of a piece's texture and `REACH` more on each side, as bytes.
+
+    Beyond the grid the cells of its border go on; so do they in the rest of the texture, which is never shown.
+    """
+    rows, columns = cells.shape
+    wide, high = place.side
+    low, left = place.row - place.low - REACH, place.column - place.left - REACH
+    top, right = low + high + 2 * REACH, left + wide + 2 * REACH
+    held = cells[max(low, 0) : min(top, rows), max(left, 0) : min(right, columns)]
+    beyond = (max(-low, 0), max(top - rows, 0)), (max(-left, 0), max(right - columns, 0))
+    part = np.pad(held, beyond, mode="edge") if any(map(any, beyond)) else np.ascontiguousarray(held)
+    return part.view(np.uint8)
+
+
+def _softened(levels: Bytes) -> Bytes:
     """Blurred, each cell kept on its side; without the `REACH` cells around, which only lend to the others."""
     inner = slice(REACH, -REACH)
-    if levels.min() == levels.max():
-        return levels[inner, inner]
     wide = levels.astype(np.uint16)
     lines = wide[:, :-4] + wide[:, 4:]
     near = wide[:, 1:-3] + wide[:, 3:-1]
     near <<= 2
     lines += near
-    lines += wide[:, 2:-2] * np.uint16(6)
+    near = wide[:, 2:-2] * np.uint16(6)
+    lines += near
     sums = lines[:-4] + lines[4:]
     near = lines[1:-3] + lines[3:-1]
     near <<= 2
     sums += near
-    sums += lines[2:-2] * np.uint16(6)
+    near = lines[2:-2] * np.uint16(6)
+    sums += near
     sums >>= 8
     soft = sums.astype(np.uint8)
-    sides = above[inner, inner]
+    sides = levels[inner, inner] > HALF
     return np.where(sides, np.maximum(soft, HALF + SURE), np.minimum(soft, HALF - SURE))
 
 
@@ -142,7 +156,7 @@ def bounds(cells: NDArray[np.int8]) -> tuple[int, int, int, int] | None:
     return int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1
 
 
-def every_piece(cells: NDArray[np.int8]) -> Iterator[Piece]:
-    """All pieces of a grid, made ready one by one."""
+def every_piece(cells: NDArray[np.int8], drawn: Collection[bytes] = ()) -> Iterator[Piece]:
+    """All pieces of a grid, made ready one by one; without pixels those with a digest of `drawn`."""
     for place in layout(cells.shape[1], cells.shape[0]):
-        yield piece(cells, place)
+        yield piece(cells, place, drawn)

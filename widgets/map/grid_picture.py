@@ -129,6 +129,11 @@ class GridPicture:
         """Those of the grid that is drawn."""
         return [tile.texture for tile in self._tiles]
 
+    @property
+    def _drawn(self) -> set[bytes]:
+        """Digests of what is drawn."""
+        return {tile.piece.digest for tile in self._tiles}
+
     def show(self, grid: OccupancyGrid | None) -> None:
         """Draw that grid, or none; `data` has as many cells as `info` says."""
         self._next = []
@@ -141,10 +146,10 @@ class GridPicture:
         self.known, self._coming = bounds(cells), grid
         if cells.size <= AT_ONCE:
             self._worker.close()
-            self._next = [self._tile(one) for one in every_piece(cells)]
+            self._next = [self._tile(one) for one in every_piece(cells, self._drawn)]
             self._end()
         else:
-            self._worker.want(cells)
+            self._worker.want(cells, self._drawn)
             self._watch()
 
     def finish(self) -> None:
@@ -197,7 +202,7 @@ class GridPicture:
     def _tile(self, one: Piece) -> _Tile:
         """The texture of a piece; the one that is drawn already where it has the very same cells."""
         for tile in self._tiles:
-            if tile.piece.digest == one.digest and tile.piece.side == one.side:
+            if tile.piece.digest == one.digest:
                 return _Tile(replace(one, pixels=None), tile.texture)
         texture = Texture.create(size=one.side, colorfmt="luminance_alpha", mipmap=True)
         texture.min_filter, texture.mag_filter, texture.wrap = (

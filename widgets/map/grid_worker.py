@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import deque
+from collections.abc import Collection
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,7 @@ class GridWorker:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._cells: NDArray[np.int8] | None = None
+        self._drawn: frozenset[bytes] = frozenset()
         self._wanted: deque[Piece] = deque()
         self._made: deque[Piece] = deque()
         self._thread: threading.Thread | None = None
@@ -33,9 +35,10 @@ class GridWorker:
         with self._lock:
             return bool(self._wanted or self._made)
 
-    def want(self, cells: NDArray[np.int8]) -> None:
-        """Make this grid ready; what is left of the one before is dropped."""
+    def want(self, cells: NDArray[np.int8], drawn: Collection[bytes] = ()) -> None:
+        """Make this grid ready; what is left of the one before is dropped. Pieces with a digest of `drawn` come without pixels."""
         with self._lock:
+            self._drawn = frozenset(drawn)
             self._cells, self._wanted = cells, deque(layout(cells.shape[1], cells.shape[0]))
             self._made.clear()
             if not self._runs and self._wanted:
@@ -67,8 +70,8 @@ class GridWorker:
                 self._runs = bool(self._wanted)
                 if not self._runs or self._cells is None:
                     return
-                cells, place = self._cells, self._wanted[0]
-            made = piece(cells, place)
+                cells, drawn, place = self._cells, self._drawn, self._wanted[0]
+            made = piece(cells, place, drawn)
             with self._lock:
                 if self._wanted and self._wanted[0] is place:
                     self._wanted.popleft()

@@ -88,6 +88,32 @@ def test_a_piece_tells_whether_anything_is_a_little_occupied_and_what_it_holds()
     assert one.digest == same.digest != other.digest
 
 
+def test_a_piece_that_is_drawn_already_is_not_made_and_one_of_another_shape_is():
+    wide, high = np.zeros((4, 60), np.int8), np.zeros((60, 4), np.int8)
+    (one,), (other,) = every_piece(wide), every_piece(high)
+    assert one.digest != other.digest
+    (again,) = every_piece(wide, {one.digest})
+    assert again.pixels is None
+    assert (again.digest, again.shaded, again.side) == (one.digest, one.shaded, one.side)
+    assert all(each.pixels is not None for each in every_piece(high, {one.digest}))
+
+
+@pytest.mark.parametrize("row", [0, 61, 62, 63, 64, 65, 66, 127, 128, 199])
+def test_what_is_softened_in_bands_looks_as_if_it_were_softened_whole(row):
+    """A wall lies over, next to and away from the border of two bands: it looks the same up and down everywhere."""
+    cells = np.zeros((200, 40), np.int8)
+    cells[row] = 100
+    column = shown(cells)[:, 20, 0].astype(int)
+    near = [column[at] for at in range(row - 3, row + 4) if 0 <= at < 200]
+    alone = np.zeros((41, 40), np.int8)
+    alone[20] = 100
+    wanted = shown(alone)[17:24, 20, 0].astype(int).tolist()
+    if 3 <= row < 197:
+        assert near == wanted
+    assert column[row] > 127
+    assert (np.delete(column, row) < 127).all()
+
+
 def test_bounds_are_of_what_is_known():
     cells = np.full((6, 9), -1, np.int8)
     assert bounds(cells) is None

@@ -84,6 +84,22 @@ def test_cells_that_came_again_keep_their_texture(picture):
     assert picture.info.origin.position.x == 0.0
 
 
+def test_of_a_large_grid_that_changed_in_one_place_the_other_pieces_keep_their_textures(picture):
+    picture.show(grid(*LARGE))
+    picture.finish()
+    before = [shown.texture for shown in drawn(picture)]
+    changed = grid(*LARGE)
+    changed.data[2090] = 100
+    picture.show(changed)
+    picture.finish()
+    after = [shown.texture for shown in drawn(picture)]
+    assert [any(one is other for other in before) for one in after] == [True, True, False]
+    picture.show(grid(30, 20))  # drawn as if nothing had been before
+    picture.show(changed)
+    picture.finish()
+    assert len(drawn(picture)) == 3
+
+
 def test_a_small_grid_takes_the_place_of_a_large_one_that_is_not_ready(picture, stage):
     picture.show(grid(*LARGE))
     picture.show(grid(3, 2))

@@ -35,14 +35,27 @@ def test_all_pieces_of_a_grid_are_made_in_order(worker):
     assert not worker.busy
 
 
+def test_what_is_drawn_already_is_not_made_again(worker):
+    worker.want(cells(100))
+    worker.wait()
+    first = taken(worker)
+    changed = cells(100)
+    changed[5, 2090] = 0
+    worker.want(changed, {one.digest for one in first})
+    worker.wait()
+    second = taken(worker)
+    assert [one.pixels is None for one in second] == [True] * (len(second) - 1) + [False]
+    assert [one.digest for one in second[:-1]] == [one.digest for one in first[:-1]]
+
+
 def test_of_two_grids_only_the_newer_is_taken(worker, monkeypatch):
     """The first is still at work when the second comes: nothing of it is left to be taken."""
     begun, go_on, real = threading.Event(), threading.Event(), grid_worker.piece
 
-    def held(these, place):
+    def held(these, place, drawn):
         begun.set()
         go_on.wait()
-        return real(these, place)
+        return real(these, place, drawn)
 
     monkeypatch.setattr(grid_worker, "piece", held)
     worker.want(cells(0))
