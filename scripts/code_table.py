@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from bridge.core.codes import Code
+from bridge.core.codes import UNITS, Code, quantity_of
 
 __all__ = ["DOCUMENT", "with_table"]
 
@@ -16,9 +16,15 @@ def table() -> str:
     """The table in Markdown."""
     lines = ["| code | meaning | parameters |", "|---|---|---|"]
     for code in Code:
-        names = ", ".join(f"`{name}`" for name in code.parameters)
+        names = ", ".join(_parameter(code, name) for name in code.parameters)
         lines.append(f"| `{code.value}` | {code.meaning} | {names} |")
     return "\n".join(lines)
+
+
+def _parameter(code: Code, name: str) -> str:
+    """Its name, and its unit where it is a quantity."""
+    kind = quantity_of(code, name, {})
+    return f"`{name}` [{UNITS[kind]}]" if kind else f"`{name}`"
 
 
 def with_table(text: str) -> str:

@@ -1,16 +1,22 @@
 """The robot's sentences in other languages than English, chosen by their codes and filled with their parameters.
 
 A robot writes English. What has a code of `bridge.core.codes` is said anew in the language of the glass; what has none, or
-lacks a value that its sentence names, stays in the robot's own words, and so does everything where the glass speaks English.
+lacks a value that its sentence names, stays in the robot's own words. So does everything where the glass speaks English,
+but for what has a figure in a unit that the operator has chosen another one for.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Callable, Iterable, Mapping
 
-from bridge.core.codes import Code
+from app.core.robot_docs import ROLES, payload_title
+from bridge.core.codes import Code, quantity_of
 from bridge.msgs.diagnostic_msgs import KeyValue
-from widgets.core.language import language, mark, tr
+from widgets.core.detected import kind_word
+from widgets.core.language import figure, language, mark, tr
+from widgets.core.quantities import NO_BREAK, quantities, said
+from widgets.core.task_words import TASKS
 
 __all__ = ["SENTENCES", "sentence"]
 
@@ -22,16 +28,16 @@ SENTENCES: Mapping[str, str] = {
     Code.STOP_IS_PRESSED: mark("STOP is pressed; hold Release to drive again."),
     Code.STOP_UNSURE: mark("STOP is pressed and may not have reached the robot."),
     Code.STOP_NOT_HELD: mark("STOP stays: hold Release again."),
-    Code.STOP_HELD_SHORT: mark("STOP stays: hold Release {seconds} s longer."),
-    Code.STOP_RELEASED_LATELY: mark("STOP was released just now and cannot be again for {seconds} s."),
+    Code.STOP_HELD_SHORT: mark("STOP stays: hold Release {seconds} longer."),
+    Code.STOP_RELEASED_LATELY: mark("STOP was released just now and cannot be again for {seconds}."),
     Code.STOP_PRESSED_SINCE: mark("STOP was pressed after this request: it stays."),
     Code.TRUST_UNKNOWN: mark("The robot does not know this handheld: pair with it."),
     Code.TRUST_ROLE: mark("That needs the role {needed}; this handheld has {role}."),
     Code.TRUST_KEY: mark("The robot does not take this handheld's key any more: pair again."),
-    Code.TRUST_ATTEMPTS: mark("Too many attempts: wait {seconds} s."),
+    Code.TRUST_ATTEMPTS: mark("Too many attempts: wait {seconds}."),
     Code.TRUST_INSECURE: mark("That is done over a protected link only."),
     Code.TRUST_PAIRING_CLOSED: mark("Pairing is not open, or the link or code was used."),
-    Code.TRUST_PAIRING_PAUSED: mark("Too many wrong codes: wait {seconds} s."),
+    Code.TRUST_PAIRING_PAUSED: mark("Too many wrong codes: wait {seconds}."),
     Code.TRUST_CODE_WRONG: mark("The code is wrong, or somebody is between."),
     Code.TRUST_NAME_INVALID: mark("A name has 1 to {max} characters that can be shown."),
     Code.TRUST_PERSON_UNKNOWN: mark("No one, or more than one, is called {name}."),
@@ -62,25 +68,25 @@ SENTENCES: Mapping[str, str] = {
     Code.PAYLOAD_IN_USE: mark("{payload} is in use."),
     Code.CONTROL_TAKEN: mark("{name} has control."),
     Code.CONTROL_FREE: mark("Control is free."),
-    Code.CONTROL_LAPSED: mark("{name} was not heard for {seconds} s and lost control."),
+    Code.CONTROL_LAPSED: mark("{name} was not heard for {seconds} and lost control."),
     Code.CONTROL_ASKED: mark("{name} asks {driver} for control."),
     Code.CONTROL_OBJECTED: mark("{name} keeps control; {asker} asked for it."),
     Code.CONTROL_HELD: mark("{name} has control."),
     Code.CONTROL_HELD_ELSEWHERE: mark("This handheld has control elsewhere."),
     Code.CONTROL_ASKED_ALREADY: mark("{name} has asked {driver} for control already."),
-    Code.CONTROL_OBJECTED_LATELY: mark("{name} keeps control: ask again in {seconds} s."),
+    Code.CONTROL_OBJECTED_LATELY: mark("{name} keeps control: ask again in {seconds}."),
     Code.CONTROL_MANAGER_ASKS: mark("{name} manages this robot and takes control."),
     Code.CONTROL_NOT_ASKED: mark("No one asks for control."),
     Code.MODE_MANUAL: mark("{name} chose MANUAL: nothing starts by itself."),
     Code.SETTING_CHANGED: mark("{name} changed {setting} to {value}."),
     Code.NOBODY_DRIVES: mark("No one drives the robot: it goes into its safe state."),
     Code.DRIVE_LATE: mark("A drive command came too late and was dropped."),
-    Code.DRIVE_CLOCK_AHEAD: mark("The clock of this handheld is {seconds} s ahead of the robot's."),
+    Code.DRIVE_CLOCK_AHEAD: mark("The clock of this handheld is {seconds} ahead of the robot's."),
     Code.DRIVE_NOT_RELEASED: mark("Stopped while the stick was held. Release it, then push it again."),
     Code.DRIVE_ON_GROUND: mark("No stick starts the rotors: take off first."),
     Code.DRIVE_TOUCHES: mark("The robot touches something there and is not pushed on."),
     Code.DRIVE_EXCESSIVE: mark("{robot} goes at {allowed}, not at {asked}."),
-    Code.DRIVE_LEVEL: mark("The robot goes no higher or deeper than {height} m."),
+    Code.DRIVE_LEVEL: mark("The robot goes no higher or deeper than {height}."),
     Code.DRIVE_STEEP: mark("It is too steep there for the robot; drive back."),
     Code.MAP_ARRIVED: mark("There is a map now."),
     Code.MAP_MISSING: mark("There is no map: the robot can be driven by hand only."),
@@ -96,7 +102,7 @@ SENTENCES: Mapping[str, str] = {
         "No laser: the position may drift. Place the robot on the map when it is off."
     ),
     Code.FENCE_LEFT: mark("The robot is outside its fence."),
-    Code.FENCE_NEAR: mark("The fence is {room} m away: the robot goes no nearer."),
+    Code.FENCE_NEAR: mark("The fence is {room} away: the robot goes no nearer."),
     Code.FENCE_DRIFT: mark("{robot} drifts over its fence, or goes back from it."),
     Code.FENCE_UNPLACED: mark("Position unknown: the robot cannot keep to its fence. Place it on the map."),
     Code.FENCE_UNSURE: mark("Position unsure: the robot goes slowly, to keep to its fence."),
@@ -129,12 +135,12 @@ SENTENCES: Mapping[str, str] = {
     Code.TASK_ROBOT_ENDS: mark("The robot's program ends."),
     Code.TASK_FAULT: mark("A fault of the robot's program ended it: {fault}."),
     Code.TASK_BATTERY: mark("The battery is at {charge}, and home cannot be reached."),
-    Code.TASK_SLOW: mark("It took longer than {seconds} s; the robot stays where it is."),
+    Code.TASK_SLOW: mark("It took longer than {seconds}; the robot stays where it is."),
     Code.TASK_EDITED: mark("The patrol goes on with a new mission of {count} points."),
     Code.WAY_BLOCKED: mark("The way to {place} is blocked."),
     Code.WAY_MISSING: mark("There is no way to the place."),
     Code.WAY_ENDED: mark("The way straight on ended."),
-    Code.HEIGHT_UNREACHED: mark("It reached {reached} m and not {height} m."),
+    Code.HEIGHT_UNREACHED: mark("It reached {reached} and not {height}."),
     Code.DOCK_DEAD: mark("The dock {place} gives no charge."),
     Code.WAYPOINT_REACHED: mark("{place} reached."),
     Code.WAYPOINT_SKIPPED: mark("{place} cannot be reached and is skipped."),
@@ -162,7 +168,7 @@ SENTENCES: Mapping[str, str] = {
     Code.MISSION_EMPTY: mark("The mission has no points; set at least one."),
     Code.MISSION_UNKNOWN: mark("There is no mission {mission}."),
     Code.MISSION_TOO_LONG: mark("The mission has {count} points; {max} fit."),
-    Code.DWELL_INVALID: mark("A stay at a point is from 0 to {max} s, not {dwell}."),
+    Code.DWELL_INVALID: mark("A stay at a point is from 0 to {max}, not {dwell}."),
     Code.LAPS_INVALID: mark("Laps are from 0 to {max}, not {laps}."),
     Code.TASK_UNKNOWN: mark("There is no task {task}."),
     Code.TASK_UNABLE: mark("{robot} does not know this task."),
@@ -175,10 +181,10 @@ SENTENCES: Mapping[str, str] = {
     Code.SENSORS_SILENT: mark("It can be driven by hand only: sensors are silent."),
     Code.ROBOT_OVERTURNED: mark("{robot} has turned over."),
     Code.HOME_UNSET: mark("Home is not set; set it on the map first."),
-    Code.SPEED_INVALID: mark("A speed is above 0 and up to {max} m/s, not {speed}."),
+    Code.SPEED_INVALID: mark("A speed is above 0 and up to {max}, not {speed}."),
     Code.HEIGHT_UNUSED: mark("{robot} keeps no height; leave it out."),
-    Code.HEIGHT_INVALID: mark("A height is from {lowest} to {highest} m, not {height}."),
-    Code.DURATION_INVALID: mark("A duration is up to {max} s, not {duration}."),
+    Code.HEIGHT_INVALID: mark("A height is from {lowest} to {highest}, not {height}."),
+    Code.DURATION_INVALID: mark("A duration is up to {max}, not {duration}."),
     Code.DOCK_MISSING: mark("There is no dock."),
     Code.DOCK_UNDIRECTED: mark("The dock {place} has no direction."),
     Code.PLACES_TOO_MANY: mark("The task names {count} places; {max} fit."),
@@ -190,33 +196,85 @@ SENTENCES: Mapping[str, str] = {
     Code.RECORDS_DAMAGED: mark("Something is wrong with what the robot kept."),
     Code.RECORDS_UNWRITTEN: mark("The robot's database cannot be written, or does not answer."),
     Code.RECORDS_WRITTEN: mark("The robot's database can be written again."),
-    Code.COMMAND_LATE: mark("The command came too late: {age} s old, where {allowed} s are allowed."),
-    Code.COMMAND_AHEAD: mark("The clock of this handheld is {seconds} s ahead of the robot's."),
+    Code.COMMAND_LATE: mark("The command came too late: {age} old, where {allowed} are allowed."),
+    Code.COMMAND_AHEAD: mark("The clock of this handheld is {seconds} ahead of the robot's."),
     Code.ROBOT_UNREACHABLE: mark("The robot cannot be reached, or not be driven."),
     Code.ROBOT_BACK: mark("The robot can be driven again; it stands still."),
     Code.ROBOT_RESET: mark("{name} put {robot} back to where it started."),
     Code.ROBOT_FAULT: mark("The robot's program has a fault: {fault}"),
     Code.ROBOT_SUNK: mark("{robot} has sunk."),
     Code.ROBOT_ASTRAY: mark("{robot} has left its world."),
-    Code.ROBOT_BESIDE_START: mark("There is no room at its start: {robot} stands {aside} m beside it."),
+    Code.ROBOT_BESIDE_START: mark("There is no room at its start: {robot} stands {aside} beside it."),
     Code.ORDER_CUT: mark("An order was cut to what {robot} can do."),
     Code.ARM_REPLACED: mark("{name} gave the arm another order."),
     Code.ARM_HELD: mark("The arm was held before it was there."),
-    Code.ARM_LATE: mark("The arm was not there within {allowed} s."),
+    Code.ARM_LATE: mark("The arm was not there within {allowed}."),
 }
 """Codes to what they say; of those that are not here only programmers and managers of the robot's computer read."""
 
 
 def sentence(code: str, parameters: Iterable[KeyValue], own_words: str) -> str:
-    """What a robot says by `code`, in the language of the glass; `own_words` are its English ones."""
-    if language.name == "en":
+    """What a robot says by `code`, in the language of the glass and the operator's units; `own_words` are its English ones.
+
+    Its own words stand where the glass speaks English and the units in which a robot speaks.
+    """
+    values = {pair.key: pair.value for pair in parameters}
+    words = SENTENCES.get(code, "")
+    if language.name == "en" and (quantities.system == "metric" or not _has_units(code, words, values)):
         return own_words
     try:
-        words = SENTENCES[code]
-        return tr(words).format_map({pair.key: pair.value for pair in parameters})
-    except (
-        KeyError,
-        IndexError,
-        ValueError,
-    ):  # no such code, or a robot that leaves out what its code should name
+        shown = {key: _shown(code, key, values) for key in values}
+        return tr(words).format_map(shown) if words else own_words
+    except (KeyError, IndexError, ValueError):  # a robot that leaves out what its code should name
         return own_words
+
+
+def _has_units(code: str, words: str, values: Mapping[str, str]) -> bool:
+    """Something stands in these `words` that is not the same in every system of units."""
+    kinds = {quantity_of(code, key, values) for key in values if f"{{{key}}}" in words}
+    return not kinds.isdisjoint(("length", "height", "speed"))
+
+
+def _shown(code: str, key: str, values: Mapping[str, str]) -> str:
+    """A parameter as people read it: a quantity in their units, a word that is known in their language."""
+    value, kind = values[key], quantity_of(code, key, values)
+    if key in _WORDS:
+        return _WORDS[key](value)
+    if not kind:
+        return tr(ROLES[value]) if key in ("role", "needed") and value in ROLES else value
+    try:
+        number = float(value)
+    except ValueError:
+        return value
+    return _QUANTITIES[kind](number)
+
+
+def _duration(seconds: float) -> str:
+    whole = abs(seconds - round(seconds)) < 0.05
+    return f"{figure(seconds, 0 if whole else 1)}{NO_BREAK}s"
+
+
+_QUANTITIES: Mapping[str, Callable[[float], str]] = {
+    "length": lambda value: said(value, "length").words,
+    "height": lambda value: said(value, "height", 1).words,
+    "speed": lambda value: said(value, "speed").words,
+    "angle": lambda value: said(value, "angle").words,
+    "turn": lambda value: f"{figure(math.degrees(value))}°/s",
+    "duration": _duration,
+    "share": lambda value: f"{figure(value * 100)}{NO_BREAK}%",
+}
+"""Kind of quantity of `bridge.core.codes` to how it is written."""
+
+
+def _task(name: str) -> str:
+    return TASKS[name].name if name in TASKS else name
+
+
+_WORDS: Mapping[str, Callable[[str], str]] = {
+    "task": _task,
+    "instead": _task,
+    "payload": payload_title,
+    "state": lambda word: tr({"on": mark("on"), "off": mark("off")}.get(word, word)),
+    "kind": kind_word,
+}
+"""Key of a parameter that is a word of the robot's, to that word in the language of the glass."""

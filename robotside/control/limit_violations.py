@@ -24,12 +24,17 @@ ROUNDING_TOLERANCE = 1.01
 """A stick at its stop may be above the limit by so much: numbers are rounded on their way."""
 
 
+QUANTITIES = {" m/s": "speed", " rad/s": "turn", " rad": "angle", "": "share"}
+"""Unit, as it is written, to the kind of quantity of `bridge.core.codes`."""
+
+
 def excess(order: Order, info: RobotInfo) -> Problem:
     """What of `order` is more than the robot may do, with what is allowed, as one sentence; empty when nothing is."""
     for says, asked, most, unit in _asked(order, info):
         if abs(asked) > most * ROUNDING_TOLERANCE:
             said = f"{info.name} {says} at most {_number(most)}{unit}; {_number(abs(asked))}{unit} was requested."
-            return Notice(Code.DRIVE_EXCESSIVE, said, robot=info.name, asked=abs(asked), allowed=most)
+            code, kind = Code.DRIVE_EXCESSIVE, QUANTITIES[unit]
+            return Notice(code, said, robot=info.name, asked=abs(asked), allowed=most, quantity=kind)
     return ""
 
 

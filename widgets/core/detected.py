@@ -6,18 +6,32 @@ import math
 from collections import Counter
 from collections.abc import Iterable
 
-from widgets.core.language import tr
+from widgets.core.language import mark, tr
 
 __all__ = ["SURE_SCORE", "kind_word", "things_words"]
 
 SURE_SCORE = 0.6
 """A class with a lower score than this, 0 to 1, is a guess that the glass does not repeat."""
 
+KINDS = {
+    "unknown": mark("unknown"),
+    "cone": mark("cone"),
+    "person": mark("person"),
+    "diver": mark("diver"),
+    "car": mark("car"),
+    "tree": mark("tree"),
+    "buoy": mark("buoy"),
+    "fruit": mark("fruit"),
+    "coral": mark("coral"),
+}
+"""Classes that detectors of ours give, to their words; others are shown as they come."""
+
 
 def kind_word(kind: str, score: float = math.nan) -> str:
     """The class that a detector gave, or `unknown` where it gave none or one with a low `score`; NaN where it says no score."""
     sure = bool(kind.strip()) and kind.strip() != "?" and not score < SURE_SCORE
-    return kind.strip() if sure and kind.strip() != "unknown" else tr("unknown")
+    word = kind.strip() if sure else "unknown"
+    return tr(KINDS.get(word, word))
 
 
 def things_words(kinds: Iterable[str]) -> str:
