@@ -7,15 +7,14 @@ but for what has a figure in a unit that the operator has chosen another one for
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping
 
 from app.core.robot_docs import ROLES, payload_title
 from bridge.core.codes import Code, quantity_of
 from bridge.msgs.diagnostic_msgs import KeyValue
 from widgets.core.detected import kind_word
-from widgets.core.language import figure, language, mark, tr
-from widgets.core.quantities import NO_BREAK, quantities, said
+from widgets.core.language import language, mark, tr
+from widgets.core.quantities import quantities, quantity_words
 from widgets.core.task_words import TASKS
 
 __all__ = ["SENTENCES", "sentence"]
@@ -243,27 +242,9 @@ def _shown(code: str, key: str, values: Mapping[str, str]) -> str:
     if not kind:
         return tr(ROLES[value]) if key in ("role", "needed") and value in ROLES else value
     try:
-        number = float(value)
+        return quantity_words(float(value), kind)
     except ValueError:
         return value
-    return _QUANTITIES[kind](number)
-
-
-def _duration(seconds: float) -> str:
-    whole = abs(seconds - round(seconds)) < 0.05
-    return f"{figure(seconds, 0 if whole else 1)}{NO_BREAK}s"
-
-
-_QUANTITIES: Mapping[str, Callable[[float], str]] = {
-    "length": lambda value: said(value, "length").words,
-    "height": lambda value: said(value, "height", 1).words,
-    "speed": lambda value: said(value, "speed").words,
-    "angle": lambda value: said(value, "angle").words,
-    "turn": lambda value: f"{figure(math.degrees(value))}°/s",
-    "duration": _duration,
-    "share": lambda value: f"{figure(value * 100)}{NO_BREAK}%",
-}
-"""Kind of quantity of `bridge.core.codes` to how it is written."""
 
 
 def _task(name: str) -> str:

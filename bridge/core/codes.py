@@ -390,6 +390,23 @@ class Code(StrEnum):
     ARM_HELD = "arm_held", "The arm was held before it was there."
     ARM_LATE = "arm_late", "The arm was not there in time.", "allowed"
 
+    # the checks before the first motion
+
+    CHECK_BATTERY_GOOD = "check_battery_good", "The battery is charged."
+    CHECK_BATTERY_LOW = "check_battery_low", "The battery has less than is needed.", "needed"
+    CHECK_BATTERY_UNKNOWN = "check_battery_unknown", "The battery has not reported its charge."
+    CHECK_SENSORS_GOOD = "check_sensors_good", "All sensors are alive."
+    CHECK_SENSORS_SILENT = "check_sensors_silent", "Sensors are silent.", "sensors"
+    CHECK_POSITION_GOOD = "check_position_good", "The robot knows where it is."
+    CHECK_POSITION_UNKNOWN = "check_position_unknown", "The robot has no place on the map."
+    CHECK_POSITION_UNSURE = "check_position_unsure", "The laser does not match the map."
+    CHECK_STOP_GOOD = "check_stop_good", "STOP was tested."
+    CHECK_STOP_UNTESTED = "check_stop_untested", "STOP was not tested since the start."
+    CHECK_CLOCK_GOOD = "check_clock_good", "The clocks agree."
+    CHECK_CLOCK_UNKNOWN = "check_clock_unknown", "No handheld has sent its clock."
+    CHECK_CLOCK_AHEAD = "check_clock_ahead", "The handheld's clock is ahead of the robot's.", "seconds"
+    CHECK_CLOCK_BEHIND = "check_clock_behind", "The handheld's clock is behind the robot's.", "seconds"
+
     # the handheld
 
     DRAWING_SLOW = (
@@ -435,6 +452,7 @@ _OWN_QUANTITIES: Mapping[tuple[str, str], str] = {
     (Code.DRIVE_UNSTAMPED, "allowed"): "duration",
     (Code.ARM_LATE, "allowed"): "duration",
     (Code.BATTERY_TOO_LOW, "needed"): "share",
+    (Code.CHECK_BATTERY_LOW, "needed"): "share",
     (Code.TRUST_DURATION_INVALID, "duration"): "",
 }
 """A code and a key that mean something particular in it, to the kind; empty for no quantity."""

@@ -372,13 +372,23 @@ class Check(Msg, frozen=True, gc=False):
     """One line of the checklist before the first motion."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Check"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "string", "string")
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "string",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
+    )
     name: str = ""
     """battery, sensors, position, stop or clock."""
     state: str = "unknown"
     """ok, bad or unknown."""
     text: str = ""
     """One sentence: the finding, and the remedy when it is not good."""
+    code: str = ""
+    """The kind of finding, a code of docs/bridge.md, as in check_stop_untested; empty without one."""
+    parameters: list[KeyValue] = []
+    """Values in the sentence, by the keys of the code."""
 
 
 class Checklist(Msg, frozen=True, gc=False):

@@ -6,7 +6,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Check
+from robotside.core.notice import Notice, coded
 from robotside.core.text import number
 
 __all__ = ["MAX_OFFSET", "CheckInputs", "checks"]
@@ -44,41 +46,57 @@ def checks(looked: CheckInputs) -> list[Check]:
 
 def _battery(looked: CheckInputs) -> Check:
     if math.isnan(looked.battery):
-        return Check("battery", "unknown", "The battery has not reported its charge yet.")
+        said = "The battery has not reported its charge yet."
+        return _check("battery", "unknown", Notice(Code.CHECK_BATTERY_UNKNOWN, said))
     if looked.battery < looked.low_below:
         said = f"The battery is below {looked.low_below:.0%}; charge it first."
-        return Check("battery", "bad", said)
-    return Check("battery", "ok", "The battery is charged.")
+        return _check("battery", "bad", Notice(Code.CHECK_BATTERY_LOW, said, needed=looked.low_below))
+    return _check("battery", "ok", Notice(Code.CHECK_BATTERY_GOOD, "The battery is charged."))
 
 
 def _sensors(looked: CheckInputs) -> Check:
     if looked.trouble:
-        return Check("sensors", "bad", looked.trouble)
+        return _check("sensors", "bad", looked.trouble)
     if looked.silent:
-        return Check("sensors", "bad", f"No data from: {', '.join(looked.silent)}.")
-    return Check("sensors", "ok", "All sensors are alive.")
+        names = ", ".join(looked.silent)
+        silent = Notice(Code.CHECK_SENSORS_SILENT, f"No data from: {names}.", sensors=names)
+        return _check("sensors", "bad", silent)
+    return _check("sensors", "ok", Notice(Code.CHECK_SENSORS_GOOD, "All sensors are alive."))
 
 
 def _position(looked: CheckInputs) -> Check:
     if not looked.placed:
-        return Check("position", "unknown", "The robot's position is unknown; place the robot on the map.")
+        said = "The robot's position is unknown; place the robot on the map."
+        return _check("position", "unknown", Notice(Code.CHECK_POSITION_UNKNOWN, said))
     if not looked.sure:
         said = "The laser does not match the map; place the robot on the map."
-        return Check("position", "bad", said)
-    return Check("position", "ok", "The robot knows where it is.")
+        return _check("position", "bad", Notice(Code.CHECK_POSITION_UNSURE, said))
+    return _check("position", "ok", Notice(Code.CHECK_POSITION_GOOD, "The robot knows where it is."))
 
 
 def _stop(looked: CheckInputs) -> Check:
     if looked.stop_tested:
-        return Check("stop", "ok", "STOP was tested.")
-    return Check("stop", "unknown", "STOP was not tested since the start; press it once.")
+        return _check("stop", "ok", Notice(Code.CHECK_STOP_GOOD, "STOP was tested."))
+    said = "STOP was not tested since the start; press it once."
+    return _check("stop", "unknown", Notice(Code.CHECK_STOP_UNTESTED, said))
 
 
 def _clock(looked: CheckInputs) -> Check:
     if math.isnan(looked.offset):
-        return Check("clock", "unknown", "No handheld has sent its clock yet.")
-    if abs(looked.offset) > MAX_OFFSET:
-        side = "ahead of" if looked.offset > 0 else "behind"
-        said = f"The handheld's clock is {number(abs(looked.offset))} s {side} the robot's"
-        return Check("clock", "bad", f"{said}; connect it anew, or check the link.")
-    return Check("clock", "ok", "The clocks agree.")
+        said = "No handheld has sent its clock yet."
+        return _check("clock", "unknown", Notice(Code.CHECK_CLOCK_UNKNOWN, said))
+    off = abs(looked.offset)
+    if off > MAX_OFFSET:
+        ahead = looked.offset > 0
+        code = Code.CHECK_CLOCK_AHEAD if ahead else Code.CHECK_CLOCK_BEHIND
+        said = f"The handheld's clock is {number(off)} s {'ahead of' if ahead else 'behind'} the robot's"
+        return _check(
+            "clock", "bad", Notice(code, f"{said}; connect it anew, or check the link.", seconds=off)
+        )
+    return _check("clock", "ok", Notice(Code.CHECK_CLOCK_GOOD, "The clocks agree."))
+
+
+def _check(name: str, state: str, said: str) -> Check:
+    """A line with the code of its sentence, where that has one."""
+    known = coded(said)
+    return Check(name, state, said, known["code"], known["parameters"])

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 from kivy.event import EventDispatcher
@@ -29,6 +30,7 @@ __all__ = [
     "digits_for",
     "from_shown",
     "quantities",
+    "quantity_words",
     "read",
     "round_floor",
     "round_length",
@@ -230,6 +232,27 @@ def read(text: str, kind: str) -> float:
     taken = known[wanted] if wanted else unit
     number = float(match.group(1).replace("−", "-").replace(",", ".").replace(" ", ""))
     return number * taken.si + taken.offset
+
+
+def quantity_words(value: float, kind: str) -> str:
+    """A figure of a robot's sentence with its unit; `kind` as of `bridge.core.codes.UNITS`, `value` in the unit there."""
+    return _WRITTEN[kind](value)
+
+
+def _duration(seconds: float) -> str:
+    whole = abs(seconds - round(seconds)) < 0.05
+    return f"{figure(seconds, 0 if whole else 1)}{NO_BREAK}s"
+
+
+_WRITTEN: Mapping[str, Callable[[float], str]] = {
+    "length": lambda value: said(value, "length").words,
+    "height": lambda value: said(value, "height", 1).words,
+    "speed": lambda value: said(value, "speed").words,
+    "angle": lambda value: said(value, "angle").words,
+    "turn": lambda value: f"{figure(math.degrees(value))}°/s",
+    "duration": _duration,
+    "share": lambda value: f"{figure(value * 100)}{NO_BREAK}%",
+}
 
 
 def round_floor(most: float) -> float:

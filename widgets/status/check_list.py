@@ -7,8 +7,7 @@ checks.bind(on_fold=lambda _, unfold: setattr(checks, "open", unfold))
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, ClassVar
 
 from kivy.lang import Builder
@@ -19,9 +18,11 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.parts.rows  # noqa: F401 - its rules draw what scrolls here
+from bridge.core.codes import Code, quantity_of
 from bridge.msgs.pilothouse_msgs import Check, Checklist
 from widgets.core.base import RobotWidget
 from widgets.core.language import language, mark, tr
+from widgets.core.quantities import quantity_words
 from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
 
@@ -29,25 +30,27 @@ __all__ = ["SENTENCES", "CheckHead", "CheckLine", "CheckList", "words_of"]
 
 LOOKS = {"ok": ("check_circle", "ok"), "bad": ("error", "danger"), "unknown": ("help", "warn")}
 """State of a check to its icon and role."""
-SENTENCES = (
-    mark("The battery has not reported its charge yet."),
-    mark("The battery is below {charge}; charge it first."),
-    mark("The battery is charged."),
-    mark("No data from: {sensors}."),
-    mark("All sensors are alive."),
-    mark("The robot's position is unknown; place the robot on the map."),
-    mark("The laser does not match the map; place the robot on the map."),
-    mark("The robot knows where it is."),
-    mark("STOP was tested."),
-    mark("STOP was not tested since the start; press it once."),
-    mark("No handheld has sent its clock yet."),
-    mark("The handheld's clock is {seconds} s ahead of the robot's; connect it anew, or check the link."),
-    mark("The handheld's clock is {seconds} s behind the robot's; connect it anew, or check the link."),
-    mark("The clocks agree."),
-)
-"""What robots of Pilothouse say of a check, with places for its values: the message has no code by which it could be said anew."""
-_PLACE = re.compile(r"\\\{(\w+)\\\}")
-"""A place for a value, escaped for a pattern."""
+SENTENCES: Mapping[str, str] = {
+    Code.CHECK_BATTERY_UNKNOWN: mark("The battery has not reported its charge yet."),
+    Code.CHECK_BATTERY_LOW: mark("The battery is below {needed}; charge it first."),
+    Code.CHECK_BATTERY_GOOD: mark("The battery is charged."),
+    Code.CHECK_SENSORS_SILENT: mark("No data from: {sensors}."),
+    Code.CHECK_SENSORS_GOOD: mark("All sensors are alive."),
+    Code.CHECK_POSITION_UNKNOWN: mark("The robot's position is unknown; place the robot on the map."),
+    Code.CHECK_POSITION_UNSURE: mark("The laser does not match the map; place the robot on the map."),
+    Code.CHECK_POSITION_GOOD: mark("The robot knows where it is."),
+    Code.CHECK_STOP_GOOD: mark("STOP was tested."),
+    Code.CHECK_STOP_UNTESTED: mark("STOP was not tested since the start; press it once."),
+    Code.CHECK_CLOCK_UNKNOWN: mark("No handheld has sent its clock yet."),
+    Code.CHECK_CLOCK_AHEAD: mark(
+        "The handheld's clock is {seconds} ahead of the robot's; connect it anew, or check the link."
+    ),
+    Code.CHECK_CLOCK_BEHIND: mark(
+        "The handheld's clock is {seconds} behind the robot's; connect it anew, or check the link."
+    ),
+    Code.CHECK_CLOCK_GOOD: mark("The clocks agree."),
+}
+"""Codes of what a robot finds, to what they say."""
 
 Builder.load_string("""
 <CheckHead>:
@@ -257,7 +260,7 @@ class CheckList(Outlined, RobotWidget, BoxLayout):
         lines.clear_widgets()
         if self.ready:
             for check in self.checks:
-                lines.add_widget(_line(check.state, words_of(check.text), "muted"))
+                lines.add_widget(_line(check.state, words_of(check), "muted"))
             return
         for state in ("bad", "unknown"):
             for check in self.checks:
@@ -265,7 +268,7 @@ class CheckList(Outlined, RobotWidget, BoxLayout):
                     lines.add_widget(
                         _line(
                             state,
-                            words_of(check.text) or tr("The {name} is not good.").format(name=_name(check)),
+                            words_of(check) or tr("The {name} is not good.").format(name=_name(check)),
                             "text",
                         )
                     )
@@ -285,13 +288,21 @@ def _name(check: Check) -> str:
     return names.get(check.name, check.name)
 
 
-def words_of(text: str) -> str:
-    """What a robot says of a check in the language of the glass; as it stands where that is not one of `SENTENCES`."""
-    for sentence in () if language.name == "en" else SENTENCES:
-        places = _PLACE.sub(lambda place: f"(?P<{place[1]}>.+)", re.escape(sentence))
-        if found := re.fullmatch(places, text):
-            return tr(sentence).format(**found.groupdict())
-    return text
+def words_of(check: Check) -> str:
+    """What a robot found, in the language of the glass; its own words where it gives no code, or one that is not known here."""
+    words = SENTENCES.get(check.code, "")
+    if not words or language.name == "en":
+        return check.text
+    values = {pair.key: pair.value for pair in check.parameters}
+    try:
+        return tr(words).format_map({key: _shown(check.code, key, values) for key in values})
+    except (KeyError, IndexError, ValueError):  # a robot that leaves out what its code should name
+        return check.text
+
+
+def _shown(code: str, key: str, values: Mapping[str, str]) -> str:
+    kind = quantity_of(code, key, values)
+    return quantity_words(float(values[key]), kind) if kind else values[key]
 
 
 def _state(check: Check) -> str:

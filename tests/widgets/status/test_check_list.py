@@ -7,10 +7,13 @@ import pytest
 from kivy.uix.button import Button
 from kivy.uix.floatlayout import FloatLayout
 
+from bridge.core.codes import Code
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.pilothouse_msgs import Check, Checklist
 from robotside.autonomy.checklist import CheckInputs, checks
+from tests.looped import looped
 from widgets.core.language import PSEUDO, language
-from widgets.status.check_list import GOOD, UNTESTED, CheckList, samples, words_of
+from widgets.status.check_list import GOOD, SENTENCES, UNTESTED, CheckList, samples, words_of
 
 BAD = Check("battery", "bad", "The battery is below 20%; charge it first.")
 
@@ -109,7 +112,7 @@ def test_every_sample_says_how_many_are_good(stage, name):
     assert stage.show(samples()[name]()).title.startswith(("Before it moves: ", "Checks"))
 
 
-def told_by_a_robot() -> list[str]:
+def told_by_a_robot() -> list[Check]:
     well = CheckInputs(0.9, 0.2, (), placed=True, sure=True, stop_tested=True, offset=0.0)
     others = [
         {"battery": math.nan, "silent": ("/scan", "/imu/data"), "placed": False, "stop_tested": False},
@@ -118,17 +121,37 @@ def told_by_a_robot() -> list[str]:
         {"offset": -2.5},
     ]
     lists = [checks(well), *(checks(replace(well, **other)) for other in others)]
-    return [check.text for one in lists for check in one]
+    return [check for one in lists for check in one]
 
 
-def test_every_finding_of_a_robot_is_said_in_the_language_of_the_glass():
-    said = told_by_a_robot()
-    assert [words_of(text) for text in said] == said
-    language.name = PSEUDO
-    try:
-        assert [text for text in said if not words_of(text).startswith("[")] == []
-        assert words_of("Its own words.") == "Its own words."
-        language.name = "de"
-        assert words_of("No data from: /scan, /imu/data.") == "Keine Daten von: /scan, /imu/data."
-    finally:
-        language.name = "en"
+@pytest.fixture
+def spoken():
+    yield lambda name: setattr(language, "name", name)
+    language.name = "en"
+
+
+def test_in_english_a_robot_speaks_for_itself():
+    assert [words_of(check) for check in told_by_a_robot()] == [check.text for check in told_by_a_robot()]
+
+
+def test_every_finding_of_a_robot_is_said_in_the_language_of_the_glass_by_its_code(spoken):
+    spoken(PSEUDO)
+    found = told_by_a_robot()
+    assert {check.code for check in found} == set(SENTENCES)
+    assert [check.text for check in found if not words_of(check).startswith("[")] == []
+
+
+@looped(
+    ("check", "told"),
+    [
+        (told_by_a_robot()[6], "Keine Daten von: /scan, /imu/data."),
+        (told_by_a_robot()[10], "Der Akku ist unter 20\u00a0%; laden Sie ihn zuerst."),
+        (Check("sensors", "bad", "No data from: /scan."), "No data from: /scan."),
+        (Check("tilt", "bad", "It leans.", "check_tilt_steep"), "It leans."),
+        (Check("sensors", "bad", "No data.", Code.CHECK_SENSORS_SILENT), "No data."),
+        (Check("battery", "bad", "Low.", Code.CHECK_BATTERY_LOW, [KeyValue("needed", "much")]), "Low."),
+    ],
+)
+def test_it_goes_by_the_code_alone_and_without_one_that_is_whole_the_robot_s_words_stand(spoken, check, told):
+    spoken("de")
+    assert words_of(check) == told
