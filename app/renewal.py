@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from kivy.clock import Clock
 
+from app.core.hand import hand
 from app.screens.connect.connect import ConnectScreen
 
 if TYPE_CHECKING:
@@ -34,6 +35,9 @@ class Renewal:
         """Make the page that is on the glass, and forget the others, which are made when they are looked at."""
         app = self._app
         app.inputs.rest()
+        if app.pages.shell is not None:
+            app.pages.shell.rest()
+        hand.take_up()
         kept = app.pages.forget_lone()
         self._renew_connect()
         app.corner.renew()

@@ -1,4 +1,4 @@
-"""What an operator chose for this handheld: units, language, gloves, size of text; read with a check, applied at once.
+"""What an operator chose for this handheld: units, language, gloves, hand, size of text; read with a check, applied at once.
 
 preferences = Preferences(settings)
 preferences.choose("units", "nautical")     # on the glass now, in the settings, and so the next time
@@ -16,6 +16,7 @@ from typing import Any
 from kivy.metrics import Metrics
 
 from app.core.checked_settings import CheckedSettings
+from app.core.hand import HANDS, hand
 from app.core.settings_store import Settings
 from widgets.core.language import LANGUAGES, language
 from widgets.core.quantities import SYSTEMS, quantities
@@ -29,8 +30,9 @@ MAX_ATTEMPTS = 20
 """So often sizes are told of another scale until none makes new ones."""
 MIN_TEXT, MAX_TEXT = 1.0, 2.0
 """Size of text, in times of the device's own."""
-MAKES_ANEW = ("units", "language", "text")
-"""What everything on the glass is made anew for: words, figures, sizes of type and places are taken when it is made."""
+MAKES_ANEW = ("units", "language", "text", "hand")
+"""What everything on the glass is made anew for: words, figures, sizes of type and places are taken when it is made, and every
+control lets go before it is elsewhere."""
 
 
 class Preferences:
@@ -39,7 +41,7 @@ class Preferences:
     def __init__(self, settings: Settings) -> None:
         """Read, check and apply what was kept; what is no good says so in `sentence`, and the default holds."""
         self._settings, self._own_text = settings, float(Metrics.fontscale)
-        names = ("units", "language", "gloves", "text")
+        names = ("units", "language", "gloves", "text", "hand")
         kept = {name: settings.get(name) for name in names if settings.get(name) is not None}
         checked = CheckedSettings(kept or None, "this handheld")
         self.text = checked.number("text", MIN_TEXT, MAX_TEXT, usual=1.0)
@@ -49,12 +51,14 @@ class Preferences:
         quantities.system = checked.word("units", SYSTEMS, usual="metric")
         language.name = checked.word("language", LANGUAGES, usual="en")
         theme.gloves = checked.flag("gloves", usual=False)
+        hand.chosen = checked.word("hand", HANDS, usual="right")
+        hand.take_up()
         self._apply_text()
         self.sentence = checked.sentence
         """What was no good in the settings, as one sentence; empty when all is well."""
 
     def choose(self, name: str, value: Any) -> None:
-        """Take `value` for `units`, `language`, `gloves` or `text`, and remember it; KeyError for another name.
+        """Take `value` for `units`, `language`, `gloves`, `hand` or `text`, and remember it; KeyError for another name.
 
         ValueError, or Kivy's own, for a value that there is not.
         """
@@ -63,6 +67,7 @@ class Preferences:
             "language": lambda value: setattr(language, "name", value),
             "gloves": lambda value: setattr(theme, "gloves", value),
             "text": self._take_text,
+            "hand": _take_hand,
         }
         takes[name](value)
         self._settings.set(name, value)
@@ -70,8 +75,9 @@ class Preferences:
             self.on_anew()
 
     def close(self) -> None:
-        """Give the process its own size of text back."""
-        self.text = 1.0
+        """Give the process its own size of text back, and its hand."""
+        self.text, hand.chosen = 1.0, "right"
+        hand.take_up()
         self._apply_text()
 
     def _take_text(self, value: float) -> None:
@@ -91,6 +97,12 @@ class Preferences:
         finally:
             if collecting:
                 gc.enable()
+
+
+def _take_hand(value: str) -> None:
+    if value not in HANDS:
+        raise ValueError(f"The hand is one of {', '.join(HANDS)}, not {value!r}.")
+    hand.chosen = value
 
 
 def _rescale(scale: float) -> None:

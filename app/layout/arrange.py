@@ -7,7 +7,21 @@ makes none anew, so nothing that was entered is lost.
 from __future__ import annotations
 
 from app.layout.arrange_drive import drive, two_sticks
-from app.layout.rects import Body, Rect, StopPlace, between, crowded, stop_place, stop_tall
+from app.layout.rects import (
+    ALL,
+    EDGE,
+    Body,
+    Rect,
+    StopPlace,
+    between,
+    crowded,
+    handed,
+    left_handed,
+    mirrored,
+    right_handed,
+    stop_place,
+    stop_tall,
+)
 
 __all__ = [
     "CORNER",
@@ -58,11 +72,13 @@ def shell(
     talks: bool = False,
     inside: Rect | None = None,
     target: float = 0.0,
+    left_hand: bool = False,
 ) -> dict[str, Rect]:
     """Of the frame round every screen of a robot: `bar` on top, `nav`, and the `body` between.
 
     `talks`: the navigation holds the button to talk as well, in an upright window in a row of its own. `inside` is what of
     the window no edge of a phone takes; all of it where that is None. Bar and navigation are no narrower than a `target` [px].
+    For a `left_hand` the navigation of a window that is not upright is at the right.
     """
     shape, room = form(width, height, dp), inside or Rect(0, 0, width, height)
     bar = max((48 if shape == "short" else 56) * dp, target)
@@ -73,7 +89,10 @@ def shell(
         return {"bar": top, "nav": nav, "body": Rect(room.x, nav.top, room.width, room.height - bar - high)}
     rail = max((68 if shape == "short" else 76) * dp, target + 12 * dp if target else 0)
     body = Rect(room.x + rail, room.y, room.width - rail, room.height - bar)
-    return {"bar": top, "nav": Rect(room.x, room.y, rail, room.height - bar), "body": body}
+    nav = Rect(room.x, room.y, rail, room.height - bar)
+    if left_hand:
+        nav, body = mirrored(nav, room), mirrored(body, room)
+    return {"bar": top, "nav": nav, "body": body}
 
 
 def connect_columns(width: float, dp: float = 1.0) -> int:
@@ -81,6 +100,7 @@ def connect_columns(width: float, dp: float = 1.0) -> int:
     return max(1, min(4, int(width // (330 * dp))))
 
 
+@handed
 def mission(body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False) -> dict[str, Rect]:
     """Of the mission screen: `map`, `panel`, `stop`, and what floats on the map.
 
@@ -91,9 +111,10 @@ def mission(body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False
     gap, wide = 14 * dp, shape == "wide"
     side = min(max(344 * dp, body.width * 0.22), 420 * dp) if wide else 304 * dp
     panel = Rect(body.right - side, body.y, side, body.height)
-    high = 84 if wide or crowded(body) else 68  # narrower beside STOP ALL, and still larger than all else
-    room = Rect(panel.x + gap, body.y + gap, side - 2 * gap, high * dp)
-    stop = stop_place(room, body, dp)
+    stop = stop_place(body, shape, dp)
+    if not wide:  # on a phone's side it has room beside STOP
+        beside = min(stop.x - (8 + EDGE) * dp - panel.x, 0.6 * stop.width)
+        stop = stop_place(body, shape, dp, beside=beside)
     area = Rect(body.x, body.y, body.width - side, body.height)
     places = {"map": area, "panel": _above(panel, stop, gap), "side": panel, "stop": stop}
     button = (52 if wide else 46) * dp
@@ -141,16 +162,17 @@ def _mission_instruments(area: Rect, gap: float, dp: float) -> dict[str, Rect]:
 
 def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
     gap = 12 * dp
-    stop, tasks = stop_tall(body, gap, dp)
-    low = min(208 * dp + stop.height, body.height * (0.58 if crowded(body) else 0.5))
+    stop, tasks = stop_tall(body, dp)
+    taken = stop.head - body.y
+    low = min(196 * dp + taken, body.height * (0.58 if crowded(body) else 0.5))
     height = body.height - 120 * dp if sheet_open else low
     sheet = Rect(body.x, body.y, body.width, height)
     handle = 22 * dp
     panel = Rect(
         sheet.x + gap,
-        stop.top + 8 * dp,
+        stop.head + 8 * dp,
         sheet.width - 2 * gap,
-        sheet.height - stop.height - gap - 8 * dp - handle,
+        sheet.height - taken - 8 * dp - handle,
     )
     area = Rect(body.x, body.y + low, body.width, body.height - low)
     picture = min(148 * dp, body.width * 0.4)
@@ -182,10 +204,11 @@ def _column(area: Rect, button: float, count: int, gap: float, between: float) -
 
 
 def _above(panel: Rect, stop: Rect, gap: float) -> Rect:
-    low = stop.top + gap
+    low = getattr(stop, "head", stop.top) + gap
     return Rect(panel.x + gap, low, panel.width - 2 * gap, panel.top - gap - low)
 
 
+@handed
 def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     """Of the topics screen: `list` and `detail`, side by side or in the same place on a phone, `strip` and `stop`.
 
@@ -193,7 +216,7 @@ def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     """
     gap = 12 * dp
     if shape == "tall":
-        stop, strip = stop_tall(body, gap, dp)
+        stop, strip = stop_tall(body, dp)
         low = stop.head + 10 * dp
         whole = Rect(body.x + gap, low, body.width - 2 * gap, body.top - gap - low)
         notice = Rect(whole.x, low, whole.width, 120 * dp)
@@ -209,10 +232,15 @@ def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     return {"list": listed, "detail": detail, "strip": strip, "stop": stop, "notice": notice}
 
 
+@handed
 def more(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
-    """Of a page of tiles: `list` above STOP, and `notice` over its lower end."""
+    """Of a page of tiles: `list` above STOP, on a phone's side beside it, and `notice` over its lower end or beside STOP."""
     gap = 12 * dp
-    stop = stop_tall(body, gap, dp)[0] if shape == "tall" else _stop_of_lists(body, shape, dp)
+    if shape == "short":
+        stop = stop_place(body, shape, dp)
+        whole = Rect(body.x + gap, body.y + gap, stop.x - body.x - 2 * gap, body.height - 2 * gap)
+        return {"list": whole, "stop": stop, "notice": whole}
+    stop = stop_tall(body, dp)[0] if shape == "tall" else _stop_of_lists(body, shape, dp)
     low = stop.head + gap
     whole = Rect(body.x + gap, low, body.width - 2 * gap, body.top - gap - low)
     left = Rect(body.x + gap, body.y + gap, stop.left - body.x - 2 * gap, stop.height)
@@ -220,52 +248,41 @@ def more(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
 
 
 def _stop_of_lists(body: Rect, shape: str, dp: float) -> StopPlace:
-    """As on the mission screen; where there is room STOP ALL is beside it and takes nothing away from it."""
-    places = mission(body, shape, dp)
-    stop, right = places["stop"], places["stop"].right
-    width = right - places["panel"].x
-    more = 92 * dp if shape == "wide" and crowded(body) else 0.0
-    return stop_place(Rect(right - width - more, stop.y, width + more, stop.height), body, dp)
+    """With STOP ALL beside it, so that it takes nothing of the lists above."""
+    return stop_place(body, shape, dp, beside=(84 if shape == "wide" else ALL) * dp)
 
 
+@handed
 def tasks(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
-    """Of the tasks screen: as `topics`; a phone on its side has a narrower STOP, so that buttons fit beside it, and
-    a wider list, so that the words over it can be read."""
-    places, gap = topics(body, shape, dp), 12 * dp
+    """Of the tasks screen: as `topics`; a phone on its side has a wider list, so that the words over it can be read."""
+    places = topics(body, shape, dp)
     if shape == "short":
-        whole, listed, detail = places["stop"], places["list"], places["detail"]
-        width, more = 190 * dp, 44 * dp
-        x = detail.x + more
-        stop = stop_place(Rect(whole.right - width, whole.y, width, whole.height), body, dp)
-        places["stop"] = stop
-        places["list"] = Rect(listed.x, listed.y, listed.width + more, listed.height)
-        places["strip"] = Rect(x, stop.y, stop.left - gap - x, stop.height)
-        places["detail"] = Rect(x, detail.y, detail.width - more, detail.height)
-        places["notice"] = Rect(x, places["notice"].y, detail.width - more, places["notice"].height)
+        more = 44 * dp
+        for name, less in (("list", 0.0), ("strip", more), ("detail", more), ("notice", more)):
+            place = places[name]
+            wide = place.width - more if less else place.width + more
+            places[name] = Rect(place.x + less, place.y, wide, place.height)
     return places
 
 
+@handed
 def inputs(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     """Of the inputs screen: as `topics`; what is said stands in the strip beside STOP, where nothing is operated.
 
-    A phone on its side has a narrower STOP for it. A detail is no wider than its rows are read across.
+    A detail is no wider than its rows are read across.
     """
-    places, gap = topics(body, shape, dp), 12 * dp
-    stop, strip, detail = places["stop"], places.pop("strip"), places["detail"]
-    if shape == "short":
-        width = 190 * dp
-        stop = stop_place(Rect(stop.right - width, stop.y, width, stop.height), body, dp)
-        strip = Rect(strip.x, strip.y, stop.left - gap - strip.x, strip.height)
-        places |= {"stop": stop, "notice": strip}
-    elif strip.width >= STRIP * dp:
+    places = topics(body, shape, dp)
+    strip = places.pop("strip")
+    if strip.width >= STRIP * dp:
         places["notice"] = strip
-    return places | {"detail": _readable(detail, dp)}
+    return places | {"detail": _readable(places["detail"], dp)}
 
 
 def _readable(detail: Rect, dp: float) -> Rect:
     return Rect(detail.x, detail.y, min(detail.width, MAX_LIST_WIDTH * dp), detail.height)
 
 
+@handed
 def inputs_alone(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     """The same where no robot is connected: `list` and `detail`, above STOP ALL where that is there."""
     gap = 12 * dp
@@ -283,10 +300,11 @@ CORNER = 88
 """Height that STOP ALL takes up below the robots that can be connected to [dp]."""
 
 
-def corner(inside: Rect, dp: float = 1.0) -> Rect:
+def corner(inside: Rect, dp: float = 1.0, *, left_hand: bool = False) -> Rect:
     """STOP ALL where no robot is connected, in STOP's corner of a window, of which `inside` is free [px]."""
     across = min(240 * dp, inside.width - 28 * dp)
-    return Rect(inside.right - 14 * dp - across, inside.y + 12 * dp, across, 64 * dp)
+    place = Rect(inside.right - 14 * dp - across, inside.y + 12 * dp, across, 64 * dp)
+    return mirrored(place, inside) if left_hand else place
 
 
 def stop_list(
@@ -296,11 +314,15 @@ def stop_list(
 
     `folded` is above STOP everywhere: there it covers nothing that is pressed to drive, to start or to stop.
     """
+    if left_handed(body):
+        seen, there = right_handed(body), mirrored(stop, body)
+        return mirrored(stop_list(seen, there, shape, wanted, dp, folded=folded), body)
     gap = 8 * dp
     if shape == "short" and not folded:
         width = min(440 * dp, stop.left - body.x - 2 * gap)
         height = min(wanted, body.height - 2 * gap)
         return Rect(stop.left - gap - width, body.y + gap, width, height)
     low, edge = stop.head + gap, body.right - stop.right
-    width = min((250 if shape == "short" else 440) * dp, body.width - 2 * edge)
+    across = 250 * dp if shape == "short" else stop.width if folded and shape == "wide" else 440 * dp
+    width = min(across, body.width - 2 * edge)
     return Rect(stop.right - width, low, width, min(wanted, body.top - gap - low))

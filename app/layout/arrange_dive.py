@@ -6,7 +6,18 @@ Pure arithmetic in the window's pixels, origin at the lower left.
 from __future__ import annotations
 
 from app.layout.arrange_phone import phone_dive
-from app.layout.rects import Rect, StopPlace, between, stop_place, stop_tall
+from app.layout.rects import (
+    EDGE,
+    Rect,
+    StopPlace,
+    all_mirrored,
+    between,
+    left_handed,
+    mirrored,
+    right_handed,
+    stop_place,
+    stop_tall,
+)
 
 __all__ = ["dive"]
 
@@ -28,6 +39,9 @@ def dive(
     `senses` is the strip of the small sensors and `senses_open` where it unfolds. `notice` is for what is said, `notice_low` for what holds on until it is dealt with.
     On a phone's side the picture is the screen, and `pulled` and `sensed` as of `phone_dive`.
     """
+    if left_handed(body):
+        places, stop = dive(right_handed(body), shape, dp, pulled=pulled, sensed=sensed)
+        return all_mirrored(places, body), mirrored(stop, body)
     if shape == "tall":
         return _tall(body, dp)
     return _wide(body, dp) if shape == "wide" else phone_dive(body, dp, pulled=pulled, sensed=sensed)
@@ -39,9 +53,10 @@ def _wide(body: Rect, dp: float) -> tuple[dict[str, Rect], StopPlace]:
     unit, gap = dp * scale, 14 * dp
     low, top = body.y + gap, body.top - gap
     left = Rect(body.x + gap, low, 284 * unit, top - low)
-    right = Rect(body.right - gap - 286 * unit, low, 286 * unit, top - low)
+    stop = stop_place(body, "wide", dp)
+    column = max(286 * unit, stop.width)
+    right = between(body.right - EDGE * dp - column, stop.head + gap, body.right - EDGE * dp, top)
     middle = between(left.right + gap, low, right.x - gap, top)
-    stop = stop_place(_within(right, 12 * dp, 12 * dp, right.width - 24 * dp, 96 * unit), body, dp)
     legs = between(left.x, top - 236 * unit, left.right, top)
     panel = between(left.x, low, left.right, legs.y - gap)
     hands = Rect(middle.x, low, middle.width, 216 * unit)
@@ -62,7 +77,7 @@ def _wide(body: Rect, dp: float) -> tuple[dict[str, Rect], StopPlace]:
 def _tall(body: Rect, dp: float) -> tuple[dict[str, Rect], StopPlace]:
     """A phone held upright: the picture on top, the hands at its foot beside STOP."""
     gap = 12 * dp
-    stop, strip = stop_tall(body, gap, dp)
+    stop, strip = stop_tall(body, dp)
     video_high = min(body.width * 0.62, body.height * 0.34)
     video = Rect(body.x, body.top - video_high, body.width, video_high)
     across = body.width - 2 * gap
@@ -125,7 +140,3 @@ def _notices(video: Rect, dp: float) -> dict[str, Rect]:
     gap = 8 * dp
     room = between(video.x + gap, video.y + gap, video.right - gap, video.top - gap)
     return {"notice": room, "notice_low": room}
-
-
-def _within(room: Rect, right: float, low: float, width: float, height: float) -> StopPlace:
-    return StopPlace(room.right - right - width, room.y + low, width, height)

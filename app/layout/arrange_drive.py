@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.layout.arrange_phone import phone_drive
-from app.layout.rects import ALL, Rect, StopPlace, between, crowded, stop_place
+from app.layout.rects import ALL, Rect, between, crowded, handed, left_handed, stop_place
 
 __all__ = ["drive", "two_sticks"]
 
@@ -23,6 +23,7 @@ CHIP = 200
 """Width of a phone's glass that the picture's size and rate need [dp]."""
 
 
+@handed
 def drive(
     body: Rect, shape: str, dp: float = 1.0, *, switch: bool = False, pulled: bool = False
 ) -> dict[str, Rect]:
@@ -36,14 +37,12 @@ def drive(
         return _drive_tall(body, dp, switch)
     if shape == "short":
         return phone_drive(body, dp, switch=switch, pulled=pulled)
-    least = (SWITCH + 12 if switch else 0) + 590
+    stop, least = stop_place(body, shape, dp), (SWITCH + 12 if switch else 0) + 590
     dp = dp * min(1.0, body.height / (least * dp))
     gap = 16 * dp
-    room = Rect(body.right - gap - 210 * dp, body.y + gap, 210 * dp, 180 * dp)
-    stop = stop_place(room, body, dp)
     stick = Rect(body.x + gap, body.y + gap, 242 * dp, 242 * dp)
     slider = Rect(stick.right + 38 * dp, stick.y, 96 * dp, 238 * dp)
-    actions = Rect(room.x - 16 * dp - 150 * dp, room.y, 150 * dp, room.height)
+    actions = Rect(stop.x - (16 + 150) * dp, stick.y, 150 * dp, 180 * dp)
     places = {"video": body, "stop": stop, "stick": stick, "slider": slider, "actions": actions}
     places |= _instruments(body, gap, dp)
     if switch:
@@ -80,25 +79,22 @@ def _senses_wide(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
 
 
 def _drive_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
-    least = SENSES_LEAST * dp
+    least, dp_of_stop = SENSES_LEAST * dp, dp
     dp *= min(1.0, body.height / (640 * dp)) if switch else 1.0
-    gap = 12 * dp
-    stick = min(176 * dp, body.width * 0.42)
+    gap, stop = 12 * dp, stop_place(body, "tall", dp_of_stop)
+    slide = min(80 * dp, 0.19 * body.width)
+    stick = min(176 * dp, stop.x - body.x - 4 * gap + gap / 2 - slide)
     controls = Rect(body.x + gap, body.y + gap, stick, stick)
-    slider = Rect(controls.right + gap, body.y + gap, 80 * dp, stick)
-    spare = body.right - gap - slider.right - gap
-    width = min(spare, 240 * dp)
-    room = Rect(body.right - gap - width, body.y + gap, width, stick)
-    stop, across, low = StopPlace(room.x, room.y, width, stick), body.width - 2 * gap, controls.top + gap
+    slider = Rect(controls.right + gap, body.y + gap, slide, max(stick, stop.height))
+    across, low = body.width - 2 * gap, max(controls.top, slider.top) + gap
     chosen = {}
     if switch:
         chosen = {"switch": Rect(controls.x, low, slider.right - controls.x, SWITCH * dp)}
         low += (SWITCH + 12) * dp
-    if crowded(body):  # in a row with what is done once, so that STOP keeps its size
-        stop = StopPlace(room.x, room.y, width, stick, Rect(room.x, low, width, ALL * dp))
-        across -= width + gap
+    if stop.head + gap > low:  # beside STOP ALL, so that the picture keeps its height
+        across = stop.x - gap - body.x - gap
     actions = Rect(body.x + gap, low, across, (ALL if crowded(body) else 52) * dp)
-    cards_low = actions.top + gap
+    cards_low = max(actions.top, stop.head) + gap
     picture = _picture_tall(body, cards_low + gap, dp, switch=switch)
     video = Rect(body.x, body.top - picture, body.width, picture)
     cards = Rect(body.x + gap, cards_low, body.width - 2 * gap, video.y - gap - cards_low)
@@ -156,7 +152,20 @@ def _senses_tall(video: Rect, cards: Rect, tape: Rect, least: float, dp: float) 
 def two_sticks(
     body: Rect, shape: str, dp: float = 1.0, *, switch: bool = False, pulled: bool = False
 ) -> dict[str, Rect]:
-    """As `drive`, with a control under the right thumb as well: `right_stick`, left of STOP, and `confirm` for slides."""
+    """As `drive`, with a control under the right thumb as well: `right_stick`, left of STOP, and `confirm` for slides.
+
+    For a left hand too the right stick is under the right thumb: which of two sticks does what is learnt by heart.
+    """
+    places = _two_sticks(body, shape, dp, switch=switch, pulled=pulled)
+    if left_handed(body):
+        places["stick"], places["right_stick"] = places["right_stick"], places["stick"]
+        if "alone" in places:
+            places["alone"] = places["stick"]
+    return places
+
+
+@handed
+def _two_sticks(body: Rect, shape: str, dp: float, *, switch: bool, pulled: bool) -> dict[str, Rect]:
     if shape == "tall":
         return _two_tall(body, dp, switch)
     if shape == "short":
@@ -168,15 +177,16 @@ def _two_wide(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
     """The slides above the right control and STOP, what is done once in the middle."""
     scale = dp * min(1.0, body.height / (690 * dp))
     places, gap = drive(body, "wide", scale, switch=switch), 16 * scale
-    stop, slider, stick = places["stop"], places["slider"], places["stick"]
+    stop, slider, stick = stop_place(body, "wide", dp), places["slider"], places["stick"]
     right = Rect(stop.x - gap - stick.width, stick.y, stick.width, stick.height)
-    confirm = Rect(right.x, right.top + 12 * scale, body.right - gap - right.x, SLIDE * scale)
+    confirm = Rect(right.x, max(right.top, stop.head) + 12 * scale, body.right - gap - right.x, SLIDE * scale)
     width = min(150 * scale, right.x - slider.right - 4 * gap)
     actions = Rect((slider.right + right.x - width) / 2, stick.y, width, places["actions"].height)
     badge, tape = places["badge"], places["top"]
     low = max(actions.top, slider.top, confirm.top) + 8 * scale
     left = max(tape.x, places["switch"].right + gap) if switch else tape.x
     return places | {
+        "stop": stop,
         "right_stick": right,
         "confirm": confirm,
         "actions": actions,
@@ -189,10 +199,10 @@ def _two_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
     """Both thumbs with the slider between them, the slides and STOP below, what is done once above."""
     scale = dp * min(1.0, body.height / ((740 + (SWITCH + 12 if switch else 0)) * dp))
     gap = 12 * scale
-    row, across, left = 150 * scale, body.width - 2 * gap, body.x + gap
-    wide = min(max(158 * scale, body.width * 0.3), 240 * scale)
-    stop = stop_place(Rect(body.right - gap - wide, body.y + gap, wide, row), body, dp)
+    across, left = body.width - 2 * gap, body.x + gap
+    stop = stop_place(body, "tall", dp)
     confirm = between(left, stop.y, stop.left - gap, stop.y + 2 * 56 * scale + gap)
+    row = max(confirm.top, stop.head) - body.y - gap
     size = min((across - 80 * scale - 2 * gap) / 2, body.height * 0.24)
     low, high = body.y + 2 * gap + row, max(size, 186 * scale)
     stick = Rect(left, low + (high - size) / 2, size, size)

@@ -5,14 +5,15 @@ Pure arithmetic in the window's pixels, origin at the lower left.
 
 from __future__ import annotations
 
-from app.layout.rects import Rect, crowded, stop_place, stop_tall
+from app.layout.rects import ALL, EDGE, Rect, handed, stop_place, stop_tall
 
 __all__ = ["panels"]
 
-SIDE = 336
+SIDE = 320
 """Width of what is edited beside the board [dp]."""
 
 
+@handed
 def panels(body: Rect, shape: str, dp: float = 1.0, *, editing: bool = False) -> dict[str, Rect]:
     """`board`, `tabs` of the views, `acts`, `side` for what is edited, `stop` and `notice`."""
     if shape == "tall":
@@ -23,11 +24,11 @@ def panels(body: Rect, shape: str, dp: float = 1.0, *, editing: bool = False) ->
 
 
 def _wide(body: Rect, dp: float, editing: bool) -> dict[str, Rect]:
-    gap, row = 12 * dp, 56 * dp
-    side = Rect(body.right - (SIDE + 24) * dp, body.y, (SIDE + 24) * dp, body.height)
-    room = Rect(side.x + gap, body.y + gap, side.width - 2 * gap, 84 * dp)
-    stop = stop_place(room, body, dp)
-    high = max(stop.head, room.top)
+    gap, row = EDGE * dp, 56 * dp
+    stop = stop_place(body, "wide", dp, beside=0.0 if editing else 84 * dp)
+    wide = max(SIDE * dp, stop.width) + 2 * gap
+    side = Rect(body.right - wide, body.y, wide, body.height)
+    room, high = Rect(side.x + gap, stop.y, wide - 2 * gap, stop.height), stop.head
     if editing:
         top = Rect(body.x + gap, body.top - row, side.x - body.x - 2 * gap, row - 8 * dp)
         board = Rect(body.x, body.y, side.x - body.x, body.height - row)
@@ -43,14 +44,13 @@ def _wide(body: Rect, dp: float, editing: bool) -> dict[str, Rect]:
 
 def _short(body: Rect, dp: float, editing: bool) -> dict[str, Rect]:
     gap, row = 8 * dp, 46 * dp
-    wide = (232 if editing or crowded(body) else 132) * dp
-    side = Rect(body.right - wide - gap, body.y, wide + gap, body.height)
-    room = Rect(side.x, body.y + gap, wide, (84 if crowded(body) else 68) * dp)
-    stop = stop_place(room, body, dp)
-    high = max(stop.head, room.top)
+    stop = stop_place(body, "short", dp, beside=ALL * dp if editing else 0.0)
+    wide = max(232 * dp, stop.right - stop.left) if editing else stop.width
+    side = Rect(stop.right - wide, body.y, body.right - stop.right + wide, body.height)
+    room, high = Rect(side.x, stop.y, wide, stop.height), stop.head
     tabs = Rect(body.x + gap, body.top - row, side.x - body.x - 2 * gap, row - 4 * dp)
     board = Rect(body.x, body.y, side.x - body.x, body.height - row)
-    high_acts = row * 2 + gap if editing else row * (1 if crowded(body) else 2) + gap
+    high_acts = row * 2 + gap
     acts = Rect(room.x, body.top - gap - high_acts, wide, high_acts)
     pane = Rect(room.x, high + gap, wide, (acts.y if editing else body.top) - gap - high - gap)
     return _all(board, tabs, acts, pane, stop, gap)
@@ -58,7 +58,7 @@ def _short(body: Rect, dp: float, editing: bool) -> dict[str, Rect]:
 
 def _tall(body: Rect, dp: float) -> dict[str, Rect]:
     gap, row = 12 * dp, 56 * dp
-    stop, strip = stop_tall(body, gap, dp)
+    stop, strip = stop_tall(body, dp)
     tabs = Rect(body.x + gap, body.top - row, body.width - 2 * gap, row - 8 * dp)
     low = stop.head + 8 * dp
     board = Rect(body.x, low, body.width, tabs.y - low)

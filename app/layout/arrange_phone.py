@@ -15,7 +15,6 @@ USUAL_HEIGHT = 364
 """Of the body that the sizes below are made for; in a lower one everything is smaller [dp]."""
 GAP = 10
 """[dp]"""
-STOP = 150, 156
 STICK = 168
 FIGURES, TAPE, BADGE = (200, 48), (236, 44), (186, 44)
 """Width and height of what is seen while driving, along the upper edge [dp]."""
@@ -76,9 +75,8 @@ def _unit(body: Rect, dp: float) -> float:
 def _hands(body: Rect, unit: float, dp: float) -> tuple[Rect, StopPlace]:
     """The stick under the left thumb and STOP under the right one."""
     gap = GAP * unit
-    room = Rect(body.right - gap - STOP[0] * unit, body.y + gap, STOP[0] * unit, STOP[1] * unit)
     stick = Rect(body.x + gap, body.y + gap, STICK * unit, STICK * unit)
-    return stick, stop_place(room, body, dp)
+    return stick, stop_place(body, "short", dp)
 
 
 def _seen(body: Rect, unit: float) -> dict[str, Rect]:

@@ -5,12 +5,39 @@ Pure arithmetic in the window's pixels, origin at the lower left.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import wraps
+from typing import Concatenate, ParamSpec, TypeVar
 
-__all__ = ["ALL", "Body", "Rect", "StopPlace", "between", "crowded", "stop_place", "stop_tall"]
+__all__ = [
+    "ALL",
+    "EDGE",
+    "Body",
+    "Rect",
+    "StopPlace",
+    "all_mirrored",
+    "between",
+    "crowded",
+    "handed",
+    "left_handed",
+    "right_handed",
+    "mirrored",
+    "stop_place",
+    "stop_tall",
+]
 
 ALL = 54
 """Height of STOP ALL where it is above something [dp]."""
+EDGE = 12
+"""From STOP to the edges of the body in its corner [dp]."""
+STOP = {
+    "wide": (0.48, -258, 190, 381, 96, 0.2),
+    "short": (0.2, 0, 130, 160, 96, 0.27),
+    "tall": (0.32, 0, 112, 240, 158, 0.24),
+}
+"""Size of STOP by the shape of the window: width as a share of the body's and what is added to that, the least and the most of
+it, height [dp], and the greatest share of the body's height."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +75,10 @@ class Body(Rect):
 
     crowded: bool = False
     """STOP ALL is in STOP's corner as well."""
+    left_hand: bool = False
+    """The left hand holds STOP: what is arranged by hand is mirrored."""
+    target: float = 0.0
+    """Least size of STOP and of STOP ALL, as in gloves [px]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,9 +94,17 @@ class StopPlace(Rect):
         return self.x if self.other is None else min(self.x, self.other.x)
 
     @property
+    def end(self) -> float:
+        """x of the right edge of both [px]."""
+        return self.right if self.other is None else max(self.right, self.other.right)
+
+    @property
     def head(self) -> float:
         """y of the upper edge of both [px]."""
         return self.top if self.other is None else max(self.top, self.other.top)
+
+
+R = TypeVar("R", bound=Rect)
 
 
 def crowded(body: Rect) -> bool:
@@ -73,17 +112,22 @@ def crowded(body: Rect) -> bool:
     return isinstance(body, Body) and body.crowded
 
 
-def stop_place(room: Rect, body: Rect, dp: float) -> StopPlace:
-    """STOP in the room that it has alone, or together with STOP ALL: beside each other, or one above the other."""
-    gap = 8 * dp
+def stop_place(body: Rect, shape: str, dp: float, *, beside: float = 0.0) -> StopPlace:
+    """STOP in the lower right corner: its rectangle follows from the body alone, so that it is the same on every screen.
+
+    STOP ALL takes nothing of it: it is above, or where `beside` says how wide [px], left of it. `shape` is that of the window.
+    """
+    target = body.target if isinstance(body, Body) else 0.0
+    share, added, least, most, high, part = STOP[shape]
+    width = max(min(max(share * body.width + added * dp, least * dp), most * dp), target)
+    height, gap = max(min(high * dp, part * body.height), target), 8 * dp
+    x, y = body.right - EDGE * dp - width, body.y + EDGE * dp
     if not crowded(body):
-        return StopPlace(room.x, room.y, room.width, room.height)
-    if room.width >= 1.3 * room.height:
-        small = (84 if room.width >= 250 * dp else 54) * dp
-        other = Rect(room.x, room.y, small, room.height)
-        return StopPlace(room.x + small + gap, room.y, room.width - small - gap, room.height, other)
-    low = room.height - ALL * dp - gap
-    return StopPlace(room.x, room.y, room.width, low, Rect(room.x, room.y + low + gap, room.width, ALL * dp))
+        return StopPlace(x, y, width, height)
+    if beside:
+        small = max(beside, target)
+        return StopPlace(x, y, width, height, Rect(x - gap - small, y, small, height))
+    return StopPlace(x, y, width, height, Rect(x, y + height + gap, width, max(ALL * dp, target)))
 
 
 def between(left: float, low: float, right: float, top: float) -> Rect:
@@ -91,12 +135,47 @@ def between(left: float, low: float, right: float, top: float) -> Rect:
     return Rect(left, low, right - left, top - low)
 
 
-def stop_tall(body: Rect, gap: float, dp: float) -> tuple[StopPlace, Rect]:
-    """STOP in an upright screen's corner, and the strip beside it; STOP ALL is above the strip, and STOP grows with it."""
-    width, height = min(max(158 * dp, body.width * 0.43), 260 * dp), 118 * dp
-    x = body.right - gap - width
-    strip = Rect(body.x + gap, body.y + gap, x - body.x - 2 * gap, height)
-    if not crowded(body):
-        return StopPlace(x, strip.y, width, height), strip
-    other = Rect(strip.x, strip.top + 8 * dp, strip.width, ALL * dp)
-    return StopPlace(x, strip.y, width, other.top - strip.y, other), strip
+def stop_tall(body: Rect, dp: float) -> tuple[StopPlace, Rect]:
+    """STOP in an upright screen's corner, and the strip beside it, as high as STOP and what is above it."""
+    stop, gap = stop_place(body, "tall", dp), EDGE * dp
+    return stop, between(body.x + gap, stop.y, stop.x - gap, stop.head)
+
+
+P = ParamSpec("P")
+
+
+def handed(
+    arrange: Callable[Concatenate[Rect, P], dict[str, Rect]],
+) -> Callable[Concatenate[Rect, P], dict[str, Rect]]:
+    """Have what `arrange` places for a right hand mirrored in a body for the left one; it always sees a body for the right."""
+
+    @wraps(arrange)
+    def for_hand(body: Rect, *args: P.args, **kwargs: P.kwargs) -> dict[str, Rect]:
+        if not left_handed(body):
+            return arrange(body, *args, **kwargs)
+        return all_mirrored(arrange(right_handed(body), *args, **kwargs), body)
+
+    return for_hand
+
+
+def left_handed(body: Rect) -> bool:
+    """What is arranged by hand is to be mirrored in it."""
+    return isinstance(body, Body) and body.left_hand
+
+
+def right_handed(body: Rect) -> Rect:
+    """The same body for a right hand."""
+    return replace(body, left_hand=False) if isinstance(body, Body) else body
+
+
+def all_mirrored(places: dict[str, Rect], room: Rect) -> dict[str, Rect]:
+    """Each of them as of `mirrored`."""
+    return {name: mirrored(place, room) for name, place in places.items()}
+
+
+def mirrored(place: R, room: Rect) -> R:
+    """The same place seen in a mirror that stands upright in the middle of `room`."""
+    x = room.x + room.right - place.right
+    if isinstance(place, StopPlace) and place.other is not None:
+        return replace(place, x=x, other=mirrored(place.other, room))
+    return replace(place, x=x)

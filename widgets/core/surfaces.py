@@ -49,7 +49,7 @@ Builder.load_string("""
             rgba: theme.line
         Rectangle:
             pos: self.right - theme.outline if self.edge == 'right' else self.x, self.top - theme.outline if self.edge == 'top' else self.y
-            size: theme.outline if self.edge == 'right' else self.width, self.height if self.edge == 'right' else theme.outline
+            size: theme.outline if self.edge in ('right', 'left') else self.width, self.height if self.edge in ('right', 'left') else theme.outline
 
 <Glass>:
     canvas.before:
@@ -92,7 +92,7 @@ class Pressable(Outlined, ButtonBehavior):
 class Edged:
     """A bar along an edge of the window, with a line where the screen begins."""
 
-    edge = OptionProperty("bottom", options=["bottom", "right", "top"])
+    edge = OptionProperty("bottom", options=["bottom", "right", "left", "top"])
     """Its edge with the line."""
 
 

@@ -105,6 +105,8 @@ class Video(Drawing):
     """Why no newer picture is shown, as a sentence; empty where nobody knows."""
     chip_room = NumericProperty(math.inf)
     """How wide the chip may be [px]: what is not needed to drive by is left out of a narrower one."""
+    chip_inset = NumericProperty(0.0)
+    """How far the chip begins right of what covers the picture's left edge [px]."""
     show_chip = BooleanProperty(True)
     """Say size, rate and latency in the corner."""
     corner = NumericProperty("12dp")
@@ -148,6 +150,7 @@ class Video(Drawing):
             "latency",
             "show_chip",
             "chip_room",
+            "chip_inset",
         ):  # with each picture: the marks stay as they are
             self.fbind(name, self._redraw_chip)
         for part in (
@@ -320,7 +323,8 @@ class Video(Drawing):
 
     def _draw_chip(self) -> None:
         text = self.chip_text() if self.show_chip and self.state != "stale" else ""
-        left, top = self.x + self.insets[0] + dp(8), self.top - self.insets[3] - dp(8)
+        left = self.x + self.insets[0] + self.chip_inset + dp(8)
+        top = self.top - self.insets[3] - dp(8)
         self._chip.draw(text, left, top, late=self.late)
 
 

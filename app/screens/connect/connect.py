@@ -98,6 +98,7 @@ Builder.load_string("""
                 id: actions
                 cols: root.across
                 spacing: dp(18)
+                padding: root.keep_free[1] if root.left_hand else 0, 0, 0, 0
                 QuietButton:
                     id: add
                     icon: 'add_link'
@@ -172,6 +173,8 @@ class ConnectScreen(FloatLayout):
     edge = NumericProperty("26dp")
     keep_free = ListProperty([0.0, 0.0])
     """What is left to STOP ALL: height along the lower edge, or width beside the ways to get to others [px]."""
+    left_hand = BooleanProperty(False)
+    """STOP ALL is at the left."""
     across = NumericProperty(4)
     """So many ways to get to others stand side by side."""
     action_width = NumericProperty("300dp")

@@ -8,6 +8,7 @@ from typing import Any
 from kivy.clock import Clock
 from kivy.metrics import dp as dp_of
 
+from app.core.hand import hand
 from app.layout.arrange_dive import dive
 from app.layout.arrange_phone import whole
 from app.layout.layout import Layout
@@ -82,8 +83,8 @@ class DiveScreen(Driving):
         if panel is None or not self._arm_open:
             return
         legs, other = self.arranged["legs"], self.arranged["panel"]
-        low, right = min(legs.y, other.y), max(legs.right, other.right)
-        place = legs if wide else Rect(legs.x, low, right - legs.x, legs.top - low)
+        low, left, right = min(legs.y, other.y), min(legs.x, other.x), max(legs.right, other.right)
+        place = legs if wide else Rect(left, low, right - left, legs.top - low)
         put(panel, place)
         self.add_widget(panel)
         for slot, found in self.places.items():
@@ -114,10 +115,10 @@ class DiveScreen(Driving):
         column, self.notice = self.column, places["notice"]
         column.framed = column.titled = wide
         column.inset = (12 if wide else 0) * dp
-        column.foot = stop.head - stop.y + 8 * dp if wide else 0
         column.across = 1 if wide else max(1, int(places["actions"].width // (104 * dp)))
         self.video.corner = 14 * dp if wide else 0
-        self.checks.pos_hint = {"x": 0} if form == "short" else {"center_x": 0.5}
+        aside: dict[str, float] = {"right": 1} if hand.left else {"x": 0}
+        self.checks.pos_hint = aside if form == "short" else {"center_x": 0.5}
         for slot, found in self.places.items():
             for widget in found:
                 put(widget, places.get(slot, Rect(AWAY_X, 0, 1, 1)))
@@ -139,16 +140,14 @@ class DiveScreen(Driving):
             self.senses.place(place, off(unfolded) if away else unfolded)
         if self.senses.covers:
             lids.append(unfolded)
-        below = self.video.top - strip.y if self.senses.shown else 0
-        self.video.insets = [self.arranged["corner"].right - self.video.x, 0, 0, below]
+        below, corner = self.video.top - strip.y if self.senses.shown else 0, self.arranged["corner"]
+        beside = [0, 0, self.video.right - corner.x] if hand.left else [corner.right - self.video.x, 0, 0]
+        self.video.insets = [*beside, below]
         if "handle" in self.arranged:  # on a phone's side, below the figures
-            corner = self.arranged["corner"]
-            self.video.insets = [
-                self.arranged["stick"].x - dp_of(8) - self.video.x,
-                0,
-                0,
-                self.video.top - corner.y,
-            ]
+            self.video.insets = [0, 0, 0, self.video.top - corner.y]
+            self.video.chip_inset = max(0.0, corner.x - dp_of(8) - self.video.x)
+        else:
+            self.video.chip_inset = 0.0
         self.hide_chip([*lids, *self.checks_place])
         for slot in HIDES:
             place = self.arranged[slot]

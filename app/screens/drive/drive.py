@@ -7,6 +7,7 @@ from typing import Any
 from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
+from app.core.hand import hand
 from app.layout import arrange
 from app.layout.arrange import Rect
 from app.layout.arrange_phone import whole
@@ -121,18 +122,27 @@ class DriveScreen(Driving):
         touched = (places[slot] for slot in ("switch", "actions") if slot in places)
         over = (one.y for one in touched if one.y > low.y and one.x < low.right and low.x < one.right)
         beside = self._two and tall  # beside the picture's own words; unfolded it takes the tape's room
-        self.checks.pos_hint = {"right": 1} if beside else {"x": 0} if form == "short" else {"center_x": 0.5}
+        aside = hand.left if beside else not hand.left  # at the left
+        self.checks.pos_hint = (
+            ({"x": 0} if aside else {"right": 1}) if beside or form == "short" else {"center_x": 0.5}
+        )
         self.place_checks(low, self.video.top if beside else min([places["top"].y, *over]), dp)
         self._strip = Rect(0, 0, 0, 0)
-        self.sight.place(places["badge"], to_right=form != "wide")
-        start, chip = self.notice.x, places["badge" if form == "wide" else "top"].y
-        if form == "short":
-            start, chip = places["stick"].x, places["drawer" if self.handle.pulled else "readouts"].y
-        aside = max(0.0, body.right - self.notice.right - 8 * dp)
-        self.video.insets = [start - 8 * dp - body.x, 0, aside, body.top - chip]
+        self.sight.place(places["badge"], to_right=form != "wide" and not hand.left)
+        self._frame_video(places, body, form, dp)
         self.inset.arrange(places, form, dp)
         self.uncover()
         return places["stop"]
+
+    def _frame_video(self, places: dict[str, Rect], body: Rect, form: str, dp: float) -> None:
+        """What of the picture is covered, so that its own words and marks are beside that."""
+        start, chip = self.notice.x, places["badge" if form == "wide" else "top"].y
+        self.video.chip_inset = 0.0
+        if form == "short":
+            start, chip = body.x + 10 * dp, places["drawer" if self.handle.pulled else "readouts"].y
+            self.video.chip_inset = max(0.0, places["readouts"].x - start)
+        aside = max(0.0, body.right - self.notice.right - 8 * dp)
+        self.video.insets = [start - 8 * dp - body.x, 0, aside, body.top - chip]
 
     def _arrange(self, body: Rect, form: str, dp: float) -> dict[str, Rect]:
         how, switch = arrange.two_sticks if self._two else arrange.drive, bool(self.hands.choices)
@@ -163,7 +173,9 @@ class DriveScreen(Driving):
         stick, slider = self.arranged["stick"], self.arranged["slider"]
         alone = not isinstance(self.hands.choices[self.hands.chosen], Stick)
         low, top = min(stick.y, slider.y), max(stick.top, slider.top)
-        both = Rect(stick.x, low, slider.right - stick.x, top - low) if alone else stick
+        left, right = min(stick.x, slider.x), max(stick.right, slider.right)
+        apart = self._two and hand.left  # the slider is beside the other stick
+        both = between(left, low, right, top) if alone and not apart else stick
         room = self.arranged.get("alone", both) if alone else stick
         for widget in self.hands.choices.values():
             put(widget, room if self.hands.shown(widget) else off(room))

@@ -256,7 +256,8 @@ class Driving(RobotScreen):
 
     def hide_chip(self, lids: list[Rect]) -> None:
         """The picture's own words end before the first of `lids` beside them, and are away where that leaves too little."""
-        left, top = self.video.x + self.video.insets[0] + dp(8), self.video.top - self.video.insets[3] - dp(8)
+        left = self.video.x + self.video.insets[0] + self.video.chip_inset + dp(8)
+        top = self.video.top - self.video.insets[3] - dp(8)
         row = Rect(left, top - dp(CHIP[1]), max(self.video.right - left, 1.0), dp(CHIP[1]))
         ends = min((max(lid.x - dp(8), left) for lid in lids if lid.overlaps(row)), default=self.video.right)
         self.video.chip_room = ends - left

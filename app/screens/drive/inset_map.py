@@ -10,7 +10,8 @@ from typing import Any
 from kivy.metrics import dp
 from kivy.uix.widget import Widget
 
-from app.layout.rects import Rect, between
+from app.core.hand import hand
+from app.layout.rects import Rect, all_mirrored, between, mirrored
 from app.maps.ground_keeper import GroundKeeper
 from app.maps.maps import Maps
 from app.screens.parts.inset_frame import InsetFrame
@@ -154,12 +155,22 @@ class InsetMap:
         """Beside what is small, while a finger has moved the map away from the robot."""
         wanted = self.large and not self.map.follow and self._inset is not None
         side, frame = self.centre.height, self.frame
-        place = Rect(frame.x - side - dp(8), frame.y, side, side)
+        x = frame.right + dp(8) if hand.left else frame.x - side - dp(8)
+        place = Rect(x, frame.y, side, side)
         put(self.centre, place if wanted and frame.x > 0 else off(place))
 
 
 def inset_place(places: dict[str, Rect], form: str, unit: float) -> Rect | None:
     """Where what is small lies among the places of a drive screen [px]; None where there is no room."""
+    if not hand.left:
+        return _right_place(places, form, unit)
+    room = places["video"]
+    place = _right_place(all_mirrored(places, room), form, unit)
+    return None if place is None else mirrored(place, room)
+
+
+def _right_place(places: dict[str, Rect], form: str, unit: float) -> Rect | None:
+    """The same for a right hand."""
     gap = 8 * unit
     if form == "tall":
         low, badge = places["senses"].top + gap, places["badge"]
@@ -171,7 +182,9 @@ def inset_place(places: dict[str, Rect], form: str, unit: float) -> Rect | None:
         top = min(high, low + (BESIDE_TWO if "right_stick" in places else PHONE_HEIGHT) * unit)
         return _fitting(between(stop.x, low, right, top), unit, right - stop.x)
     figures = places["readouts"]
-    under = [places[slot] for slot in ("stop", "actions", "confirm", "right_stick") if slot in places]
+    under = [
+        places[slot] for slot in ("stop", "actions", "confirm", "right_stick", "stick") if slot in places
+    ]
     low = max(getattr(one, "head", one.top) for one in under if one.right > figures.x - WIDTH * unit) + gap
     below = _fitting(
         between(figures.right - WIDTH * unit, low, figures.right, figures.y - 12 * unit), unit, WIDTH * unit
@@ -188,6 +201,8 @@ def checks_beside(places: dict[str, Rect], form: str, unit: float) -> Rect:
     low, small = places["notice_low"], inset_place(places, form, unit)
     if form != "tall" or small is None or not small.overlaps(low):
         return low
+    if hand.left:
+        return between(small.right + 8 * unit, low.y, low.right, low.top)
     return between(low.x, low.y, small.x - 8 * unit, low.top)
 
 

@@ -6,7 +6,9 @@ from typing import Any
 
 from kivy.uix.widget import Widget
 
+from app.core.hand import hand
 from app.layout.arrange import Rect
+from app.layout.rects import all_mirrored, mirrored
 from app.screens.parts.placing import put
 
 __all__ = ["MapCard", "map_insets"]
@@ -20,7 +22,7 @@ MIN_MAP_HEIGHT = 126.0
 
 
 class MapCard:
-    """Lies at the left of the map; on an upright phone above STOP, with a strip of the map over it."""
+    """Lies at the side of the map that STOP is not at; on an upright phone above STOP, with a strip of the map over it."""
 
     def __init__(self, screen: Widget) -> None:
         """`screen` holds the card, above all that floats on its map."""
@@ -56,6 +58,8 @@ class MapCard:
             self.place = None
             return
         area, gap = places["map"], 12 * dp
+        if hand.left:
+            places = all_mirrored(places, area)
         if form == "tall":
             low, top = places["panel"].y, area.top - MIN_MAP_HEIGHT * dp
             self.place = Rect(body.x + gap, low, body.width - 2 * gap, top - low)
@@ -66,11 +70,23 @@ class MapCard:
             if form == "wide":  # the camera stays in sight
                 low, top = places["video"].top + gap, places["modes"].y - gap
             self.place = Rect(area.x + gap, low, width, top - low)
+        if hand.left:
+            self.place = mirrored(self.place, area)
         put(self.shown, self.place)
 
 
 def map_insets(places: dict[str, Rect], form: str, card: Rect | None) -> list[float]:
     """How much of the map of `arrange.mission` is covered by what lies over it [px]: left, bottom, right, top."""
+    if hand.left:
+        room = places["map"]
+        there = None if card is None else mirrored(card, room)
+        right, low, left, top = _insets(all_mirrored(places, room), form, there)
+        return [left, low, right, top]
+    return _insets(places, form, card)
+
+
+def _insets(places: dict[str, Rect], form: str, card: Rect | None) -> list[float]:
+    """The same for a right hand."""
     area, video, bar = places["map"], places["video"], places["selection"]
     top = area.top - places["modes"].y if form != "tall" else 0.0
     low = places["modes"].top - area.y if form == "tall" else 0.0

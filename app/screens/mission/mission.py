@@ -52,7 +52,7 @@ Builder.load_string("""
                 rgba: theme.line
             Rectangle:
                 pos: self.x - theme.outline, self.y
-                size: self.width + theme.outline, self.height + theme.outline
+                size: self.width + 2 * theme.outline, self.height + theme.outline
             Color:
                 rgba: theme.surface
             Rectangle:
@@ -199,7 +199,8 @@ class MissionScreen(RobotScreen):
         self.ids.modes.opacity = 0 if self.ids.modes.disabled else 1
         self.card.arrange(places, self._body, self._form, self._dp)
         self.map.insets = map_insets(places, self._form, self.card.place)
-        self.map.badge_span = [places["video"].right, places["tools"].x] if self._form == "tall" else [0, 0]
+        ends = sorted((places["video"], places["tools"]), key=lambda place: place.x)
+        self.map.badge_span = [ends[0].right, ends[1].x] if self._form == "tall" else [0, 0]
 
     def show_selection(self, shown: bool) -> None:
         """Have the bar that says what is selected on the glass, or away; the map that is edited is not covered by more."""

@@ -115,7 +115,7 @@ class ActRow(GridLayout):
 
     def _make(self, acts: Sequence[Act], form: str) -> None:
         self.clear_widgets()
-        self.rows = 2 if form != "wide" and len(acts) > 2 else 1 if form != "tall" else len(acts)
+        self.rows = 2 if form != "wide" and len(acts) > 2 else 1 if form == "wide" else len(acts)
         for name, words, icon, _, main in acts:
             button = (PrimaryButton if main else QuietButton)(text=words, icon=icon, size_hint_y=1)
             button.padding = (dp(6), 0)

@@ -10,6 +10,7 @@ from kivy.metrics import Metrics
 from kivy.properties import ObjectProperty
 from kivy.uix.floatlayout import FloatLayout
 
+from app.core.hand import hand
 from app.layout import arrange
 from app.layout.arrange import Body, Rect
 from app.screens.parts.safe_area import safe_area
@@ -101,5 +102,6 @@ class LonePage(FloatLayout):
         self.leave_button.pos = (room.x + 6 * dp, room.top - bar + (bar - self.leave_button.height) / 2)
         self._title.pos = (self.leave_button.right + 8 * dp, room.top - bar + (bar - self._title.height) / 2)
         self._title.width = room.right - self.leave_button.right - 16 * dp
-        body = Body(room.x, room.y, room.width, room.height - bar, bool(self.app.corner.button.robots))
+        shared = bool(self.app.corner.button.robots)
+        body = Body(room.x, room.y, room.width, room.height - bar, shared, hand.left)
         self._screen.spread(body, arrange.form(self.width, self.height, dp), dp)

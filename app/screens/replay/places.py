@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.layout.arrange import CORNER, more
-from app.layout.rects import Body, Rect, StopPlace, crowded
+from app.layout.rects import ALL, Rect, StopPlace, crowded, handed, stop_place
 
 __all__ = ["BUTTONS", "panes", "replay", "replay_alone"]
 
@@ -15,15 +15,16 @@ LINE_HEIGHT = 56
 """Height of the line of time where it has a row of its own [dp]."""
 
 
-def replay(body: Body, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+@handed
+def replay(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     """With a robot: `main`, `line`, `buttons`, `stop` and `notice`."""
     gap = 12 * dp
     places = more(body, shape, dp)
-    stop = places["stop"]
+    stop = places["stop"] if shape != "short" else stop_place(body, shape, dp, beside=ALL * dp)
     beside = stop.left if shape != "tall" and isinstance(stop, StopPlace) else stop.x
     high = min(stop.height, BUTTONS_HEIGHT * dp) if shape == "tall" else stop.height
     left = Rect(body.x + gap, stop.y, beside - body.x - 2 * gap, high)
-    low = places["list"].y
+    low = stop.y + stop.height + gap if shape == "short" else places["list"].y
     if shape == "tall":
         line = Rect(body.x + gap, low, body.width - 2 * gap, LINE_HEIGHT * dp)
         main = Rect(body.x + gap, line.top + 4 * dp, line.width, body.top - 8 * dp - line.top - 4 * dp)
@@ -32,6 +33,7 @@ def replay(body: Body, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     return {"main": main, **_row(left, dp), "stop": stop, "notice": main}
 
 
+@handed
 def replay_alone(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     """Where no robot is connected: the same without `stop`, above STOP ALL where that is there."""
     gap = 12 * dp

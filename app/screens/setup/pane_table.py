@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from app.core.hand import HANDS, hand
 from app.core.optional_parts import is_included
 from app.screens.parts.themes import TITLES as THEME_TITLES
 from widgets.core.language import language, mark, tr, trn
@@ -65,6 +66,12 @@ PANES: dict[str, Pane] = {
     ),
     "looks": Pane(
         "light_mode", mark("Theme and gloves"), "app.screens.setup.panes.looks_pane:LooksPane", _looks
+    ),
+    "hand": Pane(
+        "pan_tool",
+        mark("Hand"),
+        "app.screens.setup.panes.hand_pane:HandPane",
+        lambda _: tr(HANDS[hand.chosen]),
     ),
     "text": Pane(
         "text_fields",

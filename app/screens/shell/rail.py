@@ -1,4 +1,4 @@
-"""The buttons by which one goes from screen to screen: at the left edge, or along the lower one of a phone."""
+"""The buttons by which one goes from screen to screen: at a side, or along the lower one of a phone."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ MAX_TALK_HEIGHT = 120
 Builder.load_string("""
 <Rail>:
     size_hint: None, None
-    edge: 'top' if root.form == 'tall' else 'right'
+    edge: 'top' if root.form == 'tall' else 'left' if root.at_right else 'right'
 
 <TalkButton>:
     icon: 'mic'
@@ -69,6 +69,8 @@ class Rail(Edged, FloatLayout):
 
     form = OptionProperty("wide", options=["wide", "short", "tall"])
     """Shape of the window, as in `app.layout.arrange.form`."""
+    at_right = BooleanProperty(False)
+    """It is at the right of a window that is not upright, not at the left."""
     buttons = ListProperty()
     """In their order."""
     voice = OptionProperty("", options=["", *TALKS])
@@ -118,7 +120,7 @@ class Rail(Edged, FloatLayout):
         talk.pos = rect.x + (rect.width - talk.width) / 2, low + 2 * dp
 
     def _below_each_other(self, buttons: Sequence[Any], rect: Rect, dp: float) -> None:
-        """Along the left edge from its upper end, the button to talk at the lower."""
+        """Along the side from its upper end, the button to talk at the lower."""
         talk, gap = self.ids.talk, 8 * dp
         room = rect.height - 24 * dp - ((MIN_TALK_HEIGHT * dp + gap) if self.talks else 0)
         least = theme.target if theme.gloves else 0

@@ -10,6 +10,7 @@ from kivy.metrics import Metrics
 from kivy.properties import AliasProperty, BooleanProperty, ObjectProperty, OptionProperty, StringProperty
 from kivy.uix.floatlayout import FloatLayout
 
+from app.core.hand import hand
 from app.inputs.methods import Methods
 from app.intents.intents import Intents
 from app.layout import arrange
@@ -241,22 +242,28 @@ class Shell(FloatLayout):
         """Put everything into its place anew: what is on the glass of a screen is another."""
         self._arrange()
 
+    def places(self, inside: Rect) -> dict[str, Rect]:
+        """Of bar, navigation and body in a window of which `inside` is free, as in `app.layout.arrange.shell`."""
+        talks, target = self.nav.talks, self.gloved
+        size = self.width, self.height, Metrics.density
+        return arrange.shell(*size, talks=talks, inside=inside, target=target, left_hand=hand.left)
+
     def _arrange(self, *_: object) -> None:
         dp = Metrics.density
         self.form = arrange.form(self.width, self.height, dp)
         inside = safe_area.within(self.width, self.height)
-        places = arrange.shell(
-            self.width, self.height, dp, talks=self.nav.talks, inside=inside, target=self.gloved
-        )
+        places = self.places(inside)
         put(self.bar, places["bar"])
         put(self.ids.body, places["body"])
         self.bar.arrange(self.form)
+        self.nav.at_right = hand.left
         self.nav.arrange(places["nav"], self.form, dp)
         if self.screen:
             screen = self.screens[self.screen]
             room = places["body"]
             put(screen, room)
-            body = arrange.Body(room.x, room.y, room.width, room.height, self.shares_stop)
+            size = room.x, room.y, room.width, room.height
+            body = arrange.Body(*size, self.shares_stop, hand.left, self.gloved)
             self.stop_place = stop_place(screen.arrange(body, self.form, dp))
             put(self.stop, self.stop_place)
         self._place_notices()

@@ -12,9 +12,10 @@ from kivy.clock import Clock
 from kivy.metrics import Metrics
 from kivy.uix.floatlayout import FloatLayout
 
+from app.core.hand import hand
 from app.discovery.known_robots import Entry, KnownRobots
 from app.layout import arrange
-from app.layout.arrange import Rect, StopPlace
+from app.layout.arrange import Body, Rect, StopPlace
 from app.screens.connect.connect import ConnectScreen
 from app.screens.parts.placing import put
 from app.screens.parts.safe_area import safe_area
@@ -192,16 +193,17 @@ class StopCorner:
         form = arrange.form(self.layer.width, self.layer.height, dp)
         inside = safe_area.within(self.layer.width, self.layer.height)
         if shell is None:
-            corner = arrange.corner(inside, dp)
+            corner = arrange.corner(inside, dp, left_hand=hand.left)
             place = StopPlace(corner.x, corner.y, corner.width, corner.height, corner)
             below, beside = (0.0, corner.width + 18 * dp) if form == "short" else (arrange.CORNER * dp, 0.0)
+            self._app.connect.left_hand = hand.left
             self._app.connect.keep_free = (below, beside) if shared else (0.0, 0.0)
-            body = Rect(inside.x, inside.y, inside.width, inside.height - 56 * dp)
+            room = Rect(inside.x, inside.y, inside.width, inside.height - 56 * dp)
         else:
             shell.shares_stop = shared
             place = shell.stop_place
-            size = self.layer.size
-            body = arrange.shell(*size, dp, talks=shell.nav.talks, inside=inside, target=shell.gloved)["body"]
+            room = shell.places(inside)["body"]
+        body = Body(room.x, room.y, room.width, room.height, left_hand=hand.left)
         if place.other is not None:
             put(self.button, place.other)
         if self._list is not None:

@@ -1,4 +1,4 @@
-"""How large text is, and which hand holds STOP."""
+"""How large text is."""
 
 from __future__ import annotations
 

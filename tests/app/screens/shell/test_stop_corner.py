@@ -295,24 +295,6 @@ def test_neither_hides_the_other_nor_is_too_small_and_stop_is_the_larger(size: t
         assert min(all_of_them.width, all_of_them.height, stop.width, stop.height) >= theme.target
 
 
-@pytest.mark.parametrize("size", [(412, 892), (360, 640), (800, 1280)])
-def test_on_an_upright_phone_stop_gives_nothing_of_its_size_away(size: tuple[int, int]) -> None:
-    body, shape = arrange.shell(*size)["body"], arrange.form(*size)
-    for screen, places in crowded(size):
-        alone, stop = screen(body, shape)["stop"], places["stop"]
-        assert stop.width >= alone.width
-        assert stop.height >= alone.height
-        assert screen is arrange.drive or stop.width >= 158
-
-
-@pytest.mark.parametrize("size", [(1280, 800), (1920, 1200)])
-def test_beside_the_lists_of_a_tablet_neither_does_it(size: tuple[int, int]) -> None:
-    body, shape = arrange.shell(*size)["body"], arrange.form(*size)
-    for screen, places in crowded(size):
-        if screen in (arrange.tasks, arrange.topics):
-            assert places["stop"].width == screen(body, shape)["stop"].width
-
-
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("wanted", [180.0, 2000.0])
 def test_the_list_stays_on_the_glass_and_leaves_stop_free(size: tuple[int, int], wanted: float) -> None:

@@ -12,6 +12,7 @@ from kivy.metrics import Metrics, sp
 from app.screens.parts.lone_page import LonePage
 from app.screens.setup.pane_table import PANES, panes
 from app.screens.setup.panes.about_pane import AboutPane, app_version
+from app.screens.setup.panes.hand_pane import HandPane
 from app.screens.setup.panes.inputs_pane import InputsPane
 from app.screens.setup.panes.language_pane import LanguagePane
 from app.screens.setup.panes.looks_pane import LooksPane
@@ -33,6 +34,7 @@ CLASSES: dict[str, type[SettingsPane]] = {
     "units": UnitsPane,
     "language": LanguagePane,
     "looks": LooksPane,
+    "hand": HandPane,
     "text": TextPane,
     "sounds": SoundsPane,
     "inputs": InputsPane,
