@@ -53,6 +53,8 @@ class IntruderBadge(Drawing):
     """To the last one [m]; NaN while the robot does not know where it is."""
     angle = NumericProperty(math.nan)
     """Where the last one is in `base_link` [rad], positive left; NaN as for `away`."""
+    angles: ListProperty[float] = ListProperty()
+    """Where each of them is, as of `angle`; empty where the robot does not know where it is."""
     ago = NumericProperty(math.nan)
     """Since the last one was found [s], by the robot's clock; NaN when not known."""
     to_right = BooleanProperty(False)
@@ -68,6 +70,7 @@ class IntruderBadge(Drawing):
     def __init__(self, **kwargs: Any) -> None:
         self._ink, self._words = Ink(), Words()
         self._last: Intruder | None = None
+        self._known: list[Intruder] = []
         self._pose: PoseWithCovarianceStamped | None = None
         super().__init__(**kwargs)
         self.canvas.add(self._ink)
@@ -85,6 +88,7 @@ class IntruderBadge(Drawing):
 
     def show(self, msg: IntruderArray) -> None:
         """Take over which intruders are known; the one that was found last is shown."""
+        self._known = list(msg.intruders)
         self._last = max(msg.intruders, key=lambda one: one.first_seen.seconds, default=None)
         self.count = len(msg.intruders)
         self._measure()
@@ -98,14 +102,12 @@ class IntruderBadge(Drawing):
         """Distance, direction and age, as fine as they are read: a glass that flickers in its last figure says less."""
         if self._last is None or self._pose is None:
             self.away = self.angle = self.ago = math.nan
+            self.angles = []
             return
         pose, there = self._pose.pose.pose, self._last.position
-        east, north = there.x - pose.position.x, there.y - pose.position.y
-        away = math.hypot(east, north)
-        self.away = round(away, 1)
-        self.angle = math.radians(
-            round(math.degrees(math.remainder(math.atan2(north, east) - pose.orientation.yaw, math.tau)))
-        )
+        self.away = round(math.hypot(there.x - pose.position.x, there.y - pose.position.y), 1)
+        self.angle = _direction(pose, self._last)
+        self.angles = [_direction(pose, one) for one in self._known]
         self.ago = max(0.0, round(self._pose.header.stamp.seconds - self._last.first_seen.seconds))
 
     def counted(self) -> str:
@@ -113,7 +115,7 @@ class IntruderBadge(Drawing):
         if self.count < 0:
             return tr("Intruders: not reported")
         if self.count == 0 and self.seen and self.state != "stale":
-            return tr("Seen, not counted: {things}").format(things=things_words(self.seen))
+            return tr("Seen, not yet an intruder: {things}").format(things=things_words(self.seen))
         return (
             tr("No intruders")
             if self.count == 0
@@ -146,6 +148,10 @@ class IntruderBadge(Drawing):
     def _quiet(self, shapes: Shapes) -> Iterator[Word]:
         old = age_text(self.age) if self.state == "stale" else ""
         text, size = " · ".join(part for part in (self.counted(), old) if part), sp(12.5)
+        why = (
+            f"{text} · {tr('it counts when seen three times in one place')}" if self.seen and not old else ""
+        )
+        text = first_fitting((why, text), size, self.width - dp(38)) if why and self.count == 0 else text
         width = wide(text, size) + dp(38)
         left, y = self._ground(shapes, width, dp(30), "glass"), self.top - dp(15)
         yield Word(icon("visibility"), left + dp(16), y, sp(15), theme.muted, font=theme.icons)
@@ -195,6 +201,13 @@ class IntruderBadge(Drawing):
         rise = height / 2 - corner
         corners = [(x, y + up) for x in (left + corner, right - corner) for up in (-rise, rise)]
         shapes.discs(np.array(corners), corner, colour)
+
+
+def _direction(pose: Pose, one: Intruder) -> float:
+    """Where it is in `base_link` [rad], positive left, as fine as degrees are read."""
+    east, north = one.position.x - pose.position.x, one.position.y - pose.position.y
+    ahead = math.remainder(math.atan2(north, east) - pose.orientation.yaw, math.tau)
+    return math.radians(round(math.degrees(ahead)))
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

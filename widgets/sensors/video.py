@@ -39,7 +39,7 @@ from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.core.unblended import Unblended
 from widgets.sensors.video_chip import VideoChip, chip_width
-from widgets.sensors.video_marks import draw_box, draw_pointer
+from widgets.sensors.video_marks import box_role, draw_box, draw_pointer
 
 __all__ = ["Video", "samples"]
 
@@ -82,7 +82,8 @@ class Video(Drawing):
     draws: ClassVar = (CompressedImage,)
     grid_size: ClassVar = (6, 6)
     drawn_from: ClassVar = (
-        "frame_size", "taken_size", "fit", "boxes", "age", "corner", "insets", "below", "marks", "field_of_view", "refusal",
+        "frame_size", "taken_size", "fit", "boxes", "age", "corner", "insets", "below", "marks", "counted",
+        "field_of_view", "refusal",
     )  # fmt: skip
 
     frame_size: ListProperty[int] = ListProperty([0, 0])
@@ -95,6 +96,8 @@ class Video(Drawing):
     """What was recognised: (label, score, left, top, width, height), from the top left corner of the picture as taken [pixel]."""
     marks: ListProperty[tuple[str, float]] = ListProperty()
     """What is known to be somewhere: (label, direction [rad, 0 ahead, positive left]), also where it is not in the picture."""
+    counted: ListProperty[float] = ListProperty()
+    """Directions of the intruders that the robot counts [rad, 0 ahead, positive left]; what is boxed elsewhere is only recognised."""
     field_of_view = NumericProperty(math.nan)
     """Horizontal, of the camera, which looks ahead [rad]; NaN when not known, and then nothing is marked."""
     rate = NumericProperty(math.nan)
@@ -240,19 +243,15 @@ class Video(Drawing):
         if self._texture is None or self.state == "stale":
             return
         frame, small = (self.x, self.y, self.right, self.top), min(self.size) < dp(260)
+        found = [self._across(angle) for angle in self.counted if 0 < self.field_of_view < math.pi]
         for label, score, left, top, width, height in self.boxes:
             x1, y1 = self.place_on_glass(left, top)
             x2, y2 = self.place_on_glass(left + width, top + height)
             x1, x2 = max(x1, self.x + dp(2)), min(x2, self.right - dp(2))
             y1, y2 = min(y1, self.top - dp(2)), max(y2, self.y + dp(2))
             if x2 - x1 > 1 and y1 - y2 > 1:
-                yield draw_box(
-                    shapes,
-                    (x1, y2, x2, y1),
-                    f"{kind_word(label, score)} {figure(score, 2)}",
-                    frame,
-                    small=small,
-                )
+                text, role = f"{kind_word(label, score)} {figure(score, 2)}", box_role(left, width, found)
+                yield draw_box(shapes, (x1, y2, x2, y1), text, frame, role=role, small=small)
 
     def _pointers(self, shapes: Shapes) -> Iterator[Word]:
         """Over what is in the picture and not boxed there; at the edge, which way to turn for the rest."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 from kivy.metrics import dp, sp
@@ -12,26 +13,36 @@ from widgets.core.canvas_ink import Word
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 
-__all__ = ["Box", "draw_box", "draw_pointer"]
+__all__ = ["Box", "box_role", "draw_box", "draw_pointer"]
 
 Box = tuple[float, float, float, float]
 """Left, bottom, right, top [px]."""
 
 
-def draw_box(shapes: Shapes, box: Box, text: str, frame: Box, *, small: bool) -> Word:
-    """A frame round something, and its label on a tab that stays within the picture's `frame`."""
+def box_role(left: float, width: float, found: Iterable[float]) -> str:
+    """Role of what is boxed from `left` on, `width` wide [pixel]: `danger` where one of those that count is `found`, at a column of the picture.
+
+    What is only recognised alarms nobody. As its place is measured from a moving robot, half a width beside the box is it as well.
+    """
+    near = any(left - width / 2 <= column <= left + 1.5 * width for column in found)
+    return "danger" if near else "accent"
+
+
+def draw_box(shapes: Shapes, box: Box, text: str, frame: Box, *, role: str, small: bool) -> Word:
+    """A frame in the colour of a `role` round something, and its label on a tab that stays within the picture's `frame`."""
+    colour, ink = theme.roles[role], theme.roles[f"ink_{role}"]
     left, bottom, right, top = box
     edge, size = (dp(1.6), sp(10)) if small else (dp(3), sp(15))
     corners = np.array([[left, bottom], [right, bottom], [right, top], [left, top], [left, bottom]])
     starts, ends = corners[:-1], corners[1:]
     along = ends - starts
     ahead = along / np.maximum(np.hypot(along[:, 0], along[:, 1]), 1e-9)[:, None] * edge / 2
-    shapes.segments(starts - ahead, ends + ahead, edge, theme.danger)
+    shapes.segments(starts - ahead, ends + ahead, edge, colour)
     wide, high = text_texture(text, round(size, 1), theme.font, bold=True).size
     x, y = min(left - edge / 2, frame[2] - wide - size), top if top + high < frame[3] else bottom - high
     tab = [(x, y), (x + wide + size * 0.7, y), (x + wide + size * 0.7, y + high), (x, y + high)]
-    shapes.polygon(tab, theme.danger)
-    return Word(text, x + size * 0.35, y + high / 2, size, theme.ink_danger, bold=True, anchor=(0, 0.5))
+    shapes.polygon(tab, colour)
+    return Word(text, x + size * 0.35, y + high / 2, size, ink, bold=True, anchor=(0, 0.5))
 
 
 def draw_pointer(

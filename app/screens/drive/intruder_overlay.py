@@ -56,6 +56,9 @@ class IntruderOverlay(IntruderBadge):
         self._video.field_of_view = fov if fov > 0 and first else math.nan
         placed = self.told and self.count > 0 and feeds.state(POSE) == "live" and math.isfinite(self.angle)
         placed = placed and first
+        counted = list(self.angles) if placed else []
+        if self._video.counted != counted:
+            self._video.counted = counted
         marks = [(f"{self.number} · {away_text(self.away)}", self.angle)] if placed else []
         if marks != self._video.marks:
             self._video.marks = marks

@@ -33,6 +33,7 @@ def test_the_last_one_is_told_with_distance_side_and_age(stage, badge):
     stage.frames(2)
     assert badge.texts == ["2 intruders", "last: 4.0 m · 90° left · 12 s ago"]
     assert badge.number == 2
+    assert badge.angles == [pytest.approx(math.pi / 4), pytest.approx(math.pi / 2)]
 
 
 def test_it_follows_the_robot(stage, badge):
@@ -54,7 +55,11 @@ def test_it_does_not_say_none_beside_one_that_is_marked_in_the_picture(stage, ba
     badge.show(found())
     badge.seen = ["cone", "unknown", "cone"]
     stage.frames(2)
-    assert badge.texts[1:] == ["Seen, not counted: 2 × cone, unknown"]
+    assert badge.texts[1:] == ["Seen, not yet an intruder: 2 × cone, unknown"]
+    badge.width = 800
+    stage.frames(2)
+    why = "it counts when seen three times in one place"
+    assert badge.texts[1:] == [f"Seen, not yet an intruder: 2 × cone, unknown · {why}"]
     badge.show(found((4.0, 0.0, 100.0)))
     stage.frames(2)
     assert badge.texts[1] == "1 intruder"

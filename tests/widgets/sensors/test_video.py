@@ -14,7 +14,9 @@ from bridge.msgs.vision_msgs import (
     Pose2D,
 )
 from widgets.core.shapes import Shapes
+from widgets.core.theme import theme
 from widgets.sensors.video import Video
+from widgets.sensors.video_marks import box_role
 
 FRAME = bytes(64 * 48 * 4)
 
@@ -150,6 +152,29 @@ def marked(stage, *marks, **more):
     video.marks = list(marks)
     stage.frames(2)
     return {word.text: word for word in video._pointers(Shapes())}
+
+
+def test_only_what_counts_as_an_intruder_is_boxed_in_the_colour_of_danger(stage):
+    video = stage.show(Video(state="live", field_of_view=1.2), size=(640, 480))
+    video.show_frame(640, 480, bytes(640 * 480 * 4))
+    video.boxes = [("cone", 0.97, 300, 200, 40, 80), ("person", 0.9, 20, 200, 40, 80)]
+    stage.frames(2)
+
+    def inks():
+        return [tuple(word.colour) for word in video._box_marks(Shapes())]
+
+    assert inks() == [tuple(theme.ink_accent)] * 2, "what is only recognised alarms nobody"
+    video.counted = [0.0]
+    assert inks() == [tuple(theme.ink_danger), tuple(theme.ink_accent)]
+    video.field_of_view = math.nan
+    assert inks() == [tuple(theme.ink_accent)] * 2, "nobody knows where it looks"
+
+
+@pytest.mark.parametrize(
+    ("column", "role"), [(109, "accent"), (110, "danger"), (130, "danger"), (150, "danger"), (151, "accent")]
+)
+def test_a_thing_half_a_width_beside_its_box_is_the_one_that_counts(column, role):
+    assert box_role(120, 20, [400.0, column]) == role
 
 
 def test_a_picture_of_another_size_does_not_stand_on_its_head_until_it_is_laid_out(stage):

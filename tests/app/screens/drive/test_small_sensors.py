@@ -206,6 +206,7 @@ def test_the_drive_screen_shows_the_readings_and_marks_the_intruder_in_the_pictu
     # a pose that is not told again is soon an old one, and what lies by an old one is not marked
     driving.until(lambda: robot.publish("/pose", here) or screen.video.marks, "no mark")
     assert screen.video.marks == [("2 · 4.2 m", pytest.approx(math.pi / 4))]
+    assert pytest.approx(math.pi / 4) in list(screen.video.counted), "a box there is that of an intruder"
     assert screen.video.field_of_view == pytest.approx(1.2)
     assert (screen.sight.opacity, screen.sight.count, screen.sight.ago) == (1, 1, 10)
     robot.publish("/pose", here)
