@@ -106,13 +106,13 @@ class PictureGround(Ground):
         """`corners` are places of the map [m]: of the picture's lower left, lower right, upper right and upper left."""
         super().__init__()
         self.corners, self.attribution = tuple(corners), attribution
-        self._quad = Quad(texture=texture)
+        self._texture, self._quad = texture, Quad(texture=texture)
         self.canvas.add(Color(1, 1, 1, 1))
         self.canvas.add(self._quad)
 
     def moved(self, corners: Sequence[tuple[float, float]]) -> PictureGround:
         """The same picture at other places of the map; it takes the place of this one."""
-        return PictureGround(self._quad.texture, corners, self.attribution)
+        return PictureGround(self._texture, corners, self.attribution)
 
     def place(self, view: View, box: Box) -> bool:
         """Bring the corners to their places."""
