@@ -40,11 +40,13 @@ class Draft:
 
     @classmethod
     def of(cls, mission: Mission) -> Draft:
-        """The draft that a robot's mission was sent as."""
+        """The draft that a robot's mission was sent as; what this app does not know about how it moves is as usual."""
         home = (mission.home[0].x, mission.home[0].y) if mission.home else None
         points = tuple((point.x, point.y) for point in mission.waypoints)
         reaction = "stop" if mission.stop_on_intruder else mission.on_intruder or "report"
-        return cls(points, home, mission.motion, mission.dwell, mission.laps, reaction, mission.name)
+        reaction = reaction if reaction in REACTIONS else "report"
+        motion = mission.motion if mission.motion in MOTIONS else "loop"
+        return cls(points, home, motion, mission.dwell, mission.laps, reaction, mission.name)
 
     def message(self) -> Mission:
         """The same for the robot."""

@@ -105,7 +105,7 @@ class MotionSelector(Control, Column):
 
     def show(self, msg: Mission) -> None:
         """Take over how a mission moves; nothing is dispatched."""
-        self.motion_name = msg.motion
+        self.motion_name = msg.motion if msg.motion in MOTIONS else "loop"
         self.dwell = msg.dwell
         self.laps = msg.laps
         known = msg.on_intruder if msg.on_intruder in REACTIONS else "report"

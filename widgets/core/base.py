@@ -31,6 +31,8 @@ VEIL = {"stale": 0.55, "disabled": 0.62}
 
 MIN_ROOMY_HEIGHT = 240.0
 """What is higher has room in itself for its age [dp]."""
+MAX_LETTERS = 200
+"""Of a word that is drawn on a canvas; what fills a glass has fewer."""
 MIN_FONT_SIZE = 10.0
 """No type is made smaller than this to fit [sp]."""
 
@@ -83,8 +85,13 @@ _textures: dict[tuple[str, str, float, bool], Texture] = {}
 
 
 def text_texture(text: str, size: float, font: str = "", *, bold: bool = False) -> Texture:
-    """`text` in white at `size` [px], to be tinted by a Color before it; drawn once and kept. `font` is the theme's where it is empty."""
+    """`text` in white at `size` [px], to be tinted by a Color before it; drawn once and kept. `font` is the theme's where it is empty.
+
+    Of a text longer than `MAX_LETTERS` its beginning: robots name things, and a texture of their whole length would be no texture.
+    """
     font = font or theme.font
+    if len(text) > MAX_LETTERS:
+        text = f"{text[:MAX_LETTERS]}…"
     key = (text, font, size, bold)
     if key not in _textures:
         if len(_textures) > 2000:

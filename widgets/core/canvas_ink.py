@@ -24,6 +24,8 @@ from widgets.core.theme import theme
 
 __all__ = ["Drawing", "Fading", "Ink", "Sheet", "Told", "Word", "Words", "ground", "shader", "tint"]
 
+FAR = 100_000
+"""Off every glass [px]: a word that belongs farther away, or nowhere, is put there."""
 VERTEX = """
 #ifdef GL_ES
 precision highp float;
@@ -225,7 +227,7 @@ class Words:
         """Move the texts that are written, in their order, to these points [px]; nothing else of them changes."""
         for index, (x, y) in enumerate(points[: self._shown]):
             aside, above = self._anchors[index]
-            self._place(index, round(x - aside), round(y - above))
+            self._place(index, x - aside, y - above)
 
     def slide(self, across: Sequence[float], up: float, strengths: Sequence[float]) -> None:
         """Move the texts that are written, in their order, along a line `up` [px], and give each its opacity, 0 to 1."""
@@ -236,7 +238,7 @@ class Words:
                 self._tones[index] = (hue[0], hue[1], hue[2], strength)
                 colour.a = strength
             if strength:
-                self._place(index, round(x - aside), round(up - above))
+                self._place(index, x - aside, up - above)
 
     def _put(self, index: int, word: Word, strength: float) -> None:
         if index == len(self._slots):
@@ -254,11 +256,13 @@ class Words:
         elif rectangle.size != size:
             rectangle.size = size
         aside, above = self._anchors[index] = width * word.anchor[0], height * word.anchor[1]
-        self._place(index, round(word.x - aside), round(word.y - above))
+        self._place(index, word.x - aside, word.y - above)
 
-    def _place(self, index: int, x: int, y: int) -> None:
-        if (x, y) != self._places[index]:
-            self._slots[index][1].pos = self._places[index] = x, y
+    def _place(self, index: int, x: float, y: float) -> None:
+        known = abs(x) < FAR and abs(y) < FAR  # not so for NaN either: robots tell places that are none
+        place = (round(x), round(y)) if known else (-FAR, -FAR)
+        if place != self._places[index]:
+            self._slots[index][1].pos = self._places[index] = place
 
     def _add(self) -> None:
         self._slots.append((Color(1, 1, 1, 1), Rectangle(pos=(0, 0), size=(0, 0))))

@@ -48,6 +48,10 @@ log = logging.getLogger(__name__)
 
 UNKNOWN = {"dark": 0.0, "sunlight": 0.16, "night": 0.0}
 """How far what is unknown lies from the window's colour towards that of muted words."""
+MIN_RESOLUTION, MAX_RESOLUTION = 1e-3, 1e3
+"""Of a grid that is shown [m to a cell]."""
+MAX_PLACE = 1e7
+"""Farthest that its origin may lie from that of `map` [m]."""
 
 
 class GridMap(MapOverlay):
@@ -102,7 +106,7 @@ class GridMap(MapOverlay):
             self._too_large, self.grid = True, None
             return
         self._too_large = False
-        self.grid = msg if len(msg.data) == wide * high > 0 else None
+        self.grid = msg if len(msg.data) == wide * high > 0 and _placed(msg.info) else None
         self._fit_until_touched()
 
     def on_opacity(self, *_: object) -> None:
@@ -165,6 +169,15 @@ class GridMap(MapOverlay):
         self._squares.fill(shapes)
         self.picture.colour(over_pictures=self._beneath.shown)
         self.picture.place(self.view)
+
+
+def _placed(info: MapMetaData) -> bool:
+    """It says where it lies, in numbers that are some."""
+    place, turn = info.origin.position, info.origin.orientation
+    numbers = (place.x, place.y, turn.x, turn.y, turn.z, turn.w)
+    return MIN_RESOLUTION <= info.resolution <= MAX_RESOLUTION and all(
+        abs(one) <= MAX_PLACE for one in numbers
+    )
 
 
 def _parking_lot() -> OccupancyGrid:

@@ -244,3 +244,8 @@ def test_every_change_is_told() -> None:
     editor.sending()
     editor.answered(editor.draft, True, "")
     assert len(told) == 4
+
+
+def test_a_robots_mission_that_moves_in_a_way_nobody_knows_moves_as_usual() -> None:
+    draft = Draft.of(Mission(motion="[b]sideways", on_intruder="dance"))
+    assert (draft.motion, draft.on_intruder) == ("loop", "report")

@@ -76,3 +76,9 @@ def test_disabled_it_changes_nothing(stage, selector):
     for part in [*parts(selector, Segment), *parts(selector, StepperEnd)]:
         tap(stage, part)
     assert selector.heard == []
+
+
+def test_a_motion_that_nobody_knows_is_shown_as_the_usual_one(selector):
+    selector.show(Mission(motion="[b]sideways", on_intruder="dance"))
+    assert (selector.motion_name, selector.reaction) == ("loop", "report")
+    assert selector.heard == []

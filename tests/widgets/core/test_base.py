@@ -8,7 +8,7 @@ import pytest
 from kivy.metrics import sp
 
 from bridge.msgs.std_msgs import Float64
-from widgets.core.base import STATES, Control, RobotWidget, age_text, text_texture
+from widgets.core.base import MAX_LETTERS, STATES, Control, RobotWidget, age_text, text_texture
 from widgets.core.theme import theme
 from widgets.core.visible import Tinted
 
@@ -119,3 +119,9 @@ def test_what_is_live_has_nothing_over_it_and_an_alarm_or_an_age_has(stage):
         widget.state, widget.age = state, 12.0
         stage.frames(2)
         assert len(over()) == count, state
+
+
+def test_a_name_of_any_length_is_a_word_that_has_a_texture(stage):
+    whole, longer = (text_texture("w" * count, 12) for count in (MAX_LETTERS + 1, 100_000))
+    assert whole is longer, "both begin alike"
+    assert longer.width < 16384, "what every graphics takes"

@@ -190,3 +190,32 @@ def test_a_grid_too_large_for_a_texture_is_not_shown_and_said_once(map_, stage, 
     assert sum("the map is not shown" in record.getMessage() for record in caplog.records) == 1
     map_.show(small)
     assert map_.grid is small
+
+
+@pytest.mark.parametrize("number", [math.nan, math.inf, -math.inf, 1e308])
+@pytest.mark.parametrize("where", ["x", "y", "turn", "resolution"])
+def test_a_grid_that_lies_nowhere_is_not_shown(map_, stage, number, where):
+    told = {"x": 0.0, "y": 0.0, "turn": 1.0, "resolution": 0.5, where: number}
+    origin = Pose(Point(told["x"], told["y"]), Quaternion(w=told["turn"]))
+    info = MapMetaData(resolution=told["resolution"], width=2, height=1, origin=origin)
+    map_.show(OccupancyGrid(info=info, data=Int8Array([0, 100])))
+    stage.frames()
+    assert map_.grid is None
+    map_.show(grid([0, 100], 2))
+    stage.frames()
+    assert map_.grid is not None
+
+
+@pytest.mark.parametrize("resolution", [0.0, -0.5, 5e-324])
+def test_a_grid_of_cells_without_width_is_not_shown(map_, stage, resolution):
+    info = MapMetaData(resolution=resolution, width=2, height=1)
+    map_.show(OccupancyGrid(info=info, data=Int8Array([0, 100])))
+    stage.frames()
+    assert map_.grid is None
+
+
+@pytest.mark.parametrize("place", [(math.nan, 0.0), (0.0, math.inf), (1e308, -1e308)])
+def test_an_intruder_who_is_nowhere_is_not_drawn_and_the_others_are(map_, stage, place):
+    map_.intruders = [(*place, "Nowhere"), (1.0, 1.0, "Intruder 2")]
+    stage.frames(2)
+    assert "Intruder 2" in map_._layers[1][1].texts
