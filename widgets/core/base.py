@@ -12,6 +12,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar
 
 from kivy.core.text import Label as CoreLabel
+from kivy.core.text import LabelBase
 from kivy.graphics.texture import Texture
 from kivy.lang import Builder
 from kivy.metrics import dp, sp
@@ -33,6 +34,10 @@ MIN_ROOMY_HEIGHT = 240.0
 """What is higher has room in itself for its age [dp]."""
 MAX_LETTERS = 200
 """Of a word that is drawn on a canvas; what fills a glass has fewer."""
+MAX_SHORTENED = 500
+"""Letters of a label that is cut short with dots where it has no room: how much that costs grows with their square."""
+MAX_LABEL, MAX_LABEL_LINES = 20_000, 400
+"""Letters and lines of any other label: what is longer has no texture on a phone."""
 MIN_FONT_SIZE = 10.0
 """No type is made smaller than this to fit [sp]."""
 
@@ -100,6 +105,31 @@ def text_texture(text: str, size: float, font: str = "", *, bold: bool = False) 
         label.refresh()
         _textures[key] = label.texture
     return _textures[key]
+
+
+def bounded(text: str, most: int, lines: int) -> str:
+    """So many letters and lines of it at most, with dots for the rest."""
+    if len(text) > most:
+        text = f"{text[:most]}…"
+    parts = text.split("\n", lines)
+    return "\n".join([*parts[:lines], "…"]) if len(parts) > lines else text
+
+
+def _bound_labels() -> None:
+    """Have Kivy draw no more of a text than fits any glass: a robot's word of some 100 kB would hold up fingers, and STOP, for minutes."""
+    refresh = CoreLabel.refresh
+
+    def within(label: Any) -> None:
+        short = label.options.get("shorten")
+        label._text = bounded(label._text, MAX_SHORTENED if short else MAX_LABEL, MAX_LABEL_LINES)  # noqa: SLF001
+        refresh(label)
+
+    within.bounded = True  # type: ignore[attr-defined]
+    if not hasattr(refresh, "bounded"):
+        LabelBase.refresh = within
+
+
+_bound_labels()
 
 
 def fitting_size(texts: Iterable[str], size: float, room: float, *, bold: bool = False) -> float:

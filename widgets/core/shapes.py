@@ -181,7 +181,9 @@ class Shapes:
     def sector(
         self, x: float, y: float, radius: float, *, yaw: float, half_angle: float, colour: Colour
     ) -> None:
-        """A slice of a disc to `half_angle` (below pi / 2) [rad] on both sides of the direction `yaw` [rad]."""
+        """A slice of a disc to `half_angle` (below pi / 2) [rad] on both sides of the direction `yaw` [rad]; nothing for what is no angle."""
+        if not (math.isfinite(half_angle) and math.isfinite(yaw)):
+            return
         reach, narrow = radius + _FEATHER, math.sin(half_angle)
         behind, aside = min(reach, _FEATHER / max(narrow, 1e-9)), reach * narrow + _FEATHER
         local = np.array([[-behind, -aside], [reach, -aside], [reach, aside], [-behind, aside]])

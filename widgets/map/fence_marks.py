@@ -33,6 +33,8 @@ LEGEND_ROW = 20
 """Height of a line of the legend [dp]."""
 SWATCH = 22
 """Width of a sign of the legend [dp]."""
+FARTHEST = 1e12
+"""No corner of a fence lies so far from the glass [px]."""
 STAYS, NEVER = mark("Stays in"), mark("Keeps out")
 
 
@@ -55,7 +57,12 @@ def _hatched(shapes: Shapes, view: View, areas: list[Points], box: Box) -> None:
 
 
 def hatching(area: Points, anchor: tuple[float, float], box: Box) -> tuple[Points, Points]:
-    """Slanting lines inside `area` [px], their starts and ends; the one through `anchor` is among them."""
+    """Slanting lines inside `area` [px], their starts and ends; the one through `anchor` is among them.
+
+    None in one whose corners are no places.
+    """
+    if not (np.abs(area) < FARTHEST).all():
+        return np.zeros((0, 2)), np.zeros((0, 2))
     if (area.max(axis=0) < box[:2]).any() or (area.min(axis=0) > np.add(box[:2], box[2:])).any():
         return np.zeros((0, 2)), np.zeros((0, 2))
     side = math.sqrt(0.5)

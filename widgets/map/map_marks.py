@@ -58,6 +58,8 @@ UPRIGHT = math.radians(0.5)
 """Of a map that is turned less, north is up."""
 GAP = 1.0
 """Nothing drives so far between two poses [m]: it was carried, restarted, or not heard for a while."""
+FARTHEST = 1e9
+"""Squares of the map's paper from its origin to where no more of them are drawn."""
 
 
 def trail_line(shapes: Shapes, view: View, trail: Points) -> None:
@@ -347,6 +349,8 @@ def grid_lines(
     step = nice_floor(dp(150) / view.scale)
     x, y, width, height = box
     corners = np.array([view.to_world(x + dx, y + dy) for dx in (0, width) for dy in (0, height)])
+    if not (np.abs(corners) < FARTHEST * step).all():
+        return  # where a robot says that it is, numbers are too coarse to count lines by
     low, high = np.floor(corners.min(axis=0) / step) * step, corners.max(axis=0)
     easts, norths = np.arange(low[0], high[0] + step, step), np.arange(low[1], high[1] + step, step)
     starts = [(east, low[1]) for east in easts] + [(low[0], north) for north in norths]

@@ -15,7 +15,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
-from widgets.core.base import MIN_FONT_SIZE, fitting_size, text_texture
+from widgets.core.base import MAX_LABEL_LINES, MIN_FONT_SIZE, fitting_size, text_texture
 from widgets.core.surfaces import Pressable
 from widgets.core.theme import theme
 
@@ -163,17 +163,18 @@ class FittedLabel(Label):
         if not self.room or not self.text:
             return self.largest, False, False
         least = min(self.largest, sp(MIN_FONT_SIZE))
-        size = fitting_size(self.text.split("\n"), self.largest, self.room, bold=self.bold)
+        size = fitting_size(self.text.split("\n", MAX_LABEL_LINES), self.largest, self.room, bold=self.bold)
         if size > least or self._width(self.text, least) <= self.room:
             return size, False, False
         wraps = self.lines > 1 and self._lines_of(least) <= self.lines
         return least, wraps, not wraps
 
     def _width(self, text: str, size: float) -> float:
-        return float(max(text_texture(line, size, bold=self.bold).width for line in text.split("\n")))
+        lines = text.split("\n", MAX_LABEL_LINES)
+        return float(max(text_texture(line, size, bold=self.bold).width for line in lines))
 
     def _lines_of(self, size: float) -> float:
-        """How many lines the words take where none of them is broken; infinity where one is too wide by itself."""
+        """How many lines the words take where none of them is broken; infinity where one is too wide by itself, or for too many."""
         count, line = 1, ""
         for word in self.text.split():
             if self._width(word, size) > self.room:
@@ -181,6 +182,8 @@ class FittedLabel(Label):
             longer = f"{line} {word}".strip()
             if self._width(longer, size) > self.room:
                 count, longer = count + 1, word
+                if count > self.lines:
+                    return math.inf
             line = longer
         return count
 

@@ -105,9 +105,11 @@ class IntruderBadge(Drawing):
             self.angles = []
             return
         pose, there = self._pose.pose.pose, self._last.position
-        self.away = round(math.hypot(there.x - pose.position.x, there.y - pose.position.y), 1)
+        away = math.hypot(there.x - pose.position.x, there.y - pose.position.y)
+        self.away = round(away, 1) if math.isfinite(away) else math.nan  # robots tell places that are none
         self.angle = _direction(pose, self._last)
-        self.angles = [_direction(pose, one) for one in self._known]
+        directions = (_direction(pose, one) for one in self._known)
+        self.angles = [one for one in directions if math.isfinite(one)]
         self.ago = max(0.0, round(self._pose.header.stamp.seconds - self._last.first_seen.seconds))
 
     def counted(self) -> str:
@@ -204,9 +206,12 @@ class IntruderBadge(Drawing):
 
 
 def _direction(pose: Pose, one: Intruder) -> float:
-    """Where it is in `base_link` [rad], positive left, as fine as degrees are read."""
+    """Where it is in `base_link` [rad], positive left, as fine as degrees are read; NaN where one of the two is nowhere."""
     east, north = one.position.x - pose.position.x, one.position.y - pose.position.y
-    ahead = math.remainder(math.atan2(north, east) - pose.orientation.yaw, math.tau)
+    yaw = pose.orientation.yaw
+    if not (math.isfinite(east) and math.isfinite(north) and math.isfinite(yaw)):
+        return math.nan
+    ahead = math.remainder(math.atan2(north, east) - yaw, math.tau)
     return math.radians(round(math.degrees(ahead)))
 
 

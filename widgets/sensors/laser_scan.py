@@ -174,7 +174,8 @@ class LaserScanView(Glass, Drawing):
     def _angles(self, scan: LaserScan, count: int) -> NDArray[np.float64]:
         key = scan.angle_min, scan.angle_increment, count
         if self._beams is None or self._beams[0] != key:
-            self._beams = key, key[0] + key[1] * np.arange(count, dtype=np.float64)
+            with np.errstate(invalid="ignore", over="ignore"):  # angles that are none are drawn nowhere
+                self._beams = key, key[0] + key[1] * np.arange(count, dtype=np.float64)
         return self._beams[1]
 
     def _low(self) -> bool:

@@ -6,9 +6,20 @@ import weakref
 
 import pytest
 from kivy.metrics import sp
+from kivy.uix.label import Label
 
 from bridge.msgs.std_msgs import Float64
-from widgets.core.base import MAX_LETTERS, STATES, Control, RobotWidget, age_text, text_texture
+from widgets.core.base import (
+    MAX_LABEL,
+    MAX_LABEL_LINES,
+    MAX_LETTERS,
+    MAX_SHORTENED,
+    STATES,
+    Control,
+    RobotWidget,
+    age_text,
+    text_texture,
+)
 from widgets.core.theme import theme
 from widgets.core.visible import Tinted
 
@@ -125,3 +136,21 @@ def test_a_name_of_any_length_is_a_word_that_has_a_texture(stage):
     whole, longer = (text_texture("w" * count, 12) for count in (MAX_LETTERS + 1, 100_000))
     assert whole is longer, "both begin alike"
     assert longer.width < 16384, "what every graphics takes"
+
+
+@pytest.mark.parametrize("shorten", [True, False])
+@pytest.mark.parametrize("text", ["w" * 200_000, "word " * 40_000, "\n" * 200_000])
+def test_a_label_draws_no_more_of_a_robots_word_than_fits_a_glass(stage, text, shorten):
+    """Kivy's way of cutting a line short takes minutes for a text of such length."""
+    label = Label(text=text, shorten=shorten, text_size=(300, None))
+    label.texture_update()
+    drawn = label._label._text
+    assert len(drawn) <= (MAX_SHORTENED if shorten else MAX_LABEL) + 2
+    assert drawn.count("\n") <= MAX_LABEL_LINES
+    assert label.text == text, "what it says stays whole"
+
+
+def test_a_label_of_usual_length_is_drawn_whole(stage):
+    label = Label(text="Patrol-1 is ready.\nIt waits.", text_size=(300, None))
+    label.texture_update()
+    assert label._label._text == label.text

@@ -175,3 +175,11 @@ def test_what_is_stamped_is_like_what_is_made_there():
     assert vertices(stamped).tolist() == vertices(made).tolist()
     assert stamped.arrays()[1].tolist() == made.arrays()[1].tolist()
     assert vertices(mark)[:, :2].mean(axis=0).tolist() == [0, 0]  # the stamp itself has not moved
+
+
+@pytest.mark.parametrize("angle", [math.nan, math.inf, -math.inf])
+def test_a_sector_whose_angles_are_none_is_not_drawn(angle):
+    shapes = Shapes()
+    shapes.sector(3, 4, 10, yaw=angle, half_angle=0.5, colour=RED)
+    shapes.sector(3, 4, 10, yaw=0.5, half_angle=angle, colour=RED)
+    assert len(shapes.arrays()[0]) == 0

@@ -8,12 +8,14 @@ from bridge.msgs import nav_msgs
 from bridge.msgs.arrays import Float32Array, Int8Array
 from bridge.msgs.geometry_msgs import (
     Point,
+    Point32,
+    Polygon,
     Pose,
     PoseStamped,
     Quaternion,
 )
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
-from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray
+from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray, Limits
 from bridge.msgs.sensor_msgs import Imu, LaserScan
 from tests.widgets.map.watched_map import grid, near, pose
 from widgets.core.base import text_texture
@@ -219,3 +221,17 @@ def test_an_intruder_who_is_nowhere_is_not_drawn_and_the_others_are(map_, stage,
     map_.intruders = [(*place, "Nowhere"), (1.0, 1.0, "Intruder 2")]
     stage.frames(2)
     assert "Intruder 2" in map_._layers[1][1].texts
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")  # numpy's word on numbers that overflow, which ends nothing
+@pytest.mark.parametrize("number", [math.nan, math.inf, 1e308, 1e200])
+def test_a_robot_that_tells_nonsense_of_its_place_and_its_fence_leaves_a_map_that_is_drawn(map_, stage, number):
+    map_.follow = True
+    map_.show(pose(number, -number))
+    stage.frames(2)
+    corners = [Point32(0.0, 0.0), Point32(number, 0.0), Point32(number, number)]
+    map_.show(Limits(keep_in=[Polygon(corners)], keep_out=[Polygon(corners)]))
+    stage.frames(2)
+    map_.show(pose(1.0, 1.0))
+    stage.frames(2)
+    assert map_.located

@@ -115,3 +115,16 @@ def test_what_is_old_is_no_news_and_says_how_old_it_is(stage, badge):
     badge.show(found())
     stage.frames(2)
     assert badge.texts[1:] == ["No intruders · 8 s old"]
+
+
+@pytest.mark.parametrize("number", [math.nan, math.inf, 1e308])
+def test_an_intruder_or_a_robot_that_is_nowhere_has_no_distance(stage, badge, number):
+    badge.show(found((number, 0.0, 100.0)))
+    badge.show_pose(pose(112.0))
+    stage.frames(2)
+    badge.show(found((2.0, 0.0, 100.0)))
+    badge.show_pose(pose(112.0, x=number, yaw=0.0))
+    stage.frames(2)
+    assert not math.isfinite(badge.angle) or number == 1e308
+    badge.show_pose(pose(112.0))
+    assert badge.away == 2.0
