@@ -223,9 +223,13 @@ def test_an_intruder_who_is_nowhere_is_not_drawn_and_the_others_are(map_, stage,
     assert "Intruder 2" in map_._layers[1][1].texts
 
 
-@pytest.mark.filterwarnings("ignore::RuntimeWarning")  # numpy's word on numbers that overflow, which ends nothing
+@pytest.mark.filterwarnings(
+    "ignore::RuntimeWarning"
+)  # numpy's word on numbers that overflow, which ends nothing
 @pytest.mark.parametrize("number", [math.nan, math.inf, 1e308, 1e200])
-def test_a_robot_that_tells_nonsense_of_its_place_and_its_fence_leaves_a_map_that_is_drawn(map_, stage, number):
+def test_a_robot_that_tells_nonsense_of_its_place_and_its_fence_leaves_a_map_that_is_drawn(
+    map_, stage, number
+):
     map_.follow = True
     map_.show(pose(number, -number))
     stage.frames(2)
