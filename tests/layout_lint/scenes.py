@@ -165,7 +165,7 @@ def _leave(glass: Glass) -> None:
     from app.screens.parts.leave_dialog import LeaveDialog
 
     glass.app.show("drive")
-    glass.app.root.add_widget(LeaveDialog(lambda: None, robot="Fake-1", tasked=True))
+    glass.app.root.add_widget(LeaveDialog(lambda: None, robot="Fake-1", reason="task"))
 
 
 def _people(glass: Glass) -> None:

@@ -9,14 +9,13 @@ from pathlib import Path
 from typing import Any
 
 from app.replay.recording_list import Glimpse
-from widgets.core.language import mark, tr
+from app.screens.replay.no_recordings import NoRecordings
+from widgets.core.language import tr
 from widgets.fields.message_fields import size_text
-from widgets.parts.kit import Column, ListRow, Remark, Roll
+from widgets.parts.kit import Column, ListRow, Roll
 from widgets.plots.time_line import length_text
 
 __all__ = ["RecordingRows"]
-
-NONE_YET = mark("No recording yet. Record is in the bar of a robot's screens.")
 
 
 class RecordingRows(Roll):
@@ -25,11 +24,12 @@ class RecordingRows(Roll):
     __events__ = ("on_open",)
 
     def __init__(self, **kwargs: Any) -> None:
-        self.column, self.nothing = Column(spacing="6dp"), Remark(role="muted")
+        self.column, self.nothing = Column(spacing="6dp"), NoRecordings()
         self.rows: dict[str, ListRow] = {}
         """By the name of the file."""
         super().__init__(**kwargs)
         self.add_widget(self.column)
+        self.bind(height=lambda _, height: setattr(self.nothing, "room", height))
 
     def show(self, glimpses: Iterable[Glimpse]) -> None:
         """Show these in place of what was before."""
@@ -38,7 +38,6 @@ class RecordingRows(Roll):
         for seen in glimpses:
             row = self.rows[seen.path.name] = self._row(seen)
             self.column.add_widget(row)
-        self.nothing.text = "" if self.rows else tr(NONE_YET)
         if not self.rows:
             self.column.add_widget(self.nothing)
 

@@ -143,6 +143,7 @@ class ReplayScreen(RobotScreen):
 
     def _build(self) -> None:
         self.list.bind(on_open=lambda _, path: self.open(path))
+        self.list.nothing.bind(on_open=lambda _, path: self.open(path) if self._active else None)
         self.ids.listed.add_widget(self.list)
         self.ids.choose.bind(on_release=lambda _: self.toggle_chooser())
         self.view.bind(on_seek=lambda _, at: self.seek(at))
@@ -213,6 +214,7 @@ class ReplayScreen(RobotScreen):
         """Go on with what is played."""
         player = self.player
         if player is None:
+            self.list.nothing.update(self.app)
             return
         player.tick()
         if player.problem:
@@ -229,6 +231,7 @@ class ReplayScreen(RobotScreen):
     def _show_list(self) -> None:
         if self.player is None and self._active:
             self.list.show(self.recordings.glimpses)
+            self.list.nothing.update(self.app)
             self._lay()
 
     # one recording

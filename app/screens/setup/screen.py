@@ -8,6 +8,7 @@ from kivy.lang import Builder
 from kivy.properties import ObjectProperty
 
 from app.core.optional_parts import bring
+from app.core.robot_docs import payload_title
 from app.layout import arrange
 from app.layout.arrange import Body, Rect
 from app.link.feeds import Post
@@ -18,7 +19,7 @@ from app.screens.setup.pane_table import panes
 from app.screens.setup.robot_section import TITLES, Key, RobotSection
 from bridge.msgs.pilothouse_msgs import Gateway, Payload
 from widgets.core.language import mark, tr
-from widgets.parts.kit import Column, ListRow, Roll, SectionLabel
+from widgets.parts.kit import Column, ListRow, Remark, Roll, SectionLabel
 
 __all__ = ["HANDHELD", "SetupScreen"]
 
@@ -60,6 +61,8 @@ class SetupScreen(RobotScreen):
         self.head, self.back_head = PaneHead(title=tr("Setup")), PaneHead(closable=True)
         self.back_head.bind(on_close=lambda _: self.back())
         self.column = Column(spacing="6dp", padding=(0, 0, "8dp", "8dp"))
+        self.about = Remark(role="muted")
+        """What is to be known of all that the robot has, over its first list."""
         roll = Roll()
         roll.add_widget(self.column)
         self.ids.listed.add_widget(self.head)
@@ -137,7 +140,7 @@ class SetupScreen(RobotScreen):
         entries = self._entries()
         if self.robot is not None:
             words = self.robot.setup.sentence
-            self.head.sentence, self.head.refused = words[0], words[1] == "warn"
+            self.about.text, self.about.role = words
         if list(self.rows) != list(entries):
             self._fill(entries)
         for key, entry in entries.items():
@@ -157,6 +160,8 @@ class SetupScreen(RobotScreen):
                 kind = key[0]
                 heading = SectionLabel(title=tr(HEADINGS[kind]), size_hint_y=None, height="30dp")
                 self.column.add_widget(heading)
+                if kind != HANDHELD and self.about.parent is None:
+                    self.column.add_widget(self.about)
             row = self.rows[key] = kept.get(key) or self._row(key)
             self.column.add_widget(row)
 
@@ -225,12 +230,10 @@ class SetupScreen(RobotScreen):
             head.title = tr(self.panes[shown[1]].title)
             # on a phone's side the list says which one it is, and the pane needs the room
             return [pane] if self._form == "short" else [head, pane]
-        head.title = shown[1].replace("_", " ")
+        head.title = payload_title(shown[1])
         if self.robot is not None:
             words, role = self.robot.setup.sentence
-            warned = role == "warn" or bool(
-                self.robot.setup.why_not
-            )  # beside a list, the list's head says it
+            warned = role == "warn" or bool(self.robot.setup.why_not)  # beside a list, the list says it
             head.sentence, head.refused = words if tall and warned else "", role == "warn"
         return [head, pane]
 

@@ -38,6 +38,8 @@ class StoragePane(SettingsPane):
         """The sum, the place, the way back, and the list."""
         self._aside: tuple[Path, Path] | None = None
         self._sharing = sharing()
+        self.record = QuietButton(size_hint_y=None, height="52dp")
+        self.record.bind(on_release=lambda _: self._toggle())
         self.sum, self.where = self.remark(""), self.remark("")
         self.problem = Remark(role="danger", font_size="15sp")
         self.undo = QuietButton(text=tr("Undo"), icon="undo", size_hint_y=None, height="52dp")
@@ -49,6 +51,8 @@ class StoragePane(SettingsPane):
         self.back = Column(spacing="8dp")
         self.list = Column(spacing="6dp")
         self.rows: dict[Path, ListRow] = {}
+        if self.app.session is not None:
+            yield self.record
         yield self.sum
         yield self.where
         if self._sharing is None:
@@ -59,6 +63,21 @@ class StoragePane(SettingsPane):
 
     def enter(self) -> None:
         """Look what there is."""
+        self._look()
+        self.tick()
+
+    def tick(self) -> None:
+        """Say whether a recording runs, and how long it is."""
+        runs = self.app.session is not None and self.app.records.recorder is not None
+        self.record.text = (
+            tr("Stop recording · {time}").format(time=self.app.records.clock) if runs else tr("Record")
+        )
+        self.record.icon = "fiber_manual_record_fill" if runs else "fiber_manual_record"
+        self.record.ink = "danger" if runs else "text"
+
+    def _toggle(self) -> None:
+        self.app.visit.toggle_recording()
+        self.tick()
         self._look()
 
     def leave(self) -> None:

@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+import pytest
 from PIL import Image
 
 from app.screens.replay.screen import ReplayScreen
@@ -149,3 +150,43 @@ def test_a_notice_covers_nothing_of_the_list_nor_of_the_sentence_that_stands_in_
             driving.until(lambda one=listed: one.x >= 0 and one.y < app.shell.notices.top + 40, "it stays")
     finally:
         driving.stage.window.size = app.root.size = before
+
+
+def test_without_recordings_there_is_a_way_to_open_a_file_and_none_to_record_nobody(
+    glass: Glass, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    elsewhere = recorded(tmp_path / "elsewhere" / NAME, pieces=4000, picture=jpeg())
+    glass.tap(glass.app.connect.ids.recordings)
+    page = glass.app.pages.lone("replay")
+    glass.until(lambda: page.parent is not None, "the recordings are not on the glass")
+    nothing = page.screen.list.nothing
+    glass.until(lambda: nothing.parent is not None, "nothing is said")
+    assert nothing.ids.words.text == "No recordings yet. Connect to a robot to make one."
+    assert nothing.ids.record.disabled
+    assert nothing.ids.record.height == 0
+    monkeypatch.setattr(nothing, "_picking", Picks([elsewhere]))
+    glass.tap(nothing.ids.open)
+    glass.until(lambda: page.screen.view.parent is page.screen, "it does not open")
+    assert page.screen.opened == NAME
+
+
+def test_the_first_recording_of_a_robot_begins_and_ends_where_the_list_is_empty(driving: Glass) -> None:
+    app = driving.app
+    app.show("replay")
+    nothing = app.screens["replay"].list.nothing
+    driving.until(lambda: nothing.parent is not None, "nothing is said")
+    driving.tap(nothing.ids.record)
+    assert app.records.recorder is not None
+    assert nothing.ids.record.text == "Stop recording"
+    driving.tap(nothing.ids.record)
+    assert app.records.recorder is None
+
+
+class Picks:
+    """A way to choose a file, by which these are chosen at once."""
+
+    def __init__(self, paths: list[Path]) -> None:
+        self.paths = paths
+
+    def pick(self, into: Path, done: Any) -> None:
+        done(self.paths, "")

@@ -287,7 +287,7 @@ def test_without_a_link_nothing_can_be_switched(setup: Setup) -> None:
     setup.glass.until(lambda: not setup.glass.app.session.connected, "still connected")
     setup.glass.stage.run_for(0.3, 1 / 10)
     assert setup.screen.rows[MQTT].switch.disabled
-    assert setup.screen.head.sentence.startswith("There is no link; what can be seen was so before.")
+    assert setup.screen.about.text.startswith("There is no link; what can be seen was so before.")
     setup.robot.start()
 
 
