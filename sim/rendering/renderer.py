@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Iterator, Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -94,7 +95,7 @@ class _Solids:
         self._arrays: dict[moderngl.Program, moderngl.VertexArray] = {}
 
     def draw(self, program: moderngl.Program, view: View, moving: Sequence[Shape]) -> None:
-        table = _nearest_first(self.fixed[_visible(self.fixed, self._reach, view, self._least)], view)
+        table = _seen_nearest_first(self.fixed, self._reach, view, self._least)
         others = rows(filter(self._takes, moving))
         if len(others):
             table = np.concatenate((table, others))
@@ -116,24 +117,39 @@ def _reach(table: NDArray[np.float32]) -> NDArray[Any]:
     return np.asarray(np.linalg.norm(table[:, 7:10], axis=1) / 2)
 
 
-def _visible(table: NDArray[np.float32], reach: NDArray[Any], view: View, least: float) -> NDArray[np.bool_]:
-    """Which shapes the view can see and are large enough to be worth it."""
-    if view.flat:
-        return np.ones(len(table), dtype=np.bool_)
-    offset = table[:, :3] - np.array(view.eye, dtype=np.float32)
-    right, up, back = view.axes.T.astype(np.float32)
-    ahead, sideways, high = -offset @ back, np.abs(offset @ right), np.abs(offset @ up)
+@lru_cache(maxsize=4)
+def _sight(view: View) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Of a view the eye, and its axes as columns; the same for each kind of solid in a picture."""
+    return np.array(view.eye, dtype=np.float32), view.axes.astype(np.float32)
+
+
+def _seen_nearest_first(
+    table: NDArray[np.float32], reach: NDArray[Any], view: View, least: float
+) -> NDArray[np.float32]:
+    """The shapes that the view can see and that are large enough to be worth it, in drawing order.
+
+    Those that hide others come first, so that no hidden pixel is coloured.
+    """
+    if not len(table):
+        return table
+    eye, axes = _sight(view)
+    offset = table[:, :3] - eye
+    found = np.arange(len(table)) if view.flat else _visible(offset @ axes, reach, view, least)
+    offset = offset[found]
+    offset *= offset
+    return np.asarray(table[found[np.argsort(offset.sum(axis=1), kind="stable")]])
+
+
+def _visible(seen: NDArray[np.float32], reach: NDArray[Any], view: View, least: float) -> NDArray[np.int64]:
+    """Which shapes at these places, to the right, up and back of the eye [m], are in sight and large enough."""
     half_x, half_y = view.half_extent
-    inside = (sideways < ahead * half_x + reach * np.hypot(1, half_x)) & (
-        high < ahead * half_y + reach * np.hypot(1, half_y)
-    )
-    return np.asarray(inside & (ahead > -reach) & (reach > ahead * least))
-
-
-def _nearest_first(table: NDArray[np.float32], view: View) -> NDArray[np.float32]:
-    """Shapes in drawing order: those that hide others come first, so that no hidden pixel is coloured."""
-    offset = table[:, :3] - np.array(view.eye, dtype=np.float32)
-    return np.asarray(table[np.argsort((offset * offset).sum(axis=1), kind="stable")])
+    ahead = -seen[:, 2]
+    sides = np.abs(seen[:, :2])
+    inside = sides[:, 0] < ahead * half_x + reach * math.hypot(1, half_x)
+    inside &= sides[:, 1] < ahead * half_y + reach * math.hypot(1, half_y)
+    inside &= ahead > -reach
+    inside &= reach > ahead * least
+    return np.flatnonzero(inside)
 
 
 class Renderer:
