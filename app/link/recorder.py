@@ -76,6 +76,8 @@ class Recorder:
         """One sentence when the disk failed; empty when all is well."""
         self._fault = ""
         """What the system says of that."""
+        self.odd = 0
+        """Messages that could not be written, with which the disk has nothing to do."""
         self._wall = wall
         self._file = path.open("xb")
         self._writer = Writer(self._file, chunk_size=piece)
@@ -97,11 +99,9 @@ class Recorder:
         """How the recording stands: what was dropped or went wrong; empty when all is well."""
         if self.problem:
             return self.problem
-        return (
-            tr("Not recorded because the disk is too slow: {dropped}.").format(dropped=self.dropped)
-            if self.dropped
-            else ""
-        )
+        if self.dropped:
+            return tr("Not recorded because the disk is too slow: {dropped}.").format(dropped=self.dropped)
+        return tr("Messages that could not be written: {count}.").format(count=self.odd) if self.odd else ""
 
     def close(self) -> None:
         """Write what waits, finish the file and end the thread; a file that the disk left empty is removed."""
@@ -120,6 +120,10 @@ class Recorder:
                 self._write(*item)
             except OSError as error:
                 self._fail(error)
+            except Exception:  # who ends the recording would wait for ever for a thread that ended by itself
+                self.odd += 1
+                if self.odd == 1:
+                    log.exception("a message of %s is not recorded", item[0])
         try:
             with self._file:
                 self._writer.finish()

@@ -16,6 +16,8 @@ TAKE_PERIOD = 3.0
 """A robot's is made anew after this [s]."""
 MAX_WIDTH = 160
 """[px]"""
+MAX_PIXELS = 160 * 160
+"""Of one that is kept: a picture may be far higher than wide."""
 
 
 class Thumb(NamedTuple):
@@ -44,7 +46,8 @@ class LastPictures:
             return
         if min(picture.width, picture.height) < 1 or len(picture.rgba) != 4 * picture.width * picture.height:
             return
-        step = max(1, math.ceil(picture.width / MAX_WIDTH))
+        pixels = picture.width * picture.height
+        step = max(1, math.ceil(picture.width / MAX_WIDTH), math.ceil(math.sqrt(pixels / MAX_PIXELS)))
         import numpy as np  # with the first picture, for a quick start
 
         whole = np.frombuffer(picture.rgba, np.uint8).reshape(picture.height, picture.width, 4)

@@ -22,6 +22,7 @@ from app.session.dashboard import Dashboard
 from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import EventLog, GridMap, Video
 from widgets.core.language import tr
+from widgets.core.quantities import SI_KINDS, to_shown, unit_of
 from widgets.fields.number_fields import NumberField, number_fields
 
 __all__ = ["USUAL_FIELDS", "MomentView"]
@@ -116,7 +117,7 @@ class MomentView(FloatLayout):
         return frozenset((topic, path) for topic, path, _ in self.fields)
 
     def turn(self, topic: str, path: str, unit: str) -> bool:
-        """Draw a field, or no longer; False where there is no room for it."""
+        """Draw a field, or no longer, in the units of the glass where it has one of `unit`; False where there is no room for it."""
         if (topic, path) in self.drawn:
             self.fields = [one for one in self.fields if one[:2] != (topic, path)]
             self.plots.remove(topic, path)
@@ -130,7 +131,8 @@ class MomentView(FloatLayout):
         player = self.player
         if player is None or player.index is None:
             return False
-        made = self.plots.add(topic, path, unit)
+        kind = SI_KINDS.get(unit, "")
+        made = self.plots.add(topic, path, unit_of(kind) if kind else unit)
         if made is None:
             return False
         plot, trace = made
@@ -138,7 +140,8 @@ class MomentView(FloatLayout):
 
         def take(found: Any) -> None:
             if trace in plot.traces:
-                plot.load(trace, found[0] - start, found[1])
+                values = to_shown(found[1], kind) if kind else found[1]
+                plot.load(trace, found[0] - start, values)
                 self._follow()
 
         plot.span = min(SPAN, max(player.index.duration, 1.0))

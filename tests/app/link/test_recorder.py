@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from mcap.reader import make_reader
 
+from app.link import recorder as recorder_module
 from app.link.recorder import Recorder, schema
 from bridge.msgs import TYPES, Msg
 from bridge.msgs.arrays import Float32Array
@@ -95,3 +96,24 @@ def test_every_message_type_has_a_schema(kind: type[Msg]) -> None:
     parsed = json.loads(schema(kind))
     assert parsed["type"] == "object"
     assert set(parsed["properties"]) == set(kind.__struct_fields__)
+
+
+def test_a_message_that_cannot_be_written_is_counted_and_the_next_ones_are_recorded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    """Were the thread to end, closing would wait for it for ever."""
+    written = recorder_module.codec.to_json
+
+    def to_json(message: Msg) -> bytes:
+        if isinstance(message, LaserScan):
+            raise OverflowError("odd")
+        return written(message)
+
+    monkeypatch.setattr(recorder_module.codec, "to_json", to_json)
+    recorder = Recorder(tmp_path / "run.mcap", waiting=100)
+    recorder.put("/scan", LaserScan())
+    recorder.put("/events", Event(id=1))
+    recorder.close()
+    assert recorder.sentence == "Messages that could not be written: 1."
+    with recorder.path.open("rb") as file:
+        assert [c.topic for _, c, _ in make_reader(file).iter_messages()] == ["/events"]

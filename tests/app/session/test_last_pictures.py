@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.link.camera_decoder import Picture
-from app.session.last_pictures import MAX_ROBOTS, MAX_WIDTH, TAKE_PERIOD, LastPictures
+from app.session.last_pictures import MAX_PIXELS, MAX_ROBOTS, MAX_WIDTH, TAKE_PERIOD, LastPictures
 
 
 class Clock:
@@ -49,3 +49,12 @@ def test_a_picture_whose_bytes_do_not_fit_is_passed_over() -> None:
     kept.take("a", Picture(1, 0.0, 320, 240, b"\0" * 12))
     kept.take("b", Picture(1, 0.0, 0, 0, b""))
     assert kept.of("a") is kept.of("b") is None
+
+
+def test_a_picture_far_higher_than_wide_is_kept_as_small_as_any() -> None:
+    kept = LastPictures(Clock())
+    kept.take("a", picture(1, 40, 25_000))
+    thumb = kept.of("a")
+    assert thumb is not None
+    assert thumb.width * thumb.height <= MAX_PIXELS
+    assert len(thumb.rgba) == 4 * thumb.width * thumb.height

@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import io
 import math
+import time
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from PIL import Image
 
+from app.replay.player import Player
+from app.screens.replay.moment_view import MomentView
 from app.screens.replay.screen import ReplayScreen
 from bridge.msgs.geometry_msgs import Twist
 from tests.app.fakes import FakeRobot
-from tests.app.glass import Glass
+from tests.app.glass import PATIENCE, Glass
 from tests.app.replay.made import START, recorded
+from widgets.core.quantities import quantities
 
 NAME = "2025-11-21_10-01-11.mcap"
 
@@ -190,3 +195,26 @@ class Picks:
 
     def pick(self, into: Path, done: Any) -> None:
         done(self.paths, "")
+
+
+def test_plots_are_in_the_units_of_the_glass(
+    tmp_path: Path, stage: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(quantities, "system", "imperial")
+    player, view = Player(recorded(tmp_path / "run.mcap"), lambda: 0.0), MomentView()
+    try:
+        waited = time.monotonic() + PATIENCE
+        while not (view.plots.traces and len(view.plots.traces[0].history)):
+            assert time.monotonic() < waited
+            stage.frames(1)
+            player.drain()
+            if player.index is not None and view.player is None:
+                view.open(player)
+        speed, turning = view.plots.plots
+        assert (speed.traces[0].unit, turning.traces[0].unit) == ("mph", "rad/s")
+        most = np.nanmax(speed.traces[0].history.values)
+        assert most == pytest.approx(9.0 / 0.44704), "9 m/s, the spike of the recording"
+    finally:
+        view.close()
+        view.map.close()
+        player.close()
