@@ -18,7 +18,7 @@ from app.inputs.base.method_app import MethodApp
 from app.inputs.gamepad.gamepad import Gamepads, KivyPads
 from app.inputs.gamepad.sdl import Sdl
 from app.inputs.keys.key_drive import KeyDrive
-from app.inputs.occlusion import covered
+from widgets.controls.occlusion import covered
 
 __all__ = ["StickArbiter"]
 

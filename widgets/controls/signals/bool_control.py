@@ -85,7 +85,7 @@ class Switchable(BoolControl):
     def on_touch_up(self, touch: Any) -> bool:
         """Ask for the other value where the finger is lifted on it."""
         meant = touch.grab_current is self and touch is self.finger and self.holds(*touch.pos)
-        meant = meant and not self.disabled and self.visible_to_finger
+        meant = meant and not self.disabled and self.visible_to_finger and not self.occluded
         taken = super().on_touch_up(touch)
         if meant:
             self.ask(not self.value)

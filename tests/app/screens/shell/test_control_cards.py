@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from app.inputs.occlusion import covered
 from app.layout.arrange import Rect
 from bridge.core.identity import public_id
 from bridge.msgs.diagnostic_msgs import KeyValue
@@ -12,6 +11,7 @@ from bridge.msgs.pilothouse_msgs import Check, Checklist, ControlStatus, TaskSta
 from bridge.msgs.std_msgs import Time
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
+from widgets.controls.occlusion import covered
 
 PATROL = TaskStatus(task="patrol", state="RUNNING", reason="Driving to point 2.")
 
