@@ -140,7 +140,7 @@ def _seen_nearest_first(
     return np.asarray(table[found[np.argsort(offset.sum(axis=1), kind="stable")]])
 
 
-def _visible(seen: NDArray[np.float32], reach: NDArray[Any], view: View, least: float) -> NDArray[np.int64]:
+def _visible(seen: NDArray[Any], reach: NDArray[Any], view: View, least: float) -> NDArray[np.int64]:
     """Which shapes at these places, to the right, up and back of the eye [m], are in sight and large enough."""
     half_x, half_y = view.half_extent
     ahead = -seen[:, 2]

@@ -114,7 +114,7 @@ class Told(RenderContext):
 
     def __init__(self, vertex: str | None, fragment: str) -> None:
         """Without `vertex` it is Kivy's for textured rectangles."""
-        sources = {"fs": fragment} if vertex is None else {"vs": vertex, "fs": fragment}
+        sources: dict[str, Any] = {"fs": fragment} if vertex is None else {"vs": vertex, "fs": fragment}
         super().__init__(**sources, use_parent_projection=True, use_parent_modelview=True)
         self._told: dict[str, float | tuple[float, ...]] = {}
 

@@ -156,7 +156,7 @@ class HeadingTape(Glass, Drawing):
 
     def draw(self) -> None:
         """Bring ticks, labels and pointers up to date: the strip slides, and is made anew only where it is another."""
-        look = (*self.pos, *self.size, self.span, self.badge, self.state)
+        look: tuple[object, ...] = (*self.pos, *self.size, self.span, self.badge, self.state)
         look += (theme.name, theme.font, dp(1), sp(1))
         if math.isnan(self.heading):
             self._strip = None

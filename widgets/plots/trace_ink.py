@@ -113,7 +113,8 @@ class _Layer(InstructionGroup):
 
     def __init__(self) -> None:
         super().__init__()
-        self._colour, self._painted = Color(), (1.0, 1.0, 1.0, 1.0)
+        self._colour = Color()
+        self._painted: tuple[float, ...] = (1.0, 1.0, 1.0, 1.0)
         self.add(self._colour)
         self._quads = NO_QUADS
         self._meshes: list[Mesh] = []
