@@ -5,12 +5,14 @@ Pure arithmetic in the window's pixels, origin at the lower left.
 
 from __future__ import annotations
 
-from app.layout.rects import ALL, EDGE, Rect, handed, stop_place, stop_tall
+from app.layout.rects import ALL, EDGE, Rect, crowded, handed, stop_place, stop_tall
 
 __all__ = ["panels"]
 
 SIDE = 320
 """Width of what is edited beside the board [dp]."""
+PANE = 280
+"""The same on a phone on its side, where it lies over the board [dp]."""
 
 
 @handed
@@ -43,16 +45,16 @@ def _wide(body: Rect, dp: float, editing: bool) -> dict[str, Rect]:
 
 
 def _short(body: Rect, dp: float, editing: bool) -> dict[str, Rect]:
-    gap, row = 8 * dp, 46 * dp
+    """STOP and what can be done stay where they are whether panels are edited or not; what is edited lies beside the board then."""
+    gap, row = 8 * dp, 52 * dp
     stop = stop_place(body, "short", dp, beside=ALL * dp if editing else 0.0)
-    wide = max(232 * dp, stop.right - stop.left) if editing else stop.width
-    side = Rect(stop.right - wide, body.y, body.right - stop.right + wide, body.height)
-    room, high = Rect(side.x, stop.y, wide, stop.height), stop.head
+    side = Rect(stop.left, body.y, body.right - stop.left, body.height)
     tabs = Rect(body.x + gap, body.top - row, side.x - body.x - 2 * gap, row - 4 * dp)
     board = Rect(body.x, body.y, side.x - body.x, body.height - row)
-    high_acts = row * 2 + gap
-    acts = Rect(room.x, body.top - gap - high_acts, wide, high_acts)
-    pane = Rect(room.x, high + gap, wide, (acts.y if editing else body.top) - gap - high - gap)
+    rows = 4 if editing and not crowded(body) else 2
+    high = min(row * rows, body.top - 2 * gap - stop.head)
+    acts = Rect(side.x, body.top - gap - high, stop.right - stop.left, high)
+    pane = Rect(side.x - gap - PANE * dp, body.y + gap, PANE * dp, tabs.y - body.y - 2 * gap)
     return _all(board, tabs, acts, pane, stop, gap)
 
 

@@ -32,7 +32,8 @@ ROWS = {"wide": 12, "short": 6, "tall": 12}
 MAX_ROWS = 120
 """Of a view, as far as it is scrolled."""
 
-_FIGURES = ("Readout", "SwitchControl", "CheckBox", "MomentaryButton")
+_FIGURES = ("Readout",)
+_SWITCHES = ("ToggleSwitch", "TickBox", "MomentaryButton")
 _ROUND = (
     *("Compass", "ArtificialHorizon", "Joystick", "TiltCircle", "GoalPad", "CourseDial", "HeadingDial"),
     *("RollPitch", "AckermannView", "Battery", "LinkQuality", "DepthGauge", "HeightTape", "SonarRingView"),
@@ -41,6 +42,7 @@ _ROUND = (
 _LOW = ("HeadingTape", "TurnTape", "SlideToConfirm", "LineSensorView", "SpeedCard")
 _SIZES: Mapping[str, Mapping[str, tuple[int, int]]] = {
     "figure": {"wide": (2, 2), "short": (2, 2), "tall": (2, 2)},
+    "switch": {"wide": (3, 2), "short": (3, 2), "tall": (3, 2)},
     "round": {"wide": (3, 4), "short": (3, 3), "tall": (3, 3)},
     "low": {"wide": (4, 2), "short": (4, 2), "tall": (6, 2)},
     "broad": {"wide": (6, 4), "short": (6, 3), "tall": (6, 3)},
@@ -74,7 +76,7 @@ class Place(NamedTuple):
 
 def usual_size(widget: str, form: str) -> tuple[int, int]:
     """Columns and rows that a widget of that name is well seen in."""
-    kinds = (("figure", _FIGURES), ("round", _ROUND), ("low", _LOW))
+    kinds = (("figure", _FIGURES), ("switch", _SWITCHES), ("round", _ROUND), ("low", _LOW))
     kind = next((kind for kind, names in kinds if widget in names), "broad")
     return _SIZES[kind][form]
 

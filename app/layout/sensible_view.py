@@ -44,14 +44,14 @@ _BY_HAND: Mapping[str, tuple[Offer, ...]] = {
         Offer("Readout", FIGURE, "twist.twist.linear.xy", mark("Speed"), "m/s", digits=2, size=(2, 2)),
         Offer("HeadingTape", INSTRUMENT, title=mark("Heading"), size=(4, 2)),
     ),
-    "sensor_msgs/NavSatFix": (
-        Offer("Readout", FIGURE, "latitude", mark("Latitude"), "°", digits=6, size=(2, 2)),
-        Offer("Readout", FIGURE, "longitude", mark("Longitude"), "°", digits=6, size=(2, 2)),
-    ),
+    # the map says it better than two long figures
+    "sensor_msgs/NavSatFix": (),
 }
 """Types of which a robot's driver wants other than what fits best."""
 _WITH_MAP = ("/pose", "/scan", "/plan")
 """Our names of what a map shows beside its cells."""
+_INPUTS = ("cmd", "command", "set", "goal", "initialpose", "teleop", "joy")
+"""Parts of the names of topics that a robot listens to; they tell nothing."""
 _GROWS = (PICTURE, TREE, PLOT)
 _STICK = Offer("Joystick", COMMAND, size=(3, 5))
 
@@ -79,9 +79,7 @@ def sensible_view(capabilities: Capabilities, learned: Mapping[str, type[Msg]] |
     chosen = chosen[:room]
     if capabilities.drive is not None and chosen:
         chosen.insert(min(2, len(chosen)), _Choice("", _STICK))
-    placed = {
-        form: tiled([(one.offer.size, one.offer.kind in _GROWS) for one in chosen], form) for form in FORMS
-    }
+    placed = {form: tiled([(one.offer.size, _growth(one.offer)) for one in chosen], form) for form in FORMS}
     return View(
         TITLE,
         tuple(
@@ -120,7 +118,10 @@ def _ordered(capabilities: Capabilities) -> list[str]:
     shown = [
         topic
         for topic, kind in capabilities.topics.items()
-        if kind not in _MACHINERY and topic != capabilities.drive and not _is_machinery(topic)
+        if kind not in _MACHINERY
+        and topic != capabilities.drive
+        and not _is_machinery(topic)
+        and not _is_input(topic)
     ]
     return sorted(shown, key=rank)
 
@@ -129,6 +130,14 @@ def _is_machinery(topic: str) -> bool:
     """It is by its name for programs: one of the usual ones, or hidden as ROS 2 hides them."""
     names = topic.split("/")
     return names[-1] in _MACHINERY_NAMES or any(name.startswith("_") for name in names)
+
+
+def _is_input(topic: str) -> bool:
+    """The robot listens to it: by our table, or by its name."""
+    known = next((entry for entry in TOPICS if entry.name == topic), None)
+    if known is not None:
+        return known.to == "robot"
+    return any(part in _INPUTS for part in topic.replace("_", "/").split("/"))
 
 
 def _offers(topic: str, kind: str, learned: Mapping[str, type[Msg]]) -> Sequence[Offer]:
@@ -145,17 +154,24 @@ def _beside(capabilities: Capabilities, topic: str) -> tuple[str, ...]:
     return tuple(name for name in found if name and name != topic and name in capabilities.topics)
 
 
-def tiled(sizes: Iterable[tuple[tuple[int, int], bool]], form: str) -> list[Place]:
+def _growth(offer: Offer) -> bool | None:
+    """It is worth more room before others are, True, or none at all, None: one figure in a tall box looks empty."""
+    return None if offer.kind == FIGURE else offer.kind in _GROWS
+
+
+def tiled(sizes: Iterable[tuple[tuple[int, int], bool | None]], form: str) -> list[Place]:
     """A place for each size on the grid of that form, row by row, without overlap; what is left free, they grow into.
 
-    `sizes` are for a tablet, each with whether it is worth more room before others are.
+    `sizes` are for a tablet, each with whether it is worth more room before others are; None for one that keeps its size.
     """
     wanted = list(sizes)
     places: list[Place] = []
     for size, _ in wanted:
         places.append(free_place(_sized(size, form), places, form))
     for favoured in (True, False):
-        grown = [number for number, (_, grows) in enumerate(wanted) if grows or not favoured]
+        grown = [
+            number for number, (_, grows) in enumerate(wanted) if grows or (grows is False and not favoured)
+        ]
         turns = [True]
         while any(turns):
             turns = [_grow(places, number, form) for number in grown]

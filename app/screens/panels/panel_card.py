@@ -35,8 +35,10 @@ FIGURE = 30
 """Type of a figure that has room [sp]."""
 LINE = 1.25
 """Height of a line of type, in times of its size."""
-TITLE_ROOM = 56
-"""Least room for a name beside the buttons of its card [dp]."""
+TITLE_ROOM = 110
+"""Least room for a name beside the signs of its card [dp]."""
+LEAST = 60
+"""Height that a widget keeps below two rows of a head [dp]."""
 
 Builder.load_string("""
 <PanelCard>:
@@ -49,14 +51,16 @@ Builder.load_string("""
         title: '' if root.count > 1 else root.title if root.width - root.taken > dp(190) else root.brief
         size_hint: None, None
         x: root.x + dp(14)
-        y: root.top - dp(2) - (root.head + self.height) / 2
+        y: root.top - dp(2) - (root.name_row + self.height) / 2
+        opacity: 1 if root.name_row else 0
         width: max(root.width - dp(24) - root.taken, dp(1))
     BoxLayout:
         id: stack
         size_hint: None, None
-        height: root.head if root.count > 1 else 0
+        height: root.name_row if root.count > 1 else 0
+        opacity: 1 if root.name_row else 0
         x: root.x + dp(8)
-        y: root.top - dp(2) - root.head
+        y: root.top - dp(2) - root.name_row
         width: max(root.width - dp(16) - root.taken, dp(1))
         spacing: dp(4)
     FloatLayout:
@@ -90,33 +94,52 @@ Builder.load_string("""
     BoxLayout:
         id: buttons
         size_hint: None, None
-        size: (root.button * 2 if root.roomy else 0), root.head
+        size: root.signs * root.button, root.bar
         x: root.right - dp(4) - self.width
         y: root.top - dp(2) - root.head
-        opacity: 1 if root.roomy else 0
-        disabled: not root.roomy
+        opacity: 1 if root.signs else 0
+        disabled: not root.signs
+        Icon:
+            id: grip
+            name: 'drag_pan'
+            role: 'muted'
+            font_size: sp(21)
+            size_hint: None, 1
+            width: root.button if root.signs > 1 else 0
+            text_size: self.size
+            halign: 'center'
+            valign: 'middle'
+            opacity: 1 if root.signs > 1 else 0
         IconButton:
             id: eye
             icon: 'visibility_off' if root.away else 'visibility'
             role: 'muted'
             bare: True
-            size: root.button, root.head
+            size_hint: None, 1
+            width: root.button if root.signs > 1 else 0
+            opacity: 1 if root.signs > 1 else 0
+            disabled: root.signs < 2
             on_release: root.dispatch('on_act', 'hide')
         IconButton:
             id: close
             icon: 'close'
             role: 'muted'
             bare: True
-            size: root.button, root.head
+            size_hint: None, 1
+            width: root.button if root.signs > 1 else 0
+            opacity: 1 if root.signs > 1 else 0
+            disabled: root.signs < 2
             on_release: root.dispatch('on_act', 'remove')
-    Icon:
-        id: grip
-        name: 'drag_pan'
-        role: 'muted'
-        font_size: sp(21)
-        x: buttons.x - self.width - dp(2)
-        y: root.top - dp(2) - (root.head + self.height) / 2
-        opacity: 1 if root.gripped else 0
+        IconButton:
+            id: more
+            icon: 'more_vert'
+            role: 'muted'
+            bare: True
+            size_hint: None, 1
+            width: root.button if root.signs == 1 else 0
+            opacity: 1 if root.signs == 1 else 0
+            disabled: root.signs != 1
+            on_release: root.dispatch('on_act', 'select')
 
 <CardTab>:
     font_name: theme.font
@@ -174,7 +197,7 @@ class Clip(StencilView):
 
 
 class PanelCard(Outlined, FloatLayout):
-    """Dispatches `on_act(what)` for `hide` and `remove`, and `on_tab(index)` for another panel of its stack."""
+    """Dispatches `on_act(what)` for `hide`, `remove` and `select`, and `on_tab(index)` for another panel of its stack."""
 
     __events__ = ("on_act", "on_tab")
 
@@ -201,14 +224,16 @@ class PanelCard(Outlined, FloatLayout):
     inset = NumericProperty("10dp")
     head = NumericProperty(f"{HEAD}dp")
     """Height of the row with its name [px]."""
-    roomy = BooleanProperty(False)
-    """It is edited, and has room for buttons beside its name."""
-    gripped = BooleanProperty(False)
-    """It is edited, and has room for a sign that it can be moved."""
+    signs = NumericProperty(0)
+    """How many signs its head has while it is edited: three to move, hide and remove it, one that opens these where it is narrow."""
+    bar = NumericProperty(0)
+    """Height of the row with the signs [px]."""
+    name_row = NumericProperty(f"{HEAD}dp")
+    """Height of the row with its name, which is the signs' own where both fit side by side; 0 where there is no room [px]."""
     button = NumericProperty(0)
     """Width of one of its buttons [px]."""
     taken = NumericProperty(0)
-    """What the buttons and that sign take of its width [px]."""
+    """What the signs take of the width of the row with its name [px]."""
 
     def __init__(self, **kwargs: Any) -> None:
         self._ink = Ink()
@@ -217,7 +242,7 @@ class PanelCard(Outlined, FloatLayout):
         self.canvas.after.add(self._ink)
         self.ids.place.bind(pos=self._lay, size=self._lay)
         self.bind(pos=self._draw, size=self._draw, editing=self._draw, selected=self._draw)
-        self.bind(width=self._fit, editing=self._fit, count=self._fit)
+        self.bind(size=self._fit, editing=self._fit, count=self._fit)
         theme.bind(name=self._draw, target=self._fit)
         self._fit()
 
@@ -246,11 +271,18 @@ class PanelCard(Outlined, FloatLayout):
             tabs.add_widget(tab)
 
     def _fit(self, *_: object) -> None:
+        """The same head for every card: the signs beside the name, below it, or alone, as far as there is room."""
         self.button = theme.target if theme.gloves else mm(MIN_BUTTON)
-        self.roomy = self.editing and self.width >= 2 * self.button + dp(TITLE_ROOM)
-        self.gripped = self.roomy and self.width >= 2 * self.button + dp(TITLE_ROOM + 60)
-        self.taken = (2 * self.button if self.roomy else 0) + (dp(26) if self.gripped else 0)
-        self.head = max(dp(HEAD), self.button) if self.roomy or self.count > 1 else dp(HEAD)
+        self.signs = 0 if not self.editing else 3 if self.width >= 3 * self.button + dp(8) else 1
+        row = max(dp(HEAD), self.button)
+        self.bar = row if self.signs else 0
+        beside = self.width >= self.signs * self.button + dp(TITLE_ROOM)
+        self.taken = self.signs * self.button if beside else 0
+        if not self.signs or beside:
+            self.head = self.name_row = row if self.signs or self.count > 1 else dp(HEAD)
+            return
+        self.name_row = dp(HEAD) if self.height >= row + dp(HEAD + LEAST) else 0
+        self.head = row + self.name_row
 
     def _lay(self, *_: object) -> None:
         """The widget fills its place, or stands in the middle where it has a height of its own."""
@@ -305,7 +337,7 @@ class PanelCard(Outlined, FloatLayout):
         """While it is edited no finger reaches its widget: nothing there may drive."""
         if not self.editing:
             return bool(super().on_touch_down(touch))
-        if self.roomy and self.ids.buttons.collide_point(*touch.pos):
+        if self.signs and self.ids.buttons.collide_point(*touch.pos):
             return bool(self.ids.buttons.dispatch("on_touch_down", touch))
         tabs = self.ids.stack
         if self.count > 1 and tabs.collide_point(*touch.pos):

@@ -178,12 +178,17 @@ class PanelsScreen(RobotScreen):
         self.show()
 
     def make_room(self) -> None:
-        """A phone's board ends above the sheet that lies over it."""
+        """A phone's board ends above the sheet that lies over it, or beside it."""
         place = self._places["board"]
         self.board.whole = place.height
         if self._form == "tall" and self.pane.parent is not None:
             low = self._places["side"].top + 8 * self._dp
             place = Rect(place.x, low, place.width, place.top - low)
+        elif self._form == "short" and self.pane.parent is not None:
+            pane, gap = self._places["side"], 8 * self._dp
+            left = place.x if pane.x > place.x else pane.right + gap
+            right = pane.x - gap if pane.x > place.x else place.right
+            place = Rect(left, place.y, right - left, place.height)
         put(self.board, place)
         if self.board.selected is not None:
             self.board.reveal(self.board.selected)
@@ -263,7 +268,10 @@ class PanelsScreen(RobotScreen):
         return self.shows.grips
 
     def _act_on(self, index: int, what: str) -> None:
-        self.editor.act_on(index, what)
+        if what == "select":
+            self.editor.select(index)
+        else:
+            self.editor.act_on(index, what)
 
     def _on_key(self, _window: object, key: int, _code: int, _text: object, modifiers: list[str]) -> bool:
         return self.editor.on_key(key, modifiers)

@@ -45,7 +45,7 @@ Builder.load_string("""
 #:import tr widgets.core.language.tr
 <OfferRow>:
     size_hint_y: None
-    height: max(dp(56), theme.target)
+    height: max(words.height + dp(16), theme.target)
     padding: dp(12), 0, dp(10), 0
     spacing: dp(12)
     rim: ''
@@ -56,36 +56,37 @@ Builder.load_string("""
         font_size: sp(25)
         pos_hint: {'center_y': .5}
     BoxLayout:
+        id: words
         orientation: 'vertical'
         size_hint_y: None
-        height: dp(42)
+        height: self.minimum_height
+        spacing: dp(2)
         pos_hint: {'center_y': .5}
         Text:
             text: root.topic
             bold: True
             font_size: sp(16)
-            size_hint_y: 1
-            text_size: self.size
-            shorten: True
-            shorten_from: 'left'
+            text_size: self.width, None
+            max_lines: 2
+            size_hint_y: None
+            height: self.texture_size[1]
         Text:
             text: root.kind
             role: 'muted'
             font_size: sp(13)
-            size_hint_y: 1
-            text_size: self.size
-            shorten: True
-            shorten_from: 'left'
-    Text:
-        text: root.fits
-        role: 'muted'
-        font_size: sp(12.5)
-        halign: 'right'
-        size_hint: None, 1
-        width: min(dp(84), root.width * .26)
-        text_size: self.size
-        shorten: len(root.fits) > 26
-        shorten_from: 'right'
+            text_size: self.width, None
+            max_lines: 2
+            size_hint_y: None
+            height: self.texture_size[1]
+        Text:
+            text: root.fits
+            role: 'muted'
+            font_size: sp(13)
+            text_size: self.width, None
+            max_lines: 2
+            size_hint_y: None
+            height: self.texture_size[1] if root.fits else 0
+            opacity: 1 if root.fits else 0
     Icon:
         name: 'add_circle'
         role: 'ok'
@@ -248,9 +249,10 @@ class Inspector(Column):
         self._places()
         self._buttons(panel)
         if others:
-            self.add_widget(SectionLabel(title=tr("Stack with")))
             for index, name in others:
-                self._button(name, "layers", partial(act, "stack", index))
+                self._button(
+                    tr("Stack with {name}").format(name=name), "layers", partial(act, "stack", index)
+                )
 
     def _field(self, label: str, text: str, take: Callable[[str], object]) -> None:
         field = TextField(text=text, label=tr(label), hint_text=tr(label))

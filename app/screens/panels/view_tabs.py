@@ -13,8 +13,9 @@ from kivy.uix.gridlayout import GridLayout
 from kivy.uix.label import Label
 from kivy.uix.scrollview import ScrollView
 
+from widgets.core.language import tr
 from widgets.core.theme import theme
-from widgets.parts.kit import IconButton, PrimaryButton, PushButton, QuietButton
+from widgets.parts.kit import PrimaryButton, PushButton, QuietButton
 
 __all__ = ["Act", "ActRow", "ViewTabs"]
 
@@ -54,6 +55,10 @@ Builder.load_string("""
 """)
 
 
+NEW_VIEW = 132
+"""Width of the button for another view [dp]."""
+
+
 class ViewTab(ButtonBehavior, Label):
     """One view."""
 
@@ -82,7 +87,9 @@ class ViewTabs(ScrollView):
             tab.bind(on_release=lambda _, index=index: self.dispatch("on_choose", index))
             row.add_widget(tab)
         if editing:
-            more = IconButton(icon="add", bare=True, role="accent", size_hint=(None, 1))
+            more = QuietButton(
+                text=tr("New view"), icon="add", size_hint_x=None, size_hint_y=1, width=dp(NEW_VIEW)
+            )
             more.bind(on_release=lambda _: self.dispatch("on_add"))
             row.add_widget(more)
 
@@ -91,6 +98,10 @@ class ViewTabs(ScrollView):
 
     def on_add(self) -> None:
         """A finger wants another view."""
+
+
+NARROW = 180
+"""Less width holds one button beside none [dp]."""
 
 
 class ActRow(GridLayout):
@@ -106,22 +117,31 @@ class ActRow(GridLayout):
 
     def show(self, acts: Sequence[Act], form: str) -> None:
         """What can be done now."""
-        names = (form, *((name, words, icon) for name, words, icon, _, _ in acts))
+        names = (form, self._narrow, *((name, words, icon) for name, words, icon, _, _ in acts))
         if names != self._names:
             self._names = names
             self._make(acts, form)
         for name, _, _, able, _ in acts:
             self.buttons[name].disabled = not able
 
+    @property
+    def _narrow(self) -> bool:
+        """There is room for one button side by side."""
+        return bool(self.width < dp(NARROW))
+
     def _make(self, acts: Sequence[Act], form: str) -> None:
         self.clear_widgets()
-        self.rows = 2 if form != "wide" and len(acts) > 2 else 1 if form == "wide" else len(acts)
+        if form == "wide":
+            self.rows = 1
+        elif form == "short":
+            self.rows = len(acts) if self._narrow else (len(acts) + 1) // 2
+        else:
+            self.rows = min(len(acts), 2)
         for name, words, icon, _, main in acts:
             button = (PrimaryButton if main else QuietButton)(text=words, icon=icon, size_hint_y=1)
             button.padding = (dp(6), 0)
-            if form != "wide" and len(acts) > 2:
-                button.flow = "vertical" if form == "tall" else "horizontal"
-                button.text = "" if form == "short" and not main else words
+            if form == "tall" and len(acts) > 2:
+                button.flow = "vertical"
             button.bind(on_release=lambda _, name=name: self.dispatch("on_act", name))
             self.buttons[name] = button
             self.add_widget(button)

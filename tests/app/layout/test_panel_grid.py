@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from itertools import combinations
 
+from app.layout.layout_tables import SLIDER
 from app.layout.panel_grid import (
+    _FIGURES,
+    _LOW,
+    _ROUND,
+    _SWITCHES,
     COLUMNS,
     FORMS,
     ROWS,
@@ -15,6 +20,7 @@ from app.layout.panel_grid import (
     height_of,
     settled,
 )
+from widgets import CATALOGUE
 
 
 def apart(places: list[Place]) -> bool:
@@ -65,3 +71,8 @@ def test_a_moved_panel_stays_and_pushes_the_others_down() -> None:
         Place(0, 10, 6, 4),
     ]
     assert settled(places, 0) == places
+
+
+def test_every_name_with_a_usual_size_is_a_widget():
+    named = {*_FIGURES, *_SWITCHES, *_ROUND, *_LOW}
+    assert named <= {*CATALOGUE, SLIDER}

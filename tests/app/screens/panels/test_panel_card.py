@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import pytest
+from kivy.metrics import dp, mm
 
 from app.screens.panels.panel_card import PanelCard
 from tests.headless import Stage
 from widgets import Battery, Readout
+from widgets.core.theme import theme
 
 
 @pytest.mark.parametrize("size", [(64, 60), (90, 72), (120, 110), (200, 200)])
@@ -43,3 +45,22 @@ def test_a_battery_is_below_the_name_and_within_the_card(stage: Stage, size: tup
             assert part.top <= card.ids.place.top + 1.5
             assert part.y >= card.y
             assert part.texture_size[0] <= card.width
+
+
+@pytest.mark.parametrize("gloves", [False, True])
+@pytest.mark.parametrize("width", [90, 150, 240, 520])
+def test_every_card_that_is_edited_can_be_hidden_and_removed_by_signs_that_a_finger_meets(
+    stage: Stage, width: int, gloves: bool
+) -> None:
+    theme.gloves = gloves
+    try:
+        card = stage.show(PanelCard(editing=True, title="Laser scan"), (int(dp(width)), int(dp(200))))
+        stage.frames(2)
+        shown = [sign for sign in (card.ids.eye, card.ids.close, card.ids.more) if not sign.disabled]
+        assert shown in ([card.ids.eye, card.ids.close], [card.ids.more])
+        least = mm(20 if gloves else 10)
+        assert all(sign.width >= least and sign.height >= least for sign in shown)
+        assert sum(sign.width for sign in card.ids.buttons.children) <= card.width or len(shown) == 1
+        card.let_go()
+    finally:
+        theme.gloves = False
