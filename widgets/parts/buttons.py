@@ -17,7 +17,7 @@ from kivy.uix.widget import Widget
 import widgets.parts.labels  # noqa: F401 - its rules draw the icons
 from widgets.core.base import MIN_FONT_SIZE, text_texture
 from widgets.core.finger_stay import FingerStay
-from widgets.core.surfaces import Pressable
+from widgets.core.surfaces import Pressable, within_reach
 from widgets.core.theme import theme
 
 __all__ = ["IconButton", "NavButton", "PrimaryButton", "PushButton", "QuietButton"]
@@ -49,7 +49,7 @@ Builder.load_string("""
         FittedLabel:
             id: words
             text: root.text
-            largest: theme.size_body if root.flow == 'horizontal' else sp(14)
+            largest: root.type_size or (theme.size_body if root.flow == 'horizontal' else sp(14))
             room: max(root.words_room, 1)
             lines: 2 if root.height >= sp(34) + (theme.size_icon + dp(2) if root.flow == 'vertical' and root.icon else 0) else 1
             bold: True
@@ -70,7 +70,7 @@ Builder.load_string("""
 
 <IconButton>:
     size_hint: None, None
-    size: theme.target, theme.target
+    size: [min(theme.target, max(dp(53), theme.least)) if root.bare else theme.target] * 2
     rim: 'line' if not root.bare else ''
     ground: 'raised' if not root.bare else ''
     press_share: .16
@@ -140,6 +140,8 @@ class PushButton(Pressable, AnchorLayout):
     """Role of the icon; that of the words when empty."""
     flow = OptionProperty("horizontal", options=["horizontal", "vertical"])
     """Icon before the words, or above them."""
+    type_size = NumericProperty(0)
+    """Of its words where they have room [px], so that neighbours are alike; 0 for the usual."""
     meaning = StringProperty("")
     """What a press does, where that changes; half a second after a change no finger is taken."""
 
@@ -205,6 +207,10 @@ class IconButton(Pressable, AnchorLayout):
     """Role of the icon's colour."""
     bare = BooleanProperty(False)
 
+    def collide_point(self, x: float, y: float) -> bool:
+        """One without a ground is hit within the least target round it."""
+        return within_reach(self, x, y) if self.bare else bool(super().collide_point(x, y))
+
 
 class NavButton(ButtonBehavior, BoxLayout):
     """One entry of a navigation rail or bar."""
@@ -243,6 +249,10 @@ class NavButton(ButtonBehavior, BoxLayout):
     def _badge_text_pos(self) -> tuple[float, float]:
         (x, y), (width, height), texture = self.badge_pos, self.badge_size, self.badge_texture
         return x + (width - texture.width) / 2, y + (height - texture.height) / 2
+
+    def collide_point(self, x: float, y: float) -> bool:
+        """It is hit within the least target round it."""
+        return within_reach(self, x, y)
 
     badge_text_pos = AliasProperty(_badge_text_pos, bind=["badge_pos", "badge_size"], cache=True)
 

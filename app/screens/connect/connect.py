@@ -11,13 +11,14 @@ from kivy.properties import BooleanProperty, ListProperty, NumericProperty, Obje
 from kivy.uix.floatlayout import FloatLayout
 
 from app.discovery.known_robots import Entry
-from app.layout.arrange import connect_columns
+from app.layout.arrange import connect_columns, form
 from app.screens.connect.robot_card import RobotCard, same_named
 from app.screens.parts.method_chip import InputsChip  # noqa: F401 - its rule draws what is used here
 from app.screens.parts.safe_area import safe_area
 from app.screens.parts.themes import THEMES
 from app.session.last_pictures import LastPictures
 from app.stop.robot_count import count
+from widgets.core.base import fitting_size
 from widgets.core.language import mark, tr
 from widgets.core.surfaces import EdgedBox  # noqa: F401 - its rule draws the bar
 from widgets.core.theme import theme
@@ -25,6 +26,8 @@ from widgets.parts.kit import Banner, Text
 
 __all__ = ["ConnectScreen"]
 
+WAYS_WIDTH = 240
+"""Of the ways to get to others beside the cards of a phone on its side [dp]."""
 HINT = mark(
     "No robot found on this network yet.\nSwitch one on, enter its address, or start the built-in simulator."
 )
@@ -32,14 +35,15 @@ Builder.load_string("""
 #:import tr widgets.core.language.tr
 #:import safe_area app.screens.parts.safe_area.safe_area
 <ConnectScreen>:
+    room: page.height - page.padding[1] - page.padding[3] - (0 if root.short else ways.height + 2 * root.between)
     BoxLayout:
         orientation: 'vertical'
         padding: safe_area.insets
         EdgedBox:
             size_hint_y: None
-            height: dp(56)
-            padding: dp(16) if root.columns > 1 else dp(12), 0
-            spacing: dp(12) if root.columns > 1 else dp(7)
+            height: dp(48) if root.short else max(dp(56), theme.least)
+            padding: dp(16) if root.roomy else dp(12), 0
+            spacing: dp(12) if root.roomy else dp(7)
             Text:
                 id: title
                 text: tr('Pilothouse')
@@ -49,22 +53,23 @@ Builder.load_string("""
             Chip:
                 icon: 'wifi_find'
                 role: 'accent'
-                text: root.nearby if root.columns > 1 else root.nearby_short if root.width > sp(380) else ''
+                text: root.nearby if root.roomy else root.nearby_short if root.width > sp(380) else ''
                 spacing: dp(8) if self.text else 0
                 pos_hint: {'center_y': .5}
             InputsChip:
                 id: inputs
-                brief: root.columns == 1
+                brief: not root.roomy
                 pos_hint: {'center_y': .5}
                 on_release: root.app.show_inputs()
             Chip:
                 id: setup
                 icon: 'tune'
                 role: 'text'
-                text: tr('Setup') if root.columns > 1 else ''
+                text: tr('Setup') if root.roomy else ''
                 spacing: dp(8) if self.text else 0
                 edge: dp(13) if self.text else dp(8)
                 pressable: True
+                narrowest: min(theme.least, root.width / 6)
                 scan_words: tr('Setup')
                 pos_hint: {'center_y': .5}
                 on_release: root.app.show_setup()
@@ -72,64 +77,86 @@ Builder.load_string("""
                 id: theme
                 icon: root.theme_icon
                 role: 'text'
-                text: root.theme_text if root.columns > 1 else ''
+                text: root.theme_text if root.roomy else ''
                 spacing: dp(8) if self.text else 0
                 edge: dp(13) if self.text else dp(8)
                 pressable: True
+                narrowest: min(theme.least, root.width / 6)
                 pos_hint: {'center_y': .5}
                 on_release: root.app.themes.choose_next()
         BoxLayout:
             id: page
-            orientation: 'vertical'
-            padding: root.edge, dp(22), root.edge, max(dp(22), root.keep_free[0])
-            spacing: dp(22)
-            Column:
-                id: notices
-                spacing: dp(10)
+            orientation: 'horizontal' if root.short else 'vertical'
+            padding: root.edge, root.between, root.edge - (root.between if root.short else 0), 0 if root.short else max(root.between, root.keep_free[0])
+            spacing: root.between
+            BoxLayout:
+                id: near
+                orientation: 'vertical'
+                size_hint_y: 1 if root.short else None
+                height: notices.height + root.between + listed.height
+                spacing: root.between
+                Column:
+                    id: notices
+                    spacing: dp(10)
+                ScrollView:
+                    id: listed
+                    do_scroll_x: False
+                    size_hint_y: None
+                    height: max(0, min(cards.height, root.room - notices.height - root.between))
+                    Grid:
+                        id: cards
+                        cols: root.columns
+                        spacing: dp(18)
+                Widget:
+                    size_hint_y: 1 if root.short else None
+                    height: 0
             ScrollView:
+                id: ways
                 do_scroll_x: False
-                size_hint_y: None
-                height: min(cards.height, page.height - page.padding[1] - page.padding[3] - notices.height - actions.height - dp(66))
+                size_hint: None if root.short else 1, None
+                width: root.action_width
+                height: min(actions.height, page.height * .5) if not root.short else page.height - root.between - (dp(82) if root.keep_free[1] else root.between)
+                pos_hint: {'top': 1} if root.short else {}
                 Grid:
-                    id: cards
-                    cols: root.columns
-                    spacing: dp(18)
-            Grid:
-                id: actions
-                cols: root.across
-                spacing: dp(18)
-                padding: root.keep_free[1] if root.left_hand else 0, 0, 0, 0
-                QuietButton:
-                    id: add
-                    icon: 'add_link'
-                    text: tr('Add by address')
-                    size_hint_x: None
-                    width: root.action_width
-                    on_release: root.app.robot_list.ask_address()
-                QuietButton:
-                    id: pair
-                    icon: 'qr_code_scanner'
-                    text: tr('Pair with a QR code')
-                    size_hint_x: None
-                    width: root.action_width
-                    on_release: root.app.robot_list.trust.ask()
-                QuietButton:
-                    id: simulate
-                    icon: 'play_circle'
-                    text: root.simulator_text
-                    size_hint_x: None
-                    width: root.action_width
-                    disabled: not root.can_simulate or root.simulating
-                    opacity: 1 if root.can_simulate else 0
-                    on_release: root.app.simulating.ask()
-                QuietButton:
-                    id: recordings
-                    icon: 'history'
-                    text: tr('Recordings')
-                    size_hint_x: None
-                    width: root.action_width
-                    on_release: root.app.show_replay()
+                    id: actions
+                    cols: root.across
+                    spacing: dp(18) if not root.short else dp(6)
+                    QuietButton:
+                        id: add
+                        icon: 'add_link'
+                        text: tr('Add by address')
+                        size_hint_x: None
+                        size: root.action_width, root.action_height
+                        type_size: root.type_size
+                        on_release: root.app.robot_list.ask_address()
+                    QuietButton:
+                        id: pair
+                        icon: 'qr_code_scanner'
+                        text: tr('Pair with a QR code')
+                        size_hint_x: None
+                        size: root.action_width, root.action_height
+                        type_size: root.type_size
+                        on_release: root.app.robot_list.trust.ask()
+                    QuietButton:
+                        id: simulate
+                        icon: 'play_circle'
+                        text: root.simulator_text
+                        size_hint_x: None
+                        size: root.action_width, root.action_height
+                        type_size: root.type_size
+                        disabled: not root.can_simulate or root.simulating
+                        opacity: 1 if root.can_simulate else 0
+                        on_release: root.app.simulating.ask()
+                    QuietButton:
+                        id: recordings
+                        icon: 'history'
+                        text: tr('Recordings')
+                        size_hint_x: None
+                        size: root.action_width, root.action_height
+                        type_size: root.type_size
+                        on_release: root.app.show_replay()
             Widget:
+                size_hint: (0, 0) if root.short else (1, 1)
 """)
 
 
@@ -177,8 +204,18 @@ class ConnectScreen(FloatLayout):
     """STOP ALL is at the left."""
     across = NumericProperty(4)
     """So many ways to get to others stand side by side."""
-    action_width = NumericProperty("300dp")
-    """[px]"""
+    action_width, action_height = NumericProperty("300dp"), NumericProperty("52dp")
+    """Of each of them [px]."""
+    type_size = NumericProperty(0)
+    """Of the words on all of them [px]."""
+    short = BooleanProperty(False)
+    """A phone on its side: the ways to get to others stand beside the cards, above STOP ALL."""
+    roomy = BooleanProperty(False)
+    """The bar has room for words."""
+    between = NumericProperty("22dp")
+    """From one thing to the next [px]."""
+    room = NumericProperty(0)
+    """Height that notices and cards have [px]."""
     theme_icon = StringProperty("light_mode")
     theme_text = StringProperty("")
     can_simulate = BooleanProperty(False)
@@ -193,9 +230,11 @@ class ConnectScreen(FloatLayout):
         super().__init__(**kwargs)
         self._banner: Banner | None = None
         self._hint = Text(text=tr(HINT), role="muted", halign="center", padding=(16, 24))
-        self.bind(size=self._arrange, keep_free=self._arrange)
+        self._columns = list(reversed(self.ids.page.children))  # kv holds ids weakly
+        self.bind(size=self._arrange, keep_free=self._arrange, left_hand=self._arrange)
         safe_area.bind(insets=self._arrange)
-        theme.bind(name=self._follow_theme)
+        theme.bind(name=self._follow_theme, target=self._arrange)
+        self.bind(simulator_text=self._arrange)
         self._follow_theme()
         self._arrange()
 
@@ -205,15 +244,43 @@ class ConnectScreen(FloatLayout):
 
     def _arrange(self, *_: object) -> None:
         dp = Metrics.density
-        wide = safe_area.within(self.width, self.height).width
+        inside = safe_area.within(self.width, self.height)
+        self.short = form(inside.width, inside.height, dp) == "short"
+        self.roomy = connect_columns(inside.width, dp) > 1
+        self._order()
+        self.edge = (26 if inside.width > 600 * dp and not self.short else 14) * dp
+        self.between = (10 if self.short else 22) * dp
+        beside = max(WAYS_WIDTH * dp, self.keep_free[1] - 18 * dp) if self.short else 0.0
+        wide = inside.width - beside - (self.between if self.short else 0)
         self.columns = connect_columns(wide, dp)
-        self.edge = (26 if wide > 600 * dp else 14) * dp
         self.card_width = (wide - 2 * self.edge - (self.columns - 1) * 18 * dp) / self.columns
-        across = self.across = 4 if self.columns > 1 else 1
-        room = wide - 2 * self.edge - (across - 1) * 18 * dp - self.keep_free[1]
-        self.action_width = room / across
+        self.across = 4 if self.roomy and not self.short else 1
+        self.action_width = beside or (wide - 2 * self.edge - (self.across - 1) * 18 * dp) / self.across
+        self._size_ways(inside.height, dp)
         for card in self.cards:
             card.width = self.card_width
+
+    def _order(self) -> None:
+        """Beside each other the ways to get to others are where STOP ALL is."""
+        near, ways, rest = self._columns
+        wanted = [ways, near, rest] if self.short and self.left_hand else [near, ways, rest]
+        page = self.ids.page
+        if list(reversed(page.children)) != wanted:
+            page.clear_widgets()
+            for column in wanted:
+                page.add_widget(column)
+
+    def _size_ways(self, height: float, dp: float) -> None:
+        """One height and one size of type for all ways to get to others; on a phone's side they share what STOP ALL leaves."""
+        self.action_height = theme.target
+        if self.short:
+            left = height - 48 * dp - self.between - ((82 if self.keep_free[1] else 10) + 3 * 6) * dp
+            self.action_height = max(theme.least, min(theme.target, left / 4))
+        ways = [self.ids[name] for name in ("add", "pair", "simulate", "recordings")]
+        room = min(way.words_room for way in ways)
+        self.type_size = fitting_size(
+            [way.text for way in ways] + [self.simulator_text], theme.size_body, room, bold=True
+        )
 
     def show_entries(self, entries: list[Entry], me: str) -> None:
         """Bring the cards up to date; a card stays where it is while its robot is listed."""

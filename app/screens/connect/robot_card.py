@@ -45,7 +45,7 @@ Builder.load_string("""
     outline: 'danger' if root.lost else 'line'
     BoxLayout:
         size_hint_y: None
-        height: max(dp(50), sp(50))
+        height: max(dp(50), sp(50), remove.height if root.saved else 0)
         spacing: dp(11)
         Icon:
             name: root.icon
@@ -104,7 +104,7 @@ Builder.load_string("""
             icon: 'delete'
             role: 'muted'
             bare: True
-            size: (theme.target if root.saved else 0, dp(50))
+            size: (max(dp(53), theme.least) if root.saved else 0, max(dp(50), theme.least))
             opacity: 1 if root.saved else 0
             disabled: not root.saved
             on_release: root.dispatch('on_remove')
@@ -145,7 +145,7 @@ Builder.load_string("""
             opacity: 1 if root.driver_text else 0
     PushButton:
         id: connect
-        height: root.button_height
+        height: max(root.button_height, theme.least)
         text: root.action
         fill: 'raised' if root.quiet else 'accent'
         border: 'line' if root.quiet else 'accent'
