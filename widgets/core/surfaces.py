@@ -7,6 +7,8 @@ class Tile(Outlined, BoxLayout): ...
 
 from __future__ import annotations
 
+from typing import Any
+
 from kivy.lang import Builder
 from kivy.properties import BooleanProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.behaviors import ButtonBehavior
@@ -14,7 +16,7 @@ from kivy.uix.boxlayout import BoxLayout
 
 from widgets.core.theme import theme
 
-__all__ = ["Edged", "EdgedBox", "Glass", "Outlined", "Pressable"]
+__all__ = ["Edged", "EdgedBox", "Glass", "Outlined", "Pressable", "within_reach"]
 
 Builder.load_string("""
 <Outlined>:
@@ -87,6 +89,22 @@ class Pressable(Outlined, ButtonBehavior):
     """Role of what comes over it while a finger is down."""
     press_share = NumericProperty(0.12)
     """How much of that, 0 to 1."""
+
+
+def within_reach(widget: Any, x: float, y: float) -> bool:
+    """Whether a finger at a point hits a button: its box, or the least target round its centre where no other beside it is hit."""
+    across, up = (max(0.0, theme.least - size) / 2 for size in widget.size)
+    if not (widget.x - across <= x <= widget.right + across and widget.y - up <= y <= widget.top + up):
+        return False
+    if _holds(widget, x, y) or widget.parent is None:
+        return True
+    return not any(
+        isinstance(other, ButtonBehavior) and _holds(other, x, y) for other in widget.parent.children
+    )
+
+
+def _holds(widget: Any, x: float, y: float) -> bool:
+    return bool(widget.x <= x <= widget.right and widget.y <= y <= widget.top)
 
 
 class Edged:

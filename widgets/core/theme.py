@@ -163,6 +163,8 @@ class Theme(EventDispatcher):
 
     target = NumericProperty()
     """Least width and height of what a finger must hit [px]: 14 mm, in gloves 20 mm."""
+    least = NumericProperty()
+    """Width and height of the least of what a finger hits, as an icon without a ground [px]: 10 mm, in gloves 20 mm."""
     radius = NumericProperty("14dp")
     """Corners of cards [px]."""
     corner = NumericProperty("11dp")
@@ -205,6 +207,7 @@ class Theme(EventDispatcher):
 
     def on_gloves(self, *_: object) -> None:
         """Widen or narrow the targets."""
+        self.least = mm(20) if self.gloves else mm(10)
         self.target = mm(20) if self.gloves else mm(14)
 
 

@@ -47,7 +47,7 @@ Builder.load_string("""
 
 <Banner>:
     size_hint_y: None
-    height: max(dp(48), sentence.texture_size[1] + dp(22))
+    height: max(dp(48), sentence.texture_size[1] + dp(22), theme.least if root.closable else 0)
     padding: dp(14), 0, dp(14), 0
     spacing: dp(11)
     rim: root.role

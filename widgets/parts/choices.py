@@ -29,7 +29,7 @@ __all__ = ["Segmented", "Toggle"]
 Builder.load_string("""
 <Segmented>:
     size_hint_y: None
-    height: max(dp(46), theme.target if theme.gloves else 0)
+    height: max(dp(46), theme.least + 2 * theme.outline)
     padding: theme.outline
 
 <Segment>:

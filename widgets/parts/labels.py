@@ -95,14 +95,16 @@ Builder.load_string("""
 
 <Chip>:
     size_hint: None, None
+    narrowest: theme.least
     height: dp(34)
     width: self.minimum_width
-    padding: root.edge + max(0, root.usual_width - words.texture_size[0]) / 2, 0
+    padding: root.edge + max(0, root.usual_width - words.texture_size[0], (root.narrowest if root.pressable else 0) - 2 * root.edge - sign.width - root.spacing - words.texture_size[0]) / 2, 0
     spacing: dp(8) if root.icon else 0
     rim: root.role if root.outlined else 'line'
     ground: 'surface' if root.outlined else 'raised'
     corner: self.height / 2
     Icon:
+        id: sign
         name: root.icon or 'check'
         role: root.role
         font_size: min(sp(19), root.height * .78)
@@ -259,6 +261,8 @@ class Chip(Pressable, BoxLayout):
     pressable = BooleanProperty(False)
     edge = NumericProperty("13dp")
     """Left of the icon and right of the words [px]."""
+    narrowest = NumericProperty(0)
+    """Its least width where it is pressed [px]."""
     usual = StringProperty("")
     """The longest words it usually holds; it is never narrower than they are, so that its neighbours stand still."""
 
@@ -275,7 +279,7 @@ class Chip(Pressable, BoxLayout):
     """Of those words [px]."""
 
     def collide_point(self, x: float, y: float) -> bool:
-        """A pressable chip is hit within a whole target round it."""
+        """A pressable chip is hit within a whole target above and below its middle; it is no narrower than the least target."""
         reach = max(0.0, theme.target - self.height) / 2 if self.pressable else 0.0
         return self.x <= x <= self.right and self.y - reach <= y <= self.top + reach
 

@@ -82,7 +82,7 @@ Builder.load_string("""
 <DragHandle>:
     name: 'drag_handle'
     role: 'muted'
-    size: theme.target * (1 if theme.gloves else .8), theme.target
+    size: max(theme.least, dp(42)), min(theme.target, max(dp(53), theme.least))
     text_size: self.size
     halign: 'center'
     valign: 'middle'

@@ -29,6 +29,7 @@ __all__ = ["OrderQueue"]
 Builder.load_string("""
 <OrderQueue>:
     orientation: 'vertical'
+    row_height: max(dp(60), theme.least + dp(6))
     Roll:
         id: roll
         Widget:

@@ -127,6 +127,7 @@ class Question(Modal, FloatLayout):
         self._placing = Clock.create_trigger(self._place, -1)
         super().__init__(**kwargs)
         self.bind(pos=self._place, size=self._place)
+        self.bind(pos=self._placing, size=self._placing)  # STOP ALL goes to its new place in the same frame
 
     def on_parent(self, _: object, parent: Any) -> None:
         """It comes over a page, whose STOP it finds, or leaves it."""

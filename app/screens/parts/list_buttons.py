@@ -10,6 +10,7 @@ from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
 from app.layout.arrange import Rect
+from widgets.core.theme import theme
 from widgets.parts.kit import PrimaryButton, QuietButton
 
 __all__ = ["Act", "ListButtons"]
@@ -56,7 +57,8 @@ class ListButtons:
         for name in below:
             self._add(self.under, name)
             button = self.by_name[name]
-            button.size_hint_y, button.height, button.flow = None, "52dp", "horizontal"
+            button.size_hint_y, button.flow = None, "horizontal"
+            button.height = max(dp(52), theme.least)
             button.size_hint_max_x = self._most / button.height
         self._fill(strip)
 
@@ -73,7 +75,7 @@ class ListButtons:
         across = (strip.width - gap * (strip.cols - 1)) / strip.cols
         high = (strip.height - gap * (rows - 1)) / max(1, rows)
         # a wide strip keeps its height, a narrow one its width
-        fits = min(high, self._most / across) if strip.cols == 1 and across > 0 else high
+        fits = min(high, max(self._most / across, theme.least)) if strip.cols == 1 and across > 0 else high
         for button in strip.children:
             button.size_hint_y, button.height, button.size_hint_max_x = None, fits, self._most / fits
         strip.padding = [0, (strip.height - rows * fits - gap * (rows - 1)) / 2]

@@ -15,6 +15,7 @@ from app.layout import arrange
 from app.layout.arrange import Body, Rect
 from app.screens.parts.safe_area import safe_area
 from widgets.core.surfaces import EdgedBox  # noqa: F401 - its rule draws the bar
+from widgets.core.theme import theme
 from widgets.parts.kit import IconButton, Text
 
 __all__ = ["LonePage"]
@@ -26,8 +27,8 @@ Builder.load_string("""
 <LonePage>:
     EdgedBox:
         size_hint: None, None
-        pos: root.room.x, root.room.top - dp(56)
-        size: root.room.width, dp(56)
+        pos: root.room.x, root.room.top - max(dp(56), theme.least)
+        size: root.room.width, max(dp(56), theme.least)
 """)
 
 
@@ -97,7 +98,7 @@ class LonePage(FloatLayout):
         if self._screen is None:
             return
         dp = Metrics.density
-        bar = BAR * dp
+        bar = max(BAR * dp, theme.least)
         room = self.room = safe_area.within(self.width, self.height)
         self.leave_button.pos = (room.x + 6 * dp, room.top - bar + (bar - self.leave_button.height) / 2)
         self._title.pos = (self.leave_button.right + 8 * dp, room.top - bar + (bar - self._title.height) / 2)

@@ -18,7 +18,7 @@ Builder.load_string("""
     BoxLayout:
         id: line
         size_hint_y: None
-        height: max(dp(48), title.height, theme.target if theme.gloves and root.closable else 0)
+        height: max(dp(48), title.height, theme.least if root.closable else 0)
         spacing: dp(6)
         Text:
             id: title

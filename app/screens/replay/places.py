@@ -5,19 +5,25 @@ from __future__ import annotations
 from app.layout.arrange import CORNER, more
 from app.layout.rects import ALL, Rect, StopPlace, crowded, handed, stop_place
 
-__all__ = ["BUTTONS", "panes", "replay", "replay_alone"]
+__all__ = ["SPACING", "buttons_width", "panes", "replay", "replay_alone"]
 
-BUTTONS = 256
-"""Width of the buttons of the line of time [dp]."""
+SPACING = 6
+"""Between the buttons of the line of time, and between their rows [dp]."""
 BUTTONS_HEIGHT = 118
 """Greatest height of the buttons beside STOP on an upright screen, above which STOP ALL may be [dp]."""
 LINE_HEIGHT = 56
 """Height of the line of time where it has a row of its own [dp]."""
 
 
+def buttons_width(least: float, dp: float) -> float:
+    """Width of the buttons in one row, each at least so large [px]."""
+    button = max(53 * dp, least)
+    return 3 * button + max(72 * dp, button) + 3 * SPACING * dp + 1
+
+
 @handed
-def replay(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
-    """With a robot: `main`, `line`, `buttons`, `stop` and `notice`."""
+def replay(body: Rect, shape: str, dp: float = 1.0, least: float = 0.0) -> dict[str, Rect]:
+    """With a robot: `main`, `line`, `buttons`, `stop` and `notice`; `least` is the least height of a button [px]."""
     gap = 12 * dp
     places = more(body, shape, dp)
     stop = places["stop"] if shape != "short" else stop_place(body, shape, dp, beside=ALL * dp)
@@ -26,31 +32,40 @@ def replay(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     left = Rect(body.x + gap, stop.y, beside - body.x - 2 * gap, high)
     low = stop.y + stop.height + gap if shape == "short" else places["list"].y
     if shape == "tall":
+        rows = 1 if left.width >= buttons_width(least, dp) else 2
+        # two rows take what is below them too, and stay clear of STOP ALL
+        low_edge = left.y - (rows - 1) * SPACING * dp
+        left = Rect(
+            left.x, low_edge, left.width, max(high, rows * max(53 * dp, least) + (rows - 1) * SPACING * dp)
+        )
+        low = max(low, left.top + 4 * dp)
         line = Rect(body.x + gap, low, body.width - 2 * gap, LINE_HEIGHT * dp)
         main = Rect(body.x + gap, line.top + 4 * dp, line.width, body.top - 8 * dp - line.top - 4 * dp)
         return {"main": main, "line": line, "buttons": left, "stop": stop, "notice": main}
     main = Rect(body.x + gap, low, body.width - 2 * gap, body.top - 8 * dp - low)
-    return {"main": main, **_row(left, dp), "stop": stop, "notice": main}
+    return {"main": main, **_row(left, dp, least), "stop": stop, "notice": main}
 
 
 @handed
-def replay_alone(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+def replay_alone(body: Rect, shape: str, dp: float = 1.0, least: float = 0.0) -> dict[str, Rect]:
     """Where no robot is connected: the same without `stop`, above STOP ALL where that is there."""
     gap = 12 * dp
     low = body.y + (CORNER * dp if crowded(body) else gap)
     if shape == "tall":
-        buttons = Rect(body.x + gap, low, body.width - 2 * gap, 60 * dp)
+        rows = 1 if body.width - 2 * gap >= buttons_width(least, dp) else 2
+        high = rows * max(60 * dp, least) + (rows - 1) * SPACING * dp
+        buttons = Rect(body.x + gap, low, body.width - 2 * gap, high)
         line = Rect(buttons.x, buttons.top + 4 * dp, buttons.width, LINE_HEIGHT * dp)
         main = Rect(line.x, line.top + 4 * dp, line.width, body.top - 8 * dp - line.top - 4 * dp)
         return {"main": main, "line": line, "buttons": buttons, "notice": main}
-    row = Rect(body.x + gap, low, body.width - 2 * gap, 64 * dp)
+    row = Rect(body.x + gap, low, body.width - 2 * gap, max(64 * dp, least))
     main = Rect(row.x, row.top + 4 * dp, row.width, body.top - 8 * dp - row.top - 4 * dp)
-    return {"main": main, **_row(row, dp), "notice": main}
+    return {"main": main, **_row(row, dp, least), "notice": main}
 
 
-def _row(row: Rect, dp: float) -> dict[str, Rect]:
+def _row(row: Rect, dp: float, least: float) -> dict[str, Rect]:
     """Buttons and line beside each other."""
-    wide = min(BUTTONS * dp, row.width * 0.6)
+    wide = min(buttons_width(least, dp), row.width * 0.6)
     x = row.x + wide + 8 * dp
     return {
         "buttons": Rect(row.x, row.y, wide, row.height),

@@ -14,6 +14,7 @@ from kivy.lang import Builder
 from kivy.properties import NumericProperty, ObjectProperty, OptionProperty, StringProperty
 
 from app.layout.arrange import Body, Rect
+from app.layout.rects import between
 from app.replay.player import Player
 from app.replay.recording_index import Index
 from app.replay.recording_list import RecordingList
@@ -25,6 +26,7 @@ from app.screens.replay.places import replay, replay_alone
 from app.screens.replay.recording_rows import RecordingRows
 from app.screens.replay.transport import Transport
 from widgets.core.language import mark, tr
+from widgets.core.theme import theme
 from widgets.plots.time_line import TimeLine, length_text
 
 __all__ = ["ReplayScreen"]
@@ -34,6 +36,7 @@ CHOOSER = 380
 """Width of the list of numbers [dp]."""
 
 Builder.load_string("""
+#:import without_date app.screens.replay.transport.without_date
 <ReplayScreen>:
     canvas.after:
         Color:
@@ -59,6 +62,7 @@ Builder.load_string("""
             padding: dp(10), dp(5)
             spacing: dp(6)
             pos_hint: {'center_y': .5}
+            fill: 'plan'
             canvas.before:
                 Rounded:
                     rgba: theme.plan
@@ -73,7 +77,7 @@ Builder.load_string("""
                 size: self.texture_size
                 pos_hint: {'center_y': .5}
             Label:
-                text: root.badge
+                text: root.badge if root.form != 'tall' else without_date(root.badge)
                 font_name: theme.font
                 bold: True
                 font_size: sp(14)
@@ -96,7 +100,8 @@ Builder.load_string("""
             icon: 'timeline'
             text: root.choose_words if root.form == 'wide' else ''
             size_hint_x: None
-            width: dp(170) if root.form == 'wide' else theme.target
+            width: dp(170) if root.form == 'wide' else self.height
+            height: max(dp(52), theme.least)
             pos_hint: {'center_y': .5}
     Segmented:
         id: tabs
@@ -159,14 +164,14 @@ class ReplayScreen(RobotScreen):
 
     def arrange(self, body: Body, form: str, dp: float) -> Rect:
         """Put everything into its place; returns where STOP goes."""
-        self.form, self._dp, self._places = form, dp, replay(body, form, dp)
+        self.form, self._dp, self._places = form, dp, replay(body, form, dp, theme.least)
         self.notice = self._places["notice"]
         self._lay()
         return self._places["stop"]
 
     def spread(self, body: Rect, form: str, dp: float) -> None:
         """The same where there is no robot."""
-        self.form, self._dp, self._places = form, dp, replay_alone(body, form, dp)
+        self.form, self._dp, self._places = form, dp, replay_alone(body, form, dp, theme.least)
         self._lay()
 
     def clear(self, cover: Rect | None) -> None:
@@ -336,16 +341,17 @@ class ReplayScreen(RobotScreen):
             return
         main, dp, open_ = self._places["main"], self._dp, self.player is not None
         ready = open_ and self._watching
-        head = Rect(main.x, main.top - 52 * dp, main.width, 52 * dp)
+        head = between(main.x, main.top - max(52 * dp, theme.least), main.right, main.top)
         rest = Rect(main.x, main.y, main.width, head.y - 4 * dp - main.y)
         self._place(self.ids.listed, above(main, self._cover, dp), not open_)
         self._place(self.ids.head, head, open_)
         self.ids.choose.disabled = not ready
         phone = self.form != "wide"
-        tabs = Rect(rest.x, rest.top - 44 * dp, rest.width, 44 * dp)
+        high = max(44 * dp, theme.least + 2 * theme.outline)
+        tabs = Rect(rest.x, rest.top - high, rest.width, high)
         self._place(self.ids.tabs, tabs, ready and phone)
         if phone:
-            rest = Rect(rest.x, rest.y, rest.width, rest.height - 50 * dp)
+            rest = Rect(rest.x, rest.y, rest.width, rest.height - high - 6 * dp)
         chooser = self.chooser
         if chooser is not None:
             wide = min(CHOOSER * dp, rest.width)

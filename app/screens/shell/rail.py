@@ -109,7 +109,7 @@ class Rail(Edged, FloatLayout):
     def _along(self, buttons: Sequence[Any], rect: Rect, dp: float) -> None:
         """Along the lower edge, the button to talk in a row above them."""
         step = rect.width / len(buttons)
-        bar = max(BAR_HEIGHT * dp, theme.target if theme.gloves else 0)
+        bar = max(BAR_HEIGHT * dp, theme.least)
         for index, button in enumerate(buttons):
             button.framed, button.padding = False, (0, 10 * dp, 0, 9 * dp)
             button.size = min(step, 96 * dp), bar
@@ -123,7 +123,7 @@ class Rail(Edged, FloatLayout):
         """Along the side from its upper end, the button to talk at the lower."""
         talk, gap = self.ids.talk, 8 * dp
         room = rect.height - 24 * dp - ((MIN_TALK_HEIGHT * dp + gap) if self.talks else 0)
-        least = theme.target if theme.gloves else 0
+        least = theme.least
         step = min(max(72 * dp, least), room / len(buttons))
         high = min(max(64 * dp, least), step)
         for index, button in enumerate(buttons):

@@ -235,8 +235,14 @@ class Shell(FloatLayout):
 
     @property
     def gloved(self) -> float:
-        """Least size of what a gloved finger hits in bar and navigation [px]; 0 without gloves, where they are as they are."""
+        """Least size of what a gloved finger hits [px]; 0 without gloves."""
         return float(theme.target) if theme.gloves else 0.0
+
+    @property
+    def least(self) -> float:
+        """Least width and height of bar and navigation [px]; 0 on a phone's side without gloves, where a finger hits what is in them from beside them too."""
+        beside = arrange.form(self.width, self.height, Metrics.density) == "short" and not theme.gloves
+        return 0.0 if beside else float(theme.least)
 
     def settle(self) -> None:
         """Put everything into its place anew: what is on the glass of a screen is another."""
@@ -244,7 +250,7 @@ class Shell(FloatLayout):
 
     def places(self, inside: Rect) -> dict[str, Rect]:
         """Of bar, navigation and body in a window of which `inside` is free, as in `app.layout.arrange.shell`."""
-        talks, target = self.nav.talks, self.gloved
+        talks, target = self.nav.talks, self.least
         size = self.width, self.height, Metrics.density
         return arrange.shell(*size, talks=talks, inside=inside, target=target, left_hand=hand.left)
 

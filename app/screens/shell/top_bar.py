@@ -41,6 +41,7 @@ LEAST_NAME = 60.0
 Builder.load_string("""
 #:import fitting_size widgets.core.base.fitting_size
 <TopBar>:
+    narrowest: min(theme.least, self.width / (6 if self.form == 'tall' else 11))
     size_hint: None, None
     padding: (dp(2), 0, dp(8), 0) if root.form == 'tall' else (dp(6), 0, dp(16), 0)
     spacing: dp(4) if root.form == 'tall' else dp(12)
@@ -49,7 +50,7 @@ Builder.load_string("""
         icon: 'arrow_back'
         role: 'muted'
         bare: True
-        width: dp(46) if root.form != 'tall' else dp(34)
+        width: max(dp(46) if root.form != 'tall' else dp(34), root.narrowest)
         height: min(theme.target, root.height)
         pos_hint: {'center_y': .5}
         on_release: root.dispatch('on_back')
@@ -66,6 +67,7 @@ Builder.load_string("""
         width: root.name_room or self.texture_size[0]
     Chip:
         id: trust
+        narrowest: root.narrowest
         icon: 'lock' if root.protected else 'lock_open'
         role: 'ok' if root.protected else 'warn'
         text: '' if root.protected or root.form != 'wide' else tr('Not protected')
@@ -77,6 +79,7 @@ Builder.load_string("""
         on_release: root.dispatch('on_people')
     Chip:
         id: mode
+        narrowest: root.narrowest
         icon: root.mode_icon if root.form != 'tall' else ''
         role: root.mode_role
         text: root.mode_text
@@ -111,6 +114,7 @@ Builder.load_string("""
         on_release: root.dispatch('on_inputs')
     Chip:
         id: record
+        narrowest: root.narrowest
         icon: 'fiber_manual_record_fill'
         role: 'danger'
         text: root.recorded if root.form != 'tall' else ''
@@ -122,6 +126,7 @@ Builder.load_string("""
         on_release: root.dispatch('on_record')
     Chip:
         id: control
+        narrowest: root.narrowest
         icon: root.control_icon
         role: root.control_role
         text: root.control_text if root.form != 'tall' else root.named
@@ -136,7 +141,7 @@ Builder.load_string("""
         icon: 'more_vert'
         role: 'muted'
         bare: True
-        width: dp(40)
+        width: max(dp(40), root.narrowest)
         height: min(theme.target, root.height)
         pos_hint: {'center_y': .5}
         scan_words: tr('More')
@@ -153,6 +158,8 @@ class TopBar(EdgedBox):
     """Shape of the window, as in `app.layout.arrange.form`."""
     name_room = NumericProperty(0)
     """What is left for the name of the robot where all of it would push the last chip off the glass [px]; 0 where it has room."""
+    narrowest = NumericProperty(0)
+    """Least width of what is pressed [px]: in gloves less than else, so that the bar holds it."""
     crowded = BooleanProperty(False)
     """There is no room for the satellites."""
     tight = BooleanProperty(False)

@@ -47,7 +47,7 @@ Builder.load_string("""
     BoxLayout:
         id: next
         size_hint_y: None
-        height: dp(40)
+        height: max(dp(44), theme.least)
         SectionLabel:
             title: tr('Next')
             pos_hint: {'center_y': .5}
@@ -56,7 +56,7 @@ Builder.load_string("""
             icon: 'undo'
             bare: True
             disabled: not root.may_undo
-            size: dp(48), dp(44)
+            size: max(dp(48), theme.least), max(dp(44), theme.least)
             pos_hint: {'center_y': .5}
             on_release: root.undo()
     BoxLayout:

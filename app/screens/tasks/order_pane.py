@@ -30,7 +30,7 @@ Builder.load_string("""
     BoxLayout:
         id: head
         size_hint_y: None
-        height: dp(44) if root.titled else 0
+        height: max(dp(53), theme.least) if root.titled else 0
         opacity: 1 if root.titled else 0
         spacing: dp(6)
         Text:

@@ -19,6 +19,7 @@ __all__ = ["GraphPane"]
 Builder.load_string("""
 #:import tr widgets.core.language.tr
 <GraphPane>:
+    roomy: self.width > dp(420)
     orientation: 'vertical'
     size_hint: 1, 1
     pos_hint: {'x': 0, 'y': 0}
@@ -39,17 +40,19 @@ Builder.load_string("""
         padding: dp(6), 0
     BoxLayout:
         size_hint_y: None
-        height: theme.target
+        height: max(dp(53), theme.least)
         spacing: dp(6)
         IconButton:
             id: hide
             icon: 'visibility' if root.hide else 'visibility_off'
+            size: [max(dp(53), theme.least)] * 2
             role: 'accent' if root.hide else 'muted'
             scan_words: tr('Show logs and parameters too') if root.hide else tr('Hide logs and parameters')
             on_release: root.hide = not root.hide
         IconButton:
             id: fold
             icon: 'layers'
+            size: [max(dp(53), theme.least)] * 2
             role: 'accent' if root.fold else 'muted'
             scan_words: tr('Unfold alike topics') if root.fold else tr('Fold alike topics')
             on_release: root.turn_fold()
@@ -57,16 +60,23 @@ Builder.load_string("""
             id: less
             icon: 'remove'
             role: 'muted'
+            size: [max(dp(53), theme.least) if root.roomy else 0, max(dp(53), theme.least)]
+            opacity: 1 if root.roomy else 0
+            disabled: not root.roomy
             on_release: root.view.zoom(1 / root.step)
         IconButton:
             id: more
             icon: 'add'
             role: 'muted'
+            size: [max(dp(53), theme.least) if root.roomy else 0, max(dp(53), theme.least)]
+            opacity: 1 if root.roomy else 0
+            disabled: not root.roomy
             on_release: root.view.zoom(root.step)
         IconButton:
             id: fit
             icon: 'fit_screen'
             role: 'muted'
+            size: [max(dp(53), theme.least)] * 2
             on_release: root.view.fit()
         Widget:
         PrimaryButton:
@@ -86,6 +96,8 @@ class GraphPane(BoxLayout):
     __events__ = ("on_open",)
 
     step = BUTTON_STEP
+    roomy = BooleanProperty(True)
+    """There are buttons to zoom; on a phone upright two fingers do that."""
     hide = BooleanProperty(True)
     """Leave out what joins every node with every other."""
     fold = BooleanProperty(True)

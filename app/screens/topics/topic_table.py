@@ -94,7 +94,7 @@ Builder.load_string("""
         height: theme.target if root.form == 'table' else 0
         opacity: 1 if root.form == 'table' else 0
         disabled: root.form != 'table'
-        padding: dp(14), 0
+        padding: dp(14) if root.wide else dp(8), 0
     FloatLayout:
         id: frame
         RecycleView:

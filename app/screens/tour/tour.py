@@ -93,13 +93,12 @@ class TourCard(Card):
         super().__init__(**kwargs)
         self.next = PrimaryButton(text=tr("Next"))
         self.leave = QuietButton(text=tr("Leave the tour"))
-        self.simulate = QuietButton(
-            text=tr("Start the built-in simulator"), icon="play_circle", size_hint_y=None, height="52dp"
-        )
+        self.simulate = QuietButton(text=tr("Start the built-in simulator"), icon="play_circle")
         self.next.bind(on_release=lambda _: self.dispatch("on_next"))
         self.leave.bind(on_release=lambda _: self.dispatch("on_leave"))
         self.simulate.bind(on_release=lambda _: self.dispatch("on_simulate"))
-        self.row = BoxLayout(size_hint_y=None, height=dp(52), spacing=dp(10))
+        self.row = BoxLayout(size_hint_y=None, spacing=dp(10))
+        self.row.bind(minimum_height=self.row.setter("height"))
         self.row.add_widget(self.leave)
         self.row.add_widget(self.next)
         self.add_widget(self.row)

@@ -33,17 +33,19 @@ HINT_LINK = mark(
 Builder.load_string("""
 <PairDialog>:
     short: root.room[3] < dp(520)
+    tight: root.room[3] < dp(720)
+    key: max(dp(53), theme.least) if root.tight else theme.target
     Card:
         id: card
         size_hint: None, None
         width: min(dp(760) if root.short and root.types else dp(440), root.room[2] - dp(28))
         height: self.minimum_height
         pos: root.room[0] + (root.room[2] - self.width) / 2, root.room[1] + max(dp(8), (root.room[3] - self.height) / 2)
-        padding: dp(14) if root.short else dp(20)
-        spacing: dp(8) if root.short else dp(14)
+        padding: dp(14) if root.tight else dp(20)
+        spacing: dp(8) if root.tight else dp(14)
         BoxLayout:
             size_hint_y: None
-            height: dp(30)
+            height: max(dp(30), sp(30))
             spacing: dp(10)
             Icon:
                 name: 'lock'
@@ -68,7 +70,7 @@ Builder.load_string("""
             spacing: dp(12)
             TextField:
                 id: field
-                font_size: sp(15) if root.is_link or not root.takes_code else sp(34)
+                font_size: sp(15) if root.is_link or not root.takes_code else min(sp(22), dp(28)) if root.short else min(sp(34), dp(40))
                 height: dp(68)
                 halign: 'left' if root.is_link else 'center'
                 hint_text: '000 000' if root.takes_code else 'pilothouse://…'
@@ -80,12 +82,14 @@ Builder.load_string("""
                 id: pad
                 cols: 1 if not root.takes_code else 6 if root.short else 3
                 spacing: dp(8)
-                size_hint_x: 1.6 if root.short else 1
-                row_default_height: theme.target
+                size_hint_x: None if root.short and root.takes_code else 1
+                width: max(root.key * 6 + dp(40), card.width * .6) if root.short and root.takes_code else self.width
+                row_default_height: root.key
+                height: (len(self.children) + self.cols - 1) // self.cols * (root.key + dp(8)) - dp(8)
                 row_force_default: True
         BoxLayout:
             size_hint_y: None
-            height: theme.target
+            height: root.key if root.tight else theme.target
             spacing: dp(12)
             QuietButton:
                 id: cancel
@@ -118,6 +122,10 @@ class PairDialog(Question):
     """What was typed or pasted is a link and no code."""
     short = BooleanProperty(False)
     """There is no room for the digits below the field."""
+    tight = BooleanProperty(False)
+    """There is room for them, and none to waste."""
+    key = NumericProperty()
+    """Height of a key below the field [px]."""
     takes_code = BooleanProperty(True)
     """One robot is asked about, so that its code is enough."""
     digits = NumericProperty(0)
@@ -145,6 +153,7 @@ class PairDialog(Question):
                 fill="raised",
                 border="line",
                 ink="text",
+                size_hint_y=1,
             )
             button.bind(on_release=lambda _, key=key: self.press(key))
             self.ids.pad.add_widget(button)

@@ -55,7 +55,7 @@ def test_beside_a_silent_link_the_name_is_cut_and_never_too_small_to_read(stage:
     name = bar.ids.name
     assert name.font_size >= sp(13)
     assert name.is_shortened
-    assert name.right <= bar.ids.trust.x
+    assert name.right <= bar.ids.mode.x
 
 
 def test_what_has_no_satellites_to_tell_of_has_no_chip_for_them(stage: Any) -> None:
