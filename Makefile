@@ -5,7 +5,7 @@ ROBOT ?= patrol
 WORLD ?=
 export PYTHONPATH := $(CURDIR)
 
-.PHONY: help setup voice video setup-test setup-js run demo test test-fast test-slow mutate bench android-check gallery lint format
+.PHONY: help setup voice video setup-test setup-js run demo test test-fast test-slow mutate bench android-check gallery layout-lint lint format
 
 help: ## list the commands
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -52,6 +52,9 @@ android-check: setup ## check the APK as far as possible without its toolchain
 
 gallery: setup ## draw every widget in every state and theme: out/gallery/index.html
 	@$(PYTHON) -m widgets --out out/gallery
+
+layout-lint: setup-test ## look for words cut, small or covered targets on all screens, sizes and languages: out/layout_lint/report.md; option WAYS="de 130"
+	@$(PYTHON) -m tests.layout_lint --only "$(WAYS)"
 
 lint: setup-test ## run ruff, the format check and mypy
 	@$(PYTHON) -m ruff check .

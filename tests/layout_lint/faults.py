@@ -15,7 +15,9 @@ from kivy.uix.scrollview import ScrollView
 from kivy.uix.stencilview import StencilView
 from kivy.uix.textinput import TextInput
 
+from app.inputs.base.modal import Modal
 from app.inputs.switch_access.window.kinds import kind_of
+from widgets import StopAll, StopButton
 from widgets.core.surfaces import Glass, Outlined
 from widgets.core.theme import PALETTES, contrast, theme
 from widgets.parts.cards import Banner, Card
@@ -42,6 +44,8 @@ PASSIVE = ("", "scroll", "map")
 """Kinds that a finger does not press: lists that scroll, and the map that lies below all that floats over it."""
 NAMES = ("/", "Fake-1", "Pilothouse-", "ws://", "http", "PH1:", "·")
 """What is in a text that is, or ends in, a name, a path or an address."""
+
+STOPS = (StopButton, StopAll)
 
 Box = tuple[float, float, float, float]
 """Left, low, right, top [px, window]."""
@@ -85,10 +89,18 @@ class Seen:
 
 def faults(root: Any, window: tuple[float, float]) -> list[Fault]:
     """All that is wrong with the widgets under `root` in a window of that size [px]; contrast apart."""
-    seen = list(_walk(root, (0.0, 0.0, *window), (), rolls=False))
+    seen = _in_reach(list(_walk(root, (0.0, 0.0, *window), (), rolls=False)))
     glass = (0.0, 0.0, *window)
     found = [*_texts(seen, glass), *_targets(seen, glass)]
     return list(dict.fromkeys(found))
+
+
+def _in_reach(seen: list[Seen]) -> list[Seen]:
+    """Without what lies below a question, which takes every finger but that for STOP; STOP and what is drawn later stay."""
+    asked = next(
+        (number for number in range(len(seen) - 1, -1, -1) if isinstance(seen[number].widget, Modal)), 0
+    )
+    return [one for one in seen[:asked] if isinstance(one.widget, STOPS)] + seen[asked:]
 
 
 def _walk(widget: Any, clip: Box, chain: tuple[Any, ...], *, rolls: bool) -> Iterator[Seen]:

@@ -1,8 +1,10 @@
-"""What the walk looks at: every screen of a connected robot, every pane of the setup and the inputs, the dialogs, the connect page."""
+"""What the walk looks at with a robot: every screen, every pane of the setup and the inputs, drive screens of all kinds, the dialogs."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+
+import msgspec
 
 from app.link.feeds import Post
 from app.screens.parts.screen_table import names
@@ -26,11 +28,18 @@ from bridge.msgs.sensor_msgs import BatteryState
 from bridge.msgs.std_msgs import Time
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
+from tests.layout_lint.alone import Scene, close, kept_recording, nothing, opened_recording, tour_cards
 
-__all__ = ["Scene", "fill", "scenes"]
+__all__ = ["feed", "fill", "scenes"]
 
-Scene = tuple[str, Callable[[Glass], object], Callable[[Glass], object]]
-"""Its name, what puts it on the glass, and what takes away again what the next one does not replace."""
+KINDS = {
+    "commander": "ackermann",
+    "scout": "wheels",
+    "minnow": "boat",
+    "ardrone": "quadrotor",
+    "aqua": "hexapod",
+}
+"""Models whose drive screens differ, to their kinds."""
 
 ROUTE = [Waypoint(x, y, name=name) for x, y, name in ((1, 1, ""), (7, 2, "Loading bay"), (4, 6, ""))]
 PLACES = [Place(id=1, name="Loading bay", x=7, y=2), Place(id=2, name="Charging dock", kind="dock", x=0, y=0)]
@@ -98,27 +107,38 @@ def scenes() -> Iterator[Scene]:
     """All of them."""
     for name in names():
         if name not in ("setup", "inputs"):
-            yield name, lambda glass, name=name: glass.app.show(name), _nothing
+            yield name, lambda glass, name=name: glass.app.show(name), nothing
     yield from _panes("setup", "app.screens.setup.pane_table")
     yield from _panes("inputs", "app.screens.inputs.pane_table")
     for tab in ("schedule", "events", "places", "missions", "history"):
-        yield f"tasks {tab}", lambda glass, tab=tab: _tab(glass, tab), _nothing
+        yield f"tasks {tab}", lambda glass, tab=tab: _tab(glass, tab), nothing
+    for task in TASKS[:3]:
+        yield f"tasks {task}", lambda glass, task=task: _order(glass, task), _shut_task
+    yield "tasks place", _edit_place, _shut_task
     yield "mission points", _points, lambda glass: setattr(glass.app.screens["mission"], "mode", "view")
     yield "place card", _place, _shut
+    yield "layers card", _layers, lambda glass: glass.app.screens["mission"].back()
+    yield "topics graph", lambda glass: _graph(glass, on=True), lambda glass: _graph(glass, on=False)
+    yield "topics open", _topic, lambda glass: glass.app.screens["topics"].back()
+    yield "replay open", _replay, lambda glass: glass.app.screens["replay"].back()
     yield "panels edit", _edit, lambda glass: glass.app.screens["panels"].back()
-    yield "leave", _leave, lambda glass: glass.app.pages.close_question()
-    yield "people", _people, lambda glass: glass.app.pages.close_question()
+    yield "panels list", _list, _edited
+    yield "panels selected", _select, _edited
+    yield "panels share", _share, close
+    yield "leave", _leave, close
+    yield "people", lambda glass: glass.app.shell.show_people(), close
+    yield "control", lambda glass: glass.app.shell.toggle_control(), close
+    yield "keys", lambda glass: glass.app.toggle_help(), lambda glass: glass.app.toggle_help()
+    yield from tour_cards("tour", 5)
     yield "STOP ALL", _stop_all, _release
-
-
-def _nothing(_: Glass) -> None:
-    """The next one replaces it."""
+    for model in KINDS:
+        yield f"drive {model}", lambda glass, model=model: _drive(glass, model), _drive_own
 
 
 def _panes(screen: str, table: str) -> Iterator[Scene]:
     from importlib import import_module
 
-    yield screen, lambda glass: glass.app.show(screen), _nothing
+    yield screen, lambda glass: glass.app.show(screen), nothing
     for name in import_module(table).panes():
         yield (
             f"{screen} {name}",
@@ -135,6 +155,20 @@ def _pane(glass: Glass, screen: str, name: str) -> None:
 def _tab(glass: Glass, tab: str) -> None:
     glass.app.show("tasks")
     glass.app.screens["tasks"].tab = tab
+
+
+def _order(glass: Glass, task: str) -> None:
+    glass.app.show("tasks")
+    glass.app.screens["tasks"].begin(task)
+
+
+def _edit_place(glass: Glass) -> None:
+    glass.app.show("tasks")
+    glass.app.screens["tasks"].edit_place(PLACES[0])
+
+
+def _shut_task(glass: Glass) -> None:
+    glass.app.screens["tasks"].close()
 
 
 def _points(glass: Glass) -> None:
@@ -156,9 +190,52 @@ def _shut(glass: Glass) -> None:
         mission.card.shown.leave()
 
 
+def _layers(glass: Glass) -> None:
+    glass.app.show("mission")
+    mission = glass.app.screens["mission"]
+    mission._maps.toggle_card(mission)
+
+
+def _graph(glass: Glass, *, on: bool) -> None:
+    glass.app.show("topics")
+    glass.app.screens["topics"].list.form = "graph" if on else "table"
+
+
+def _topic(glass: Glass) -> None:
+    glass.app.show("topics")
+    glass.app.screens["topics"].open("/battery_state")
+
+
+def _replay(glass: Glass) -> None:
+    kept_recording(glass)
+    glass.app.show("replay")
+    opened_recording(glass, glass.app.screens["replay"])
+
+
 def _edit(glass: Glass) -> None:
     glass.app.show("panels")
     glass.app.screens["panels"].editor.begin()
+
+
+def _list(glass: Glass) -> None:
+    _edit(glass)
+    glass.app.screens["panels"].editor.act("list")
+
+
+def _select(glass: Glass) -> None:
+    _edit(glass)
+    glass.app.screens["panels"].editor.select(0)
+
+
+def _edited(glass: Glass) -> None:
+    panels = glass.app.screens["panels"]
+    while panels.editing and panels.back():
+        pass
+
+
+def _share(glass: Glass) -> None:
+    glass.app.show("panels")
+    glass.app.screens["panels"].editor.act("share")
 
 
 def _leave(glass: Glass) -> None:
@@ -166,10 +243,6 @@ def _leave(glass: Glass) -> None:
 
     glass.app.show("drive")
     glass.app.root.add_widget(LeaveDialog(lambda: None, robot="Fake-1", reason="task"))
-
-
-def _people(glass: Glass) -> None:
-    glass.app.shell.show_people()
 
 
 def _stop_all(glass: Glass) -> None:
@@ -180,3 +253,13 @@ def _stop_all(glass: Glass) -> None:
 def _release(glass: Glass) -> None:
     glass.app.corner.list.dispatch("on_close")
     glass.app.shell.tick()
+
+
+def _drive(glass: Glass, model: str) -> None:
+    info = msgspec.structs.replace(MESSAGES["/robot/info"], model=model, kind=KINDS[model])
+    glass.app._deliver("/robot/info", Post(info, glass.app.now(), 1))
+    glass.app.show("drive")
+
+
+def _drive_own(glass: Glass) -> None:
+    glass.app._deliver("/robot/info", Post(MESSAGES["/robot/info"], glass.app.now(), 1))

@@ -1,57 +1,33 @@
-"""The main screens on a phone and a tablet, in all themes: what is wrong is known by name and reason, or it fails."""
+"""The main screens on a phone upright and on its side: what is wrong is known by name and reason, or it fails."""
 
 from __future__ import annotations
 
-import tomllib
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
-import pytest
-
-from tests.app.fakes import FakeRobot
-from tests.app.glass import running
 from tests.headless import Stage
-from tests.layout_lint.scenes import fill
-from tests.layout_lint.walk import DAILY, Finding, Walk
+from tests.layout_lint.known import GROUPS, KNOWN, verdict
+from tests.layout_lint.walk import Finding, Walk
+from tests.layout_lint.ways import DAILY, WHOLE
 
-GROUPS = tomllib.loads(Path(__file__).with_name("known.toml").read_text(encoding="utf-8"))["group"]
-KNOWN = {fault for group in GROUPS for fault in group["faults"]}
-"""What is wrong and may be for now, each as its kind and its place in the tree."""
-MAIN = ("drive", "mission", "tasks", "panels", "more", "setup", "leave")
-"""Scenes that are looked at each day."""
-
-
-@pytest.fixture
-def walk(stage: Stage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Walk]:
-    """Over an app that drives a robot which has something to say on every screen."""
-    # Kivy: its first import comes after tests/conftest.py prepared it
-    from app.garbage_collector import Collector
-    from widgets.core.language import language
-    from widgets.core.theme import theme
-
-    monkeypatch.setattr(Collector, "step", lambda *_, **__: None)
-    robot, before = FakeRobot(), tuple(stage.window.size)
-    try:
-        with running(stage, tmp_path) as glass:
-            glass.app.open(robot.url)
-            glass.drives()
-            fill(robot, glass)
-            yield Walk(glass)
-    finally:
-        robot.close()
-        stage.window.size, theme.gloves, language.name = before, False, "en"
-
-
-def named(finding: Finding) -> str:
-    return f"{finding.fault.kind}: {finding.fault.where}"
+MAIN = (
+    "connect robots",
+    "drive",
+    "mission",
+    "tasks",
+    "topics",
+    "setup",
+    "setup name",
+    "leave",
+    "replay open",
+)
+"""Scenes that are looked at each day: those in which what many screens share has its place."""
 
 
 def unknown(findings: list[Finding]) -> list[str]:
     """The first of each that is in no group."""
-    first: dict[str, Any] = {}
+    first: dict[str, Finding] = {}
     for finding in findings:
-        first.setdefault(named(finding), finding)
+        first.setdefault(finding.name, finding)
     return [str(finding) for name, finding in first.items() if name not in KNOWN]
 
 
@@ -60,9 +36,20 @@ def test_each_known_fault_has_a_reason_and_is_named_once() -> None:
     assert len(KNOWN) == sum(len(group["faults"]) for group in GROUPS), "one is named twice"
 
 
-def test_nothing_new_is_wrong_with_the_main_screens_on_a_phone_and_a_tablet(walk: Walk) -> None:
-    findings = list(walk.over(DAILY, MAIN))
-    wrong, found = unknown(findings), {named(finding) for finding in findings}
-    assert walk.looks == len(MAIN) * 2
+def test_a_new_fault_fails_and_one_that_is_mended_must_leave_the_list() -> None:
+    some = min(KNOWN)
+    assert verdict(KNOWN, whole=True) == []
+    assert verdict([*KNOWN, "small: Root>Elsewhere"], whole=True) == ["new: small: Root>Elsewhere"]
+    assert verdict(KNOWN - {some}, whole=True) == [f"mended, and still named: {some}"]
+    assert verdict(KNOWN - {some}, whole=False) == [], "a part of the walk comes upon a part of them"
+
+
+def test_the_whole_walk_has_each_language_in_each_size_of_text() -> None:
+    assert len({(way.language, way.text) for way in WHOLE}) == len(WHOLE) == 18
+
+
+def test_nothing_new_is_wrong_with_the_main_screens_on_a_phone(stage: Stage, tmp_path: Path) -> None:
+    walk = Walk(stage, tmp_path)
+    wrong = unknown(list(walk.over(DAILY, MAIN)))
+    assert walk.looks == len(MAIN) * (2 + 3), "two sizes and three themes"
     assert not wrong, "\n".join(wrong)
-    assert not KNOWN - found, "mended, and still listed"
