@@ -78,7 +78,7 @@ class Body(Rect):
     left_hand: bool = False
     """The left hand holds STOP: what is arranged by hand is mirrored."""
     target: float = 0.0
-    """Least size of STOP and of STOP ALL, as in gloves [px]."""
+    """Least size of STOP and of STOP ALL: what a finger hits, in gloves too [px]."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -234,11 +234,6 @@ class Shell(FloatLayout):
     # places
 
     @property
-    def gloved(self) -> float:
-        """Least size of what a gloved finger hits [px]; 0 without gloves."""
-        return float(theme.target) if theme.gloves else 0.0
-
-    @property
     def least(self) -> float:
         """Least width and height of bar and navigation [px]; 0 on a phone's side without gloves, where a finger hits what is in them from beside them too."""
         beside = arrange.form(self.width, self.height, Metrics.density) == "short" and not theme.gloves
@@ -269,7 +264,7 @@ class Shell(FloatLayout):
             room = places["body"]
             put(screen, room)
             size = room.x, room.y, room.width, room.height
-            body = arrange.Body(*size, self.shares_stop, hand.left, self.gloved)
+            body = arrange.Body(*size, self.shares_stop, hand.left, theme.least)
             self.stop_place = stop_place(screen.arrange(body, self.form, dp))
             put(self.stop, self.stop_place)
         self._place_notices()
