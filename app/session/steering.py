@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple, Protocol
 
+from app.core.command_origin import NOBODY, Origin
 from app.link.feeds import Feeds
 from app.session.robot_profile import RobotProfile
 from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
@@ -21,7 +22,7 @@ class Steering(NamedTuple):
     """How a robot is steered."""
 
     mode: str
-    """`READY` (nobody steers and no task waits), `MANUAL`, `AUTO`, `PAUSED` (a task waits and nobody drives) or `STOPPED`."""
+    """`READY` (nobody steers and no task waits; nor has this handheld, which has control, driven yet), `MANUAL`, `AUTO`, `PAUSED` (a task waits and nobody drives) or `STOPPED`."""
     who: str
     """Who has control: `you`, a name, or empty for nobody."""
     task: str
@@ -34,6 +35,10 @@ class _Link(Protocol):
     @property
     def driving(self) -> bool:
         """A stick is pushed."""
+
+    @property
+    def driven_by(self) -> Origin:
+        """Origin of the last command that moves the robot; `NOBODY` before the first."""
 
 
 class SteeredRobot(Protocol):
@@ -65,6 +70,11 @@ def steering(session: SteeredRobot) -> Steering | None:
     mode = status.mode
     if mode == PAUSED and who == YOU and session.link.driving:
         mode = MANUAL
-    elif mode == MANUAL and not who:
+    elif mode == MANUAL and (not who or (who == YOU and not waits and not _has_driven(session.link))):
         mode = READY
     return Steering(mode, who, task if waits or mode in (AUTO, PAUSED) else "", waits)
+
+
+def _has_driven(link: _Link) -> bool:
+    """Something here has driven the robot, by stick or otherwise, since the link was made."""
+    return link.driving or link.driven_by is not NOBODY

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from app.core.command_origin import NOBODY, Origin
 from app.screens.shell import status_text
 from app.session.steering import AUTO, MANUAL, PAUSED, READY, STOPPED, YOU, Steering, steering
 from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
@@ -20,11 +21,12 @@ def session(
     *,
     driving: bool = False,
     foreign: bool = False,
+    driven: bool = True,
 ) -> Any:
     told = {"/control/status": status, "/task/status": task}
     return SimpleNamespace(
         feeds=SimpleNamespace(latest=told.get),
-        link=SimpleNamespace(driving=driving),
+        link=SimpleNamespace(driving=driving, driven_by=Origin() if driven else NOBODY),
         robot=SimpleNamespace(foreign=foreign),
         robot_stop=SimpleNamespace(local=SimpleNamespace(latched=False)),
         own_id=ME,
@@ -95,6 +97,20 @@ RUNS, WAITS = TaskStatus(task="patrol", state="RUNNING"), TaskStatus(task="patro
 def test_how_a_robot_is_steered(status, task, driving, found, words):
     one = session(status, task, driving=driving)
     assert steering(one) == found
+    assert status_text.mode(one)[0] == words
+
+
+@pytest.mark.parametrize(
+    ("status", "task", "driving", "words"),
+    [
+        (ControlStatus(mode="MANUAL", **MINE), None, False, "READY"),
+        (ControlStatus(mode="MANUAL", **MINE), None, True, "MANUAL · you"),
+        (ControlStatus(mode="MANUAL", **MINE), WAITS, False, "MANUAL · patrol paused"),
+        (ControlStatus(mode="MANUAL", **ANNAS), None, False, "MANUAL · Anna"),
+    ],
+)
+def test_who_has_control_and_has_not_driven_yet_is_ready(status, task, driving, words):
+    one = session(status, task, driving=driving, driven=False)
     assert status_text.mode(one)[0] == words
 
 
