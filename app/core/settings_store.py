@@ -55,7 +55,7 @@ class Settings:
             values = json.loads(self.path.read_text(encoding="utf-8"))
         except FileNotFoundError:
             return {}
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, RecursionError) as error:
             return self._put_aside(error)
         return values if isinstance(values, dict) else self._put_aside(tr("it is not a table of values"))
 

@@ -126,7 +126,7 @@ def _bound_labels() -> None:
 
     within.bounded = True  # type: ignore[attr-defined]
     if not hasattr(refresh, "bounded"):
-        LabelBase.refresh = within
+        LabelBase.refresh = within  # type: ignore[method-assign,assignment]
 
 
 _bound_labels()

@@ -11,6 +11,7 @@ that it needs no catalogue, and what a catalogue lacks stays English.
 from __future__ import annotations
 
 import gettext
+import logging
 import math
 import re
 from collections.abc import Callable
@@ -33,6 +34,8 @@ __all__ = [
     "trn",
     "within",
 ]
+
+log = logging.getLogger(__name__)
 
 FOLDER = Path(__file__).parents[1] / "languages"
 """One `NAME.mo` for each language but English, made of `scripts/catalogues/NAME.po`."""
@@ -124,12 +127,15 @@ class Language:
 
 
 def _catalogue(name: str) -> gettext.NullTranslations:
-    """The catalogue of a language; an empty one for English, and where there is none yet."""
+    """The catalogue of a language; an empty one for English, and where there is none yet, or a damaged one."""
     try:
         with (FOLDER / f"{name}.mo").open("rb") as file:
             return gettext.GNUTranslations(file)
     except FileNotFoundError:
-        return gettext.NullTranslations()
+        pass
+    except Exception:  # gettext raises what it likes at a damaged file; an app in English is better than none
+        log.exception("the catalogue of %s cannot be read", name)
+    return gettext.NullTranslations()
 
 
 def _pseudo(text: str) -> str:

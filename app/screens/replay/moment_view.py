@@ -140,7 +140,7 @@ class MomentView(FloatLayout):
 
         def take(found: Any) -> None:
             if trace in plot.traces:
-                values = to_shown(found[1], kind) if kind else found[1]
+                values: Any = to_shown(found[1], kind) if kind else found[1]
                 plot.load(trace, found[0] - start, values)
                 self._follow()
 

@@ -28,6 +28,11 @@ def test_a_damaged_file_is_put_aside_and_said(tmp_path: Path) -> None:
     assert (tmp_path / "settings.unreadable.json").read_text() == "{half"
 
 
+def test_a_file_that_nests_too_deep_is_put_aside(tmp_path: Path) -> None:
+    (tmp_path / "settings.json").write_text("[" * 200_000)
+    assert "put aside" in Settings(tmp_path).problem
+
+
 def test_a_file_that_is_no_table_is_put_aside(tmp_path: Path) -> None:
     (tmp_path / "settings.json").write_text("[1]")
     assert "put aside" in Settings(tmp_path).problem

@@ -116,3 +116,16 @@ def test_english_words_begin_small_within_a_sentence_but_for_capitals():
 
 def test_german_nouns_keep_their_capital_within_a_sentence(german):
     assert within("Patrouille") == "Patrouille"
+
+
+@pytest.mark.parametrize(
+    "damage", [b"", b"words", b"\xde\x12\x04\x95" + bytes(3), b"\xde\x12\x04\x95" + b"\xff" * 60]
+)
+def test_a_damaged_catalogue_leaves_english_and_no_app_that_cannot_begin(
+    tmp_path, monkeypatch, caplog, damage
+):
+    monkeypatch.setattr(module, "FOLDER", tmp_path)
+    (tmp_path / "fr.mo").write_bytes(damage)
+    language.name = "fr"
+    assert tr("Start") == "Start"
+    assert "the catalogue of fr cannot be read" in caplog.text
