@@ -101,13 +101,15 @@ def connect_columns(width: float, dp: float = 1.0) -> int:
 
 
 @handed
-def mission(body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False) -> dict[str, Rect]:
+def mission(
+    body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False, grip: float = 0.0
+) -> dict[str, Rect]:
     """Of the mission screen: `map`, `panel`, `stop`, and what floats on the map.
 
-    `sheet_open` draws the sheet of the tall form up over most of the map.
+    `sheet_open` draws the sheet of the tall form up over most of the map; a finger reaches no less than `grip` of its edge [px].
     """
     if shape == "tall":
-        return _mission_tall(body, dp, sheet_open)
+        return _mission_tall(body, dp, sheet_open, grip)
     gap, wide = 14 * dp, shape == "wide"
     side = min(max(344 * dp, body.width * 0.22), 420 * dp) if wide else 304 * dp
     panel = Rect(body.right - side, body.y, side, body.height)
@@ -116,7 +118,12 @@ def mission(body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False
         beside = min(stop.x - (8 + EDGE) * dp - panel.x, 0.6 * stop.width)
         stop = stop_place(body, shape, dp, beside=beside)
     area = Rect(body.x, body.y, body.width - side, body.height)
-    places = {"map": area, "panel": _above(panel, stop, gap), "side": panel, "stop": stop}
+    places = {
+        "map": area,
+        "panel": _above(panel, stop, gap if wide else 10 * dp),
+        "side": panel,
+        "stop": stop,
+    }
     button = (52 if wide else 46) * dp
     free = Rect(area.x, area.y + 142 * dp, area.width, area.height - 142 * dp) if wide else area
     places["tools"] = _column(free, button, 8, gap, 8 * dp if wide else 6 * dp)
@@ -160,14 +167,14 @@ def _mission_instruments(area: Rect, gap: float, dp: float) -> dict[str, Rect]:
     return {"video": video, "compass": compass, "readouts": readouts, "selection": selection}
 
 
-def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
+def _mission_tall(body: Rect, dp: float, sheet_open: bool, grip: float) -> dict[str, Rect]:
     gap = 12 * dp
     stop, tasks = stop_tall(body, dp)
     taken = stop.head - body.y
     low = min(196 * dp + taken, body.height * (0.58 if crowded(body) else 0.5))
     height = body.height - 120 * dp if sheet_open else low
     sheet = Rect(body.x, body.y, body.width, height)
-    handle = 22 * dp
+    handle = max(22 * dp, grip - gap)
     panel = Rect(
         sheet.x + gap,
         stop.head + 8 * dp,
@@ -183,7 +190,7 @@ def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
         "map": area,
         "side": sheet,
         "notice": between(video.x, modes.top + 8 * dp, tools.x - gap, video.y - 8 * dp),
-        "handle": Rect(sheet.x, sheet.top - handle, sheet.width, handle),
+        "handle": Rect(sheet.x, sheet.top - handle, sheet.width, handle + gap),  # up to the modes
         "panel": panel,
         "stop": stop,
         "tasks": tasks,

@@ -5,6 +5,8 @@ Pure arithmetic in the window's pixels, origin at the lower left.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from app.layout.rects import Rect, StopPlace, between, stop_place
 
 __all__ = ["phone_dive", "phone_drive", "whole"]
@@ -16,8 +18,10 @@ USUAL_HEIGHT = 364
 GAP = 10
 """[dp]"""
 STICK = 168
-FIGURES, TAPE, BADGE = (200, 48), (236, 44), (186, 44)
+FIGURES, TAPE, BADGE = (252, 48), (236, 44), (186, 44)
 """Width and height of what is seen while driving, along the upper edge [dp]."""
+NARROW = 200
+"""Width of the figures beside two sticks, and of the depth on a dive screen [dp]."""
 HANDLE = 96, 44
 """Width and height of what a finger pulls [dp]."""
 SLIDE = 52
@@ -56,6 +60,8 @@ def phone_drive(
         low = places["confirm"].top + gap
     places["alone"] = Rect(stick.x, stick.y, stick.width + SLIDER * unit + gap, stick.height)
     seen = _seen(body, unit)
+    if two:  # whose right one takes as much of the picture
+        seen["readouts"] = replace(seen["readouts"], width=min(seen["readouts"].width, NARROW * unit))
     sheet = _drawer(body, stick.top, unit, switch=switch)
     middle = (stick.right + right) / 2 if two else body.x + body.width / 2
     handle = _handle(middle, seen["top"].y - 4 * unit, unit)
@@ -86,9 +92,10 @@ def _seen(body: Rect, unit: float) -> dict[str, Rect]:
     def top(x: float, size: tuple[float, float]) -> Rect:
         return Rect(x, body.top - gap - size[1] * unit, size[0] * unit, size[1] * unit)
 
+    left, tape = body.x + gap, body.x + (body.width - TAPE[0] * unit) / 2
     return {
-        "readouts": top(body.x + gap, FIGURES),
-        "top": top(body.x + (body.width - TAPE[0] * unit) / 2, TAPE),
+        "readouts": top(left, (min(FIGURES[0], (tape - gap - left) / unit), FIGURES[1])),
+        "top": top(tape, TAPE),
         "badge": top(body.right - gap - BADGE[0] * unit, BADGE),
     }
 
@@ -147,7 +154,7 @@ def phone_dive(
     tilt = Rect(stop.left - gap - stick.width, stick.y, stick.width, stick.height)
     row = _seen(body, unit)
     seen = {
-        "corner": row["readouts"],
+        "corner": replace(row["readouts"], width=min(row["readouts"].width, NARROW * unit)),
         "motion": between(
             row["top"].x - 40 * unit, row["top"].y - 2 * unit, row["top"].right + 40 * unit, row["top"].top
         ),

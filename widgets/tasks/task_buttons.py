@@ -58,7 +58,7 @@ Builder.load_string("""
     BoxLayout:
         id: row
         size_hint_y: None
-        height: max(theme.target, dp(64)) if root.brief else theme.target
+        height: max(theme.target, dp(54 if root.low else 64)) if root.brief else theme.target
         spacing: theme.gap * .8
         PushButton:
             text: root.main_words
@@ -119,6 +119,9 @@ class TaskButtons(Control, Column):
     """State of the robot's task, as in TaskStatus."""
     brief = BooleanProperty(False)
     """Icons above the words, for a phone."""
+
+    low = BooleanProperty(False)
+    """Lower ones, for a phone on its side."""
 
     ready = BooleanProperty(True)
     """There is a patrol that the robot would start; without one Start is as quiet as the rest."""

@@ -30,6 +30,8 @@ HIDES = ("top_left", "top_right", "top")
 """Places of instruments that may lie under the unfolded sensors, or under what is said."""
 MIN_HEIGHT, FIGURES = 110.0, 52.0
 """Of an instrument, and of the figures in one row, less height shows nothing that can be read [dp]."""
+THREE, FIGURES_HEIGHT = 236.0, 48.0
+"""Width that three figures need on a phone's side, and their height there [dp]."""
 SLIDE = 52
 """Height of a slide over the picture [dp]."""
 
@@ -236,13 +238,15 @@ class DriveScreen(Driving):
         dp, tall = self._dp, self._form == "tall"
         roomy = self._form == "wide" or place.width >= 330 * dp
         narrow = self._form != "short" and place.width < 160 * dp
-        self.readouts.cols = 1 if narrow else 4 if roomy and tall else 2
+        self.readouts.cols = 1 if narrow else 4 if roomy and tall else 3 if self._form == "short" else 2
         self._figures_card.padding = 12 * dp, (8 if place.height >= 62 * dp or narrow else 2) * dp
-        self._trim(roomy or place.height >= 200 * dp)
+        least = THREE * dp * min(1.0, place.height / (FIGURES_HEIGHT * dp))
+        seen = 3 if self._form == "short" and place.width >= least else 2
+        self._trim(len(self._figures) if roomy or place.height >= 200 * dp else seen)
 
-    def _trim(self, roomy: bool) -> None:
-        """A phone has room for two figures."""
-        wanted = self._figures if roomy else self._figures[:2]
+    def _trim(self, count: int) -> None:
+        """A phone has room for two figures, and for three on its side."""
+        wanted = self._figures[:count]
         if list(reversed(self.readouts.children)) != wanted:
             self.readouts.clear_widgets()
             for widget in wanted:

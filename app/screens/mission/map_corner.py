@@ -8,6 +8,7 @@ from kivy.clock import Clock
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
+from app.core.hand import hand
 from app.layout.arrange import Rect
 from app.screens.mission.intruder_card import IntruderCard
 from app.screens.mission.selection_bar import SelectionBar
@@ -82,7 +83,11 @@ class MapCorner:
         box, bar, wide, cover = self.box, self._bar, self._form == "wide", self.cover
         low = area.y + area.insets[1]
         self._selection.width = self._checks.wide = box.width = bar.width
-        self._checks.brief, box.height = not wide, box.minimum_height
+        self._checks.brief = (
+            self._checks.tight
+        ) = not wide  # on a phone the map is seen until a finger unfolds them
+        self._checks.pos_hint = {"right": 1} if hand.left else {"x": 0}
+        box.height = box.minimum_height
         box.pos = bar.x, bar.top - box.height if wide else bar.y
         self._checks.room = bar.top - low if wide else self._notice.top - bar.y
         area.foot = 0.0 if wide or not box.height else math.nan if self._covers else max(0.0, box.top - low)

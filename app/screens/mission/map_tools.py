@@ -83,6 +83,12 @@ class MapTools:
                 step = (rect.height - side) / max(1, min(fit, len(names)) - 1)
                 float_over(floats, button, Rect(rect.x, rect.top - side - index * step, side, side))
 
+    def clear(self, floats: FloatLayout, card: Rect | None) -> None:
+        """Take away what would lie under a card over the map; None where there is none."""
+        for button in self.buttons.values():
+            if card is not None and card.overlaps(Rect(*button.pos, *button.size)):
+                float_over(floats, button, None)
+
     def _wanted(self, *, tall: bool, has_layers: bool) -> list[str]:
         names = ["centre", "measure", "layers", "undo", "redo"] if tall else list(self.buttons)
         if self._session.robot.lacks_tasks:

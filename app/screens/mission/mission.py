@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from kivy.lang import Builder
+from kivy.metrics import mm
 from kivy.properties import ListProperty, NumericProperty, ObjectProperty, StringProperty
 from kivy.uix.widget import Widget
 
@@ -33,6 +34,7 @@ from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Place, RobotInfo
 from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import Compass, Video
+from widgets.core.theme import theme
 from widgets.map.map_overlay import MapOverlay
 
 __all__ = ["MissionScreen"]
@@ -166,7 +168,8 @@ class MissionScreen(RobotScreen):
     def arrange(self, body: Rect, form: str, dp: float) -> Rect:
         """Put everything into its place; returns where STOP goes."""
         self._form, self._body, self._dp = form, body, dp
-        places = arrange.mission(body, form, dp, sheet_open=bool(self.sheet))
+        grip = max(mm(10), theme.target if theme.gloves else 0.0)
+        places = arrange.mission(body, form, dp, sheet_open=bool(self.sheet), grip=grip)
         tall = form == "tall"
         put(self.ids.side, places["side"])
         put(self.map, places["map"])
@@ -184,6 +187,7 @@ class MissionScreen(RobotScreen):
         self._place_tasks(places.get("tasks"))
         self._tools.arrange(self.ids.floats, places["tools"], dp, tall=tall, has_layers=self._maps.offered)
         self._place_floats(places)
+        self._tools.clear(self.ids.floats, self.card.place)
         self.notice = places["notice"]
         self._pointing.show()
         up = bool(self.sheet) and tall

@@ -51,7 +51,7 @@ Builder.load_string("""
             orientation: 'vertical'
             size_hint_y: None
             height: max(self.minimum_height, scroll.height)
-            spacing: dp(9) if root.form == 'wide' else dp(10)
+            spacing: dp(9) if root.form == 'wide' else dp(7) if root.form == 'short' else dp(10)
             padding: 0, dp(12) if root.form == 'tall' else 0, 0, 0
 
 <SendRow>:
@@ -78,6 +78,8 @@ Builder.load_string("""
             text: root.note
             role: root.role
             font_size: sp(14)
+            shorten: root.lean and root.role != 'danger'
+            shorten_from: 'right'
 
 <ProgressRow>:
     spacing: dp(5)
@@ -141,6 +143,8 @@ class SendRow(Column):
     role = StringProperty("muted")
     icon = StringProperty("info")
     may_send = NumericProperty(0)
+    lean = BooleanProperty(False)
+    """Has one line for what became of it, but all that a refusal says."""
     calls = BooleanProperty(False)
     """Nothing else sends these points: the robot goes round others just now."""
 
@@ -243,6 +247,7 @@ class MissionPanel(BoxLayout):
         for readout in (self.speed, self.next, self.lap, self.left):
             readout.font_size = "26sp" if wide else "22sp"
         self.tasks.brief = self.motion.brief = not wide
+        self.tasks.low = self._send.lean = form == "short"
         self.next.name = tr("Next", context="point") if tall else tr("Next point")
         self._progress.titled = wide
         self.events.size_hint_y = 1
