@@ -8,10 +8,11 @@ import pytest
 
 from app.link.camera_decoder import Picture
 from app.screens.parts.leave_dialog import LeaveDialog
+from app.screens.shell import status_text
 from bridge.discovery.hello import Hello
 from bridge.msgs.geometry_msgs import Twist, TwistWithCovariance, Vector3
 from bridge.msgs.nav_msgs import Odometry
-from bridge.msgs.pilothouse_msgs import TaskStatus
+from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 
@@ -102,3 +103,48 @@ def test_cards_of_one_row_stand_at_its_upper_end(driving: Glass, fleet: Any) -> 
     assert columns > 1
     cards = list(fleet.cards.values())
     assert len({round(card.top) for card in cards[:columns]}) == 1
+
+
+STATES = {
+    "ready": (ControlStatus(mode="MANUAL"), "READY", "free"),
+    "another's": (ControlStatus(mode="MANUAL", driver="Anna", driver_id="a"), "MANUAL · Anna", "other"),
+    "another's task": (ControlStatus(mode="AUTO", driver="Anna", driver_id="a"), "AUTO", "other"),
+    "stopped": (ControlStatus(mode="STOPPED", stopped=True, at_rest=True), "STOPPED", "free"),
+}
+"""What the robot tells, to the mode in words and who has control."""
+
+
+def test_bar_fleet_more_stick_and_task_buttons_say_the_same_of_who_drives(
+    driving: Glass, robot: FakeRobot, fleet: Any
+) -> None:
+    app, session = driving.app, driving.app.session
+    session.authority.wanted = False
+    app.show("more")
+    drive, mission, more = (app.screens[name] for name in ("drive", "mission", "more"))
+    for case, (status, words, who) in STATES.items():
+        robot.control = status
+        robot.publish("/control/status", status)
+        driving.until(lambda status=status: session.control_status.mode == status.mode, case)
+        driving.until(lambda who=who: session.control == who, case)
+        app.show("fleet")
+        driving.until(
+            lambda words=words: fleet.cards[own(driving)].note.startswith(words), f"{case}: the fleet"
+        )
+        for screen in (drive, mission, more):
+            screen.tick()
+        app.shell.tick()
+        chip, card = app.shell.bar, fleet.cards[own(driving)]
+        assert chip.mode_text.startswith(words.split(" · ")[0]), case
+        assert bool(card.driver_text) == bool(chip.control_text), case
+        assert more.tiles["control"].about == status_text.control(session, brief=False)[0], case
+        held = who == "other" or status.stopped
+        assert (drive.stick.state == "disabled") == held, f"{case}: the stick"
+        assert (mission.panel.tasks.disabled or mission.panel.tasks.held) == held, f"{case}: the tasks"
+    robot.stop()
+    driving.until(lambda: not session.connected, "it stands")
+    driving.until(lambda: fleet.cards[own(driving)].note.startswith("no link"), "the fleet")
+    app.shell.tick()
+    drive.tick()
+    mission.tick()
+    assert (app.shell.bar.mode_text, fleet.cards[own(driving)].lost) == ("no link", True)
+    assert (drive.stick.state, mission.panel.tasks.disabled) == ("disabled", True)
