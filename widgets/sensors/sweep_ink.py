@@ -118,6 +118,7 @@ class SweepInk(Fading):
         for part in parts:
             self.add(part)
         self._made: tuple[object, ...] | None = None
+        self._tinted: tuple[float, Look] | None = None
         self._units = np.zeros((0, 2), np.float32)
         self._ends = np.zeros((0, 1), np.float32)
         self._places = np.zeros((1, 2), np.float32)
@@ -149,7 +150,9 @@ class SweepInk(Fading):
             np.multiply(self._units, self._ends, out=self._places[1:])
         self.tell("middle", at)
         self.tell("scale", scale)
-        self._tint(reach, look)
+        if self._tinted != (reach, look):
+            self._tinted = reach, look
+            self._tint(reach, look)
         flat = self._places.reshape(-1)
         self.fan.vertices = self.dots.vertices = flat
 
