@@ -239,7 +239,7 @@ class ConnectScreen(FloatLayout):
         self._arrange()
 
     def _follow_theme(self, *_: object) -> None:
-        self.theme_icon, title, _ = THEMES[theme.name]
+        self.theme_icon, title, _next = THEMES[theme.name]
         self.theme_text = tr(title)
 
     def _arrange(self, *_: object) -> None:

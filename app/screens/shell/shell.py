@@ -233,19 +233,13 @@ class Shell(FloatLayout):
 
     # places
 
-    @property
-    def least(self) -> float:
-        """Least width and height of bar and navigation [px]; 0 on a phone's side without gloves, where a finger hits what is in them from beside them too."""
-        beside = arrange.form(self.width, self.height, Metrics.density) == "short" and not theme.gloves
-        return 0.0 if beside else float(theme.least)
-
     def settle(self) -> None:
         """Put everything into its place anew: what is on the glass of a screen is another."""
         self._arrange()
 
     def places(self, inside: Rect) -> dict[str, Rect]:
         """Of bar, navigation and body in a window of which `inside` is free, as in `app.layout.arrange.shell`."""
-        talks, target = self.nav.talks, self.least
+        talks, target = self.nav.talks, _least(self.width, self.height)
         size = self.width, self.height, Metrics.density
         return arrange.shell(*size, talks=talks, inside=inside, target=target, left_hand=hand.left)
 
@@ -359,6 +353,12 @@ class Shell(FloatLayout):
         for screen in self.screens.made.values():
             screen.rest()
         self.stop.rest()
+
+
+def _least(width: float, height: float) -> float:
+    """Least width and height of bar and navigation [px]; 0 on a phone's side without gloves, where a finger hits what is in them from beside them too."""
+    beside = arrange.form(width, height, Metrics.density) == "short" and not theme.gloves
+    return 0.0 if beside else float(theme.least)
 
 
 def _share_room(
