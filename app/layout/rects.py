@@ -150,7 +150,7 @@ def handed(
     """Have what `arrange` places for a right hand mirrored in a body for the left one; it always sees a body for the right."""
 
     @wraps(arrange)
-    def for_hand(body: Rect, *args: P.args, **kwargs: P.kwargs) -> dict[str, Rect]:
+    def for_hand(body: Rect, /, *args: P.args, **kwargs: P.kwargs) -> dict[str, Rect]:
         if not left_handed(body):
             return arrange(body, *args, **kwargs)
         return all_mirrored(arrange(right_handed(body), *args, **kwargs), body)
