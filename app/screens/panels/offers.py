@@ -8,7 +8,7 @@ from app.layout.view_checks import is_signal
 from app.layout.views import Panel
 from app.link.capabilities import Capabilities
 from bridge.core.topics import TOPICS
-from widgets.core.language import mark, tr
+from widgets.core.language import mark, tr, within
 from widgets.fitting import COMMAND, Offer, offers
 
 __all__ = [
@@ -35,10 +35,46 @@ CONTROLS = (
 """Controls that drive, with their names."""
 _NAMES = {
     **dict(CONTROLS),
-    "FieldView": mark("Message"),
+    "AckermannView": mark("Steering"),
+    "ActionColumn": mark("Action buttons"),
+    "ArmPanel": mark("Arm"),
     "ArtificialHorizon": mark("Horizon"),
+    "Battery": mark("Battery"),
+    "CheckList": mark("Check list"),
+    "CommandedMotion": mark("Commanded motion"),
+    "Compass": mark("Compass"),
+    "CourseDial": mark("Course dial"),
+    "DepthGauge": mark("Depth gauge"),
+    "DiagnosticsTree": mark("Diagnostics tree"),
+    "EncodersView": mark("Encoders"),
+    "EventLog": mark("Event log"),
+    "FieldView": mark("Message"),
+    "GeoMap": mark("Geographic map"),
+    "GoalPad": mark("Goal pad"),
+    "GridMap": mark("Grid map"),
+    "HeadingTape": mark("Heading tape"),
+    "HeightTape": mark("Height tape"),
+    "IntruderBadge": mark("Intruder badge"),
+    "Lamp": mark("Lamp"),
+    "LaserScanView": mark("Laser scan"),
+    "LegPanel": mark("Leg panel"),
+    "LineSensorView": mark("Line sensor"),
+    "LinkQuality": mark("Link quality"),
+    "MomentaryButton": mark("Momentary button"),
+    "Plot": mark("Plot"),
     "Readout": mark("Figure"),
+    "RollPitch": mark("Roll and pitch"),
+    "RotorSpeeds": mark("Rotor speeds"),
+    "RudderThrottle": mark("Rudder and throttle"),
+    "SonarRingView": mark("Sonar ring"),
+    "TaskCard": mark("Task card"),
+    "TickBox": mark("Tick box"),
+    "ToggleSwitch": mark("Toggle switch"),
+    "TurnTape": mark("Turn tape"),
+    "UltrasoundView": mark("Ultrasound"),
+    "Video": mark("Video"),
 }
+"""Widgets of panels to what people call them."""
 _COMMANDS = frozenset(entry.name for entry in TOPICS if entry.to != "handheld")
 """Topics that the robot listens to."""
 
@@ -80,7 +116,7 @@ def widget_name(widget: str) -> str:
 def offer_name(offer: Offer) -> str:
     """What an offer shows and how, as in `Linear x · plot`."""
     name = widget_name(offer.widget)
-    return f"{tr(offer.title)} · {name.lower()}" if offer.field and offer.title else name
+    return f"{tr(offer.title)} · {within(name)}" if offer.field and offer.title else name
 
 
 def title_of(panel: Panel, *, brief: bool = False) -> str:

@@ -115,7 +115,7 @@ class PanelsScreen(RobotScreen):
         """Bring the glass up to date with the views."""
         views = self.views
         self.view = min(self.view, max(len(views) - 1, 0))
-        self.tabs.show([view.title for view in views], int(self.view), editing=self.editing)
+        self.tabs.show([tr(view.title) for view in views], int(self.view), editing=self.editing)
         self.acts.show(self.editor.acts(self._form), self._form)
         view = views[int(self.view)] if views else View("")
         self.shows.show(view, self._form, editing=self.editing)

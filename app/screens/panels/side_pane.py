@@ -17,7 +17,7 @@ from app.layout.panel_grid import COLUMNS, MAX_ROWS, Place
 from app.layout.view_checks import is_signal
 from app.layout.views import Panel
 from app.screens.panels.offers import CONTROLS, Offer, offer_name, offers_for, widget_name
-from widgets.core.language import tr
+from widgets.core.language import tr, within
 from widgets.core.surfaces import Pressable
 from widgets.parts.column import Column
 from widgets.parts.kit import QuietButton, Remark, SectionLabel, Text
@@ -185,7 +185,7 @@ class AddList(Column):
         self._rows: dict[str, OfferRow] = {}
         for name, kind in topics:
             offers = offers_for(name, kind, sends=sends(name))
-            words = ", ".join(dict.fromkeys(widget_name(one.widget).lower() for one in offers[:3]))
+            words = ", ".join(dict.fromkeys(within(widget_name(one.widget)) for one in offers[:3]))
             row = OfferRow(topic=name, kind=kind, icon=ICONS.get(kind, "data_object"), fits=words)
             row.bind(on_release=lambda _, name=name, offers=offers: self._press(name, offers))
             self._rows[name] = row

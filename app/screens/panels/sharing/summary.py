@@ -22,7 +22,7 @@ def summary(layout: Layout) -> str:
     )
     for view in layout.views:
         panels = trn("{count} panel", "{count} panels", len(view.panels)).format(count=len(view.panels))
-        lines.append(f"{view.title}: {panels}")
+        lines.append(f"{tr(view.title)}: {panels}")
     told = sorted({panel.topic for view in layout.views for panel in view.panels if is_signal(panel.widget)})
     if told:
         lines.append(tr("Switches for: {topics}").format(topics=", ".join(told)))
