@@ -38,7 +38,12 @@ def strings(value: object) -> Iterator[str]:
 def told() -> set[str]:
     """What the robot says by itself: names, and sentences without a code."""
     said: list[Any] = [*MESSAGES.values(), *EVENTS, *RUNS, *PLACES]
-    return {text for one in said for text in strings(msgspec.to_builtins(one, enc_hook=lambda _: None)) if len(text) > 2}
+    return {
+        text
+        for one in said
+        for text in strings(msgspec.to_builtins(one, enc_hook=lambda _: None))
+        if len(text) > 2
+    }
 
 
 @pytest.fixture

@@ -36,6 +36,19 @@ def test_it_finds_what_is_translated_marked_and_counted(source):
     ]
 
 
+def test_it_finds_the_context_of_a_marked_word_and_both_ways_of_a_choice(source):
+    found = source(
+        'mark("Home", "key"), tr("{days} d {hours} h" if hours else "{days} d"), tr("A" if on else "B", "key")'
+    )
+    assert found == [
+        ("Home", "key"),
+        ("{days} d {hours} h", None),
+        ("{days} d", None),
+        ("A", "key"),
+        ("B", "key"),
+    ]
+
+
 def test_it_finds_what_rules_of_kivy_translate_and_nothing_in_docstrings(source):
     found = source(
         '"""Not tr("this")."""\nBuilder.load_string("""\n<A>:\n    text: tr("Map (old)") if self.on else tr(\'No map\')\n    other: tr(root.words)\n""")\n'

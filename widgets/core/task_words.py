@@ -91,7 +91,7 @@ TASKS: dict[str, TaskWords] = {
         mark("Straight in one direction"),
     ),
     "dock": TaskWords(
-        mark("Dock"), "battery_charging_full", mark("docking"), ("dock",), mark("Onto the charger")
+        mark("Dock", "task"), "battery_charging_full", mark("docking"), ("dock",), mark("Onto the charger")
     ),
     "take_off": TaskWords(
         mark("Take off"), "arrow_upward", mark("taking off"), ("height",), mark("Up into the air")

@@ -68,7 +68,7 @@ BUTTONS = {
     "dpleft": mark("Cross, left"),
     "dpright": mark("Cross, right"),
     "back": mark("Back"),
-    "start": mark("Start"),
+    "start": mark("Start", "key"),
     "guide": mark("Guide"),
 }
 """SDL's names of buttons, by the words for them."""

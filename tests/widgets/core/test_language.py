@@ -8,7 +8,7 @@ import pytest
 
 from tests.looped import looped
 from widgets.core import language as module
-from widgets.core.language import LANGUAGES, PSEUDO, figure, language, mark, tr, trn, within
+from widgets.core.language import LANGUAGES, PSEUDO, brief_figure, figure, language, mark, tr, trn, within
 
 
 @pytest.fixture(autouse=True)
@@ -76,6 +76,23 @@ def test_a_language_that_there_is_not_is_refused_and_the_old_one_stays():
 
 def test_a_constant_is_marked_and_unchanged():
     assert mark("Start") == "Start"
+
+
+@pytest.mark.usefixtures("german")
+def test_a_marked_word_of_two_meanings_brings_its_own_context_along():
+    words = {"key": mark("Home", "verb"), "place": mark("Home")}
+    assert words["key"] == words["place"] == "Home"
+    assert (tr(words["key"]), tr(words["place"])) == ("Heim", "Home")
+    assert tr(words["key"], "other") == "Home"
+
+
+@looped(
+    ("name", "value", "text"),
+    [("en", 0.25, "0.25"), ("de", 0.25, "0,25"), ("de", -5.0, "−5"), ("de", math.nan, "—")],
+)
+def test_a_brief_figure_has_the_decimals_that_it_needs(name, value, text):
+    language.name = name
+    assert brief_figure(value) == text
 
 
 def test_the_pseudo_language_lengthens_what_is_said_and_keeps_places_and_marks():
