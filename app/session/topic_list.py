@@ -12,7 +12,7 @@ from app.link.subscriptions import Seen
 from app.session.session import Session
 from bridge.core.topics import TOPICS, Topic
 from bridge.msgs import Msg
-from widgets.core.language import mark, tr
+from widgets.core.language import mark, tr, trn
 
 __all__ = ["Line", "TopicListing"]
 
@@ -135,7 +135,8 @@ class TopicListing:
         """How much the robot offers, as in `14 topics, 31 services`."""
         if self.offer is None or not self.offer.rosapi:
             return ""
-        return f"{len(self.offer.topics)} topics, {len(self.offer.services)} services"
+        topics = trn("{count} topic", "{count} topics", len(self.offer.topics))
+        return f"{topics}, {trn('{count} service', '{count} services', len(self.offer.services))}"
 
     # the open one
 

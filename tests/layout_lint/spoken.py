@@ -51,7 +51,7 @@ def foreign(text: str, known: Iterable[str] = ()) -> list[str]:
     """Words of `text` that came from no catalogue, but for what it has of `known`, names and sentences that are data."""
     text = TAG.sub("", text).replace(THIN, "")
     for one in sorted(known, key=len, reverse=True):
-        text = re.sub(re.escape(one), " ", text, flags=re.IGNORECASE)
+        text = re.sub(rf"(?<!\w){re.escape(one)}(?!\w)", " ", text, flags=re.IGNORECASE)
     return [word for word in WORD.findall(text) if PLAIN.search(word)]
 
 

@@ -157,7 +157,7 @@ class _InContext(str):
 
     context: str
 
-    def __new__(cls, text: str, context: str) -> Self:
+    def __new__(cls, text: str, context: str = "") -> Self:
         """`text` with its context."""
         made = super().__new__(cls, text)
         made.context = context
@@ -169,7 +169,7 @@ def tr(text: str, context: str = "") -> str:
 
     What `mark` was given a context for has its own.
     """
-    return language.words(text, context or getattr(text, "context", ""))
+    return str(language.words(text, context or getattr(text, "context", "")))
 
 
 def trn(one: str, many: str, count: int) -> str:

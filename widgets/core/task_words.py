@@ -135,6 +135,11 @@ MOVES, HOLDS = mark("Drives"), mark("Stands still where it is")
 FIGURES = ("speed", "throttle", "height")
 """Fields of an order that only some robots take, as `RobotInfo.order_fields` names them."""
 DAYS = (mark("Mon"), mark("Tue"), mark("Wed"), mark("Thu"), mark("Fri"), mark("Sat"), mark("Sun"))
+MONTHS = (
+    *(mark("Jan"), mark("Feb"), mark("Mar"), mark("Apr"), mark("May"), mark("Jun")),
+    *(mark("Jul"), mark("Aug"), mark("Sep"), mark("Oct"), mark("Nov"), mark("Dec")),
+)
+"""Short names of the months, January first."""
 REACTS = {
     "stop": mark("Stops when it finds an intruder."),
     "report": mark("Reports intruders and goes on."),

@@ -15,7 +15,7 @@ import numpy as np
 
 from bridge.msgs import Msg
 from bridge.msgs.std_msgs import Duration, Time
-from widgets.core.language import tr
+from widgets.core.language import figure, tr
 from widgets.fields.meanings import meaning_of
 
 __all__ = [
@@ -243,9 +243,9 @@ def clock(stamp: float, now: float = math.nan) -> str:
     if not abs(age) < MAX_AGE:
         return text
     return (
-        f"{text} · {abs(age):.1f} s ahead"
+        f"{text} · " + tr("{age} s ahead").format(age=figure(abs(age), 1))
         if age < -CLOCK_UNCERTAINTY
-        else f"{text} · {max(0.0, age):.1f} s ago"
+        else f"{text} · " + tr("{age} s ago").format(age=figure(max(0.0, age), 1))
     )
 
 

@@ -18,6 +18,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from widgets.core.finger_stay import FingerStay
+from widgets.core.language import brief_figure
 from widgets.core.quantities import from_shown, round_floor, said, to_shown
 from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
@@ -124,7 +125,7 @@ class Stepper(Outlined, BoxLayout):
             return f"{told.text} {told.unit}"
         # as it is written: nothing before the sign of degrees and of times
         gap = "" if self.unit in ("°", "×") else " "
-        return f"{self.value:g}{gap}{self.unit}".rstrip()
+        return f"{brief_figure(self.value)}{gap}{self.unit}".rstrip()
 
     figures = AliasProperty(_figures, bind=["value", "unit", "kind", "zero"], cache=True)
 

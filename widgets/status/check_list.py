@@ -210,7 +210,7 @@ class CheckList(Outlined, RobotWidget, BoxLayout):
     def _title(self) -> str:
         if self.ready:
             return tr("Checks good") if self.open else tr("Checks")
-        count = f"{self.good} of {self.total}"
+        count = tr("{good} of {total}").format(good=self.good, total=self.total)
         return (
             tr("Before it moves: {count} good").format(count=count)
             if self.open and self.wide > dp(300)

@@ -22,6 +22,7 @@ from bridge.core.codes import Code
 from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.pilothouse_msgs import Event
 from widgets.core.language import tr
+from widgets.core.task_words import DAYS, MONTHS
 from widgets.core.theme import theme
 from widgets.parts.labels import Text
 
@@ -188,7 +189,11 @@ def when_words(stamp: float, now: float, *, brief: bool = False) -> str:
     then = datetime.fromtimestamp(stamp, UTC).astimezone()
     if math.isnan(now) or datetime.fromtimestamp(now, UTC).astimezone().date() == then.date():
         return f"{then:%H:%M}"
-    day = f"{then:%a}" if now - stamp < 6 * 86400 else f"{then.day} {then:%b}"
+    day = (
+        tr(DAYS[then.weekday()])
+        if now - stamp < 6 * 86400
+        else tr("{day} {month}", "date").format(day=then.day, month=tr(MONTHS[then.month - 1]))
+    )
     return day if brief else f"{day} {then:%H:%M}"
 
 

@@ -17,7 +17,7 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import GetMissionsResponse, KeptMission
 from bridge.msgs.std_msgs import Time
-from widgets.core.language import mark, tr
+from widgets.core.language import mark, tr, trn, within
 from widgets.parts.listing import Listing
 from widgets.parts.rows import ListRow
 from widgets.status.event_row import when_words
@@ -27,9 +27,10 @@ __all__ = ["MissionList", "mission_words"]
 
 def mission_words(mission: KeptMission) -> str:
     """How many points, how they are visited, how often it was changed, as in `6 points · loop · 3 revisions`."""
-    points = f"{mission.points} point{'' if mission.points == 1 else 's'}"
-    revisions = f"{mission.revisions} revisions" if mission.revisions > 1 else ""
-    return " · ".join(filter(None, (points, mission.motion, revisions)))
+    points = trn("{count} point", "{count} points", mission.points)
+    many = mission.revisions
+    revisions = trn("{count} revision", "{count} revisions", many) if many > 1 else ""
+    return " · ".join(filter(None, (points, within(tr(mission.motion.capitalize())), revisions)))
 
 
 class MissionList(Listing):

@@ -230,7 +230,7 @@ class DriveControls(EventDispatcher):
         status: TaskStatus | None = self._session.feeds.latest("/task/status")
         led = status is not None and status.state == "RUNNING" and not self._session.robot_stop.latched
         if self.speed is not None:
-            self.speed.driven = f"task: {self._speed_words}" if led else ""
+            self.speed.driven = tr("task: {speed}").format(speed=self._speed_words) if led else ""
         for stick, _ in self._sticks:
             if hasattr(stick, "led"):
                 stick.led = led

@@ -45,7 +45,7 @@ def fill(pane: SidePane, editor: Any, session: Session, form: str) -> None:
         offer = session.robot.capabilities
         topics = shown_topics(offer) if offer is not None else []
         listed = AddList(topics, editor.add, editor.add_control, lambda topic: sendable(session, topic, Bool))
-        listed.add_widget(ViewPane(view.title, editor.act_on_view))
+        listed.add_widget(ViewPane(tr(view.title), editor.act_on_view))
         pane.show(tr("Add from this robot"), listed, closable=form != "wide")
         return
     panel = view.panels[index]

@@ -15,7 +15,7 @@ from app.inputs.keys.key_table import ARROWS, DRIVING, KeyTable, key_words
 from app.inputs.methods import Methods
 from app.inputs.switch_access.scan.settings import Options
 from app.screens.parts.dialogs import Question
-from widgets.core.language import tr
+from widgets.core.language import figure, tr
 
 __all__ = ["HelpCard", "help_groups", "toggle_help"]
 
@@ -108,8 +108,8 @@ def _switches(options: Options) -> Rows:
     rows = [
         (following, tr("Next on the screen")),
         (doing, tr("Do it, when let go")),
-        (following, tr("Back, held {hold_back:.1f} s").format(hold_back=timing.hold_back)),
-        (doing, tr("STOP, held {seconds:.1f} s").format(seconds=timing.hold_stop)),
+        (following, tr("Back, held {hold_back} s").format(hold_back=figure(timing.hold_back, 1))),
+        (doing, tr("STOP, held {seconds} s").format(seconds=figure(timing.hold_stop, 1))),
         (following + doing if following and doing else [], tr("STOP, both together")),
     ]
     return [(caps, words) for caps, words in rows if caps]

@@ -54,7 +54,7 @@ class TalkButton(PushButton):
 
     sign = OptionProperty("ready", options=list(TALKS))
     """How voice stands."""
-    words = StringProperty(TALKS["ready"][0])
+    words = StringProperty("")
 
     def on_sign(self, *_: object) -> None:
         """Say it."""

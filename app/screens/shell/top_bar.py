@@ -83,7 +83,7 @@ Builder.load_string("""
         icon: root.mode_icon if root.form != 'tall' else ''
         role: root.mode_role
         text: root.mode_text
-        usual: 'STOPPED' if root.form == 'tall' else 'MANUAL · patrol paused' if root.form == 'wide' else 'PAUSED · patrol'
+        usual: tr('STOPPED') if root.form == 'tall' else tr('MANUAL') + ' · ' + tr('patrol') + ' ' + tr('paused') if root.form == 'wide' else tr('PAUSED') + ' · ' + tr('patrol')
         spacing: dp(8) if self.icon else 0
         edge: dp(13) if root.form != 'tall' else dp(7)
         outlined: True

@@ -182,7 +182,7 @@ Builder.load_string("""
             icon: root.pace_icon
             role: root.pace_role
             text: root.pace
-            usual: '00.0 Hz'
+            usual: '00,0 Hz'
             pos_hint: {'center_y': .5}
             opacity: 1 if root.pace else 0
     Text:

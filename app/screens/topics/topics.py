@@ -29,7 +29,7 @@ from app.session.topic_list import TopicListing
 from bridge.msgs.sensor_msgs import CompressedImage
 from widgets import FieldView
 from widgets.core.base import age_text
-from widgets.core.language import tr
+from widgets.core.language import figure, tr
 
 __all__ = ["TopicsScreen"]
 
@@ -249,7 +249,7 @@ class TopicsScreen(RobotScreen):
         view.state = state
         view.opacity = 1 if topics.kind is not None else 0
         stale, once = state == "stale", topics.once
-        rate = f"{topics.rate:.1f} Hz" if math.isfinite(topics.rate) else ""
+        rate = f"{figure(topics.rate, 1)} Hz" if math.isfinite(topics.rate) else ""
         detail.pace = age_text(age) if stale else rate or ("live" if state == "live" else "")
         detail.pace_icon, detail.pace_role = ("schedule", "warn") if stale else ("sensors", "ok")
         if math.isfinite(once):

@@ -98,7 +98,7 @@ def test_each_way_of_having_nothing_has_its_sentence() -> None:
     robot.robot.capabilities, robot.topics.search = FOREIGN, " boat "
     assert robot.topics.sentence == "No topic has “boat” in its name or type."
     robot.topics.search = ""
-    assert (robot.topics.sentence, robot.topics.summary) == ("", "4 topics, 1 services")
+    assert (robot.topics.sentence, robot.topics.summary) == ("", "4 topics, 1 service")
 
 
 def test_the_list_is_asked_for_again_while_it_is_looked_at() -> None:

@@ -84,6 +84,8 @@ def test_a_marked_word_of_two_meanings_brings_its_own_context_along():
     assert words["key"] == words["place"] == "Home"
     assert (tr(words["key"]), tr(words["place"])) == ("Heim", "Home")
     assert tr(words["key"], "other") == "Home"
+    language.name = "en"
+    assert type(tr(words["key"])) is str  # what draws it makes copies by its type
 
 
 @looped(

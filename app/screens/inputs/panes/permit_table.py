@@ -102,7 +102,7 @@ class Permission(ListRow):
         super().__init__(**kwargs)
         self.switch = Toggle(pos_hint={"center_y": 0.5}, disabled=fixed)
         self.role = "danger" if fixed else "accent"
-        self.aside = "always" if fixed else ""
+        self.aside = tr("always") if fixed else ""
         if not fixed:
             self.bind(on_release=lambda _: self.switch.dispatch("on_release"))
         self.add_widget(self.switch)

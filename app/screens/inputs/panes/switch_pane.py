@@ -15,7 +15,7 @@ from app.inputs.switch_access.scan.settings import DEFAULTS, MAX_KEYS, RANGES, K
 from app.inputs.switch_access.switches import SwitchAccess
 from app.screens.inputs.parts.pane_app import PaneApp
 from app.screens.inputs.parts.setting_row import number_row, switch_row
-from widgets.core.language import mark, tr
+from widgets.core.language import figure, mark, tr
 from widgets.inputs.reaction_test import ReactionTest
 from widgets.parts.kit import Column, IconButton, ListRow, PrimaryButton, QuietButton, Remark, Roll, Segmented
 from widgets.parts.rows import group_label
@@ -223,8 +223,8 @@ class SwitchPane(BoxLayout):
         self.picture.phase, self.picture.count = test.phase, test.done
         if test.phase == "done":
             self.picture.result = tr(
-                "You press within {mean:.2f} s: the mark should stay for {interval:.1f} s."
-            ).format(mean=test.mean, interval=test.interval)
+                "You press within {mean} s: the mark should stay for {interval} s."
+            ).format(mean=figure(test.mean, 2), interval=figure(test.interval, 1))
             self._deafen()
             self.tick()
 
@@ -289,7 +289,7 @@ class SwitchPane(BoxLayout):
         phase = self.test.phase
         done = phase == "done"
         self.begin.text = (
-            tr("Take {interval:.1f} s").format(interval=self.test.interval)
+            tr("Take {interval} s").format(interval=figure(self.test.interval, 1))
             if done
             else tr("Begin the test")
             if phase == "idle"
@@ -311,8 +311,10 @@ class SwitchPane(BoxLayout):
 def _held(name: str, options: Options) -> str:
     """What comes of holding the switch `a` or `b`."""
     if name == "a":
-        return tr("Held {hold_back:.1f} s: back, or out of the group.").format(
-            hold_back=options.timing.hold_back
+        return tr("Held {hold_back} s: back, or out of the group.").format(
+            hold_back=figure(options.timing.hold_back, 1)
         )
     both = "" if options.one else tr(", or both together")
-    return tr("Held {hold_stop:.1f} s{both}: STOP.").format(hold_stop=options.timing.hold_stop, both=both)
+    return tr("Held {hold_stop} s{both}: STOP.").format(
+        hold_stop=figure(options.timing.hold_stop, 1), both=both
+    )

@@ -135,7 +135,7 @@ class MapsPane(SettingsPane):
     def _row(self, source: Source) -> ListRow:
         row = ListRow(
             icon="link" if source.kind == URL else "map",
-            title=source.name,
+            title=tr(source.name),
             detail=source.detail,
             whole=True,
         )
