@@ -18,6 +18,8 @@ WORD = re.compile(r"[A-Za-z_/.@'À-ž]*[AaCcEeIiNnOoSsUuYy][A-Za-z_/.@'À-ž]*")
 PLAIN = re.compile(r"[AaCcEeIiNnOoSsUuYy]")
 POINT = re.compile(r"(?<![\d.])\d+\.\d+(?![\d.])")
 """A figure with a decimal point, which the pseudo-language writes with a comma; no address and no version has one point."""
+DATA = re.compile(r"\{[^}]*\}|(?:\w+://|/)\S+|\w+_msgs/\w+")
+"""A place in an address, an address, a path, a topic, and a type of message."""
 THIN = "\u200a"
 """Between the letters of a spaced heading."""
 
@@ -49,7 +51,7 @@ class Written:
 
 def foreign(text: str, known: Iterable[str] = ()) -> list[str]:
     """Words of `text` that came from no catalogue, but for what it has of `known`, names and sentences that are data."""
-    text = TAG.sub("", text).replace(THIN, "")
+    text = DATA.sub(" ", TAG.sub("", text).replace(THIN, ""))
     for one in sorted(known, key=len, reverse=True):
         text = re.sub(rf"(?<!\w){re.escape(one)}(?!\w)", " ", text, flags=re.IGNORECASE)
     return [word for word in WORD.findall(text) if PLAIN.search(word)]

@@ -42,7 +42,7 @@ class ModeCard(NoticeCard):
         super().__init__(icon="sports_esports", **kwargs)
         self.cross = self.add_close()
         self.manual, self.auto = self.add_below(
-            ("MANUAL", "sports_esports", False), ("AUTO", "autorenew", False)
+            (tr("MANUAL"), "sports_esports", False), (tr("AUTO"), "autorenew", False)
         )
         self.manual.bind(on_release=lambda _: self.choose("MANUAL"))
         self.auto.bind(on_release=lambda _: self.choose("AUTO"))

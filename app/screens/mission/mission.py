@@ -34,7 +34,6 @@ from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Place, RobotInfo
 from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import Compass, Video
-from widgets.core.language import tr
 from widgets.core.theme import theme
 from widgets.map.map_overlay import MapOverlay
 
@@ -87,14 +86,13 @@ class MissionScreen(RobotScreen):
 
     app: ObjectProperty[ScreenHost] = ObjectProperty()
     session: ObjectProperty[Session] = ObjectProperty()
-    modes = ListProperty()
+    modes = ListProperty(MODES)
     mode = StringProperty("view")
     """What a finger on the map does: one of `MODES`."""
     sheet = NumericProperty(0)
     """The sheet of a phone is drawn up: 0 no, 1 yes."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self.modes = [(name, tr(words)) for name, words in MODES]
         super().__init__(**kwargs)
         self.dashboard = Dashboard(self.session.feeds)
         self._maps = MissionMaps(self.session, self.dashboard, self.app.maps)

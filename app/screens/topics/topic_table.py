@@ -15,7 +15,7 @@ from app.screens.topics.topic_figures import COLUMNS, ORDERS, Entry, bytes_text
 from app.screens.topics.topic_parts import ICONS
 from widgets.core.base import age_text
 from widgets.core.geometry import DASH
-from widgets.core.language import mark, tr
+from widgets.core.language import figure, mark, tr
 from widgets.core.surfaces import Pressable
 
 __all__ = ["GRAPH", "TABLE", "HeadCell", "TopicList", "row_of"]
@@ -192,7 +192,7 @@ def row_of(entry: Entry, *, wide: bool) -> dict[str, Any]:
     """What a `TopicRow` shows of an entry, but for who chooses it."""
     line = entry.line
     stale = line.state == "stale"
-    rate = f"{entry.rate:.1f}" if math.isfinite(entry.rate) and entry.rate >= 0.05 else ""
+    rate = figure(entry.rate, 1) if math.isfinite(entry.rate) and entry.rate >= 0.05 else ""
     flow = " · ".join(part for part in (f"{rate} Hz" if rate else "", bytes_text(entry.bandwidth)) if part)
     ties = [DASH if math.isnan(one) else f"{one:.0f}" for one in (entry.publishers, entry.subscribers)]
     return {
