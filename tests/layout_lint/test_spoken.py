@@ -88,7 +88,9 @@ def test_every_word_on_the_glass_comes_from_a_catalogue_and_every_figure_is_writ
         and (words := [word for word in foreign(text, known) if word not in ALLOWED and not data(word)])
     }
     assert len(spoken.texts) > 500
-    figures = [f"[{scene}] {text!r}" for text, scene in spoken.texts.items() if points(text)]
+    figures = [
+        f"[{scene}] {text!r}" for text, scene in spoken.texts.items() if scene not in SCENES and points(text)
+    ]
     wrong = [f"[{scene}] {text!r}: {', '.join(words)}" for (scene, text), words in left.items()]
     assert [*figures, *wrong] == [], "\n".join([*figures, *wrong])
 
