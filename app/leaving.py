@@ -83,7 +83,7 @@ class Leaving:
         from app.screens.parts.leave_dialog import LeaveDialog
 
         app.pages.close_question()
-        app.root.add_widget(LeaveDialog(go, robot=session.robot.name, reason=self._reason(session)))
+        app.root.add_widget(LeaveDialog(go, robot=session.robot.name, cause=self._cause(session)))
 
     def close_window(self) -> bool:
         """The window shall close: True where it stays for now, because it is asked first; asked to a second time it closes."""
@@ -104,8 +104,8 @@ class Leaving:
             return False
         return session.control == "mine" or (session.control == "none" and self._moves(session))
 
-    def _reason(self, session: Session) -> str:
-        """What is told of a robot before it is left, as in `LeaveDialog.reason`."""
+    def _cause(self, session: Session) -> str:
+        """What is told of a robot before it is left, as in `LeaveDialog.cause`."""
         task: TaskStatus | None = session.feeds.latest("/task/status")
         if self._app.inputs.held or session.link.driving:
             return "moves"

@@ -43,7 +43,18 @@ DESKTOP_ONLY = (
 )
 """What the phone does not have. Neither has it cryptography, but a desktop's spake2 cannot be imported without."""
 
-OPTIONAL = {"PIL", "espeakng_loader", "hama", "hibari", "miniaudio", "pocketsphinx", "vosk", "zeroconf"}
+OPTIONAL = {
+    "PIL",
+    "espeakng_loader",
+    "hama",
+    "hibari",
+    "lz4",
+    "miniaudio",
+    "pocketsphinx",
+    "vosk",
+    "zeroconf",
+    "zstandard",
+}
 """Those of them that the handheld uses where they are installed, and runs without elsewhere."""
 
 ROBOT_SIDE = {"cryptography"}

@@ -81,17 +81,17 @@ def test_a_robot_that_moves_is_left_only_after_a_question(driving: Glass, robot:
 def test_the_question_says_whether_a_task_goes_on(driving: Glass, robot: FakeRobot) -> None:
     moves(driving, robot)
     driving.app.leaving.leave()
-    assert question(driving).reason == "moves"
+    assert question(driving).cause == "moves"
     driving.app.back()
     robot.publish("/task/status", TaskStatus(task_id=1, task="patrol", state="RUNNING"))
     driving.until(lambda: driving.app.session.running, "no task")
     driving.app.leaving.leave()
-    assert question(driving).reason == "task"
+    assert question(driving).cause == "task"
     driving.app.back()
     robot.publish("/task/status", TaskStatus(task_id=1, task="patrol", state="PAUSED"))
     driving.until(lambda: driving.app.session.feeds.latest("/task/status").state == "PAUSED", "no pause")
     driving.app.leaving.leave()
-    assert question(driving).reason == "moves", "it coasts, and nothing goes on by itself"
+    assert question(driving).cause == "moves", "it coasts, and nothing goes on by itself"
 
 
 def test_a_robot_that_somebody_else_drives_is_left_without_a_question(
@@ -117,7 +117,7 @@ def test_one_at_rest_is_left_only_after_a_question_while_control_is_here(
     moves(driving, robot, 0.0)
     done: list[bool] = []
     driving.app.leaving.leave(lambda: done.append(driving.app.session is None))
-    assert (question(driving).reason, done) == ("control", []), "control is not given away at one tap"
+    assert (question(driving).cause, done) == ("control", []), "control is not given away at one tap"
     driving.stage.frames(3)
     driving.tap(question(driving).ids.stay)
     assert driving.app.session.control == "mine"
@@ -152,7 +152,7 @@ def test_a_finger_on_a_stick_is_asked_though_control_is_not_here_and_nothing_mov
     finger = driving.hold(stick)
     assert (stick.forward, stick.left) == (0.0, 0.0), "it only rests there"
     driving.app.leaving.leave()
-    assert question(driving).reason == "moves"
+    assert question(driving).cause == "moves"
     finger.touch_up()
 
 

@@ -242,7 +242,7 @@ def _leave(glass: Glass) -> None:
     from app.screens.parts.leave_dialog import LeaveDialog
 
     glass.app.show("drive")
-    glass.app.root.add_widget(LeaveDialog(lambda: None, robot="Fake-1", reason="task"))
+    glass.app.root.add_widget(LeaveDialog(lambda: None, robot="Fake-1", cause="task"))
 
 
 def _stop_all(glass: Glass) -> None:

@@ -10,22 +10,20 @@ import math
 from collections.abc import Callable
 from typing import Any, ClassVar
 
-import numpy as np
 from kivy.clock import Clock
-from kivy.graphics import InstructionGroup
 from kivy.metrics import dp
 from kivy.properties import BooleanProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs import Msg
-from widgets.core.canvas_ink import Drawing, Ink, Words, ground
-from widgets.core.shapes import Shapes
+from widgets.core.canvas_ink import Drawing, Ink, Words
 from widgets.core.theme import theme
 from widgets.plots.axes import nice_range
+from widgets.plots.cursor_ink import CursorInk
 from widgets.plots.figures import Figures
 from widgets.plots.history import Floats
 from widgets.plots.plot_base import PlotBase
-from widgets.plots.plot_layout import Scales, cursor_word, lay_out, legend_figures
+from widgets.plots.plot_layout import Scales, lay_out, legend_figures
 from widgets.plots.plot_samples import SELDOM, TIMES, motion, voltage, wave
 from widgets.plots.trace import MAX_TRACES, Trace
 from widgets.plots.trace_ink import TraceInk
@@ -61,23 +59,21 @@ class Plot(PlotBase, Drawing):
     """Has a button that holds the picture still."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self._grid, self._ink, self._over = Ink(), TraceInk(), Ink()
+        self._grid, self._ink, self._cursor = Ink(), TraceInk(), CursorInk()
         self._keys, self._words, self._figures = TraceInk(), Words(), Figures()
         self._scales = Scales()
         self._laid: object = None
         self._drawn_columns: tuple[float, ...] = ()
-        self._cursor_drawn = False
         self._origin = self._base = 0.0
         self._rescale = True
         self._written = -math.inf
         self._write_later = Clock.create_trigger(self._write_figures, LEGEND_PERIOD)
         super().__init__(**kwargs)
         self.button.bind(on_release=self._toggle)
-        self._above = InstructionGroup()
         for part in (
             self._grid,
             self._ink,
-            self._above,
+            self._cursor.canvas,
             self._keys,
             self._words.canvas,
             self._figures.canvas,
@@ -167,7 +163,8 @@ class Plot(PlotBase, Drawing):
             self._laid = laid
             self._lay()
         self._place_lines()
-        self._draw_over()
+        if self._cursor.draw(self, self._scales):
+            self._written = -math.inf
         self._write_soon()
 
     def _lay(self) -> None:
@@ -261,32 +258,6 @@ class Plot(PlotBase, Drawing):
         for layer, trace in enumerate(self.traces):
             self._ink.paint(layer, theme.roles[trace.role])
             self._ink.draw_columns(layer, trace.columns)
-
-    def _draw_over(self) -> None:
-        """The cursor; nothing where there is none in sight."""
-        left, low, right, top = self.frame
-        x = self.x_of(self.cursor) if math.isfinite(self.cursor) else math.nan
-        shown = left - 1 <= x <= right + 1
-        if not shown and not self._cursor_drawn:
-            return
-        if shown != self._cursor_drawn:  # what draws nothing costs as much as what draws
-            self._cursor_drawn = shown
-            (self._above.add if shown else self._above.remove)(self._over)
-            self._over.see(self.opacity)
-        shapes = Shapes()
-        if shown:
-            shapes.line(np.array([[x, low], [x, top]]), dp(1.5), theme.text)
-            scales = self._scales
-            for trace in self.traces:
-                value = trace.value_at(self.cursor)
-                if math.isfinite(value):
-                    y = low + (value - scales.low) / (scales.high - scales.low) * (top - low)
-                    if low <= y <= top:
-                        shapes.disc(x, y, dp(5.5), theme.surface)
-                        shapes.disc(x, y, dp(4), theme.roles[trace.role])
-            ground(shapes, cursor_word(self), theme.raised)
-        self._over.fill(shapes)
-        self._written = -math.inf
 
     # the legend's values
 

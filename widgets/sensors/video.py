@@ -39,7 +39,7 @@ from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.core.unblended import Unblended
 from widgets.sensors.video_chip import VideoChip, chip_width
-from widgets.sensors.video_marks import box_role, draw_box, draw_pointer
+from widgets.sensors.video_marks import box_role, column, draw_box, draw_pointer
 
 __all__ = ["Video", "samples"]
 
@@ -243,7 +243,7 @@ class Video(Drawing):
         if self._texture is None or self.state == "stale":
             return
         frame, small = (self.x, self.y, self.right, self.top), min(self.size) < dp(260)
-        found = [self._across(angle) for angle in self.counted if 0 < self.field_of_view < math.pi]
+        found = [self._column(angle) for angle in self.counted if 0 < self.field_of_view < math.pi]
         for label, score, left, top, width, height in self.boxes:
             x1, y1 = self.place_on_glass(left, top)
             x2, y2 = self.place_on_glass(left + width, top + height)
@@ -259,7 +259,7 @@ class Video(Drawing):
             return
         left, right = self.x + self.insets[0] + dp(20), self.right - self.insets[2] - dp(20)
         for label, angle in self.marks:
-            x = self._across(angle)
+            x = self._column(angle)
             if any(box[2] <= x <= box[2] + box[4] for box in self.boxes):
                 continue
             at = self.place_on_glass(x, 0)[0]
@@ -268,10 +268,8 @@ class Video(Drawing):
             turn = -math.pi / 2 if seen else math.pi * (angle > 0)
             yield draw_pointer(shapes, (at, self.center_y - dp(8)), (left, right), label, turn)
 
-    def _across(self, angle: float) -> float:
-        """Column of the picture as taken [pixel] that looks in a direction [rad]; far outside for what is behind."""
-        ahead = max(-1.5, min(1.5, angle))
-        return float(self.taken_size[0]) / 2 * (1 - math.tan(ahead) / math.tan(self.field_of_view / 2))
+    def _column(self, angle: float) -> float:
+        return column(angle, float(self.taken_size[0]), float(self.field_of_view))
 
     def _sentence(self) -> Iterator[Word]:
         if self._texture is None:

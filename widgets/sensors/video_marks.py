@@ -13,10 +13,19 @@ from widgets.core.canvas_ink import Word
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 
-__all__ = ["Box", "box_role", "draw_box", "draw_pointer"]
+__all__ = ["Box", "box_role", "column", "draw_box", "draw_pointer"]
 
 Box = tuple[float, float, float, float]
 """Left, bottom, right, top [px]."""
+
+
+def column(angle: float, width: float, field_of_view: float) -> float:
+    """Column of a picture `width` wide [pixel] that looks in a direction [rad]; far outside for what is behind.
+
+    `field_of_view` is the camera's, horizontal [rad]; the direction is 0 ahead and positive to the left.
+    """
+    ahead = max(-1.5, min(1.5, angle))
+    return width / 2 * (1 - math.tan(ahead) / math.tan(field_of_view / 2))
 
 
 def box_role(left: float, width: float, found: Iterable[float]) -> str:

@@ -184,7 +184,7 @@ class MissionScreen(RobotScreen):
         put(self.panel, places["panel"])
         put(self.ids.handle, places.get("handle", Rect(-100, -100, 1, 1)))
         self.ids.handle.opacity = 1 if tall else 0
-        self._place_tasks(places.get("tasks"))
+        self.panel.put_tasks(self, places.get("tasks"))
         self._tools.arrange(self.ids.floats, places["tools"], dp, tall=tall, has_layers=self._maps.offered)
         self._place_floats(places)
         self._tools.clear(self.ids.floats, self.card.place)
@@ -223,21 +223,6 @@ class MissionScreen(RobotScreen):
     def clear(self, cover: Rect | None) -> None:
         """Take away what would be seen only in part behind what is said over the map."""
         self._corner.clear(cover)
-
-    def _place_tasks(self, rect: Rect | None) -> None:
-        """On a phone the task's buttons, or what stands for them, are beside STOP; elsewhere in the panel."""
-        self.panel.keep_tasks(rect is None)
-        beside = self.panel.beside_stop
-        for widget in (self.panel.tasks, self.panel.plain):
-            if widget.parent is self and (rect is None or widget is not beside):
-                self.remove_widget(widget)
-        if rect is not None:
-            if beside.parent is not self:
-                if beside.parent is not None:
-                    beside.parent.remove_widget(beside)
-                self.add_widget(beside)
-            beside.size_hint = (None, None)
-            beside.width, beside.pos = rect.width, (rect.x, rect.y)
 
     def _rearrange(self, *_: object) -> None:
         self.arrange(self._body, self._form, self._dp)

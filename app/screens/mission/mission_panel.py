@@ -12,6 +12,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
+from app.layout.rects import Rect
 from app.screens.mission.no_mission_panel import Figures, NoMissionPanel
 from app.session.dashboard import Dashboard
 from app.session.session import Session
@@ -315,15 +316,21 @@ class MissionPanel(BoxLayout):
         else:
             session.command("start")
 
-    @property
-    def beside_stop(self) -> Widget:
-        """What a phone has beside STOP: the task's buttons, or the figures of a robot that has no tasks."""
-        return self.plain if self._session.robot.lacks_tasks else self.tasks
-
-    def keep_tasks(self, here: bool) -> None:
-        """Have the task's buttons as wide as the panel, where they are in it."""
-        if here:
+    def put_tasks(self, screen: Widget, beside: Rect | None) -> None:
+        """Put the task's buttons, or the figures of a robot that has no tasks, `beside` STOP on `screen`; None keeps them in the panel."""
+        lone = self.plain if self._session.robot.lacks_tasks else self.tasks
+        if beside is None:
             self.tasks.size_hint = (1, None)
+        for widget in (self.tasks, self.plain):
+            if widget.parent is screen and (beside is None or widget is not lone):
+                screen.remove_widget(widget)
+        if beside is not None:
+            if lone.parent is not screen:
+                if lone.parent is not None:
+                    lone.parent.remove_widget(lone)
+                screen.add_widget(lone)
+            lone.size_hint = (None, None)
+            lone.width, lone.pos = beside.width, (beside.x, beside.y)
 
     # what is shown
 

@@ -69,7 +69,7 @@ class LeaveDialog(Question):
 
     robot = StringProperty("")
     """Its name."""
-    reason = OptionProperty("control", options=list(REASONS))
+    cause = OptionProperty("control", options=list(REASONS))
     """Why it is asked: a `task` runs, the robot `moves` or is told to by a hand, or this handheld has `control` of it at rest."""
     question = StringProperty("")
     """What is asked."""
@@ -79,7 +79,7 @@ class LeaveDialog(Question):
 
     def __init__(self, on_answer: Callable[[], object], **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        question, sentence = REASONS[self.reason]
+        question, sentence = REASONS[self.cause]
         self.question, self.sentence = tr(question).format(robot=self.robot), tr(sentence)
         self._on_answer = on_answer
 

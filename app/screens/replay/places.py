@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from app.layout.arrange import CORNER, more
-from app.layout.rects import ALL, Rect, StopPlace, crowded, handed, stop_place
+from app.layout.rects import ALL, Rect, StopPlace, between, crowded, handed, stop_place
+from widgets.core.theme import theme
 
-__all__ = ["SPACING", "buttons_width", "panes", "replay", "replay_alone"]
+__all__ = ["SPACING", "buttons_width", "moment", "panes", "replay", "replay_alone"]
 
 SPACING = 6
 """Between the buttons of the line of time, and between their rows [dp]."""
 BUTTONS_HEIGHT = 118
 """Greatest height of the buttons beside STOP on an upright screen, above which STOP ALL may be [dp]."""
+CHOOSER_WIDTH = 380
+"""Of the list of numbers that can be drawn [dp]."""
 LINE_HEIGHT = 56
 """Height of the line of time where it has a row of its own [dp]."""
 
@@ -71,6 +74,24 @@ def _row(row: Rect, dp: float, least: float) -> dict[str, Rect]:
         "buttons": Rect(row.x, row.y, wide, row.height),
         "line": Rect(x, row.y, row.right - x, row.height),
     }
+
+
+def moment(main: Rect, shape: str, dp: float, least: float, *, chooser: bool) -> dict[str, Rect]:
+    """Of an open recording in `main`: its `head`, `view` and, on a phone, `tabs`; and the `chooser` of numbers where it is open."""
+    head = between(main.x, main.top - max(52 * dp, least), main.right, main.top)
+    rest = Rect(main.x, main.y, main.width, head.y - 4 * dp - main.y)
+    places = {"head": head}
+    if shape != "wide":
+        high = max(44 * dp, least + 2 * theme.outline)
+        places["tabs"] = Rect(rest.x, rest.top - high, rest.width, high)
+        rest = Rect(rest.x, rest.y, rest.width, rest.height - high - 6 * dp)
+    if chooser:
+        wide = min(CHOOSER_WIDTH * dp, rest.width)
+        room = rest if shape == "wide" else main  # a phone has no room for anything beside it
+        places["chooser"] = Rect(room.right - wide, room.y, wide, room.height)
+        if shape == "wide":
+            rest = Rect(rest.x, rest.y, rest.width - wide - 8 * dp, rest.height)
+    return {**places, "view": rest}
 
 
 def panes(main: Rect, shape: str, dp: float, *, pictures: bool, chosen: str) -> dict[str, Rect]:

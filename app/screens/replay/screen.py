@@ -14,7 +14,6 @@ from kivy.lang import Builder
 from kivy.properties import NumericProperty, ObjectProperty, OptionProperty, StringProperty
 
 from app.layout.arrange import Body, Rect
-from app.layout.rects import between
 from app.replay.player import Player
 from app.replay.recording_index import Index
 from app.replay.recording_list import RecordingList
@@ -22,7 +21,7 @@ from app.screens.parts.field_chooser import FieldChooser
 from app.screens.parts.placing import Area, above, put  # noqa: F401 - a rule names the area
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.replay.moment_view import MomentView
-from app.screens.replay.places import replay, replay_alone
+from app.screens.replay.places import moment, replay, replay_alone
 from app.screens.replay.recording_rows import RecordingRows
 from app.screens.replay.transport import Transport
 from widgets.core.language import mark, tr
@@ -32,9 +31,6 @@ from widgets.plots.time_line import TimeLine, length_text
 __all__ = ["ReplayScreen"]
 
 TABS = (("map", mark("Map")), ("plots", mark("Plots")), ("events", mark("Events")))
-CHOOSER = 380
-"""Width of the list of numbers [dp]."""
-
 Builder.load_string("""
 #:import without_date app.screens.replay.transport.without_date
 <ReplayScreen>:
@@ -340,28 +336,17 @@ class ReplayScreen(RobotScreen):
         if not self._places:
             return
         main, dp, open_ = self._places["main"], self._dp, self.player is not None
-        ready = open_ and self._watching
-        head = between(main.x, main.top - max(52 * dp, theme.least), main.right, main.top)
-        rest = Rect(main.x, main.y, main.width, head.y - 4 * dp - main.y)
+        ready, phone, chooser = open_ and self._watching, self.form != "wide", self.chooser
+        places = moment(main, self.form, dp, theme.least, chooser=chooser is not None)
         self._place(self.ids.listed, above(main, self._cover, dp), not open_)
-        self._place(self.ids.head, head, open_)
+        self._place(self.ids.head, places["head"], open_)
         self.ids.choose.disabled = not ready
-        phone = self.form != "wide"
-        high = max(44 * dp, theme.least + 2 * theme.outline)
-        tabs = Rect(rest.x, rest.top - high, rest.width, high)
-        self._place(self.ids.tabs, tabs, ready and phone)
-        if phone:
-            rest = Rect(rest.x, rest.y, rest.width, rest.height - high - 6 * dp)
-        chooser = self.chooser
+        self._place(self.ids.tabs, places.get("tabs", places["head"]), ready and phone)
         if chooser is not None:
-            wide = min(CHOOSER * dp, rest.width)
-            room = main if phone else rest  # a phone has no room for anything beside it
-            self._place(chooser, Rect(room.right - wide, room.y, wide, room.height), True)
-            if not phone:
-                rest = Rect(rest.x, rest.y, rest.width - wide - 8 * dp, rest.height)
-        self._place(self.view, rest, ready)
+            self._place(chooser, places["chooser"], True)
+        self._place(self.view, places["view"], ready)
         if ready:
-            self.view.arrange(rest, self.form, dp, self.tab)
+            self.view.arrange(places["view"], self.form, dp, self.tab)
         for widget, name in ((self.line, "line"), (self.transport, "buttons")):
             place = self._places[name]
             if widget is self.transport:  # in the middle of its place

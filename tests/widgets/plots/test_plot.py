@@ -111,16 +111,16 @@ def test_a_line_that_is_taken_away_leaves_its_layer_to_the_next(plot, stage, sen
 
 def test_ink_for_a_cursor_is_there_while_a_cursor_is(plot, stage):
     drive(plot, stage, 40)
-    assert plot._above.children == []
+    assert plot._cursor.canvas.children == []
     plot.opacity = 0.5
     plot.pause()
     plot.cursor = plot.known[1] - 0.5
     stage.frames(2)
-    assert plot._above.children == [plot._over]
-    assert plot._over["seen"] == 0.5
+    assert plot._cursor.canvas.children == [plot._cursor._ink]
+    assert plot._cursor._ink["seen"] == 0.5
     plot.cursor = math.nan
     stage.frames(2)
-    assert plot._above.children == []
+    assert plot._cursor.canvas.children == []
 
 
 def test_lines_fade_with_the_plot(plot, stage):

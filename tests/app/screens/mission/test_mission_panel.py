@@ -8,8 +8,10 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from kivy.uix.floatlayout import FloatLayout
 
 from app.core.settings_store import Settings
+from app.layout.rects import Rect
 from app.link.capabilities import Capabilities
 from app.link.channels import EVENT
 from app.link.feeds import Feeds, Post
@@ -251,7 +253,11 @@ def test_a_robot_without_missions_and_tasks_is_offered_none(
     assert panel.lacking.top > panel.center_y, "it begins at the top"
     panel.lacking.ids.drive.dispatch("on_release")
     assert chosen == ["drive"]
-    assert panel.beside_stop is panel.plain
+    screen = FloatLayout()
+    panel.put_tasks(screen, Rect(0, 0, 200, 100))
+    assert (panel.plain.parent, panel.plain.width) == (screen, 200)
+    panel.put_tasks(screen, None)
+    assert panel.plain.parent is None
 
 
 def test_a_robot_that_turns_out_to_have_tasks_is_offered_them(stage: Stage, session: Session) -> None:
