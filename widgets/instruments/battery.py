@@ -177,26 +177,41 @@ class Battery(_Charge, BoxLayout):
     """It has room for the drawing, too."""
 
 
+def _room_of(*, brief: bool) -> tuple[str, float]:
+    """Words that a chip has room for, and how far they are from its ends [px]."""
+    return ("288 ms", dp(7)) if brief else ("100 %", dp(13))
+
+
 class BatteryChip(_Charge, BoxLayout):
     """The battery as a chip for a bar. With `brief` it is as narrow as can be."""
 
     veiled = False
     brief = BooleanProperty(False)
+    largest = NumericProperty("15sp")
+    """Size of its type where it is high enough [px]."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(size_hint=(None, None), height=dp(34), **kwargs)
         self._chip = Chip()
         self._chip.bind(width=self.setter("width"))
         self.add_widget(self._chip)
-        for name in ("text", "role", "charging", "brief", "state", "age"):
+        for name in ("text", "role", "charging", "brief", "state", "age", "largest"):
             self.fbind(name, self._write)
         self._write()
 
+    def width_as(self, *, brief: bool, high: float, largest: float) -> float:
+        """How wide it would be [px] if it were so, `high` and in type of `largest` [px]."""
+        usual, edge = _room_of(brief=brief)
+        return self._chip.width_with(self._said(brief=brief), usual, edge=edge, high=high, largest=largest)
+
+    def _said(self, *, brief: bool) -> str:
+        old = age_text(self.age) if self.state == "stale" and not brief else ""
+        return f"{self.text} · {old}" if old else self.text
+
     def _write(self, *_: object) -> None:
-        old = age_text(self.age) if self.state == "stale" and not self.brief else ""
-        self._chip.text = f"{self.text} · {old}" if old else self.text
+        self._chip.text, self._chip.largest = self._said(brief=self.brief), self.largest
         self._chip.tinted = self.state == "stale"
-        self._chip.usual, self._chip.edge = ("288 ms", dp(7)) if self.brief else ("100 %", dp(13))
+        self._chip.usual, self._chip.edge = _room_of(brief=self.brief)
         self._chip.role = self.role
         alarming = self.role == "danger" and not self.charging
         self._chip.icon = (

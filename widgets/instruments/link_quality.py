@@ -52,6 +52,14 @@ def _with_lost(milliseconds: str, lost: int) -> str:
     return f"{milliseconds} · {trn('{count} lost', '{count} lost', lost)}"
 
 
+def _usual(*, brief: bool) -> str:
+    return "288 ms" if brief else _with_lost("288 ms", 0)
+
+
+def _edge(*, tight: bool) -> float:
+    return float(dp(7) if tight else dp(13))
+
+
 class LinkQuality(RobotWidget, BoxLayout):
     """A chip with the state of the link. It has no topic: the app assigns what its client measures."""
 
@@ -70,6 +78,8 @@ class LinkQuality(RobotWidget, BoxLayout):
 
     tight = BooleanProperty(False)
     """Its words stand close to its ends."""
+    largest = NumericProperty("15sp")
+    """Size of its type where it is high enough [px]."""
 
     def _quality(self) -> str:
         if self.state == "never":
@@ -82,6 +92,9 @@ class LinkQuality(RobotWidget, BoxLayout):
     """`good`, `fair`, `bad`, `silent`, `lost` or `unknown`."""
 
     def _text(self) -> str:
+        return self._said(brief=self.brief)
+
+    def _said(self, *, brief: bool) -> str:
         if self.sentence:
             return self.sentence
         if self.quality == "unknown":
@@ -89,7 +102,7 @@ class LinkQuality(RobotWidget, BoxLayout):
         if self.quality == "silent":
             return tr("silent {silence} s").format(silence=figure(self.silence, 1))
         milliseconds = f"{self.rtt * 1000:.0f} ms" if self.rtt < 1 else f"{figure(self.rtt, 1)} s"
-        return milliseconds if self.brief else _with_lost(milliseconds, int(self.lost))
+        return milliseconds if brief else _with_lost(milliseconds, int(self.lost))
 
     text = AliasProperty(_text, bind=["quality", "rtt", "lost", "silence", "sentence", "brief"], cache=True)
 
@@ -99,13 +112,19 @@ class LinkQuality(RobotWidget, BoxLayout):
         self._chip.bind(width=self.setter("width"))
         self.add_widget(self._chip)
         self.bind(quality=self._write, text=self._write, brief=self._write, tight=self._write)
+        self.bind(largest=self._write)
         self._write()
+
+    def width_as(self, *, brief: bool, tight: bool, high: float, largest: float) -> float:
+        """How wide it would be [px] if it were so, `high` and in type of `largest` [px]."""
+        words, usual, edge = self._said(brief=brief), _usual(brief=brief), _edge(tight=tight)
+        return self._chip.width_with(words, usual, edge=edge, high=high, largest=largest)
 
     def _write(self, *_: object) -> None:
         self._chip.icon, self._chip.role = LOOKS[self.quality]
         self._chip.text = self.text
-        self._chip.edge = dp(7) if self.tight else dp(13)
-        self._chip.usual = "288 ms" if self.brief else _with_lost("288 ms", 0)
+        self._chip.edge, self._chip.usual = _edge(tight=self.tight), _usual(brief=self.brief)
+        self._chip.largest = self.largest
         self._chip.outlined = self.quality == "lost"
         self.width = self._chip.width
 

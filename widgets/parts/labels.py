@@ -22,6 +22,8 @@ from widgets.core.theme import theme
 __all__ = ["Chip", "FittedLabel", "Icon", "Remark", "SectionLabel", "Text", "ValueUnit", "spaced", "wrapped"]
 
 HAIR_SPACE = "\u200a"
+SIGN = 19 / 15
+"""Size of a chip's icon, in times of its type."""
 LINE = 1.28
 """Height of a line of type, in times of its size."""
 
@@ -99,7 +101,7 @@ Builder.load_string("""
     height: dp(34)
     width: self.minimum_width
     padding: root.edge + max(0, root.usual_width - words.texture_size[0], (root.narrowest if root.pressable else 0) - 2 * root.edge - sign.width - root.spacing - words.texture_size[0]) / 2, 0
-    spacing: dp(8) if root.icon else 0
+    spacing: dp(8) if root.icon and root.text else 0
     rim: root.role if root.outlined else 'line'
     ground: 'surface' if root.outlined else 'raised'
     corner: self.height / 2
@@ -107,7 +109,7 @@ Builder.load_string("""
         id: sign
         name: root.icon or 'check'
         role: root.role
-        font_size: min(sp(19), root.height * .78)
+        font_size: root.sign_size
         pos_hint: {'center_y': .5}
         width: self.font_size if root.icon else 0
         opacity: 1 if root.icon else 0
@@ -263,20 +265,43 @@ class Chip(Pressable, BoxLayout):
     """Left of the icon and right of the words [px]."""
     narrowest = NumericProperty(0)
     """Its least width where it is pressed [px]."""
+    largest = NumericProperty("15sp")
+    """Size of its type where it is high enough [px]."""
     usual = StringProperty("")
     """The longest words it usually holds; it is never narrower than they are, so that its neighbours stand still."""
 
     def _words_size(self) -> float:
-        return float(min(sp(15), self.height / LINE))
+        return float(min(self.largest, self.height / LINE))
 
-    words_size = AliasProperty(_words_size, bind=["height"], cache=True)
+    words_size = AliasProperty(_words_size, bind=["height", "largest"], cache=True)
     """Of its type [px]: it is no higher than the pill."""
+
+    def _sign_size(self) -> float:
+        return float(min(self.largest * SIGN, self.height * 0.78))
+
+    sign_size = AliasProperty(_sign_size, bind=["height", "largest"], cache=True)
+    """Of its icon [px]."""
 
     def _usual_width(self) -> float:
         return float(text_texture(self.usual, self.words_size, theme.font).width) if self.usual else 0.0
 
     usual_width = AliasProperty(_usual_width, bind=["usual", "words_size"], cache=True)
     """Of those words [px]."""
+
+    def width_with(
+        self, words: str, usual: str = "", *, edge: float = math.nan, high: float = 0.0, largest: float = 0.0
+    ) -> float:
+        """How wide it would be [px] with these words, and no narrower than with the `usual` ones.
+
+        `edge`, height `high` and size of type `largest` [px] are its own where they are not given.
+        """
+        high, edge = high or self.height, self.edge if math.isnan(edge) else edge
+        largest = largest or self.largest
+        size = min(largest, high / LINE)
+        written = max((text_texture(one, size, theme.font).width for one in (words, usual) if one), default=0)
+        sign = min(largest * SIGN, high * 0.78) if self.icon else 0.0
+        gap = dp(8) if self.icon and words else 0.0
+        return float(max(2 * edge + sign + gap + written, self.narrowest if self.pressable else 0))
 
     def collide_point(self, x: float, y: float) -> bool:
         """A pressable chip is hit within a whole target above and below its middle; it is no narrower than the least target."""

@@ -6,10 +6,12 @@ from collections.abc import Sequence
 from typing import Any
 
 from kivy.lang import Builder
+from kivy.metrics import sp
 from kivy.properties import BooleanProperty, ListProperty
 from kivy.uix.boxlayout import BoxLayout
 
 from app.screens.parts.method_signs import METHOD_SIGNS
+from widgets.core.base import text_texture
 from widgets.core.language import mark
 from widgets.core.surfaces import Pressable
 from widgets.core.theme import theme
@@ -79,8 +81,7 @@ class InputsChip(Pressable, BoxLayout):
 
     def _draw(self, *_: object) -> None:
         self.clear_widgets()
-        # what does not work goes before what does: it must not be the one that has no room
-        told = sorted((one for one in self.methods if one[0] in METHOD_SIGNS), key=self._rank)
+        told = self._told()
         shown = told[:BRIEF_COUNT] if self.brief else told
         for name, well in shown:
             self.add_widget(
@@ -95,6 +96,21 @@ class InputsChip(Pressable, BoxLayout):
             more.texture_update()
             more.width = more.texture_size[0]
             self.add_widget(more)
+
+    def _told(self) -> list[tuple[str, bool]]:
+        # what does not work goes before what does: it must not be the one that has no room
+        return sorted((one for one in self.methods if one[0] in METHOD_SIGNS), key=self._rank)
+
+    def width_as(self, *, brief: bool) -> float:
+        """How wide it would be [px] if it were so."""
+        count = len(self._told())
+        shown = max(1, min(count, BRIEF_COUNT) if brief else count)
+        more = (
+            text_texture(f"+{count - shown}", sp(14), theme.font).width + self.spacing if count > shown else 0
+        )
+        return float(
+            self.padding[0] + self.padding[2] + shown * (sp(20) + self.spacing) - self.spacing + more
+        )
 
     def _rank(self, one: tuple[str, bool]) -> tuple[bool, bool, int]:
         return one[1], one[0] in self.idle, list(METHOD_SIGNS).index(one[0])

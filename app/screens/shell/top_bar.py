@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from kivy.clock import Clock
 from kivy.lang import Builder
-from kivy.metrics import Metrics, dp
-from kivy.properties import BooleanProperty, NumericProperty, OptionProperty, StringProperty
+from kivy.metrics import Metrics, dp, sp
+from kivy.properties import (
+    AliasProperty,
+    BooleanProperty,
+    DictProperty,
+    NumericProperty,
+    OptionProperty,
+    StringProperty,
+)
 from kivy.uix.boxlayout import BoxLayout
 
 import widgets.instruments.battery
 import widgets.instruments.link_quality
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
+from app.screens.parts.giving_way import giving_way
 from app.screens.parts.method_chip import InputsChip  # noqa: F401 - its rule draws what is used here
 from app.screens.shell import status_text as standing
 from app.session.session import Session
@@ -37,6 +45,15 @@ HIGH = 34.0
 """Height of a chip that is not stacked [dp]."""
 LEAST_NAME = 60.0
 """Of a name that is cut short, this much at least is read [dp]."""
+GIVING_WAY = (
+    *("satellites", "link", "trust", "inputs", "name", "control", "mode", "stack"),
+    *("inputs", "control", "type"),
+)
+"""What gives up words, then lies above another, and then is left out, the first first; what the robot does and who has it stay."""
+NARROW_GIVING_WAY = ("inputs", "inputs", "control", "control", "type")
+"""The same of a narrow one."""
+BETWEEN, AROUND = 2.0, 5.0
+"""From one to the next of what is stacked, and from there to the edge of the bar [dp]."""
 
 Builder.load_string("""
 #:import fitting_size widgets.core.base.fitting_size
@@ -58,7 +75,7 @@ Builder.load_string("""
         id: name
         text: root.robot_name
         bold: True
-        font_size: theme.size_title if root.form != 'tall' else max(sp(13), fitting_size([self.text], sp(16), self.width - dp(8), bold=True))  # smaller is not read; its end is left out instead
+        font_size: theme.size_title if root.form != 'tall' else max(min(sp(13), dp(15)), fitting_size([self.text], sp(16), self.width - dp(8), bold=True))  # smaller is not read; its end is left out instead
         shorten: root.form == 'tall' or root.name_room > 0
         shorten_from: 'right'
         pos_hint: {'center_y': .5}
@@ -70,9 +87,9 @@ Builder.load_string("""
         narrowest: root.narrowest
         icon: 'lock' if root.protected else 'lock_open'
         role: 'ok' if root.protected else 'warn'
-        text: '' if root.protected or root.form != 'wide' else tr('Not protected')
+        largest: root.largest
+        text: root.trust_shown
         tinted: True
-        spacing: dp(8) if self.text else 0
         edge: dp(8)
         pressable: True
         pos_hint: {'center_y': .5}
@@ -82,9 +99,9 @@ Builder.load_string("""
         narrowest: root.narrowest
         icon: root.mode_icon if root.form != 'tall' else ''
         role: root.mode_role
-        text: root.mode_text
-        usual: tr('STOPPED') if root.form == 'tall' else tr('MANUAL') + ' · ' + tr('patrol') + ' ' + tr('paused') if root.form == 'wide' else tr('PAUSED') + ' · ' + tr('patrol')
-        spacing: dp(8) if self.icon else 0
+        largest: root.largest
+        text: root.mode_shown
+        usual: root.mode_usual
         edge: dp(13) if root.form != 'tall' else dp(7)
         outlined: True
         pressable: root.mode_offered
@@ -92,16 +109,19 @@ Builder.load_string("""
         on_release: root.dispatch('on_mode')
     BatteryChip:
         id: battery
-        brief: root.form == 'tall'
+        brief: root.stacked
+        largest: root.largest
         pos_hint: {'center_y': .5}
     LinkQuality:
         id: link
-        brief: root.form != 'wide'
-        tight: root.form == 'tall'
+        brief: root.form != 'wide' or root.stacked or 'link' in root.given
+        tight: root.stacked
+        largest: root.largest
         pos_hint: {'center_y': .5}
     Chip:
         id: satellites
         icon: 'satellite_alt'
+        largest: root.largest
         role: root.fix_role
         text: root.fix_text
         pos_hint: {'center_y': .5}
@@ -109,7 +129,7 @@ Builder.load_string("""
         id: gap
     InputsChip:
         id: inputs
-        brief: root.form != 'wide'
+        brief: root.form != 'wide' or 'inputs' in root.given
         pos_hint: {'center_y': .5}
         on_release: root.dispatch('on_inputs')
     Chip:
@@ -117,8 +137,8 @@ Builder.load_string("""
         narrowest: root.narrowest
         icon: 'fiber_manual_record_fill'
         role: 'danger'
+        largest: root.largest
         text: root.recorded if root.form != 'tall' else ''
-        spacing: dp(8) if self.text else 0
         edge: dp(13) if self.text else dp(7)
         pressable: True
         scan_words: tr('Stop recording')
@@ -129,8 +149,8 @@ Builder.load_string("""
         narrowest: root.narrowest
         icon: root.control_icon
         role: root.control_role
-        text: root.control_text if root.form != 'tall' else root.named
-        spacing: dp(8) if self.text and root.form != 'tall' else dp(4) if self.text else 0
+        largest: root.largest
+        text: root.control_shown
         edge: dp(13) if root.form != 'tall' else dp(7)
         pressable: True
         scan_words: root.control_text
@@ -160,10 +180,12 @@ class TopBar(EdgedBox):
     """What is left for the name of the robot where all of it would push the last chip off the glass [px]; 0 where it has room."""
     narrowest = NumericProperty(0)
     """Least width of what is pressed [px]: in gloves less than else, so that the bar holds it."""
-    crowded = BooleanProperty(False)
-    """There is no room for the satellites."""
-    tight = BooleanProperty(False)
-    """A narrow one has no room for the ways in beside the name: More leads there."""
+    given: DictProperty[str, int] = DictProperty()
+    """What gave way for want of room, as of `GIVING_WAY`, and how often."""
+    stacked = BooleanProperty(False)
+    """Battery and link are above each other."""
+    largest = NumericProperty("15sp")
+    """Size of type of its chips [px]."""
     robot_name = StringProperty("")
     mode_text = StringProperty("—")
     mode_icon = StringProperty("help")
@@ -178,69 +200,100 @@ class TopBar(EdgedBox):
     """Nobody on the way reads or changes what is said: as of `Session.protected`."""
     recorded = StringProperty("")
     """How long a recording runs; empty while none does, and then nothing is said of it."""
+    mode_brief = StringProperty("—")
+    """Who steers without the task."""
     control_text = StringProperty("")
+    control_brief = StringProperty("")
+    """Where there is little room."""
     named = StringProperty("")
     """On a phone, who else has control or asks for it; empty while it is as it should be, which the icon says."""
     control_icon = StringProperty("help")
     control_role = StringProperty("muted")
 
+    trust_shown = AliasProperty(
+        lambda bar: _trust_words(bar, bar.given), bind=["protected", "form", "given"], cache=True
+    )
+    mode_shown = AliasProperty(
+        lambda bar: _mode_words(bar, bar.given), bind=["mode_text", "mode_brief", "form", "given"], cache=True
+    )
+    mode_usual = AliasProperty(lambda bar: _usual_mode(bar, bar.given), bind=["form", "given"], cache=True)
+    control_shown = AliasProperty(
+        lambda bar: _control_words(bar, bar.given),
+        bind=["control_text", "control_brief", "named", "form", "given"],
+        cache=True,
+    )
+
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.ids["stack"] = self._stack = BoxLayout(
-            orientation="vertical", size_hint=(None, 1), padding=(0, "5dp"), spacing="2dp"
+            orientation="vertical", size_hint=(None, 1), padding=(0, dp(AROUND)), spacing=dp(BETWEEN)
         )
         for name in PARTS:  # kv holds ids weakly, and the narrow bar takes some of them out
             self.ids[name] = self.ids[name].__self__
-        for name in ("located", "crowded", "protected", "recorded", "tight"):
+        for name in ("located", "given", "protected", "recorded"):
             self.fbind(name, lambda *_: self.arrange(self.form))
         self._fit = Clock.create_trigger(lambda _: self._fitted(), -1)
         for name in ("trust", "mode", "battery", "link", "satellites", "inputs", "record", "control"):
             self.ids[name].bind(width=self._fit)
-        for name in ("width", "form", "robot_name", "located", "protected", "recorded"):
+        self.ids.inputs.bind(methods=self._fit)
+        for name in (
+            "size",
+            "form",
+            "robot_name",
+            "located",
+            "protected",
+            "recorded",
+            "mode_shown",
+            "control_shown",
+        ):
             self.fbind(name, self._fit)
 
     def arrange(self, form: str) -> None:
         """Take the shape of the window; the narrow bar leaves out what is said elsewhere."""
         self.form = form
-        self._stack_up(stacked=form == "tall")
-        shown = [self.ids[name] for name in self._wanted()]
+        self.largest = _largest(self.given)
+        self.stacked = form == "tall" or "stack" in self.given
+        self._stack_up(stacked=self.stacked)
+        shown = [self.ids[name] for name in self._wanted(self.given)]
         if list(reversed(self.children)) != shown:
             self.clear_widgets()
             for widget in shown:
                 self.add_widget(widget)
 
-    def _wanted(self) -> list[str]:
-        """What there is room for and something to say of."""
+    def _wanted(self, given: Mapping[str, int]) -> list[str]:
+        """What there is something to say of, and room for where so much gave way."""
         tall = self.form == "tall"
         absent = {
-            "satellites": self.crowded or not self.located,
+            "satellites": "satellites" in given or not self.located,
             "record": not self.recorded,
             "trust": tall and self.protected,  # what is as it should be is said under More
-            "inputs": tall and self.tight,
+            "inputs": given.get("inputs", 0) > 1,  # More leads there
             "more": self.form != "wide",  # a phone's navigation leads there
+            "battery": "stack" in given,
         }
-        return [name for name in (NARROW if tall else PARTS) if not absent.get(name)]
+        parts = NARROW if tall else PARTS
+        if "stack" in given and not tall:
+            parts = tuple("stack" if name == "link" else name for name in parts)
+        return [name for name in parts if not absent.get(name)]
 
     def _fitted(self) -> None:
-        """Leave out the satellites, and then the end of the name, so that who has control is always read whole."""
-        if self.form == "tall":
-            self.crowded, self.name_room = False, 0
-            self._fit_narrow()
+        """Have things give way so that what the robot does and who has it are always read whole."""
+        tall = self.form == "tall"
+        room = self.width - self.padding[0] - self.padding[2]
+        given = giving_way(room, NARROW_GIVING_WAY if tall else GIVING_WAY, self._width_of)
+        if given != self.given:
+            self.given = given
+        if tall:
+            self.name_room = 0
             return
-        chips = [self.ids[name] for name in self._wanted() if name not in ("name", "gap", "satellites")]
-        around = self.padding[0] + self.padding[2] + self.spacing * (len(chips) + 1)
-        left = self.width - around - sum(chip.width for chip in chips)
-        name = text_texture(self.robot_name, self.ids.name.font_size, theme.font, bold=True).width
-        fix = self.ids.satellites.width + self.spacing
-        self.crowded = name + fix > left
-        self.name_room = max(left, dp(LEAST_NAME)) if name > left else 0
+        whole = _whole_name(self)
+        left = room - self._width_of({**given, "name": 0}) + whole
+        self.name_room = max(left, dp(LEAST_NAME)) if whole > left else 0
 
-    def _fit_narrow(self) -> None:
-        """Leave out the ways in where they would leave next to nothing of the name."""
-        others = [self.ids[name] for name in self._wanted() if name not in ("name", "inputs")]
-        around = self.padding[0] + self.padding[2] + self.spacing * (len(others) + 1)
-        left = self.width - around - sum(chip.width for chip in others) - self.ids.inputs.width
-        self.tight = left < dp(LEAST_NAME)
+    def _width_of(self, given: Mapping[str, int]) -> float:
+        """How wide everything is [px] where so much gave way."""
+        wanted = self._wanted(given)
+        return sum(_part_width(self, name, given) for name in wanted) + self.spacing * (len(wanted) - 1)
 
     def _stack_up(self, *, stacked: bool) -> None:
         """Battery and link come into the stack, or out of it."""
@@ -268,6 +321,7 @@ class TopBar(EdgedBox):
         """Say how the robot stands now."""
         self.robot_name, self.protected = session.robot.name, session.protected
         self.mode_text, self.mode_icon, self.mode_role = standing.mode(session, self.form)
+        self.mode_brief, *_ = standing.mode(session, "tall")
         self.mode_offered = (
             session.connected and not session.robot.foreign and session.robot.offers("/mode/set")
         )
@@ -277,6 +331,7 @@ class TopBar(EdgedBox):
         self.control_text, self.control_icon, self.control_role = standing.control(
             session, brief=self.form != "wide"
         )
+        self.control_brief, *_ = standing.control(session, brief=True)
         words, _, other = standing.control_nav(session)
         self.named = words if other else ""
         chip = self.ids.link
@@ -309,3 +364,71 @@ class TopBar(EdgedBox):
 
     def on_more(self) -> None:
         """What leads to all other screens was tapped."""
+
+
+# words and widths, where so much gave way
+
+
+def _largest(given: Mapping[str, int]) -> float:
+    """Size of type of the chips [px]: where there is no room at all, that of usual text."""
+    return float(min(dp(15), sp(15)) if "type" in given else sp(15))
+
+
+def _trust_words(bar: TopBar, given: Mapping[str, int]) -> str:
+    worded = not bar.protected and bar.form == "wide" and "trust" not in given
+    return tr("Not protected") if worded else ""
+
+
+def _mode_words(bar: TopBar, given: Mapping[str, int]) -> str:
+    return str(bar.mode_brief if bar.form == "tall" or "mode" in given else bar.mode_text)
+
+
+def _usual_mode(bar: TopBar, given: Mapping[str, int]) -> str:
+    if bar.form == "tall" or "mode" in given:
+        return "" if "type" in given else tr("STOPPED")
+    if bar.form == "wide":
+        return f"{tr('MANUAL')} · {tr('patrol')} {tr('paused')}"
+    return f"{tr('PAUSED')} · {tr('patrol')}"
+
+
+def _control_words(bar: TopBar, given: Mapping[str, int]) -> str:
+    words = (bar.control_text, bar.control_brief, bar.named, "")
+    first = 2 if bar.form == "tall" else 0
+    return str(words[min(first + given.get("control", 0), len(words) - 1)])
+
+
+def _whole_name(bar: TopBar) -> float:
+    return float(text_texture(bar.robot_name, bar.ids.name.font_size, theme.font, bold=True).width)
+
+
+def _part_width(bar: TopBar, name: str, given: Mapping[str, int]) -> float:
+    """Of one part [px]."""
+    part, tall = bar.ids[name], bar.form == "tall"
+    words: dict[str, Callable[[], str]] = {
+        "trust": lambda: _trust_words(bar, given),
+        "mode": lambda: _mode_words(bar, given),
+        "control": lambda: _control_words(bar, given),
+        "record": lambda: "" if tall else bar.recorded,
+        "satellites": lambda: bar.fix_text,
+    }
+    if name in words:
+        usual = _usual_mode(bar, given) if name == "mode" else ""
+        return float(part.width_with(words[name](), usual, largest=_largest(given)))
+    if name in ("stack", "battery", "link"):
+        return _standing_width(bar, name, given)
+    if name == "name":
+        whole = _whole_name(bar)
+        return min(whole, dp(LEAST_NAME)) if tall or given.get("name") else whole
+    if name == "inputs":
+        return float(part.width_as(brief=bar.form != "wide" or "inputs" in given))
+    return 0.0 if name == "gap" else float(part.width)
+
+
+def _standing_width(bar: TopBar, name: str, given: Mapping[str, int]) -> float:
+    """Of battery and link, or of the wider one where they are above each other [px]."""
+    stacked, largest = name == "stack", _largest(given)
+    high = (bar.height - 2 * dp(AROUND) - dp(BETWEEN)) / 2 if stacked else dp(HIGH)
+    brief = stacked or bar.form != "wide" or "link" in given
+    link = bar.ids.link.width_as(brief=brief, tight=stacked, high=high, largest=largest)
+    battery = bar.ids.battery.width_as(brief=stacked, high=high, largest=largest)
+    return float(max(link, battery) if stacked else link if name == "link" else battery)

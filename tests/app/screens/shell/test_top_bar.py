@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from kivy.metrics import sp
+from kivy.metrics import Metrics, sp
 
 from app.screens.shell.top_bar import TopBar
 from bridge.msgs.sensor_msgs import BatteryState
@@ -88,3 +90,53 @@ def test_across_who_has_control_is_read_whole_and_the_name_is_cut_before(
     if width == 1280 and name == "Scout-1":
         assert bar.ids.satellites in bar.children
         assert bar.ids.name.width == bar.ids.name.texture_size[0]
+
+
+@pytest.fixture
+def large_text() -> Iterator[None]:
+    """Text twice as large as usual."""
+    Metrics.fontscale = 2.0
+    yield
+    Metrics.fontscale = 1.0
+
+
+@pytest.mark.usefixtures("large_text")
+@pytest.mark.parametrize(
+    ("form", "width"), [("short", 800), ("short", 892), ("wide", 1280), ("tall", 412), ("tall", 360)]
+)
+def test_in_large_text_chips_give_up_words_and_what_it_does_and_who_has_it_stay(
+    stage: Any, form: str, width: int
+) -> None:
+    bar = TopBar()
+    stage.show(bar, size=(width, 56))
+    bar.robot_name, bar.mode_text, bar.mode_brief = "Commander-1", "ANGEHALTEN · Rundgang", "ANGEHALTEN"
+    bar.control_text, bar.control_brief, bar.fix_text = "Gefahren von tablet-B", "tablet-B", "±1.2 m"
+    bar.protected = False
+    bar.arrange(form)
+    bar.ids.battery.state = bar.ids.link.state = "live"
+    bar.ids.battery.show(BatteryState(percentage=0.62))
+    bar.ids.link.rtt = 0.288
+    stage.frames(6)
+    shown = list(reversed(bar.children))
+    assert {bar.ids.mode, bar.ids.control, bar.ids.name} <= set(shown)
+    assert all(one.right <= other.x for one, other in itertools.pairwise(shown) if one.width), bar.given
+    assert shown[-1].right <= bar.right, bar.given
+    assert bar.ids.mode.text.startswith("ANGEHALTEN")
+    assert "288 ms" in bar.ids.link.text
+    before = dict(bar.given)
+    stage.frames(3)
+    assert bar.given == before, "it comes to rest"
+
+
+def test_what_gave_way_comes_back_with_the_room(stage: Any) -> None:
+    bar = TopBar()
+    stage.show(bar, size=(700, 56))
+    bar.robot_name, bar.mode_text, bar.mode_brief = "Commander-1", "PAUSED · patrol", "PAUSED"
+    bar.control_text, bar.control_brief = "you have control", "you"
+    bar.arrange("wide")
+    stage.frames(4)
+    assert bar.ids.control.text == "you"
+    bar.width = 1280
+    stage.frames(4)
+    assert bar.ids.control.text == "you have control"
+    assert bar.given == {}
