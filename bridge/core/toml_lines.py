@@ -5,23 +5,37 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterator
+from functools import lru_cache
 from typing import Any, NamedTuple, TypeAlias
 
-__all__ = ["Keys", "Statement", "line_of", "path_of", "statements"]
+__all__ = ["Keys", "Statement", "line_of", "lines_of", "path_of", "statements"]
 
 Keys: TypeAlias = tuple[str | int, ...]
 """The way to a value: names of tables and keys, numbers within lists."""
+_TOKEN = re.compile(
+    r""""{3}(?:\\.|[^\\])*?"{3,5}|'{3}.*?'{3,5}|"(?:\\.|[^"\\\n])*"|'[^'\n]*'|\#[^\n]*|[\[\]{},\n]""",
+    re.DOTALL,
+)
+"""Strings, comments, and what opens, closes, divides or ends."""
+_SPACE = re.compile(r"(?:\s+|\#[^\n]*)*")
+"""Space and comments, also none."""
 
 
 def line_of(text: str, where: str) -> int:
     """The line of the key `where` or, when it is not there, of the table it belongs in; from 1 on, 0 for the top."""
-    keys = path_of(where)
-    lines: dict[Keys, int] = {}
-    for found, line in _keys(text.splitlines()):
-        lines.setdefault(found, line)
+    keys, lines = path_of(where), _lines_of(text)
     while keys and keys not in lines:
         keys = keys[:-1]
     return lines.get(keys, 0)
+
+
+@lru_cache(maxsize=2)
+def _lines_of(text: str) -> dict[Keys, int]:
+    """The line of every key; kept, as a text with one fault has others."""
+    lines: dict[Keys, int] = {}
+    for found, line in _keys(text):
+        lines.setdefault(found, line)
+    return lines
 
 
 class Statement(NamedTuple):
@@ -37,33 +51,61 @@ class Statement(NamedTuple):
     """What it says; None for a header, nothing for a line without a key."""
 
 
+def lines_of(text: str) -> list[str]:
+    """The lines of a TOML text as statements count them: other signs that end a line elsewhere may stand in a string."""
+    plain = text.replace("\r\n", "\n").removesuffix("\n")
+    return plain.split("\n") if plain else []
+
+
 def statements(text: str) -> Iterator[Statement]:
     """Every statement of a TOML `text`, which is right, in its order."""
-    return _statements(text.splitlines())
+    return (statement for statement, _ in _statements(text))
 
 
-def _statements(lines: list[str]) -> Iterator[Statement]:
+def _statements(text: str) -> Iterator[tuple[Statement, str]]:
+    """Each with its text."""
     counts: dict[Keys, int] = {}
     table: Keys = ()
-    number = 0
-    while number < len(lines):
-        line = lines[number].strip()
-        length, told = 1, None
-        if line.startswith("["):
-            table = _table(line, counts)
+    number = 1
+    for part in _parts(text.replace("\r\n", "\n")):
+        length, told = part.count("\n") + 1, None
+        if part.lstrip().startswith("["):
+            table = _table(part, counts)
         else:
-            length, told = _statement(lines, number)
-        yield Statement(table, number + 1, length, told)
+            told = _told(part)
+        yield Statement(table, number, length, told), part
         number += length
 
 
-def _keys(lines: list[str]) -> Iterator[tuple[Keys, int]]:
+def _parts(text: str) -> Iterator[str]:
+    """The text, divided where a line ends and nothing that was begun goes on in the next."""
+    begun = depth = 0
+    for token in _TOKEN.finditer(text):
+        if token[0] in "[{":
+            depth += 1
+        elif token[0] in "]}":
+            depth -= 1
+        elif token[0] == "\n" and depth <= 0:
+            yield text[begun : token.start()]
+            begun, depth = token.end(), 0
+    if begun < len(text):
+        yield text[begun:]
+
+
+def _told(part: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(part)
+    except (ValueError, RecursionError):  # no TOML, or a number of thousands of digits
+        return {}
+
+
+def _keys(text: str) -> Iterator[tuple[Keys, int]]:
     """Every key of a TOML text with its line."""
-    for table, line, length, told in _statements(lines):
+    for (table, line, length, told), part in _statements(text):
         if told is None:
             yield table, line
             continue
-        for keys, after in _within(told, lines[line - 1 : line - 1 + length]):
+        for keys, after in _within(told, _entries(part) if length > 1 else []):
             yield (*table, *keys), line + after
 
 
@@ -85,42 +127,35 @@ def _table(line: str, counts: dict[Keys, int]) -> Keys:
     return found
 
 
-def _statement(lines: list[str], first: int) -> tuple[int, dict[str, Any]]:
-    """How many lines the statement that begins at `first` has, and what it says."""
-    for length in range(1, len(lines) - first + 1):
-        try:
-            return length, tomllib.loads("\n".join(lines[first : first + length]))
-        except ValueError:  # no TOML yet, or a number of thousands of digits
-            continue
-    return 1, {}
-
-
-def _within(told: Any, lines: list[str], before: Keys = ()) -> Iterator[tuple[Keys, int]]:
+def _within(told: Any, entries: list[int], before: Keys = ()) -> Iterator[tuple[Keys, int]]:
     """The keys in what a statement says, each with how many lines after the statement's first it stands."""
     if isinstance(told, dict):
         for name, value in told.items():
             yield (*before, name), 0
-            yield from _within(value, lines, (*before, name))
-    elif isinstance(told, list) and len(lines) > 1:
-        complete = 0
-        for after in range(len(lines)):
-            count = _complete(lines[: after + 1], len(told))
-            yield from (((*before, index), after) for index in range(complete, count))
-            complete = max(complete, count)
+            yield from _within(value, entries, (*before, name))
+    elif isinstance(told, list):
+        yield from (((*before, index), after) for index, after in enumerate(entries[: len(told)]))
 
 
-def _complete(lines: list[str], most: int) -> int:
-    """How many entries the list has that ends after these lines."""
-    begun = "\n".join(lines).rstrip()
-    for end in ("", "]"):
-        try:
-            told: Any = tomllib.loads(begun + "\n" + end if end else begun)
-        except ValueError:  # no TOML yet, or a number of thousands of digits
-            continue
-        while isinstance(told, dict) and told:
-            told = next(iter(told.values()))
-        return len(told) if isinstance(told, list) else most
-    return 0
+def _entries(part: str) -> list[int]:
+    """How many lines after the first of a statement each entry of its first list begins."""
+    found: list[int] = []
+    depth = level = lines = at = 0
+    for token in _TOKEN.finditer(part):
+        sign = token[0]
+        opens = sign == "[" and not level
+        if sign in "[{":
+            depth += 1
+            level = depth if opens else level
+        elif sign in "]}":
+            depth -= 1
+        if level and depth < level:
+            break
+        if opens or (sign == "," and depth == level):
+            start = _SPACE.match(part, token.end()).end()  # type: ignore[union-attr] - it matches nothing too
+            lines, at = lines + part.count("\n", at, start), start
+            found.append(lines)
+    return found
 
 
 def path_of(where: str) -> Keys:

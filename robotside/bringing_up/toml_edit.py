@@ -10,7 +10,7 @@ import tomllib
 from collections.abc import Mapping
 from typing import Any, TypeAlias
 
-from bridge.core.toml_lines import Keys, Statement, statements
+from bridge.core.toml_lines import Keys, Statement, lines_of, statements
 
 __all__ = ["CannotEdit", "Value", "edited"]
 
@@ -60,7 +60,7 @@ def _put(content: dict[str, Any], place: tuple[str, ...], value: Value | None) -
 
 def _without(text: str, table: Keys, key: str) -> str:
     """The text without a key; the comment behind it stays, in a line of its own."""
-    lines = text.splitlines()
+    lines = lines_of(text)
     for each in statements(text):
         if each.table == table and each.told is not None and key in each.told:
             comment = _comment(lines, each).strip()
@@ -69,7 +69,7 @@ def _without(text: str, table: Keys, key: str) -> str:
 
 
 def _with(text: str, table: Keys, key: str, value: Value) -> str:
-    lines = text.splitlines()
+    lines = lines_of(text)
     said = f"{key} = {_written(value)}"
     header, last = 0, 0
     for each in statements(text):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import tomllib
+
 import pytest
 
 from bridge.core.toml_lines import line_of
@@ -75,3 +77,21 @@ points = [
 )
 def test_a_key_is_found_in_its_line(where: str, line: int) -> None:
     assert line_of(TEXT, where) == line
+
+
+def test_a_string_or_comment_may_hold_what_divides() -> None:
+    text = 'a = "[{,"\nb = [\n  "],",  # ], [\n  \'\'\'\n,[\'\'\',\n  [1, 2],\n]\r\nc = """\\"""\n[x]"""\nd = 1\n'
+    assert [line_of(text, where) for where in ("b[0]", "b[1]", "b[2]", "c", "d")] == [3, 4, 6, 8, 10]
+
+
+def test_each_letter_of_a_text_is_read_a_few_times_however_many_faults_and_entries_it_has(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    read: list[int] = []
+    loads = tomllib.loads
+    monkeypatch.setattr(tomllib, "loads", lambda text: (read.append(len(text)), loads(text))[1])
+    entries = "".join(f"  {number},\n" for number in range(2000))
+    text = f"wide = [\n{entries}]\n" + "".join(f"key{number} = 1\n" for number in range(500))
+    assert [line_of(text, f"key{number}") for number in range(500)] == list(range(2003, 2503))
+    assert line_of(text, "wide[1999]") == 2001
+    assert sum(read) < 2 * len(text)
