@@ -8,6 +8,7 @@ from pathlib import Path
 
 from app.maps.map_source import Source
 from app.maps.maps import described
+from widgets.core.language import tr
 
 __all__ = ["FileCheck"]
 
@@ -34,7 +35,9 @@ class FileCheck:
             self.problem = str(wrong)
         except Exception as fault:  # a thread that ends silently would be reading for ever
             log.exception("%s", self._path)
-            self.problem = type(fault).__name__
+            self.problem = tr("{file} cannot be read as a map ({fault}).").format(
+                file=self._path.name, fault=type(fault).__name__
+            )
         self.over = True
 
     def wait(self, timeout: float | None = None) -> None:

@@ -21,6 +21,8 @@ __all__ = ["picture_of", "read_floor_plan"]
 MAX_TEXT = 65_536
 """Of the YAML file [bytes]."""
 MAX_PICTURE_BYTES = 64_000_000
+MAX_PATH = 255
+"""Of the picture's name [letter]."""
 FREE, WALL = (232, 234, 238, 255), (64, 70, 80, 255)
 """How floor and walls look; what is unknown is let through."""
 FREE_BELOW, WALL_ABOVE = 0.196, 0.65
@@ -55,10 +57,11 @@ def read_floor_plan(path: Path) -> PlacedPicture:
 
 def _smaller(pixels: NDArray[np.uint8], step: int) -> NDArray[np.uint8]:
     """Every so many pixels one, walls first: none of them may vanish."""
-    high, wide = (-(-side // step) * step for side in pixels.shape[:2])
+    down, across = (min(step, side) for side in pixels.shape[:2])  # a plan may be long and narrow
+    high, wide = -(-pixels.shape[0] // down) * down, -(-pixels.shape[1] // across) * across
     padded = np.zeros((high, wide, 4), np.uint8)
     padded[: pixels.shape[0], : pixels.shape[1]] = pixels
-    cells = padded.reshape(high // step, step, wide // step, step, 4)
+    cells = padded.reshape(high // down, down, wide // across, across, 4)
     wall = (cells == WALL).all(axis=-1).any(axis=(1, 3))
     fewer = cells[:, 0, :, 0].copy()
     fewer[wall] = WALL
@@ -69,6 +72,8 @@ def picture_of(path: Path, about: Mapping[str, Any] | None = None) -> Path:
     """The picture that the YAML file names; ValueError where it names none."""
     name = (about or _about(path)).get("image")
     if not isinstance(name, str) or not name:
+        raise ValueError(tr("{file} does not name its picture (image:).").format(file=path.name))
+    if len(name) > MAX_PATH or "\0" in name:
         raise ValueError(tr("{file} does not name its picture (image:).").format(file=path.name))
     found = path.parent / name
     beside = path.parent / Path(name).name  # of one that was copied here together with its picture

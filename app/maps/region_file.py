@@ -72,7 +72,10 @@ class RegionFile:
     def opened(cls, path: Path) -> RegionFile:
         """A file of an earlier session; ValueError or KeyError for one that is none of ours."""
         about = metadata(path)
-        _ = about["name"], about["pilothouse_source"], _box(about)
+        try:
+            _ = about["name"], about["pilothouse_source"], _box(about)
+        except (TypeError, OverflowError, RecursionError) as fault:
+            raise ValueError(f"its box is {type(fault).__name__}") from fault
         return cls(path, about)
 
     def plan(self, make: Callable[[Box, int, int], P]) -> P:

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import math
 import os
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -110,3 +111,20 @@ def test_a_picture_without_end_or_of_gigabytes_is_not_read(tmp_path):
     os.truncate(tmp_path / "a.pgm", MAX_PICTURE_BYTES + 1)
     with pytest.raises(ValueError, match="no file of at most 64 MB"):
         read_floor_plan(path)
+
+
+def test_a_plan_that_is_long_and_narrow_takes_no_more_memory_than_its_picture(tmp_path):
+    wide = 400_000
+    path = write(tmp_path, PLAIN, b"P5 %d 2 255\n" % wide + bytes(2 * wide))
+    tracemalloc.start()
+    try:
+        plan = read_floor_plan(path)
+        assert tracemalloc.get_traced_memory()[1] < 50 * 2 * wide
+    finally:
+        tracemalloc.stop()
+    assert plan.height == 1
+
+
+def test_a_picture_with_an_endless_name_is_none(tmp_path):
+    with pytest.raises(ValueError, match="does not name its picture"):
+        read_floor_plan(write(tmp_path, PLAIN.replace("a.pgm", "a" * 5000)))

@@ -176,6 +176,15 @@ def test_a_file_that_is_no_region_is_left_out(regions, tmp_path, caplog):
     assert "is no offline region" in caplog.text
 
 
+@pytest.mark.parametrize("box", ["7", "[1, 2, 3, " + "9" * 400 + "]", "[" * 100_000])
+def test_a_region_whose_box_is_none_is_left_out(regions, tmp_path, box):
+    with closing(sqlite3.connect(tmp_path / "x.mbtiles")) as file, file:
+        file.executescript("CREATE TABLE metadata (name TEXT, value TEXT)")
+        about = {"name": "x", "pilothouse_source": "y", "pilothouse_box": box}
+        file.executemany("INSERT INTO metadata VALUES (?, ?)", about.items())
+    assert regions.all == []
+
+
 def test_where_nothing_can_be_kept_it_is_one_sentence(tmp_path):
     (tmp_path / "regions").write_text("a file where the folder should be")
     with pytest.raises(ValueError, match="The region cannot be kept"):
