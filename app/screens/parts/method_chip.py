@@ -1,4 +1,7 @@
-"""The way to the inputs screen: a chip that shows by icons which methods are armed, struck through which do not work."""
+"""The way to the inputs screen: a chip that shows by icons which methods are armed, struck through which do not work.
+
+A brief one shows one icon and says how many there are.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,7 @@ from kivy.uix.boxlayout import BoxLayout
 
 from app.screens.parts.method_signs import METHOD_SIGNS
 from widgets.core.base import text_texture
-from widgets.core.language import mark
+from widgets.core.language import mark, trn
 from widgets.core.surfaces import Pressable
 from widgets.core.theme import theme
 from widgets.parts.kit import Icon, Text
@@ -22,7 +25,7 @@ __all__ = ["InputsChip"]
 NO_METHOD_ICON = "tune"
 """Icon while no method is armed."""
 BRIEF_COUNT = 1
-"""So many icons a brief one shows; the rest is counted."""
+"""So many icons a brief one shows."""
 
 Builder.load_string("""
 <InputsChip>:
@@ -64,7 +67,9 @@ class InputsChip(Pressable, BoxLayout):
 
     scan_words = mark("Inputs")
     brief = BooleanProperty(False)
-    """It has room for one icon and a number."""
+    """It has room for one icon, and for how many methods there are."""
+    wordless = BooleanProperty(False)
+    """A brief one has no room for words either."""
     methods = ListProperty()
     """Name of each method that is armed, and whether it is well."""
     idle = ListProperty()
@@ -72,12 +77,17 @@ class InputsChip(Pressable, BoxLayout):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.bind(methods=self._draw, idle=self._draw, brief=self._draw)
+        self.bind(methods=self._draw, idle=self._draw, brief=self._draw, wordless=self._draw)
         self._draw()
 
     def show(self, methods: Sequence[tuple[str, bool]], idle: Sequence[str] = ()) -> None:
         """Take over which methods are armed, and which of them have nothing to work with."""
         self.methods, self.idle = list(methods), list(idle)
+
+    @property
+    def faulty(self) -> bool:
+        """A method that is armed does not work."""
+        return any(not well for name, well in self.methods if name in METHOD_SIGNS)
 
     def _draw(self, *_: object) -> None:
         self.clear_widgets()
@@ -89,8 +99,8 @@ class InputsChip(Pressable, BoxLayout):
             )
         if not shown:
             self.add_widget(MethodSign(name=NO_METHOD_ICON, idle=True))
-        if len(told) > len(shown):
-            more = Text(text=f"+{len(told) - len(shown)}", font_size="14sp", size_hint_x=None)
+        if len(told) > len(shown) and not self.wordless:
+            more = Text(text=_words(len(told)), font_size="14sp", size_hint_x=None)
             more.text_size = None, None
             more.pos_hint = {"center_y": 0.5}
             more.texture_update()
@@ -101,13 +111,12 @@ class InputsChip(Pressable, BoxLayout):
         # what does not work goes before what does: it must not be the one that has no room
         return sorted((one for one in self.methods if one[0] in METHOD_SIGNS), key=self._rank)
 
-    def width_as(self, *, brief: bool) -> float:
+    def width_as(self, *, brief: bool, wordless: bool) -> float:
         """How wide it would be [px] if it were so."""
         count = len(self._told())
         shown = max(1, min(count, BRIEF_COUNT) if brief else count)
-        more = (
-            text_texture(f"+{count - shown}", sp(14), theme.font).width + self.spacing if count > shown else 0
-        )
+        worded = count > shown and not wordless
+        more = text_texture(_words(count), sp(14), theme.font).width + self.spacing if worded else 0
         return float(
             self.padding[0] + self.padding[2] + shown * (sp(20) + self.spacing) - self.spacing + more
         )
@@ -119,3 +128,7 @@ class InputsChip(Pressable, BoxLayout):
         """It is hit within a whole target round it."""
         up, across = max(0.0, theme.target - self.height) / 2, max(0.0, theme.target - self.width) / 2
         return bool(self.x - across <= x <= self.right + across and self.y - up <= y <= self.top + up)
+
+
+def _words(count: int) -> str:
+    return trn("{count} input", "{count} inputs", count).format(count=count)

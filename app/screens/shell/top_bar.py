@@ -130,6 +130,7 @@ Builder.load_string("""
     InputsChip:
         id: inputs
         brief: root.form != 'wide' or 'inputs' in root.given
+        wordless: root.form == 'tall' or 'inputs' in root.given
         pos_hint: {'center_y': .5}
         on_release: root.dispatch('on_inputs')
     Chip:
@@ -206,7 +207,7 @@ class TopBar(EdgedBox):
     control_brief = StringProperty("")
     """Where there is little room."""
     named = StringProperty("")
-    """On a phone, who else has control or asks for it; empty while it is as it should be, which the icon says."""
+    """On an upright phone, who has control or asks for it, in a word."""
     control_icon = StringProperty("help")
     control_role = StringProperty("muted")
 
@@ -232,6 +233,7 @@ class TopBar(EdgedBox):
             self.ids[name] = self.ids[name].__self__
         for name in ("located", "given", "protected", "recorded"):
             self.fbind(name, lambda *_: self.arrange(self.form))
+        self.ids.inputs.fbind("methods", lambda *_: self.arrange(self.form))
         self._fit = Clock.create_trigger(lambda _: self._fitted(), -1)
         for name in ("trust", "mode", "battery", "link", "satellites", "inputs", "record", "control"):
             self.ids[name].bind(width=self._fit)
@@ -267,7 +269,7 @@ class TopBar(EdgedBox):
             "satellites": "satellites" in given or not self.located,
             "record": not self.recorded,
             "trust": tall and self.protected,  # what is as it should be is said under More
-            "inputs": given.get("inputs", 0) > 1,  # More leads there
+            "inputs": given.get("inputs", 0) > 1 or (tall and not self.ids.inputs.faulty),  # More leads there
             "more": self.form != "wide",  # a phone's navigation leads there
             "battery": "stack" in given,
         }
@@ -333,7 +335,7 @@ class TopBar(EdgedBox):
         )
         self.control_brief, *_ = standing.control(session, brief=True)
         words, _, other = standing.control_nav(session)
-        self.named = words if other else ""
+        self.named = words if other else self.control_text if self.form == "tall" else ""
         chip = self.ids.link
         chip.state = "live"
         chip.rtt, chip.lost = session.link.health.rtt, session.link.health.lost
@@ -420,7 +422,8 @@ def _part_width(bar: TopBar, name: str, given: Mapping[str, int]) -> float:
         whole = _whole_name(bar)
         return min(whole, dp(LEAST_NAME)) if tall or given.get("name") else whole
     if name == "inputs":
-        return float(part.width_as(brief=bar.form != "wide" or "inputs" in given))
+        less = "inputs" in given
+        return float(part.width_as(brief=bar.form != "wide" or less, wordless=tall or less))
     return 0.0 if name == "gap" else float(part.width)
 
 

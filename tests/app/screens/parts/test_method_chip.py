@@ -1,4 +1,4 @@
-"""The chip of the ways in: what does not work has another shape and not only another colour, and what is left out is counted."""
+"""The chip of the ways in: what does not work has another shape and not only another colour, and a brief one says how many there are."""
 
 from __future__ import annotations
 
@@ -50,11 +50,18 @@ def test_what_has_nothing_to_work_with_is_muted_and_never_looks_live(stage: Stag
     assert [one.role for one in made if one.idle] == ["muted"]
 
 
-def test_a_brief_one_counts_what_it_leaves_out(stage: Stage) -> None:
+def test_a_brief_one_says_in_words_how_many_there_are(stage: Stage) -> None:
     made = chip(stage, brief=True)
     assert len(signs(made)) == 1
     assert signs(made)[0].struck
-    assert numbers(made) == ["+5"]
+    assert numbers(made) == ["6 inputs"]
+
+
+def test_one_without_room_for_words_shows_what_does_not_work_and_no_bare_number(stage: Stage) -> None:
+    made = chip(stage, brief=True)
+    made.wordless = True
+    assert numbers(made) == []
+    assert [one.struck for one in signs(made)] == [True]
 
 
 @pytest.mark.parametrize("methods", [[], [("voice", True)]])

@@ -10,7 +10,10 @@ import pytest
 from kivy.metrics import Metrics, sp
 
 from app.screens.shell.top_bar import TopBar
+from bridge.msgs.pilothouse_msgs import ControlStatus
 from bridge.msgs.sensor_msgs import BatteryState
+from tests.app.fakes import FakeRobot
+from tests.app.glass import Glass
 from widgets.core.base import text_texture
 
 
@@ -30,6 +33,32 @@ def test_a_phone_has_room_for_the_name_and_keeps_clear_of_its_edge(stage: Any, m
     name.texture_update()
     assert name.texture_size[0] <= name.width
     assert bar.right - bar.ids.link.right >= 8
+
+
+def test_upright_who_has_control_is_said_in_a_word_and_inputs_only_while_one_does_not_work(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    bar, session = driving.app.shell.bar, driving.app.session
+    for chip in (bar.ids.battery, bar.ids.link):
+        chip.state = "live"
+    bar.arrange("tall")
+    bar.tick(session)
+    assert (bar.mode_text, bar.ids.control.text) == ("READY", "you")
+    bar.show_methods([("touch", True), ("tilt", True)])
+    assert bar.ids.inputs not in bar.children
+    bar.show_methods([("touch", True), ("tilt", False)])
+    assert bar.ids.inputs in bar.children
+    robot.control = ControlStatus(mode="MANUAL", driver="Bartholomew", driver_id="b")
+    robot.publish("/control/status", robot.control)
+    driving.until(lambda: session.control == "other", "still mine")
+    bar.tick(session)
+    assert bar.ids.control.text == "Barthol…"
+    session.authority.wanted = False
+    robot.control = ControlStatus(mode="MANUAL")
+    robot.publish("/control/status", robot.control)
+    driving.until(lambda: session.control == "free", "not free")
+    bar.tick(session)
+    assert bar.ids.control.text == "free"
 
 
 def test_a_long_name_is_written_smaller_and_not_cut(stage: Any) -> None:
