@@ -30,7 +30,7 @@ from widgets.core.theme import theme
 from widgets.map.map_marks import arrow
 from widgets.parts.sensor_card import first_fitting, wide
 
-__all__ = ["IntruderBadge", "samples"]
+__all__ = ["IntruderBadge", "direction_of", "samples"]
 
 FRESH_DURATION = 30.0
 """An intruder found within this is news [s]."""
@@ -53,8 +53,6 @@ class IntruderBadge(Drawing):
     """To the last one [m]; NaN while the robot does not know where it is."""
     angle = NumericProperty(math.nan)
     """Where the last one is in `base_link` [rad], positive left; NaN as for `away`."""
-    angles: ListProperty[float] = ListProperty()
-    """Where each of them is, as of `angle`; empty where the robot does not know where it is."""
     ago = NumericProperty(math.nan)
     """Since the last one was found [s], by the robot's clock; NaN when not known."""
     to_right = BooleanProperty(False)
@@ -70,7 +68,6 @@ class IntruderBadge(Drawing):
     def __init__(self, **kwargs: Any) -> None:
         self._ink, self._words = Ink(), Words()
         self._last: Intruder | None = None
-        self._known: list[Intruder] = []
         self._pose: PoseWithCovarianceStamped | None = None
         super().__init__(**kwargs)
         self.canvas.add(self._ink)
@@ -88,7 +85,6 @@ class IntruderBadge(Drawing):
 
     def show(self, msg: IntruderArray) -> None:
         """Take over which intruders are known; the one that was found last is shown."""
-        self._known = list(msg.intruders)
         self._last = max(msg.intruders, key=lambda one: one.first_seen.seconds, default=None)
         self.count = len(msg.intruders)
         self._measure()
@@ -102,14 +98,11 @@ class IntruderBadge(Drawing):
         """Distance, direction and age, as fine as they are read: a glass that flickers in its last figure says less."""
         if self._last is None or self._pose is None:
             self.away = self.angle = self.ago = math.nan
-            self.angles = []
             return
         pose, there = self._pose.pose.pose, self._last.position
         away = math.hypot(there.x - pose.position.x, there.y - pose.position.y)
         self.away = round(away, 1) if math.isfinite(away) else math.nan  # robots tell places that are none
-        self.angle = _direction(pose, self._last)
-        directions = (_direction(pose, one) for one in self._known)
-        self.angles = [one for one in directions if math.isfinite(one)]
+        self.angle = direction_of(pose, self._last)
         self.ago = max(0.0, round(self._pose.header.stamp.seconds - self._last.first_seen.seconds))
 
     def counted(self) -> str:
@@ -205,7 +198,7 @@ class IntruderBadge(Drawing):
         shapes.discs(np.array(corners), corner, colour)
 
 
-def _direction(pose: Pose, one: Intruder) -> float:
+def direction_of(pose: Pose, one: Intruder) -> float:
     """Where it is in `base_link` [rad], positive left, as fine as degrees are read; NaN where one of the two is nowhere."""
     east, north = one.position.x - pose.position.x, one.position.y - pose.position.y
     yaw = pose.orientation.yaw

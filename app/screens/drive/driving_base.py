@@ -20,6 +20,7 @@ from app.screens.drive.drive_blocked import DriveBlocked
 from app.screens.drive.drive_controls import DriveControls
 from app.screens.drive.instruments import Instruments
 from app.screens.drive.small_sensors import SmallSensors
+from app.screens.parts.picture_boxes import PictureBoxes
 from app.screens.parts.placing import AWAY_X, off, put
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.shell.check_card import CheckCard
@@ -27,7 +28,6 @@ from app.screens.shell.screen_host import ScreenHost
 from app.session.dashboard import Dashboard
 from app.session.layout_actions import LayoutActions
 from app.session.session import Session
-from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import Video
 from widgets.controls.sticks.stick import Stick
 
@@ -73,13 +73,7 @@ class Driving(RobotScreen):
         self.sheet, self.handle = DrawerGround(), DrawerHandle()
         self.fill(layout)
         self._add_front()
-        self.dashboard.bind(
-            self.video,
-            "/detections",
-            lambda found: self.video.show(session.cameras.detections_shown(found)),
-            fresh=False,
-            empty=Detection2DArray(),
-        )
+        self._boxes = PictureBoxes(session, self.dashboard, self.video)
 
     def _add_front(self) -> None:
         """What lies over everything else: what pulls the drawer of a phone on its side, and cards."""
@@ -209,6 +203,7 @@ class Driving(RobotScreen):
         self.senses.tick()
         self.in_vain.tick()
         self.checks.tick()
+        self._boxes.tick()
         if self.session.checks.over != self._over:
             self._over = self.session.checks.over
             self._cover_up()

@@ -9,6 +9,7 @@ from kivy.properties import BooleanProperty
 from app.layout.arrange import Rect
 from app.link.capabilities import POSE
 from app.link.feeds import Feeds
+from app.screens.parts.picture_boxes import FOUND
 from app.screens.parts.placing import put
 from app.session.dashboard import AGE_STEP, Dashboard
 from app.session.session import Session
@@ -17,9 +18,6 @@ from widgets.core.detected import kind_word
 from widgets.core.sensor_geometry import away_text
 
 __all__ = ["IntruderOverlay"]
-
-FOUND = "/intruders"
-"""Topic of what was found."""
 
 
 class IntruderOverlay(IntruderBadge):
@@ -52,13 +50,8 @@ class IntruderOverlay(IntruderBadge):
         if seen != self.seen:
             self.seen = seen
         self._grow_old(feeds)
-        fov, first = self._session.robot.info.camera_fov, self._session.cameras.shows_first
-        self._video.field_of_view = fov if fov > 0 and first else math.nan
         placed = self.told and self.count > 0 and feeds.state(POSE) == "live" and math.isfinite(self.angle)
-        placed = placed and first
-        counted = list(self.angles) if placed else []
-        if self._video.counted != counted:
-            self._video.counted = counted
+        placed = placed and self._session.cameras.shows_first
         marks = [(f"{self.number} · {away_text(self.away)}", self.angle)] if placed else []
         if marks != self._video.marks:
             self._video.marks = marks

@@ -25,6 +25,7 @@ from app.screens.mission.mission_maps import MissionMaps
 from app.screens.mission.mission_on_map import MissionOnMap
 from app.screens.mission.mission_panel import MissionPanel
 from app.screens.mission.picture_swap import PictureSwap
+from app.screens.parts.picture_boxes import PictureBoxes
 from app.screens.parts.placing import put
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.shell.check_card import CheckCard
@@ -32,7 +33,6 @@ from app.screens.shell.screen_host import ScreenHost
 from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Place, RobotInfo
-from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import Compass, Video
 from widgets.core.theme import theme
 from widgets.map.map_overlay import MapOverlay
@@ -97,6 +97,7 @@ class MissionScreen(RobotScreen):
         self.dashboard = Dashboard(self.session.feeds)
         self._maps = MissionMaps(self.session, self.dashboard, self.app.maps)
         self.video = Video(fit="cover")
+        self._boxes = PictureBoxes(self.session, self.dashboard, self.video)
         self.compass = Compass(transparent=True)
         self.panel = MissionPanel(self.session, self.dashboard)
         self._pointing = MapPointing(self, self.session)
@@ -155,13 +156,6 @@ class MissionScreen(RobotScreen):
             bind(self.map, topic, lambda _: self._drawing.show_draft(), fresh=False)
         bind(self.compass, "/pose")
         bind(self, "/pose", self._pointing.places.on_pose, fresh=False)
-        bind(
-            self.video,
-            "/detections",
-            lambda found: self.video.show(self.session.cameras.detections_shown(found)),
-            fresh=False,
-            empty=Detection2DArray(),
-        )
 
     # what the shell calls
 
@@ -287,6 +281,7 @@ class MissionScreen(RobotScreen):
         self.panel.tick()
         self.checks.tick()
         self.intruder.tick()
+        self._boxes.tick()
         self._tools.tick(self.map, self.mode)
         if self._maps.tick(self):
             self._rearrange()

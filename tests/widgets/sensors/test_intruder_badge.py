@@ -33,7 +33,6 @@ def test_the_last_one_is_told_with_distance_side_and_age(stage, badge):
     stage.frames(2)
     assert badge.texts == ["2 intruders", "last: 4.0 m · 90° left · 12 s ago"]
     assert badge.number == 2
-    assert badge.angles == [pytest.approx(math.pi / 4), pytest.approx(math.pi / 2)]
 
 
 def test_it_follows_the_robot(stage, badge):
