@@ -57,6 +57,8 @@ def from_json(raw: bytes | str | msgspec.Raw, type: type[M]) -> M:
 def _enc_hook(obj: object) -> object:
     if isinstance(obj, array):
         return obj.tolist()
+    if isinstance(obj, str):  # a text that carries more is its text to others
+        return str(obj)
     raise TypeError(f"{obj!r} has no JSON form")
 
 

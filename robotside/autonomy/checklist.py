@@ -99,4 +99,4 @@ def _clock(looked: CheckInputs) -> Check:
 def _check(name: str, state: str, said: str) -> Check:
     """A line with the code of its sentence, where that has one."""
     known = coded(said)
-    return Check(name, state, said, known["code"], known["parameters"])
+    return Check(name, state, str(said), known["code"], known["parameters"])

@@ -19,7 +19,7 @@ from bridge.msgs import TYPES
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.geometry_msgs import PoseWithCovariance, Twist, Vector3
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
-from bridge.msgs.pilothouse_msgs import Mission, Waypoint
+from bridge.msgs.pilothouse_msgs import Check, Mission, Waypoint
 from bridge.msgs.sensor_msgs import CompressedImage, JointState, LaserScan, NavSatFix
 from bridge.msgs.std_msgs import Time
 from tests.bridge.strategies import messages
@@ -183,3 +183,10 @@ def test_a_list_may_come_as_a_number_array_of_another_kind():
 
 def test_a_number_with_more_digits_than_python_writes_can_be_shown():
     assert shown({"a": 2**20_000}) == "a number with too many digits"
+
+
+def test_a_text_that_carries_more_is_its_text_in_json() -> None:
+    class Said(str):
+        __slots__ = ("code",)
+
+    assert from_json(to_json(Check(name=Said("clock"))), Check).name == "clock"

@@ -7,6 +7,8 @@ from dataclasses import replace
 
 import pytest
 
+from bridge.codec.text import from_json, to_json
+from bridge.msgs.pilothouse_msgs import Checklist
 from robotside.autonomy.checklist import CheckInputs, checks
 
 WELL = CheckInputs(
@@ -18,6 +20,11 @@ def test_when_all_is_well_every_line_is_green() -> None:
     found = checks(WELL)
     assert [check.name for check in found] == ["battery", "sensors", "position", "stop", "clock"]
     assert {check.state for check in found} == {"ok"}
+
+
+def test_it_can_be_sent_as_json() -> None:
+    told = Checklist(checks=checks(replace(WELL, battery=0.1)))
+    assert from_json(to_json(told), Checklist) == told
 
 
 @pytest.mark.parametrize(
