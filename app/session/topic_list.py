@@ -19,16 +19,16 @@ __all__ = ["Line", "TopicListing"]
 ASK_EVERY = 3.0
 """Between two questions for the list while it is looked at [s]."""
 USES = {
-    "/scan": "laser",
-    "/imu/data": "horizon",
-    "/odom": "speed",
-    "/pose": "place",
-    "/map": "map",
-    "/plan": "plan",
-    "/fix": "satellites",
-    "/battery_state": "battery",
+    "/scan": mark("laser", "topic"),
+    "/imu/data": mark("horizon", "topic"),
+    "/odom": mark("speed", "topic"),
+    "/pose": mark("place", "topic"),
+    "/map": mark("map", "topic"),
+    "/plan": mark("plan", "topic"),
+    "/fix": mark("satellites", "topic"),
+    "/battery_state": mark("battery", "topic"),
     "/detections": mark("boxes in the video"),
-    CAMERA: "camera",
+    CAMERA: mark("camera", "topic"),
 }
 """What a screen shows a topic as, by our name of it."""
 

@@ -24,7 +24,7 @@ from widgets.core.icons import icon
 from widgets.core.language import tr
 from widgets.core.theme import theme
 
-__all__ = ["STATES", "Control", "RobotWidget", "age_text", "fitting_size", "text_texture"]
+__all__ = ["STATES", "Control", "RobotWidget", "age_text", "fitting_size", "least_size", "text_texture"]
 
 STATES = ("never", "live", "stale", "alarm", "disabled")
 VEIL = {"stale": 0.55, "disabled": 0.62}
@@ -39,7 +39,7 @@ MAX_SHORTENED = 500
 MAX_LABEL, MAX_LABEL_LINES = 20_000, 400
 """Letters and lines of any other label: what is longer has no texture on a phone."""
 MIN_FONT_SIZE = 10.0
-"""No type is made smaller than this to fit [sp]."""
+"""No type is made smaller than this to fit [sp]; where text is enlarged, not smaller than as many dp."""
 
 Builder.load_string("""
 <RobotWidget>:
@@ -132,10 +132,15 @@ def _bound_labels() -> None:
 _bound_labels()
 
 
+def least_size() -> float:
+    """Least size of type [px]: enlarged text gives way down to what it would be at its usual size, before a word is cut."""
+    return float(min(sp(MIN_FONT_SIZE), dp(MIN_FONT_SIZE)))
+
+
 def fitting_size(texts: Iterable[str], size: float, room: float, *, bold: bool = False) -> float:
     """Size of type [px] at which the widest of `texts` fits into `room` [px]: `size`, or as much less as it takes."""
     widest = max((text_texture(text, size, theme.font, bold=bold).width for text in texts), default=0)
-    return size if widest <= room else max(math.floor(size * room / widest * 2) / 2, sp(MIN_FONT_SIZE))
+    return size if widest <= room else max(math.floor(size * room / widest * 2) / 2, least_size())
 
 
 class RobotWidget(Widget):

@@ -26,6 +26,7 @@ SETTLE_DURATION = 0.5
 """A button whose meaning has changed takes no finger for so long [s]: that finger meant what it did before."""
 
 Builder.load_string("""
+#:import LINE widgets.parts.labels.LINE
 <PushButton>:
     size_hint_y: None
     height: theme.target
@@ -43,13 +44,14 @@ Builder.load_string("""
             id: sign
             name: root.icon or 'check'
             role: 'faint' if root.disabled else root.ink_icon or root.ink
+            font_size: min(theme.size_icon, max(dp(24), root.height * .42)) if root.flow == 'vertical' and root.text else theme.size_icon
             size: (self.font_size, self.font_size) if root.signed else (0, 0)
             opacity: 1 if root.signed else 0
             pos_hint: {'center_x': .5, 'center_y': .5}
         FittedLabel:
             id: words
             text: root.text
-            largest: root.type_size or (theme.size_body if root.flow == 'horizontal' else sp(14))
+            largest: min(root.type_size or (theme.size_body if root.flow == 'horizontal' else sp(14)), max(dp(8), root.height - (sign.height + dp(2) if root.flow == 'vertical' and root.signed else 0)) / LINE)
             room: max(root.words_room, 1)
             lines: 2 if root.height >= sp(34) + (theme.size_icon + dp(2) if root.flow == 'vertical' and root.icon else 0) else 1
             bold: True
@@ -114,10 +116,11 @@ Builder.load_string("""
         id: sign
         name: root.icon
         role: root.tint or ('accent' if root.active else 'muted')
+        font_size: min(theme.size_icon, max(dp(24), root.inner * .55))
         pos_hint: {'center_x': .5}
     FittedLabel:
         text: root.text
-        largest: sp(12.5)
+        largest: root.type_size or min(sp(12.5), max(dp(12.5), (root.inner - sign.height) / LINE))
         room: max(root.width - dp(6), 1)
         lines: 1
         color: theme.roles[root.tint or ('text' if root.active else 'muted')]
@@ -221,12 +224,20 @@ class NavButton(ButtonBehavior, BoxLayout):
     """Its screen is the visible one."""
     tint = StringProperty("")
     """Role of the icon and the words while what it stands for goes on, as a recording; empty for none."""
+    type_size = NumericProperty(0)
+    """Of its word [px], so that neighbours are alike; 0 for as large as it has room."""
     framed = BooleanProperty(True)
     """Has a ground while active, as in a rail."""
     count = NumericProperty(0)
     """Things behind it that need attention: counted in a mark on its icon, from 100 on as `99+`; 0 for none."""
     urgent = BooleanProperty(True)
     """One of them cannot wait: the mark has the colour of danger, else that of a warning."""
+
+    def _inner(self) -> float:
+        return float(self.height - self.padding[1] - self.padding[3] - self.spacing)
+
+    inner = AliasProperty(_inner, bind=["height", "padding", "spacing"], cache=True)
+    """How high its icon and its words may be together [px]."""
 
     def _badge_texture(self) -> Texture:
         words = f"{self.count:.0f}" if self.count < 100 else "99+"

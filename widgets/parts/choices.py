@@ -7,7 +7,7 @@ from typing import Any
 
 from kivy.animation import Animation
 from kivy.lang import Builder
-from kivy.metrics import dp
+from kivy.metrics import Metrics, dp
 from kivy.properties import (
     AliasProperty,
     BooleanProperty,
@@ -20,7 +20,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
-from widgets.core.base import fitting_size
+from widgets.core.base import fitting_size, text_texture
 from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
 
@@ -40,7 +40,7 @@ Builder.load_string("""
     disabled_color: self.color
     halign: 'center'
     valign: 'middle'
-    text_size: self.width - dp(16), self.height
+    text_size: self.width - dp(8), self.height
     canvas.before:
         Rounded:
             rgba: theme.accent if self.chosen else (theme.text[:3] + [.12 if self.state == 'down' else 0])
@@ -122,10 +122,13 @@ class Segmented(Outlined, BoxLayout):
 
     def _fit(self, *_: object) -> None:
         """One size of type for all, at which the longest words keep clear of the lines even when they are bold."""
-        room = self.width / max(len(self.children), 1) - dp(18)
+        room = self.width / max(len(self.children), 1) - max(dp(10), dp(18) / Metrics.fontscale)
         size = fitting_size([segment.text for segment in self.children], self.font_size, room, bold=True)
-        for segment in self.children:
+        widths = [text_texture(one.text, size, theme.font, bold=True).width for one in self.children]
+        crowded = max(widths, default=0) > room  # then the longest has more than an even part
+        for segment, wide in zip(self.children, widths, strict=True):
             segment.text_size_px = size
+            segment.size_hint_x = wide + dp(10) if crowded else 1
 
     def _corners(self, index: int, count: int) -> list[float]:
         left = theme.corner - 1 if index == 0 else 0

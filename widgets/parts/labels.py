@@ -15,7 +15,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
-from widgets.core.base import MAX_LABEL_LINES, MIN_FONT_SIZE, fitting_size, text_texture
+from widgets.core.base import MAX_LABEL_LINES, MIN_FONT_SIZE, fitting_size, least_size, text_texture
 from widgets.core.surfaces import Pressable
 from widgets.core.theme import theme
 
@@ -142,7 +142,10 @@ class Remark(Text):
 
 
 class FittedLabel(Label):
-    """Words that keep to their room: written smaller, down to 10 sp, then in two lines, then cut short with dots."""
+    """Words that keep to their room: written smaller, down to 10 sp, then in two lines, then cut short with dots.
+
+    Enlarged text goes on down to 10 dp before it is cut.
+    """
 
     largest = NumericProperty("16sp")
     """Size of type where there is room [px]."""
@@ -166,12 +169,15 @@ class FittedLabel(Label):
         """Size of type [px], whether it takes more lines than one, and whether words are left out."""
         if not self.room or not self.text:
             return self.largest, False, False
-        least = min(self.largest, sp(MIN_FONT_SIZE))
         size = fitting_size(self.text.split("\n", MAX_LABEL_LINES), self.largest, self.room, bold=self.bold)
-        if size > least or self._width(self.text, least) <= self.room:
-            return size, False, False
-        wraps = self.lines > 1 and self._lines_of(least) <= self.lines
-        return least, wraps, not wraps
+        for least in sorted(
+            {min(self.largest, sp(MIN_FONT_SIZE)), min(self.largest, least_size())}, reverse=True
+        ):
+            if size > least or self._width(self.text, least) <= self.room:
+                return max(size, least), False, False
+            if self.lines > 1 and self._lines_of(least) <= self.lines:
+                return least, True, False
+        return least, False, True
 
     def _width(self, text: str, size: float) -> float:
         lines = text.split("\n", MAX_LABEL_LINES)

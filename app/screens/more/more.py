@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from kivy.lang import Builder
+from kivy.metrics import sp
 from kivy.properties import ObjectProperty
 from kivy.uix.gridlayout import GridLayout
 
@@ -32,7 +33,7 @@ Builder.load_string("""
 """)
 
 TILE_WIDTH, TILE_HEIGHT = 170, 84
-"""The least that a tile is read in [dp]."""
+"""The least that a tile is read in [dp]; where text is enlarged it is as much wider, and as high as its words."""
 ACTS = {
     "control": ("person", mark("Control")),
     "record": ("fiber_manual_record", mark("Record")),
@@ -69,9 +70,9 @@ class MoreScreen(RobotScreen):
         places = arrange.more(body, form, dp)
         self.notice, self._whole = places["notice"], places["list"]
         self._fill(beyond(form))
-        columns = max(1, int(self._whole.width // (TILE_WIDTH * dp)))
+        columns = max(1, int(self._whole.width // max(TILE_WIDTH * dp, sp(TILE_WIDTH))))
         self.grid.cols = min(columns, 4)
-        self.grid.row_default_height, self.grid.row_force_default = TILE_HEIGHT * dp, True
+        self.grid.row_default_height = max(TILE_HEIGHT * dp, theme.target)
         put(self.ids.listed, above(self._whole, self._cover, dp))
         return places["stop"]
 

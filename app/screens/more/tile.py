@@ -14,6 +14,7 @@ __all__ = ["Tile"]
 Builder.load_string("""
 <Tile>:
     orientation: 'horizontal'
+    size_hint_min_y: lines.height + dp(20)
     padding: dp(16), dp(10), dp(12), dp(10)
     spacing: dp(14)
     ground: 'surface'
@@ -26,6 +27,7 @@ Builder.load_string("""
         size: self.font_size, self.font_size
         pos_hint: {'center_y': .5}
     BoxLayout:
+        id: lines
         orientation: 'vertical'
         size_hint_y: None
         height: self.minimum_height

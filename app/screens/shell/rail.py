@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from kivy.lang import Builder
+from kivy.metrics import sp
 from kivy.properties import BooleanProperty, ListProperty, OptionProperty, StringProperty
 from kivy.uix.floatlayout import FloatLayout
 
@@ -13,10 +14,12 @@ from app.layout.arrange import Rect
 from app.screens.parts.placing import put
 from app.screens.parts.screen_table import MORE, SCREENS, beyond, tabs
 from bridge.msgs.pilothouse_msgs import Event
+from widgets.core.base import fitting_size
 from widgets.core.language import mark, tr
 from widgets.core.surfaces import Edged
 from widgets.core.theme import theme
 from widgets.parts.kit import NavButton, PushButton
+from widgets.parts.labels import LINE
 
 __all__ = ["Rail"]
 
@@ -29,6 +32,8 @@ TALKS = {
 """How voice stands, to the words of the button to talk and the role of its icon. The button is there while voice is on."""
 BAR_HEIGHT = 60
 """Height of the bar of a phone without the button to talk [dp]."""
+NEED = 43
+"""Height of an icon and its word, one above the other [sp]."""
 MIN_TALK_HEIGHT = 66
 """Height of the button to talk on a phone's side [dp]."""
 MAX_TALK_HEIGHT = 120
@@ -105,13 +110,20 @@ class Rail(Edged, FloatLayout):
             self._along(buttons, rect, dp)
         else:
             self._below_each_other(buttons, rect, dp)
+        inner = buttons[0].inner
+        high = max(12.5 * dp, (inner - max(24 * dp, inner * 0.55)) / LINE)
+        room = min(button.width for button in buttons) - 6 * dp
+        size = fitting_size([button.text for button in buttons], min(sp(12.5), high), room)
+        for button in buttons:
+            button.type_size = size
 
     def _along(self, buttons: Sequence[Any], rect: Rect, dp: float) -> None:
         """Along the lower edge, the button to talk in a row above them."""
         step = rect.width / len(buttons)
         bar = max(BAR_HEIGHT * dp, theme.least)
         for index, button in enumerate(buttons):
-            button.framed, button.padding = False, (0, 10 * dp, 0, 9 * dp)
+            edge = max(3 * dp, min(10 * dp, (bar - sp(NEED)) / 2 + 2 * dp))
+            button.framed, button.padding = False, (0, edge, 0, edge - dp)
             button.size = min(step, 96 * dp), bar
             button.pos = rect.x + step * index + (step - button.width) / 2, rect.y
         talk, low = self.ids.talk, rect.y + bar
@@ -128,7 +140,7 @@ class Rail(Edged, FloatLayout):
         high = min(max(64 * dp, least), step)
         for index, button in enumerate(buttons):
             # what is lower than its icon and its word need gives up its edges first
-            edge = max(0.0, min(10 * dp, (high - 43 * dp) / 2))
+            edge = max(0.0, min(10 * dp, (high - sp(NEED)) / 2))
             button.framed, button.padding = True, (0, edge, 0, max(0.0, edge - dp))
             button.size = rect.width - 12 * dp, high
             button.pos = rect.x + 6 * dp, rect.top - 12 * dp - high - index * step

@@ -25,7 +25,7 @@ ORDERS = ("name", "rate", "age", "bandwidth", "publishers", "subscribers")
 """By which lines can be put in order."""
 
 COLUMNS = {"rate": 84.0, "age": 96.0, "bandwidth": 96.0, "publishers": 68.0, "subscribers": 68.0}
-"""Columns of a wide table after the name's, and their widths [dp]."""
+"""Columns of a wide table after the name's, and their widths where there is room for all of them [sp]."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.metrics import Metrics
-from kivy.properties import BooleanProperty, ObjectProperty, StringProperty
+from kivy.properties import BooleanProperty, NumericProperty, ObjectProperty, StringProperty
 from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.recycleview.views import RecycleDataViewBehavior
@@ -45,7 +45,8 @@ Builder.load_string("""
     color: theme.text
     disabled_color: self.color
     size_hint: None, 1
-    width: dp(COLUMNS[self.column])
+    share: 1
+    width: sp(COLUMNS[self.column]) * self.share
     text_size: self.size
     shorten: True
     halign: 'right'
@@ -89,7 +90,7 @@ Builder.load_string("""
     BoxLayout:
         orientation: 'vertical'
         size_hint_y: None
-        height: dp(44)
+        height: sp(44)
         pos_hint: {'center_y': .5}
         BoxLayout:
             spacing: dp(8) if root.use else 0
@@ -116,26 +117,31 @@ Builder.load_string("""
                 size_hint_y: 1
                 text_size: self.size
                 shorten: True
-                shorten_from: 'left'
+                shorten_from: 'right' if root.stacked else 'left'
             Beside:
                 text: root.pace
                 color: theme.muted
     BoxLayout:
         size_hint: None, 1
-        width: dp(sum(COLUMNS.values())) if root.wide else 0
+        width: sp(sum(COLUMNS.values())) * root.share if root.wide else 0
         opacity: 1 if root.wide else 0
         Cell:
+            share: root.share
             text: root.rate
         Cell:
+            share: root.share
             column: 'age'
             text: root.age
         Cell:
+            share: root.share
             column: 'bandwidth'
             text: root.bandwidth
         Cell:
+            share: root.share
             column: 'publishers'
             text: root.publishers
         Cell:
+            share: root.share
             column: 'subscribers'
             text: root.subscribers
 
@@ -230,6 +236,10 @@ class TopicRow(RecycleDataViewBehavior, ButtonBehavior, BoxLayout):
     publishers, subscribers = StringProperty(""), StringProperty("")
     wide = BooleanProperty(False)
     """There is room for a column of each figure."""
+    share = NumericProperty(1.0)
+    """Of their usual widths that the columns have."""
+    stacked = BooleanProperty(False)
+    """Its name is alone in the first line; the rest is in `type`."""
     listened = BooleanProperty(False)
     """Messages come from it now."""
     chosen = BooleanProperty(False)

@@ -6,14 +6,14 @@ import math
 from typing import Any
 
 from kivy.lang import Builder
-from kivy.metrics import dp
+from kivy.metrics import dp, sp
 from kivy.properties import BooleanProperty, ListProperty, NumericProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.screens.topics.topic_figures import COLUMNS, ORDERS, Entry, bytes_text
 from app.screens.topics.topic_parts import ICONS
-from widgets.core.base import age_text
+from widgets.core.base import age_text, fitting_size
 from widgets.core.geometry import DASH
 from widgets.core.language import figure, mark, tr
 from widgets.core.surfaces import Pressable
@@ -22,7 +22,11 @@ __all__ = ["GRAPH", "TABLE", "HeadCell", "TopicList", "row_of"]
 
 TABLE, GRAPH = "table", "graph"
 WIDE = 660.0
-"""From this width on each figure has its own column [dp]."""
+"""At this width each figure has its own column with room to spare [sp]."""
+LEAST_SHARE = 0.77
+"""Of these widths is the least at which there are columns still; narrower, the figures are in the second line of a row."""
+STACKED = 360.0
+"""Narrower, a row has its name alone in the first line [sp]."""
 WORDS = {
     "name": mark("Name"),
     "rate": "Hz",
@@ -36,13 +40,13 @@ WORDS = {
 Builder.load_string("""
 #:import tr widgets.core.language.tr
 <HeadCell>:
-    rim: ''
-    ground: 'bg'
+    rim: '' if root.wide else 'line'  # where no column is below it, it is a button that puts in order
+    ground: 'bg' if root.wide else 'raised'
     spacing: dp(1)
     Label:
         text: root.words
         font_name: theme.font
-        font_size: sp(14)
+        font_size: root.type_size
         bold: bool(root.direction)
         color: theme.text if root.direction else theme.muted
         disabled_color: self.color
@@ -94,7 +98,8 @@ Builder.load_string("""
         height: theme.target if root.form == 'table' else 0
         opacity: 1 if root.form == 'table' else 0
         disabled: root.form != 'table'
-        padding: dp(14) if root.wide else dp(8), 0
+        padding: dp(14) if root.wide else 0, 0
+        spacing: 0 if root.wide else dp(4)
     FloatLayout:
         id: frame
         RecycleView:
@@ -112,7 +117,7 @@ Builder.load_string("""
                 size_hint_y: None
                 height: self.minimum_height
                 padding: 0, 0, dp(8), 0
-                default_size: None, max(theme.target, dp(60)) + dp(8)
+                default_size: None, max(theme.target, sp(44) + dp(16)) + dp(8)
                 default_size_hint: 1, None
         Text:
             text: root.sentence
@@ -131,6 +136,9 @@ class HeadCell(Pressable, BoxLayout):
     """1 where the greatest is first, -1 where the least is, 0 where another column decides."""
     leading = BooleanProperty(False)
     wide = BooleanProperty(False)
+    """The column of its figures is below it."""
+    type_size = NumericProperty("14sp")
+    """Of its word [px]."""
 
 
 class TopicList(BoxLayout):
@@ -144,6 +152,11 @@ class TopicList(BoxLayout):
     sorting: ListProperty[Any] = ListProperty(["name", False])
     """One of `ORDERS`, and whether the greatest is first."""
     wide = BooleanProperty(False)
+    """Each figure has its own column."""
+    share = NumericProperty(1.0)
+    """Of their usual widths that the columns have, `LEAST_SHARE` to 1."""
+    stacked = BooleanProperty(False)
+    """A row has no room beside its name."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -170,11 +183,19 @@ class TopicList(BoxLayout):
             cell.direction = (1 if descending == (name != "name") else -1) if name == chosen else 0
 
     def _fit(self, *_: object) -> None:
-        self.wide = self.width >= dp(WIDE)
+        room = self.width / sp(WIDE)
+        self.wide, self.share = room >= LEAST_SHARE, min(1.0, max(LEAST_SHARE, room))
+        self.stacked = self.width < sp(STACKED)
+        each = (self.width - dp(4) * (len(self.heads) - 1)) / len(self.heads)
+        sizes = []
         for name, cell in self.heads.items():
             cell.wide = self.wide
-            own = COLUMNS.get(name, 0.0) if self.wide else 0.0
-            cell.size_hint_x, cell.width = (None, dp(own)) if own else (1, 0)
+            own = COLUMNS.get(name, 0.0) * self.share if self.wide else 0.0
+            cell.size_hint_x, cell.width = (None, sp(own)) if own else (1, 0)
+            if own or not self.wide:
+                sizes.append(fitting_size([cell.words], sp(14), (sp(own) or each) - dp(18), bold=True))
+        for cell in self.heads.values():
+            cell.type_size = min(sizes)
 
     def _show_form(self, *_: object) -> None:
         view = self.table
@@ -188,20 +209,27 @@ class TopicList(BoxLayout):
         """Another order is wanted."""
 
 
-def row_of(entry: Entry, *, wide: bool) -> dict[str, Any]:
-    """What a `TopicRow` shows of an entry, but for who chooses it."""
+def row_of(entry: Entry, table: TopicList) -> dict[str, Any]:
+    """What a `TopicRow` of that table shows of an entry, but for who chooses it."""
+    wide = table.wide
     line = entry.line
     stale = line.state == "stale"
     rate = figure(entry.rate, 1) if math.isfinite(entry.rate) and entry.rate >= 0.05 else ""
     flow = " · ".join(part for part in (f"{rate} Hz" if rate else "", bytes_text(entry.bandwidth)) if part)
     ties = [DASH if math.isnan(one) else f"{one:.0f}" for one in (entry.publishers, entry.subscribers)]
+    pace = "" if wide else age_text(line.age) if stale else flow
+    tied = "" if wide or math.isnan(entry.publishers) else f"{ties[0]} → {ties[1]}"
+    alone = table.stacked or (wide and table.share < 1.0)  # the name has its line for itself
+    below = (line.use, pace, tied, line.type.rpartition("/")[2]) if alone else (line.type,)
     return {
         "name": line.name,
-        "type": line.type,
+        "type": " · ".join(part for part in below if part),
         "icon": ICONS.get(line.type, "data_object"),
-        "use": line.use,
-        "pace": "" if wide else age_text(line.age) if stale else flow,
-        "ties": "" if wide or math.isnan(entry.publishers) else f"{ties[0]} → {ties[1]}",
+        "use": "" if alone else line.use,
+        "pace": "" if alone else pace,
+        "ties": "" if alone else tied,
+        "stacked": alone,
+        "share": table.share,
         "rate": f"{rate} Hz" if rate else DASH,
         "age": age_text(entry.age) or DASH,
         "bandwidth": bytes_text(entry.bandwidth) or DASH,

@@ -73,7 +73,8 @@ class TopicsScreen(RobotScreen):
         self.view.bind(on_pick=lambda _, path, unit: self.plot(path, unit))
         self.plots, self.picture_view = LivePlots(self.session), LivePicture()
         self.list.bind(on_search=self._search, on_order=self._reorder, form=self._show_form)
-        self.list.bind(wide=lambda *_: self._show_list())
+        self.list.bind(wide=lambda *_: self._show_list(), stacked=lambda *_: self._show_list())
+        self.list.bind(share=lambda *_: self._show_list())
         self.graph_pane.bind(on_open=lambda _, topic: self.open(topic))
         self.detail.bind(on_close=lambda _: self.close(), on_add=lambda _: self.add_to_panel())
         self.ids.update({"list": self.list, "detail": self.detail, "search": self.list.ids.search})
@@ -196,9 +197,9 @@ class TopicsScreen(RobotScreen):
         found = entries(
             self.topics.lines(), self.flows.of, self.graph.graph, order, descending=bool(descending)
         )
-        opened, wide = self.topics.opened, self.list.wide
+        opened = self.topics.opened
         rows = [
-            row_of(one, wide=wide) | {"chosen": one.line.name == opened, "choose": self.open} for one in found
+            row_of(one, self.list) | {"chosen": one.line.name == opened, "choose": self.open} for one in found
         ]
         if rows != self._rows:
             self._rows = rows

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from kivy.metrics import sp
+from kivy.metrics import dp, sp
 
 from widgets.core.base import MIN_FONT_SIZE, text_texture
 from widgets.parts.labels import FittedLabel
@@ -50,6 +50,18 @@ def test_words_that_fit_in_no_way_end_in_dots_within_their_room(
     (line,) = written(label)
     assert line.endswith("...")
     assert label.texture_size[0] <= label.room + 1
+
+
+def test_enlarged_words_go_down_to_their_usual_least_size_before_they_are_cut(
+    label: FittedLabel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = wide("Homewards", sp(MIN_FONT_SIZE))
+    for module in ("widgets.core.base", "widgets.parts.labels"):
+        monkeypatch.setattr(f"{module}.sp", lambda size: 2 * dp(size))
+    label.lines, label.largest, label.text, label.room = 1, dp(32), "Homewards", whole + 1
+    assert (label.font_size, written(label)) == (dp(MIN_FONT_SIZE), ["Homewards"])
+    label.room = whole - 1
+    assert written(label)[0].endswith("...")
 
 
 def test_words_that_get_room_again_are_whole_again(label: FittedLabel) -> None:

@@ -5,11 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from kivy.metrics import sp
 
 from app.screens.topics.panel_adding import AddDialog
 from app.screens.topics.ros_graph import RosGraph
 from app.screens.topics.topic_parts import TopicRow
+from app.screens.topics.topic_table import WIDE
 from tests.app.glass import Glass
+from widgets.parts.labels import Text
 
 
 @pytest.fixture
@@ -65,6 +68,42 @@ def test_the_table_has_all_room_until_a_topic_is_open(driving: Glass, topics: An
     assert topics.list.right <= topics.detail.x
     topics.close()
     assert topics.detail.parent is None
+
+
+@pytest.mark.parametrize(
+    ("share", "wide", "alone"),
+    [(1.0, True, False), (0.8, True, True), (0.6, False, False), (0.5, False, True)],
+)
+def test_each_head_stands_above_its_column_and_the_name_has_its_line_where_there_is_little_room(
+    driving: Glass, topics: Any, share: float, wide: bool, alone: bool
+) -> None:
+    table = topics.list
+    table.size_hint_x, table.width = None, sp(WIDE) * share
+    driving.stage.frames(3)
+    row = next(one for one in table.table.walk(restrict=True) if isinstance(one, TopicRow))
+    assert (table.wide, row.stacked) == (wide, alone)
+    if wide:
+        cells = [one for one in row.walk(restrict=True) if hasattr(one, "column")]
+        for cell in cells:
+            head = table.heads[cell.column]
+            assert abs(head.to_window(head.right, 0)[0] - cell.to_window(cell.right, 0)[0]) <= 1
+    assert all(
+        bool(one["type"]) and (not alone or not one["use"] + one["pace"] + one["ties"])
+        for one in table.table.data
+    )
+
+
+@pytest.mark.parametrize("scale", [1.0, 2.0])
+def test_a_row_is_as_high_as_its_two_lines(driving: Glass, topics: Any, scale: float) -> None:
+    driving.app.preferences.choose("text", scale)
+    try:
+        driving.stage.frames(4)
+        table = driving.app.screens["topics"].list.table
+        row = next(one for one in table.walk(restrict=True) if isinstance(one, TopicRow))
+        texts = [one for one in row.walk(restrict=True) if isinstance(one, Text)]
+        assert [one.height >= one.font_size * 1.2 for one in texts] == [True, True]
+    finally:
+        driving.app.preferences.choose("text", 1.0)
 
 
 def test_the_graph_takes_the_tables_place_and_lights_up_what_is_searched_for(
