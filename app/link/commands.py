@@ -25,6 +25,7 @@ from bridge.msgs.pilothouse_msgs import (
     BringUpGatewayResponse,
     CommandRequest,
     CommandResponse,
+    ControlStatus,
     DeletePlaceRequest,
     DeletePlaceResponse,
     DeleteScheduleRequest,
@@ -280,6 +281,8 @@ class Commands:
         self._released_before = ""
         """The release of STOP, by its id, that was under way when STOP was pressed: it is asked for no longer."""
         self._stopping: Outcome | None = None
+        self.stopped = False
+        """STOP is pressed, as the robot itself said last."""
         """The STOP that is being sent; None when there is none, or it was let go."""
         self._stop_confirmed = False
 
@@ -410,6 +413,12 @@ class Commands:
         except BridgeError:
             return None
         return answer  # type: ignore[no-any-return]
+
+    def on_status(self, status: ControlStatus) -> None:
+        """What the robot says of STOP."""
+        self.stopped = status.stopped
+        if status.stopped and status.at_rest:
+            self.confirm_stop()
 
     def confirm_stop(self) -> None:
         """The robot's own status says that it is stopped and rests: no need to go on asking."""

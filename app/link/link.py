@@ -239,7 +239,7 @@ class Link:
                 sender.cancel()
 
     def _is_stopping(self) -> bool:
-        return self.commands.stopping or self._sender.slot.latched
+        return self.commands.stopping or self.commands.stopped or self._sender.slot.latched
 
     def _on_state(self, state: LinkState) -> None:
         self._posts.queue(LINK)(state)
@@ -272,8 +272,8 @@ class Link:
 
     def _on_message(self, name: str, message: Msg, received: float) -> None:
         self.health.on_sign(received)
-        if isinstance(message, ControlStatus) and message.stopped and message.at_rest:
-            self.commands.confirm_stop()
+        if isinstance(message, ControlStatus):
+            self.commands.on_status(message)
         self._posts.post_message(name, message, received)
 
     def _on_event(self, event: Event, received: float) -> None:

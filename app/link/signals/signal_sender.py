@@ -81,7 +81,8 @@ class SignalSender:
         """Topics that a control on the glass is bound to, with what it sends."""
         self._faults: dict[str, str] = {}
         """What is known of them; one that is not in it may not be sent to."""
-        self._advertised: set[str] = set()
+        self._advertised: dict[str, frozenset[str] | None] = {}
+        """Topics that this handheld advertised, with the nodes that stood there soon after: what carries its own messages."""
         self._connected = False
 
     # in any thread
@@ -160,8 +161,9 @@ class SignalSender:
         if self._looked.get(topic) is not kind:
             return
         if not fault and topic not in self._advertised:
-            self._advertised.add(topic)
+            self._advertised[topic] = None
             self._client.advertise(topic, kind)
+            self._asking.set()
         if self._faults.get(topic) != fault:
             self._faults[topic] = fault
             self._tell(SignalNews(topic, fault))
@@ -179,8 +181,13 @@ class SignalSender:
             return tr("The robot does not say who listens to {topic}, so nothing is sent there.").format(
                 topic=topic
             )
-        # what this handheld advertised itself may stand there under any name
-        publishers = () if topic in self._advertised else said.publishers
+        publishers = set(said.publishers)
+        if (
+            topic in self._advertised
+        ):  # nobody else published it before: who stands there now does so for this handheld
+            own = self._advertised[topic]
+            self._advertised[topic] = own = frozenset(publishers) if own is None else own
+            publishers -= own
         return hearing_fault(topic, publishers, heard.subscribers, ours=self._robot.capabilities.ours)
 
     def on_connected(self) -> None:
@@ -193,6 +200,7 @@ class SignalSender:
         """The link is gone: nothing old may leave later, and who listens is asked anew."""
         self._connected = False
         self._faults.clear()
+        self._advertised = {topic: own for topic, own in self._advertised.items() if own is not None}
         self.slot.drop()
 
     def finish(self) -> None:

@@ -15,6 +15,7 @@ from bridge.core.errors import NoReply, NotConnected, Refused
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
     CommandResponse,
+    ControlStatus,
     Mission,
     Place,
     SetPlaceResponse,
@@ -417,3 +418,18 @@ def test_what_takes_the_robot_a_while_is_asked_for_longer_with_one_id_and_is_no_
     silent = Robot(NoReply("The robot does not answer."))
     assert run(silent, lambda commands: commands.send("gateway_down", name="mqtt")).phase == "no_reply"
     assert 39.0 < silent.calls[-1][2] - silent.calls[0][2] <= 40.0
+
+
+def test_stop_is_known_to_be_pressed_until_the_robot_says_that_it_is_not() -> None:
+    robot = Robot(YES)
+
+    async def what(commands: Commands) -> None:
+        assert not commands.stopped
+        commands.on_status(ControlStatus(stopped=True, at_rest=True))
+        await commands.stop()
+        assert not commands.stopping
+        assert commands.stopped
+        commands.on_status(ControlStatus())
+        assert not commands.stopped
+
+    run(robot, what)

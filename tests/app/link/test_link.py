@@ -496,3 +496,4 @@ def test_whether_it_is_stopped_wakes_the_glass_at_once(
     robot.publish("/control/status", ControlStatus(stopped=True))
     assert operator.woken.wait(PATIENCE)
     operator.until(lambda: operator.session.robot_stop.latched)
+    assert operator.link._is_stopping(), "no switch of a view sends anything, whatever the glass lets through"

@@ -37,7 +37,7 @@ class Desk:
             publish=self._publish,
             call=self._call,
             late=False,
-            advertise=lambda topic, kind: self.advertised.append((topic, kind)),
+            advertise=self._advertise,
         )
         self.network: Any = SimpleNamespace(call=lambda act, *args: act(*args))
         self.robot: Any = SimpleNamespace(capabilities=Capabilities.of(TOPICS, frozenset()))
@@ -52,6 +52,10 @@ class Desk:
             SERVICES,
             self.news.append,
         )
+
+    def _advertise(self, topic: str, kind: type) -> None:
+        self.advertised.append((topic, kind))
+        self.publishers.setdefault(topic, []).append("/bridge_of_another_name")
 
     def _publish(self, topic: str, message: Any, *, even_late: bool = False) -> bool:
         self.sent.append((topic, message))
@@ -215,3 +219,17 @@ async def test_the_link_that_is_closed_says_rest_a_last_time(desk: Desk) -> None
     desk.sent.clear()
     desk.sender.finish()
     assert desk.sent == [("/horn", OFF)]
+
+
+async def test_a_node_of_the_robot_that_begins_to_publish_ends_the_sending_over_any_link(desk: Desk) -> None:
+    desk.sender.on_lost()
+    desk.sender.on_connected()
+    await desk.turn()
+    assert desk.news[-1] == SignalNews("/horn"), "its own bridge is no node of the robot"
+    desk.sender.on_lost()
+    desk.publishers["/horn"].append("/disc")
+    desk.sender.on_connected()
+    await desk.turn()
+    assert desk.news[-1].problem == "The robot itself publishes /horn: nothing else is sent there."
+    desk.sender.say("/horn", ON)
+    assert await desk.wait(1.0) == []
