@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -69,15 +70,19 @@ def _smaller(pixels: NDArray[np.uint8], step: int) -> NDArray[np.uint8]:
 
 
 def picture_of(path: Path, about: Mapping[str, Any] | None = None) -> Path:
-    """The picture that the YAML file names; ValueError where it names none."""
+    """The picture that the YAML file names; ValueError where it names none.
+
+    It lies beside the file or below: of a path that leads elsewhere the name alone counts, so that no file shows another's.
+    """
     name = (about or _about(path)).get("image")
     if not isinstance(name, str) or not name:
         raise ValueError(tr("{file} does not name its picture (image:).").format(file=path.name))
     if len(name) > MAX_PATH or "\0" in name:
         raise ValueError(tr("{file} does not name its picture (image:).").format(file=path.name))
-    found = path.parent / name
-    beside = path.parent / Path(name).name  # of one that was copied here together with its picture
-    return found if found.is_file() or not beside.is_file() else beside
+    folder = Path(os.path.normpath(path.parent.absolute()))
+    found = Path(os.path.normpath(folder / name))
+    beside = folder / found.name  # of one that was copied here together with its picture
+    return found if found.is_relative_to(folder) and (found.is_file() or not beside.is_file()) else beside
 
 
 def _about(path: Path) -> Mapping[str, Any]:

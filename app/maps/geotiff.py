@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Callable, Sequence
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -77,7 +78,7 @@ def _transparent(image: Any) -> Any:
     """RGBA, with what the file says is no data let through."""
     nothing = str(image.tag_v2.get(NO_DATA, "")).strip("\0 ")
     picture = image.convert("RGBA")
-    if nothing.isdecimal() and image.mode in ("L", "RGB"):
+    if nothing.isdecimal() and len(nothing) <= 3 and image.mode in ("L", "RGB"):
         from PIL import Image, ImageChops
 
         level, seen = int(nothing), Image.new("L", image.size, 0)
@@ -89,7 +90,7 @@ def _transparent(image: Any) -> Any:
 
 def _corners(image: Any, path: Path) -> tuple[Place, Place, Place, Place]:
     tags = image.tag_v2
-    keys = _keys(tags.get(KEYS, ()))
+    keys = _keys(_numbers(tags, KEYS, path) or ())
     to_earth = _projection(keys, path)
     place = _placing(tags, path, half=0.5 if keys.get(RASTER_TYPE) == 2 else 0.0)
     wide, high = image.size
@@ -100,6 +101,16 @@ def _corners(image: Any, path: Path) -> tuple[Place, Place, Place, Place]:
     return found  # type: ignore[return-value]
 
 
+def _numbers(tags: Any, tag: int, path: Path) -> Sequence[Any] | None:
+    """What the file says there; None where it does not. Pillow gives one value alone as a number, and text as text."""
+    found = tags.get(tag)
+    if found is None:
+        return None
+    if not isinstance(found, tuple) or not all(isinstance(one, Real) for one in found):
+        raise ValueError(tr("{file} does not say where on earth it lies.").format(file=path.name))
+    return found
+
+
 def _keys(directory: Sequence[int]) -> dict[int, int]:
     """The GeoKeys that are plain numbers."""
     rows = [directory[at : at + 4] for at in range(4, len(directory), 4)]
@@ -108,7 +119,7 @@ def _keys(directory: Sequence[int]) -> dict[int, int]:
 
 def _placing(tags: Any, path: Path, half: float) -> Callable[[float, float], Place]:
     """From column and row of the picture's corners to the file's own coordinates."""
-    matrix, scale, tie = tags.get(MATRIX), tags.get(SCALE), tags.get(TIEPOINT)
+    matrix, scale, tie = (_numbers(tags, tag, path) for tag in (MATRIX, SCALE, TIEPOINT))
     if matrix is not None and len(matrix) == 16:
         a, b, _, c, d, e, _, f = matrix[:8]
     elif scale is not None and tie is not None and len(scale) >= 2 and len(tie) == 6:

@@ -12,7 +12,7 @@ from typing import TypeVar
 
 from app.maps.map_source import Box, Source
 from app.maps.tile_store import Stored
-from widgets.map.tiles.mbtiles_file import metadata
+from widgets.map.tiles.mbtiles_file import metadata, zooms_of
 from widgets.map.tiles.tile_reader import Key
 
 __all__ = ["GOOD_FOR", "RegionFile"]
@@ -21,6 +21,8 @@ P = TypeVar("P")
 
 GOOD_FOR = 30 * 86400.0
 """How long a tile of a region is shown without asking the server for a newer one [s]."""
+MAX_LONGITUDE = 540.0
+"""Of a side of a box [deg]: a map that was dragged round the earth goes on counting."""
 FETCHED = """
 CREATE TABLE IF NOT EXISTS pilothouse_fetched (zoom_level INTEGER, tile_column INTEGER, tile_row INTEGER, at REAL,
   PRIMARY KEY (zoom_level, tile_column, tile_row)) WITHOUT ROWID;
@@ -76,6 +78,7 @@ class RegionFile:
             _ = about["name"], about["pilothouse_source"], _box(about)
         except (TypeError, OverflowError, RecursionError) as fault:
             raise ValueError(f"its box is {type(fault).__name__}") from fault
+        zooms_of(path, about)
         return cls(path, about)
 
     def plan(self, make: Callable[[Box, int, int], P]) -> P:
@@ -159,4 +162,6 @@ class RegionFile:
 
 def _box(about: Mapping[str, str]) -> Box:
     west, south, east, north = (float(side) for side in json.loads(about["pilothouse_box"]))
+    if not (max(abs(west), abs(east)) <= MAX_LONGITUDE and -90 <= south <= north <= 90):
+        raise ValueError(f"its box is {about['pilothouse_box']:.80}, which is no place on earth")
     return west, south, east, north

@@ -67,6 +67,25 @@ def test_a_picture_whose_path_is_of_another_computer_is_found_beside_the_file(tm
     assert read_floor_plan(write(tmp_path, PLAIN.replace("a.pgm", "/home/me/maps/a.pgm"))).width == 4
 
 
+@pytest.mark.parametrize("name", ["../secret.pgm", "below/../../secret.pgm", "{above}/secret.pgm"])
+def test_a_picture_outside_of_the_files_own_folder_is_not_opened(tmp_path, name):
+    (tmp_path / "secret.pgm").write_bytes(b"P5 4 1 255\n" + SHADES)
+    (tmp_path / "maps" / "below").mkdir(parents=True)
+    path = write(tmp_path / "maps", PLAIN.replace("a.pgm", name.format(above=tmp_path)))
+    with pytest.raises(ValueError, match=r"secret\.pgm cannot be read"):
+        read_floor_plan(path)
+    (tmp_path / "maps" / "secret.pgm").write_bytes(b"P5 2 1 255\n" + SHADES[:2])
+    assert read_floor_plan(path).width == 2
+
+
+@pytest.mark.parametrize("name", ["below/b.pgm", "below/../below/b.pgm", "{here}/below/b.pgm"])
+def test_a_picture_below_the_files_folder_is_shown(tmp_path, name):
+    (tmp_path / "below").mkdir()
+    (tmp_path / "below" / "b.pgm").write_bytes(b"P5 2 1 255\n" + SHADES[:2])
+    path = write(tmp_path, PLAIN.replace("a.pgm", name.format(here=tmp_path)))
+    assert read_floor_plan(path).width == 2
+
+
 def test_a_large_plan_loses_no_wall(tmp_path):
     side = 2 * MAX_TEXTURE_SIDE - 2
     levels = np.full((4, side), 255, np.uint8)

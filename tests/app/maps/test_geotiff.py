@@ -26,7 +26,7 @@ def write(path, image=None, *, keys=(), scale=None, tie=None, matrix=None, nothi
     for tag, kind, value in ((34735, 3, keys), (33550, 12, scale), (33922, 12, tie), (34264, 12, matrix)):
         if value:
             tags[tag] = value
-            tags.tagtype[tag] = kind
+            tags.tagtype[tag] = 2 if isinstance(value, str) else kind
     if nothing is not None:
         tags[42113] = nothing
         tags.tagtype[42113] = 2
@@ -139,6 +139,11 @@ PLACED = {"scale": (1, 1, 0), "tie": (0, 0, 0, 8.0, 47.0, 0)}
         ({"keys": geo_keys(4326, False)}, "does not say where on earth it lies"),
         ({"keys": geo_keys(4326, False), "scale": (0, 0, 0), "tie": PLACED["tie"]}, "does not say where"),
         ({"keys": geo_keys(4326, False), "scale": (9, 9, 0), "tie": PLACED["tie"]}, "lies nowhere on earth"),
+        *(
+            ({"keys": geo_keys(4326, False), **PLACED, **odd}, "a.tif does not say where on earth it lies.")
+            for name in ("keys", "scale", "tie", "matrix")
+            for odd in ({name: (7,)}, {name: "seven and some more"})
+        ),
         (
             {"image": Image.new("F", (4, 4)), "keys": geo_keys(4326, False), **PLACED},
             r"holds measurements \(F\)",

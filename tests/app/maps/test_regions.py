@@ -10,7 +10,7 @@ import pytest
 
 from app.maps import regions as regions_module
 from app.maps.map_source import URL, Source
-from app.maps.region_file import GOOD_FOR, RegionFile
+from app.maps.region_file import GOOD_FOR, TABLES, RegionFile
 from app.maps.regions import LEAST_FREE, MAX_FAILED_IN_ROW, MAX_TILES, RegionPlan, Regions, Surroundings
 from app.maps.tile_server import NoAnswer, Tile
 from app.maps.tile_store import Stored
@@ -176,13 +176,29 @@ def test_a_file_that_is_no_region_is_left_out(regions, tmp_path, caplog):
     assert "is no offline region" in caplog.text
 
 
-@pytest.mark.parametrize("box", ["7", "[1, 2, 3, " + "9" * 400 + "]", "[" * 100_000])
-def test_a_region_whose_box_is_none_is_left_out(regions, tmp_path, box):
-    with closing(sqlite3.connect(tmp_path / "x.mbtiles")) as file, file:
-        file.executescript("CREATE TABLE metadata (name TEXT, value TEXT)")
-        about = {"name": "x", "pilothouse_source": "y", "pilothouse_box": box}
-        file.executemany("INSERT INTO metadata VALUES (?, ?)", about.items())
-    assert regions.all == []
+ODD = [
+    *(
+        {"pilothouse_box": box}
+        for box in ("7", "null", "[1, 2, 3]", "[null, 1, 2, 3]", "[NaN, 0, 1, 1]", "[")
+    ),
+    *({"pilothouse_box": box} for box in ("[1, 2, 3, " + "9" * 400 + "]", "[" * 100_000, "[[], 0, 1, 1]")),
+    *({"pilothouse_box": box} for box in ("[-Infinity, 0, Infinity, 1]", "[0, -91, 1, 1]", "[0, 2, 1, 1]")),
+    *({"pilothouse_box": box} for box in ("[0, 0, 1, 1e300]", "[0, 0, 1e300, 1]")),
+    *({"maxzoom": zoom} for zoom in ("3000", "60", "9", "many", "1e3")),
+    {"minzoom": "-1"},
+]
+
+
+@pytest.mark.parametrize("odd", ODD, ids=lambda odd: str(odd)[:50])
+def test_a_region_whose_place_or_zoom_levels_are_none_is_left_out_and_named(regions, tmp_path, caplog, odd):
+    about = {"format": "png", "minzoom": "10", "maxzoom": "13", "pilothouse_box": "[8.0, 47.0, 8.1, 47.1]"}
+    for name, more in (("odd", odd), ("sound", {})):
+        said = {**about, "name": name, "pilothouse_source": "s", **more}
+        with closing(sqlite3.connect(tmp_path / f"{name}.mbtiles")) as file, file:
+            file.executescript(TABLES)
+            file.executemany("INSERT INTO metadata VALUES (?, ?)", said.items())
+    assert [one.name for one in regions.all] == ["sound"]
+    assert "odd.mbtiles is no offline region" in caplog.text
 
 
 def test_where_nothing_can_be_kept_it_is_one_sentence(tmp_path):

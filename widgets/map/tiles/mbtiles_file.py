@@ -33,7 +33,11 @@ def metadata(path: Path) -> dict[str, str]:
             tr("{path} does not say its {missing}.").format(path=path, missing=", ".join(sorted(missing)))
         )
     if about["format"] not in FORMATS:
-        raise ValueError(f"{path} holds {about['format']} tiles; only png, jpg and webp can be shown.")
+        raise ValueError(
+            tr("{path} holds {format:.20} tiles; only png, jpg and webp can be shown.").format(
+                path=path, format=about["format"]
+            )
+        )
     return about
 
 
@@ -45,8 +49,9 @@ def zooms_of(path: Path, about: dict[str, str]) -> tuple[int, int]:
         least, most = 1, 0
     if not 0 <= least <= most <= MAX_ZOOM:
         raise ValueError(
-            f"{path} says that it has the zoom levels {about['minzoom']:.20} to {about['maxzoom']:.20}; "
-            f"0 to {MAX_ZOOM} can be shown."
+            tr(
+                "{path} says that it has the zoom levels {least:.20} to {most:.20}; 0 to {limit} can be shown."
+            ).format(path=path, least=about["minzoom"], most=about["maxzoom"], limit=MAX_ZOOM)
         )
     return least, most
 

@@ -247,6 +247,7 @@ def test_a_file_that_goes_away_shows_gaps_and_is_said_once(tmp_path, stage, capl
         ({**PLAIN, "bounds": "1,2,3"}, "reaches to 1,2,3, which are no four angles"),
         ({**PLAIN, "bounds": "1,nan,3,4"}, "no four angles"),
         ({**PLAIN, "format": "pbf"}, "holds pbf tiles; only png, jpg and webp"),
+        ({**PLAIN, "format": "p" * 5000}, "holds p{20} tiles; only png, jpg and webp"),
     ],
 )
 def test_a_file_that_cannot_be_shown_says_why(tmp_path, about, sentence):
