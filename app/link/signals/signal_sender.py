@@ -40,6 +40,8 @@ class SignalNews:
     """Why nothing may be sent there, in one sentence; empty where it may."""
     sent: Msg | None = None
     """What has just left; None for news of who listens."""
+    unsent: bool = False
+    """What was to be said once was dropped here, and never left."""
 
 
 class Robot(Protocol):
@@ -132,12 +134,12 @@ class SignalSender:
 
     def send(self) -> None:
         """Send what is due."""
-        if not self._connected:
-            return
-        for one in self.slot.due(self._allowed):
+        for one in self.slot.due(self._allowed) if self._connected else ():
             if self._client.publish(one.topic, one.msg, even_late=one.kind == "rest"):
                 self.slot.sent(one)
                 self._tell(SignalNews(one.topic, sent=one.msg))
+        for topic in self.slot.take_unsent():
+            self._tell(SignalNews(topic, unsent=True))
 
     def _allowed(self, topic: str, msg: Msg) -> bool:
         if self._health.silent or self._client.late or self._forbidden() or self._faults.get(topic, "?"):
@@ -202,6 +204,7 @@ class SignalSender:
         self._faults.clear()
         self._advertised = {topic: own for topic, own in self._advertised.items() if own is not None}
         self.slot.drop()
+        self._wake.set()
 
     def finish(self) -> None:
         """Send the rest of what is held a last time."""

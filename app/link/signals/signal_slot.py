@@ -65,6 +65,7 @@ class SignalSlot:
         self._now = now
         self._lock = threading.Lock()
         self._lines: dict[str, _Line] = {}
+        self._unsent: set[str] = set()
 
     def say(self, topic: str, msg: Msg) -> None:
         """Say it once; what is still unsent of that topic is dropped."""
@@ -93,9 +94,20 @@ class SignalSlot:
         The rest of what the robot was told is still owed.
         """
         with self._lock:
-            for line in self._lines.values():
-                line.once = None
+            for topic, line in self._lines.items():
+                self._forget(topic, line)
                 self._block(line)
+
+    def take_unsent(self) -> set[str]:
+        """Topics of which something to be said once was dropped since this was asked last."""
+        with self._lock:
+            unsent, self._unsent = self._unsent, set()
+        return unsent
+
+    def _forget(self, topic: str, line: _Line) -> None:
+        if line.once is not None:
+            line.once = None
+            self._unsent.add(topic)
 
     @staticmethod
     def _block(line: _Line) -> None:
@@ -122,7 +134,7 @@ class SignalSlot:
         if line.held is not None and (now - line.held_at > HOLD_TIMEOUT or not allowed(topic, line.held)):
             self._block(line)
         if line.once is not None and (now - line.once_at > ONCE_TIMEOUT or not allowed(topic, line.once)):
-            line.once = None
+            self._forget(topic, line)
         if line.on and line.held is None and not line.rests:
             line.rests = REST_REPEATS
         since = now - line.sent_at + _INSTANT

@@ -149,9 +149,11 @@ class PanelSignals:
         if channel != SIGNAL:
             return
         news = post.value
-        if news.sent is None:
+        if news.sent is None and not news.unsent:
             self._faults[news.topic] = news.problem
         for index, panel in self._panels.items():
+            if news.unsent and panel.topic == news.topic and self.widgets[index].at_rest is None:
+                self.widgets[index].show_unsent()
             if news.sent is not None and panel.topic == news.topic and not panel.also:
                 self.widgets[index].show(news.sent)
 

@@ -70,7 +70,7 @@ class Switchable(BoolControl):
     asked: ObjectProperty[bool | None] = ObjectProperty(None, allownone=True)
     """What was asked for and not seen yet; None for nothing."""
     outcome = ObjectProperty("")
-    """`sent`, `no_reply` or empty."""
+    """`sent`, `no_reply`, `unsent` or empty."""
 
     def __init__(self, **kwargs: Any) -> None:
         self._give_up = Clock.create_trigger(self._no_reply, REPLY_TIMEOUT)
@@ -81,6 +81,11 @@ class Switchable(BoolControl):
         self.value = bool(msg.data)
         if self.asked is not None and self.value == self.asked:
             self._settle("")
+
+    def show_unsent(self) -> None:
+        """What was asked for never left."""
+        if self.asked is not None:
+            self._settle("unsent")
 
     def on_touch_up(self, touch: Any) -> bool:
         """Ask for the other value where the finger is lifted on it."""
@@ -114,6 +119,8 @@ class Switchable(BoolControl):
             return tr("asked for {value}").format(value=tr(ON if self.asked else OFF))
         if self.outcome == "no_reply":
             return tr("no reply")
+        if self.outcome == "unsent":
+            return tr("not sent")
         if self.value is None:
             return DASH
         return tr(ON if self.value else OFF)
@@ -121,6 +128,6 @@ class Switchable(BoolControl):
     @property
     def role(self) -> str:
         """Role of the word's colour."""
-        if self.outcome == "no_reply":
+        if self.outcome in ("no_reply", "unsent"):
             return "warn"
         return "accent" if self.asked is not None else "text" if self.value else "muted"

@@ -166,6 +166,7 @@ async def test_a_switch_is_not_said_at_all_when(desk: Desk, forbid: Callable[[De
     await desk.turn()
     desk.sender.say("/horn", ON)
     assert await desk.wait(1.0) == []
+    assert desk.news.count(SignalNews("/horn", unsent=True)) == 1
 
 
 @pytest.mark.parametrize("topic", ["/cmd_vel", "/touch", "/nowhere"])

@@ -94,6 +94,13 @@ def test_a_tap_on_a_switch_is_heard_once_and_shown_as_sent(
     assert program.heard["/horn"] == []
 
 
+def test_a_switch_whose_signal_never_left_says_so(driving: Glass, program: Program, panels: Any) -> None:
+    panels.session.link.signals._forbidden = lambda: True
+    driving.tap(lamp(panels))
+    driving.until(lambda: lamp(panels).word == "not sent", "it is not said")
+    assert program.heard["/lamp"] == []
+
+
 def test_a_button_is_true_while_it_is_held_and_false_afterwards(
     driving: Glass, program: Program, panels: Any
 ) -> None:

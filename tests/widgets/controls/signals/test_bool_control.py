@@ -59,6 +59,15 @@ def test_a_robot_that_does_not_do_it_is_said_and_nothing_is_claimed(stage, contr
     assert control.sent == [True, True]
 
 
+def test_what_never_left_is_said_and_not_laid_to_the_robot(stage, control):
+    control.show(Bool(False))
+    tap(stage)
+    control.show_unsent()
+    assert (control.value, control.asked, control.word, control.role) == (False, None, "not sent", "warn")
+    stage.run_for(REPLY_TIMEOUT + 0.2)
+    assert control.word == "not sent"
+
+
 def test_nothing_is_sent_again_by_itself(stage, control):
     tap(stage)
     stage.run_for(5.0)
