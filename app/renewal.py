@@ -35,8 +35,6 @@ class Renewal:
         """Make the page that is on the glass, and forget the others, which are made when they are looked at."""
         app = self._app
         app.inputs.rest()
-        if app.pages.shell is not None:
-            app.pages.shell.rest()
         hand.take_up()
         kept = app.pages.forget_lone()
         self._renew_connect()

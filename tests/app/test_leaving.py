@@ -13,6 +13,7 @@ from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
+from tests.app.strange import strange_robot
 
 
 def moves(driving: Glass, robot: FakeRobot, speed: float = 0.4) -> None:
@@ -203,3 +204,23 @@ def test_the_window_closes_at_once_where_no_robot_is_in_hand(driving: Glass, rob
     assert not driving.stage.window.dispatch("on_request_close")
     driving.app.leave()
     assert not driving.stage.window.dispatch("on_request_close")
+
+
+def test_a_robot_without_a_control_to_hold_is_left_only_after_a_question_while_it_moves(
+    glass: Glass, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tests.bridge.foreign_robot.WATCHDOG", 1e9)
+    app = glass.app
+    with strange_robot() as strange:
+        app.open(strange.url)
+        glass.until(lambda: app.shell is not None and app.session.control == "none", "it has a control")
+        glass.until(lambda: app.session.feeds.latest("/odom") is not None, "nothing was heard of it")
+        assert not app.leaving.asks(app.session), "it stands"
+        strange.robot.command({"linear": {"x": 0.4}, "angular": {"z": 0.0}})
+        glass.until(lambda: app.session.checks.moves, "its speed was not heard")
+        app.leaving.leave()
+        assert app.session is not None
+        assert question(glass).cause == "moves"
+        glass.stage.frames(3)
+        glass.tap(question(glass).ids.leave)
+        assert app.session is None

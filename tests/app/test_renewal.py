@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 from kivy.metrics import Metrics, sp
 
+from app.core.hand import Hand
 from app.screens.setup.screen import HANDHELD
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Place
@@ -58,6 +59,22 @@ def test_a_pushed_stick_lets_go_before_it_is_made_anew(driving: Glass, robot: Fa
     touch.touch_move(stick.center_x, stick.top - 5)
     driving.stage.frames(5)
     assert robot.twists()[-1].linear.x == 0.0, "a finger that was there before drives nothing"
+    touch.touch_up()
+
+
+def test_every_control_lets_go_before_another_hand_holds_them(
+    driving: Glass, robot: FakeRobot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    app, stick, seen = driving.app, driving.app.screens["drive"].stick, list[object]()
+    take_up = Hand.take_up
+    monkeypatch.setattr(
+        Hand, "take_up", lambda one: (seen.append((stick.finger, stick.twist, app.inputs.held)), take_up(one))
+    )
+    touch = driving.hold(stick)
+    touch.touch_move(stick.center_x, stick.top - 10)
+    driving.until(lambda: any(twist.linear.x > 0.05 for twist in robot.twists()), "does not drive")
+    anew(driving, "units", "imperial")
+    assert seen == [(None, Twist(), False)]
     touch.touch_up()
 
 

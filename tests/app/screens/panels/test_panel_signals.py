@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from msgspec.structs import replace as replaced
 
 from app.layout.views import Panel, View
 from app.screens.panels.panel_signals import not_now
@@ -180,6 +181,71 @@ def test_without_control_nothing_is_sent_and_it_is_said_beside_it(
     driving.hold(horn(panels)).touch_up()
     driving.stage.frames(20)
     assert program.heard == {"/horn": [], "/lamp": []}
+
+
+@pytest.fixture
+def handed(driving: Glass, panels: Any, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Topics that the link was given something to send to, whatever it makes of it; the controls may send."""
+    signals, topics = driving.app.session.link.signals, list[str]()
+    monkeypatch.setattr(signals, "say", lambda topic, _: topics.append(topic))
+    monkeypatch.setattr(signals, "hold", lambda topic, *_: topics.append(topic))
+    quick_fingers(horn(panels), lamp(panels))
+    assert topics == ["/horn", "/lamp"]
+    topics.clear()
+    return topics
+
+
+def quick_fingers(*controls: Any) -> None:
+    """What a finger asks for between two looks at what may be pressed."""
+    for one in controls:
+        one.dispatch("on_command", Bool(True))
+
+
+STOPS = ["pressed here and unanswered", "pressed here and confirmed", "pressed by another"]
+
+
+@pytest.mark.parametrize("stop", STOPS)
+def test_under_stop_neither_switch_nor_button_hands_the_link_anything(
+    driving: Glass, robot: FakeRobot, panels: Any, handed: list[str], stop: str
+) -> None:
+    session = driving.app.session
+    if stop == "pressed by another":
+        robot.publish("/control/status", replaced(robot.control, stopped=True, mode="STOPPED"))
+    else:
+        (robot.hold_answers if "unanswered" in stop else robot.give_answers)()
+        driving.app.session.stop()
+    quick_fingers(*([horn(panels), lamp(panels)] if "here" in stop else []))
+    assert handed == []
+    driving.until(lambda: session.robot_stop.latched != ("unanswered" in stop), "not as it was meant")
+    assert not_now(session) == "STOP is pressed; nothing is sent."
+    quick_fingers(horn(panels), lamp(panels))
+    driving.tap(lamp(panels))
+    driving.hold(horn(panels)).touch_up()
+    assert handed == []
+    assert (horn(panels).disabled, lamp(panels).disabled) == (True, True)
+
+
+def test_without_control_a_finger_that_is_quicker_than_the_look_hands_the_link_nothing(
+    driving: Glass, panels: Any, handed: list[str]
+) -> None:
+    control_lost(driving, panels)
+    driving.until(lambda: panels.session.control == "other", "control is here still")
+    quick_fingers(horn(panels), lamp(panels))
+    assert handed == []
+
+
+OUT_OF_SIGHT = ["another screen comes", "it is hidden", "it is scrolled out of sight", "it is edited"]
+
+
+@pytest.mark.parametrize("why", OUT_OF_SIGHT)
+def test_what_is_not_in_sight_hands_the_link_nothing_when(
+    driving: Glass, panels: Any, handed: list[str], why: str
+) -> None:
+    button = horn(panels)
+    LETS_GO[why](driving, panels)
+    assert not not_now(panels.session)
+    quick_fingers(button)
+    assert handed == []
 
 
 def test_a_robot_of_ours_that_no_program_listens_beside_says_so_on_the_card(
