@@ -29,9 +29,14 @@ class LayoutChoice:
         """The layout for a robot of that model and kind: models come before kinds, and a robot of neither gets `DEFAULT`.
 
         So does one whose layout is wrong, which is a `mistake` then. Raises LayoutError where `DEFAULT` itself is wrong.
+        The one that the user insists on has that robot's drive screen where it says nothing of any.
         """
-        if self._chosen is not None:
+        if self._chosen is not None and self._chosen.drives:
             return self._chosen
+        made = self._made_for(model, kind)
+        return made if self._chosen is None else self._chosen.with_drive_of(made)
+
+    def _made_for(self, model: str, kind: str) -> Layout:
         self.mistake = ""
         try:
             if self._owners is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 import msgspec
@@ -156,6 +156,21 @@ class Layout:
     actions: tuple[Action, ...] = ()
     views: tuple[View, ...] = ()
     """Screens of free panels beside the drive screen."""
+
+    @property
+    def drives(self) -> bool:
+        """It says what is on the drive screen: an instrument, a control or a button."""
+        return bool(self.instruments or self.controls or self.actions)
+
+    def with_drive_of(self, other: Layout) -> Layout:
+        """This one with the drive screen of `other`."""
+        return replace(
+            self,
+            arrangement=other.arrangement,
+            instruments=other.instruments,
+            controls=other.controls,
+            actions=other.actions,
+        )
 
 
 class LayoutFile(

@@ -17,6 +17,8 @@ __all__ = ["ProfileChoice"]
 
 SETTING = "profiles"
 """Setting with the chosen profile of each robot, by its name or else its kind."""
+NOTHING = Layout("", "", ())
+"""Whose drive screen is none."""
 MAX_ROBOTS = 200
 """Of whose choice is remembered; of more the oldest are forgotten."""
 
@@ -44,12 +46,16 @@ class ProfileChoice:
         return self._built_in.mistake
 
     def of(self, info: RobotInfo) -> Layout:
-        """The profile of that robot; the built-in one where its own is wrong, which are `faults` then."""
+        """The profile of that robot; the built-in one where its own is wrong, which are `faults` then.
+
+        One that says nothing of the drive screen has the built-in one's: else driving had neither stick nor buttons.
+        """
         self.faults = ()
         name = self.chosen(info)
         if name:
             try:
-                return self._own(name)
+                own = self._own(name)
+                return own if own.drives else own.with_drive_of(self.built_in(info))
             except LayoutError as error:
                 self.faults = error.faults
         return self.built_in(info)
@@ -78,10 +84,19 @@ class ProfileChoice:
         """
         name = self.chosen(info) or self.store.unused(layout.name)
         kept = replace(layout, name=name)
-        self.store.save(kept)
-        self._read[name] = kept
+        lent = kept.with_drive_of(self.built_in(info)) == kept and self._lends(name)
+        written = kept.with_drive_of(NOTHING) if lent else kept
+        self.store.save(written)
+        self._read[name] = written
         self.choose(info, name)
         return kept
+
+    def _lends(self, name: str) -> bool:
+        """Its file says nothing of the drive screen, and shall not begin to: what the app brings may be another one day."""
+        try:
+            return not self._own(name).drives
+        except LayoutError:
+            return False
 
     def adopt(self, info: RobotInfo, layout: Layout) -> Layout:
         """Keep a profile that came from elsewhere under a name that is not taken, and choose it for that robot; as it is kept.

@@ -23,6 +23,21 @@ def test_one_that_the_user_insists_on_is_shown_of_every_robot() -> None:
     assert LayoutChoice(CATALOGUE, "minnow").of("ardrone", "quadrotor").name == "minnow"
 
 
+def test_one_of_views_alone_that_the_user_insists_on_has_the_drive_screen_of_each_robot(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "mine.toml").write_text("[[view]]\ntitle = 'A'\n")
+    choice = LayoutChoice(CATALOGUE, str(tmp_path / "mine.toml"))
+    for model in ("minnow", "aqua"):
+        shown, made = choice.of(model, ""), LayoutChoice(CATALOGUE).of(model, "")
+        assert (shown.arrangement, shown.controls, shown.actions) == (
+            made.arrangement,
+            made.controls,
+            made.actions,
+        )
+        assert [view.title for view in shown.views] == ["A"]
+
+
 def test_one_that_there_is_not_cannot_be_insisted_on() -> None:
     with pytest.raises(LayoutError):
         LayoutChoice(CATALOGUE, "no such layout")

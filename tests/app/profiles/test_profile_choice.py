@@ -62,6 +62,34 @@ def test_a_second_change_replaces_the_first_under_the_same_name(bench: Bench) ->
     assert bench.anew().of(ROBOT).views == ()
 
 
+def test_a_profile_of_views_alone_has_the_drive_screen_of_each_robot_and_never_writes_it(
+    bench: Bench,
+) -> None:
+    path = bench.choice.store.path("mine")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("title = 'Mine'\narrangement = 'columns'\n[[view]]\ntitle = 'A'\n")
+    for robot in (ROBOT, OTHER):
+        bench.choice.choose(robot, "mine")
+        shown, built_in = bench.choice.of(robot), bench.choice.built_in(robot)
+        assert shown == built_in.__class__(
+            "mine", "Mine", built_in.instruments, built_in.arrangement, (), built_in.controls, built_in.actions, shown.views
+        )  # fmt: skip
+        assert shown.controls
+        assert [view.title for view in shown.views] == ["A"]
+    kept = bench.choice.save(ROBOT, replace(bench.choice.of(ROBOT), views=VIEWS))
+    assert kept.controls == bench.choice.built_in(ROBOT).controls
+    assert bench.choice.of(ROBOT) == kept
+    assert "[[control]]" not in path.read_text()
+    assert bench.anew().of(OTHER).controls == bench.choice.built_in(OTHER).controls
+
+
+def test_a_profile_that_has_a_drive_screen_of_its_own_keeps_it(bench: Bench) -> None:
+    own = replace(bench.choice.of(ROBOT), controls=(), actions=(), views=VIEWS)
+    bench.choice.save(ROBOT, own)
+    assert bench.anew().of(ROBOT).controls == ()
+    assert bench.anew().of(ROBOT).instruments == own.instruments
+
+
 def test_a_profile_with_faults_is_told_whole_and_the_built_in_one_shown(bench: Bench) -> None:
     bench.choice.save(ROBOT, replace(bench.choice.of(ROBOT), views=VIEWS))
     path = bench.choice.store.path(bench.choice.chosen(ROBOT))
