@@ -25,6 +25,10 @@ USUAL = (1204.0, 744.0)
 """Width and height of the body that the sizes below are made for [dp]; a larger one has everything larger."""
 STRIP = 54
 """Height of the folded card of the small sensors: a finger opens it [dp]."""
+INSET, INSET_TALL, INSET_ASPECT = 220.0, 96.0, 1.25
+"""Width of what is small over the picture, and on an upright phone [dp], and that by its height."""
+LINE = 42
+"""Height of depth and commanded motion on a small picture [dp]."""
 LARGEST = 1.45
 """How much larger at most."""
 
@@ -36,7 +40,8 @@ def dive(
     `corner` and `motion`, `stick`, `lift` and `tilt`, which have a card `hands` on a tablet, and the column of `actions`;
     and where STOP is, at the foot of the column.
 
-    `senses` is the strip of the small sensors and `senses_open` where it unfolds. `notice` is for what is said, `notice_low` for what holds on until it is dealt with.
+    `inset` is for what is small over the video: the map, or the video itself while the map is large; it is left out where there
+    is no room. `senses` is the strip of the small sensors and `senses_open` where it unfolds. `notice` is for what is said, `notice_low` for what holds on until it is dealt with.
     On a phone's side the picture is the screen, and `pulled` and `sensed` as of `phone_dive`.
     """
     if left_handed(body):
@@ -71,7 +76,8 @@ def _wide(body: Rect, dp: float) -> tuple[dict[str, Rect], StopPlace]:
     places["corner"] = Rect(video.x + gap, video.top - gap - 150 * unit, 176 * unit, 150 * unit)
     places |= _sensors(video, places["corner"], dp)
     free = between(video.x, video.y, video.right, places["corner"].y)
-    return places | _notices(free, dp), stop
+    places["inset"] = _inset(free, 14 * dp, min(INSET * unit, 0.36 * video.width))
+    return places | _notices(free, dp, places["inset"]), stop
 
 
 def _tall(body: Rect, dp: float) -> tuple[dict[str, Rect], StopPlace]:
@@ -96,7 +102,8 @@ def _tall(body: Rect, dp: float) -> tuple[dict[str, Rect], StopPlace]:
     places |= {"stick": stick, "lift": lift, "tilt": tilt} | _stacked(panel, 8 * dp)
     shown = _on_video(video, dp)
     free = between(video.x, shown["motion"].top, video.right, shown["senses"].y)
-    return places | shown | _notices(free, dp), stop
+    small = _inset(free, 8 * dp, min(INSET_TALL * dp, (free.height - 16 * dp) * INSET_ASPECT))
+    return places | shown | {"inset": small} | _notices(free, dp, small), stop
 
 
 def _stacked(panel: Rect, edge: float) -> dict[str, Rect]:
@@ -117,7 +124,7 @@ def _stacked(panel: Rect, edge: float) -> dict[str, Rect]:
 
 def _on_video(video: Rect, dp: float) -> dict[str, Rect]:
     """Depth and commanded motion on a small picture, each in a line."""
-    gap, high = 8 * dp, 46 * dp
+    gap, high = 8 * dp, LINE * dp
     corner = Rect(video.x + gap, video.top - gap - high, 132 * dp, high)
     motion = Rect(video.x + gap, video.y + gap, video.width - 2 * gap, high)
     return {"corner": corner, "motion": motion} | _sensors(video, corner, dp)
@@ -136,7 +143,14 @@ def _sensors(video: Rect, corner: Rect, dp: float) -> dict[str, Rect]:
     }
 
 
-def _notices(video: Rect, dp: float) -> dict[str, Rect]:
+def _inset(free: Rect, gap: float, width: float) -> Rect:
+    """In the lower right corner of what is free of the picture."""
+    high = width / INSET_ASPECT
+    return Rect(free.right - gap - width, free.y + gap, width, high)
+
+
+def _notices(video: Rect, dp: float, small: Rect) -> dict[str, Rect]:
+    """What holds on until it is dealt with is beside what is `small`."""
     gap = 8 * dp
     room = between(video.x + gap, video.y + gap, video.right - gap, video.top - gap)
-    return {"notice": room, "notice_low": room}
+    return {"notice": room, "notice_low": between(room.x, room.y, small.x - gap, room.top)}

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from app.layout.arrange_phone import phone_drive
+from dataclasses import replace
+
+from app.layout.arrange_phone import AWAY_X, phone_drive
 from app.layout.rects import ALL, Rect, between, crowded, handed, left_handed, stop_place
 
 __all__ = ["drive", "two_sticks"]
@@ -19,22 +21,33 @@ BADGE = 46
 """Height of what says that intruders were found [dp]."""
 CARDS = 136
 """Height of the instruments of an upright phone that they are read in [dp]."""
+LEAST_CARDS = 90
+"""The least of it, beside a switch [dp]."""
+TAPE = 44
+"""Height of the heading over the picture of an upright phone [dp]."""
 CHIP = 200
 """Width of a phone's glass that the picture's size and rate need [dp]."""
 
 
 @handed
 def drive(
-    body: Rect, shape: str, dp: float = 1.0, *, switch: bool = False, pulled: bool = False
+    body: Rect,
+    shape: str,
+    dp: float = 1.0,
+    *,
+    switch: bool = False,
+    pulled: bool = False,
+    sensed: bool = True,
 ) -> dict[str, Rect]:
     """Of the drive screen: `video` behind all, the slots `top_left`, `top`, `top_right`, `readouts`, and the controls.
 
     `badge` says what was found, `senses` is the strip or card of the small sensors and `senses_open` where the strip
     unfolds. `notice_low` is for what holds on until it is dealt with, from its lower edge upwards. `switch` chooses between
-    two controls in the place of `stick`; it has none without. `pulled` as of `phone_drive`.
+    two controls in the place of `stick`; it has none without. `pulled` as of `phone_drive`. `sensed`: there are small sensors,
+    which take room from the instruments of an upright phone.
     """
     if shape == "tall":
-        return _drive_tall(body, dp, switch)
+        return _drive_tall(body, dp, switch, sensed)
     if shape == "short":
         return phone_drive(body, dp, switch=switch, pulled=pulled)
     stop, least = stop_place(body, shape, dp), (SWITCH + 12 if switch else 0) + 590
@@ -78,7 +91,7 @@ def _senses_wide(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
     }
 
 
-def _drive_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
+def _drive_tall(body: Rect, dp: float, switch: bool, sensed: bool) -> dict[str, Rect]:
     least, dp_of_stop = SENSES_LEAST * dp, dp
     dp *= min(1.0, body.height / (640 * dp)) if switch else 1.0
     gap, stop = 12 * dp, stop_place(body, "tall", dp_of_stop)
@@ -95,10 +108,19 @@ def _drive_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
         across = stop.x - gap - body.x - gap
     actions = Rect(body.x + gap, low, across, (ALL if crowded(body) else 52) * dp)
     cards_low = max(actions.top, stop.head) + gap
-    picture = _picture_tall(body, cards_low + gap, dp, switch=switch)
+    row = (STRIP + 8) * dp if sensed else 0.0
+    picture = _picture_tall(body, cards_low + gap + row, dp, switch=switch)
     video = Rect(body.x, body.top - picture, body.width, picture)
     cards = Rect(body.x + gap, cards_low, body.width - 2 * gap, video.y - gap - cards_low)
-    tape = Rect(body.x + body.width * 0.1, body.top - gap - 52 * dp, body.width * 0.8, 52 * dp)
+    tape = _tape_tall(body, 8 * dp, dp)
+    senses = _senses_tall(video, cards, tape, least, dp)
+    if sensed and cards.height - row >= LEAST_CARDS * dp:
+        cards = between(cards.x, cards.y, cards.right, cards.top - row)
+        strip = Rect(cards.x, cards.top + 8 * dp, cards.width, STRIP * dp)
+        senses |= {"senses": strip, "notice_low": _low_tall(video, senses["badge"], dp)}
+    elif not sensed:
+        strip = replace(senses["senses"], x=AWAY_X)
+        senses |= {"senses": strip, "notice_low": _low_tall(video, senses["badge"], dp)}
     return {
         "video": video,
         "stop": stop,
@@ -108,15 +130,26 @@ def _drive_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
         "top": tape,
         **chosen,
         **_cards_tall(cards, gap, dp),
-        **_senses_tall(video, cards, tape, least, dp),
+        **senses,
     }
+
+
+def _tape_tall(body: Rect, gap: float, dp: float) -> Rect:
+    """Over the picture of an upright phone, most of which is to be seen."""
+    return Rect(body.x + body.width * 0.2, body.top - gap - TAPE * dp, body.width * 0.6, TAPE * dp)
+
+
+def _low_tall(video: Rect, badge: Rect, dp: float) -> Rect:
+    """At the foot of a picture that no strip lies on."""
+    low = video.y + 8 * dp
+    return Rect(video.x + 12 * dp, low, video.width - 24 * dp, max(badge.y - 8 * dp - low, 8 * dp))
 
 
 def _picture_tall(body: Rect, low: float, dp: float, *, switch: bool) -> float:
     """Height of the picture over the instruments [px], which begin at `low` and have to be readable."""
     picture = min(body.width * 0.75, body.height * (0.33 if switch else 0.42))
     if switch:
-        return min(picture, body.top - low - 90 * dp)
+        return min(picture, body.top - low - LEAST_CARDS * dp)
     least = min(picture, 196 * dp)  # for the tape, a badge and the strip
     return max(least, min(picture, body.top - low - CARDS * dp))
 
@@ -150,13 +183,21 @@ def _senses_tall(video: Rect, cards: Rect, tape: Rect, least: float, dp: float) 
 
 
 def two_sticks(
-    body: Rect, shape: str, dp: float = 1.0, *, switch: bool = False, pulled: bool = False
+    body: Rect,
+    shape: str,
+    dp: float = 1.0,
+    *,
+    switch: bool = False,
+    pulled: bool = False,
+    sensed: bool = True,
 ) -> dict[str, Rect]:
     """As `drive`, with a control under the right thumb as well: `right_stick`, left of STOP, and `confirm` for slides.
 
     For a left hand too the right stick is under the right thumb: which of two sticks does what is learnt by heart.
     """
     places = _two_sticks(body, shape, dp, switch=switch, pulled=pulled)
+    if shape == "tall" and not sensed:
+        places["senses"] = replace(places["senses"], x=AWAY_X)
     if left_handed(body):
         places["stick"], places["right_stick"] = places["right_stick"], places["stick"]
         if "alone" in places:
@@ -216,7 +257,7 @@ def _two_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
     cards = between(left, actions.top + gap, left + across, video.y - gap)
     figures = min(116 * scale, across * 0.3)
     side = (cards.width - figures - 2 * gap) / 2
-    tape = Rect(body.x + body.width * 0.1, body.top - gap / 2 - 52 * scale, body.width * 0.8, 52 * scale)
+    tape = _tape_tall(body, gap / 2, scale)
     places = {
         "video": video,
         "stop": stop,
@@ -232,19 +273,15 @@ def _two_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
         "readouts": Rect(cards.right - figures, cards.y, figures, cards.height),
     }
     places |= _senses_tall(video, cards, tape, SENSES_LEAST * dp, scale)
-    return places | _badge_beside(places, gap)
+    return places | _strip_beside(places, gap)
 
 
-def _badge_beside(places: dict[str, Rect], gap: float) -> dict[str, Rect]:
-    """What was found beside the strip of a low picture, and what is said between them and the tape."""
-    strip, tape = places["senses"], places["top"]
-    wide = 0.55 * strip.width
-    strip = Rect(strip.x, places["video"].y + gap / 3, strip.width, strip.height)
-    return {
-        "senses": Rect(strip.x, strip.y, wide, strip.height),
-        "badge": between(strip.x + wide + gap, strip.y, strip.right, strip.top),
-        "notice_low": between(strip.x, strip.top + gap / 3, strip.right, tape.y - gap / 3),
-    }
+def _strip_beside(places: dict[str, Rect], gap: float) -> dict[str, Rect]:
+    """A short strip at the foot of a low picture, so that the map has room beside it; what holds on is above it, beside what was found."""
+    strip, badge = places["senses"], places["badge"]
+    strip = Rect(strip.x, places["video"].y + gap / 3, 0.55 * strip.width, strip.height)
+    beside = between(strip.x, strip.top + gap / 3, badge.x - gap / 3, places["top"].y - gap / 3)
+    return {"senses": strip, "notice_low": beside}
 
 
 def _switch_wide(places: dict[str, Rect], dp: float) -> dict[str, Rect]:

@@ -18,12 +18,14 @@ USUAL_HEIGHT = 364
 GAP = 10
 """[dp]"""
 STICK = 168
-FIGURES, TAPE, BADGE = (252, 48), (236, 44), (186, 44)
+FIGURES, TAPE, BADGE = (252, 48), (204, 44), (186, 44)
 """Width and height of what is seen while driving, along the upper edge [dp]."""
 NARROW = 200
-"""Width of the figures beside two sticks, and of the depth on a dive screen [dp]."""
+"""Width of the figures beside two sticks [dp]."""
 HANDLE = 96, 44
 """Width and height of what a finger pulls [dp]."""
+INSET_DIVE, LEAST_INSET, COMPASS, DEPTH = (92, 72), 70, 92, 170
+"""On a dive screen: width and height of what is small over the picture, and its least width; side of the compass, width of the depth [dp]."""
 SLIDE = 52
 SWITCH = 48
 CHECKS = 340
@@ -143,6 +145,14 @@ def _beside(row: Rect, widths: dict[str, float], gap: float) -> dict[str, Rect]:
     return places
 
 
+def _inset_dive(seen: dict[str, Rect], unit: float) -> dict[str, Rect]:
+    """What is small over the picture, between the motion and the compass; nothing where there is too little room."""
+    gap, compass = 8 * unit, seen["compass"]
+    left = max(seen["motion"].right + gap, compass.x - gap - INSET_DIVE[0] * unit)
+    small = between(left, compass.top - INSET_DIVE[1] * unit, compass.x - gap, compass.top)
+    return {"inset": small} if small.width >= LEAST_INSET * unit else {}
+
+
 def phone_dive(
     body: Rect, dp: float = 1.0, *, pulled: bool = False, sensed: bool = False
 ) -> tuple[dict[str, Rect], StopPlace]:
@@ -154,12 +164,15 @@ def phone_dive(
     tilt = Rect(stop.left - gap - stick.width, stick.y, stick.width, stick.height)
     row = _seen(body, unit)
     seen = {
-        "corner": replace(row["readouts"], width=min(row["readouts"].width, NARROW * unit)),
+        "corner": replace(row["readouts"], width=min(row["readouts"].width, DEPTH * unit)),
         "motion": between(
             row["top"].x - 40 * unit, row["top"].y - 2 * unit, row["top"].right + 40 * unit, row["top"].top
         ),
-        "compass": Rect(body.right - gap - 112 * unit, body.top - gap - 112 * unit, 112 * unit, 112 * unit),
+        "compass": Rect(
+            body.right - gap - COMPASS * unit, body.top - gap - COMPASS * unit, COMPASS * unit, COMPASS * unit
+        ),
     }
+    seen |= _inset_dive(seen, unit)
     ground = between(body.x, stick.top + gap, body.right, body.top)
     high, low = ground.top - gap, ground.y + gap
     widths: dict[str, float] = {

@@ -14,6 +14,7 @@ from app.layout.arrange_phone import whole
 from app.layout.layout import Layout
 from app.layout.rects import Rect, StopPlace
 from app.screens.drive.driving_base import Driving
+from app.screens.drive.inset_map import add_inset
 from app.screens.parts.placing import AWAY_X, off, put
 from app.session.layout_actions import CARRIED
 from widgets import ActionColumn
@@ -62,6 +63,7 @@ class DiveScreen(Driving):
                     self.place(slot, widget)
         self.place("actions", self.column)
         self.add_widget(self.senses)
+        self.inset = add_inset(self)
         anew = Clock.create_trigger(lambda _: self.settle() if "handle" in self.arranged else None, -1)
         self.senses.bind(opacity=anew)  # in the drawer of a phone they have a place only while there are any
         self.ids.update({"video": self.video, "column": self.column})
@@ -123,8 +125,10 @@ class DiveScreen(Driving):
             for widget in found:
                 put(widget, places.get(slot, Rect(AWAY_X, 0, 1, 1)))
         self._place_arm(wide)
-        self.place_checks(places["notice_low"], self.video.top, dp)
+        self.checks.tight = not wide
+        self.place_checks(places["notice_low"], places["video"].top, dp)
         self._strip = Rect(0, 0, 0, 0)
+        self.inset.arrange(places, form, dp)
         self.uncover()
         return stop
 
@@ -140,14 +144,7 @@ class DiveScreen(Driving):
             self.senses.place(place, off(unfolded) if away else unfolded)
         if self.senses.covers:
             lids.append(unfolded)
-        below, corner = self.video.top - strip.y if self.senses.shown else 0, self.arranged["corner"]
-        beside = [0, 0, self.video.right - corner.x] if hand.left else [corner.right - self.video.x, 0, 0]
-        self.video.insets = [*beside, below]
-        if "handle" in self.arranged:  # on a phone's side, below the figures
-            self.video.insets = [0, 0, 0, self.video.top - corner.y]
-            self.video.chip_inset = max(0.0, corner.x - dp_of(8) - self.video.x)
-        else:
-            self.video.chip_inset = 0.0
+        self._frame_video(strip)
         self.hide_chip([*lids, *self.checks_place])
         for slot in HIDES:
             place = self.arranged[slot]
@@ -155,6 +152,21 @@ class DiveScreen(Driving):
             for widget in self.places.get(slot, ()):
                 widget.opacity = 0 if hidden else 1
                 put(widget, off(place) if hidden else place)
+        drawn = [self._drawn] if self._drawn is not None else []
+        self.inset.uncover([*lids, *self.checks_place, *drawn])
+
+    def _frame_video(self, strip: Rect) -> None:
+        """What of the picture is covered, so that its own words are beside that; nothing while it is small."""
+        whole, corner = self.arranged["video"], self.arranged["corner"]
+        self.video.chip_inset = 0.0
+        if self.inset.large:
+            self.video.insets = [0, 0, 0, 0]
+        elif "handle" in self.arranged:  # on a phone's side, below the figures
+            self.video.insets = [0, 0, 0, whole.top - corner.y]
+            self.video.chip_inset = max(0.0, corner.x - dp_of(8) - whole.x)
+        else:
+            beside = [0, 0, whole.right - corner.x] if hand.left else [corner.right - whole.x, 0, 0]
+            self.video.insets = [*beside, whole.top - strip.y if self.senses.shown else 0]
 
     def meet(self) -> None:
         """The robot said what it is: what swims shows its motion in the water."""
@@ -165,6 +177,7 @@ class DiveScreen(Driving):
     def tick(self) -> None:
         """Bring up to date what time changes."""
         super().tick()
+        self.inset.tick()
         actions = [action for action in self.does.current() if action.name in self._listed]
         if self.hands.arm.carried:
             said = "open" if self._arm_open else ""
@@ -175,3 +188,13 @@ class DiveScreen(Driving):
             self.column.actions = actions
         switches = self.app.methods.made("switches")
         self.column.hint = switches.hint if switches is not None else ""
+
+    def rest(self) -> None:
+        """Every control lets go, and fingers on the map do."""
+        super().rest()
+        self.inset.rest()
+
+    def end(self) -> None:
+        """Let go of the map."""
+        super().end()
+        self.inset.end()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from kivy.clock import Clock
 from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
@@ -63,6 +64,8 @@ class DriveScreen(Driving):
         self.hands.bind(chosen=self._choose)
         self.add_widget(self.sight)
         self.add_widget(self.senses)
+        anew = Clock.create_trigger(lambda _: self.settle() if self._form == "tall" else None, -1)
+        self.senses.bind(opacity=anew)  # upright they have a place only while there are any
         self.inset = add_inset(self)
         self.ids.update({"video": self.video, **self._named()})
 
@@ -120,7 +123,7 @@ class DriveScreen(Driving):
         self.actions.across = row.width > 2 * row.height
         self.actions.tick()
         self.notice, low = places["notice"], checks_beside(places, form, dp)
-        self.checks.tight = form == "short" or low.width < places["notice_low"].width
+        self.checks.tight = form != "wide"
         touched = (places[slot] for slot in ("switch", "actions") if slot in places)
         over = (one.y for one in touched if one.y > low.y and one.x < low.right and low.x < one.right)
         beside = self._two and tall  # beside the picture's own words; unfolded it takes the tape's room
@@ -149,7 +152,7 @@ class DriveScreen(Driving):
     def _arrange(self, body: Rect, form: str, dp: float) -> dict[str, Rect]:
         how, switch = arrange.two_sticks if self._two else arrange.drive, bool(self.hands.choices)
         if form != "short":
-            return how(body, form, dp, switch=switch)
+            return how(body, form, dp, switch=switch, sensed=bool(self.senses.shown))
         closed, out = (how(body, form, dp, switch=switch, pulled=pulled) for pulled in (False, True))
         return whole(out, closed) if self.handle.pulled else whole(closed, out)
 

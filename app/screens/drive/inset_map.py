@@ -38,7 +38,7 @@ MIN_SIDE = 66.0
 """A smaller map shows nothing that can be read [dp]."""
 WIDTH, ASPECT = 250.0, 1.4
 """Greatest width of the small one [dp], and that by its height."""
-PHONE_WIDTH = 132.0
+PHONE_WIDTH = 112.0
 """Of the small one on an upright phone [dp]."""
 PHONE_HEIGHT, BESIDE_TWO = 100.0, 67.0
 """Of the small one on a phone's side, and there beside two sticks [dp]: the picture is the screen."""
@@ -162,6 +162,8 @@ class InsetMap:
 
 def inset_place(places: dict[str, Rect], form: str, unit: float) -> Rect | None:
     """Where what is small lies among the places of a drive screen [px]; None where there is no room."""
+    if "hands" in places or "lift" in places:  # in three columns it has a place of its own
+        return places.get("inset")
     if not hand.left:
         return _right_place(places, form, unit)
     room = places["video"]
@@ -173,8 +175,12 @@ def _right_place(places: dict[str, Rect], form: str, unit: float) -> Rect | None
     """The same for a right hand."""
     gap = 8 * unit
     if form == "tall":
-        low, badge = places["senses"].top + gap, places["badge"]
-        room = between(places["video"].x, low, badge.right, badge.y - gap)
+        badge, video, strip = places["badge"], places["video"], places["senses"]
+        room = between(video.x, video.y + gap, badge.right, badge.y - gap)
+        if strip.overlaps(room):
+            beside = between(strip.right + gap, room.y, room.right, room.top)
+            room = between(room.x, strip.top + gap, room.right, room.top)
+            room = beside if beside.width >= MIN_SIDE * unit else room
         return _fitting(room, unit, PHONE_WIDTH * unit)
     stop, right = places["stop"], places["video"].right - 10 * unit
     if form == "short":
@@ -218,8 +224,14 @@ def _fitting(room: Rect, unit: float, width: float, *, up: bool = False) -> Rect
 def _free(places: dict[str, Rect], form: str) -> list[float]:
     """How much of a large map is covered by what floats on it [px]: left, bottom, right, top."""
     whole, free = places["video"], places["notice"]
-    if form == "tall":
-        return [0.0, places["senses"].top - whole.y, 0.0, whole.top - places["badge"].y]
+    if form == "tall" and "inset" not in places:
+        strip = places["senses"]
+        return [
+            0.0,
+            strip.top - whole.y if strip.overlaps(whole) else 0.0,
+            0.0,
+            whole.top - places["badge"].y,
+        ]
     return [free.x - whole.x, free.y - whole.y, whole.right - free.right, whole.top - free.top]
 
 

@@ -193,8 +193,18 @@ def test_three_buttons_of_46_dp_stand_in_the_drawer_of_a_phone() -> None:
 
 
 def test_the_laser_of_a_phone_has_a_square() -> None:
-    places = drive(shell(412, 892)["body"], "tall")
-    assert places["top_left"].width == places["top_left"].height > 180
+    for sensed, least in ((False, 180), (True, 136)):
+        places = drive(shell(412, 892)["body"], "tall", sensed=sensed)
+        assert places["top_left"].width == places["top_left"].height > least
+
+
+@pytest.mark.parametrize("switch", [False, True])
+def test_upright_the_small_sensors_lie_on_no_picture_and_on_no_instrument(switch: bool) -> None:
+    places = drive(shell(412, 892)["body"], "tall", switch=switch)
+    strip = places["senses"]
+    assert strip.top <= places["video"].y
+    assert not any(strip.overlaps(places[name]) for name in ("top_left", "top_right", "readouts", "actions"))
+    assert min(places["top_left"].height, strip.height) >= 54
 
 
 @pytest.mark.parametrize("size", SIZES)

@@ -14,7 +14,7 @@ from app.layout.rects import Body, Rect, StopPlace
 SIZES = [(412, 892), (892, 412), (1280, 800), (1920, 1200), (600, 960), (1024, 640)]
 TARGET = 52.9
 """14 mm at 96 dots an inch [px]."""
-ON_THE_PICTURE = {"corner", "motion", "senses", "senses_open", "notice", "notice_low"}
+ON_THE_PICTURE = {"inset", "corner", "motion", "senses", "senses_open", "notice", "notice_low"}
 HOLDS = {"panel": ("compass", "horizon"), "hands": ("stick", "lift", "tilt"), "actions": ("stop",)}
 HOLDS["drawer"] = ("legs", "panel", "horizon", "senses", "actions")
 """Cards to what lies on them."""

@@ -132,3 +132,31 @@ def test_what_a_swimmer_carries_is_on_a_strip_over_the_picture_that_unfolds(
     assert diving.senses.right < 0
     diving.clear(None)
     assert diving.senses.x > 0
+
+
+@pytest.mark.parametrize(
+    ("size", "form"), [((1204, 744), "wide"), ((824, 364), "short"), ((412, 776), "tall")]
+)
+def test_the_small_map_and_the_picture_swap_and_every_control_stays_where_it_is(
+    diving: Any, size: tuple[int, int], form: str
+) -> None:
+    body = Rect(0, 0, *size)
+
+    def places() -> tuple[Rect, Rect, list[Rect]]:
+        diving.arrange(body, form, 1.0)
+        hands = [Rect(*one.pos, *one.size) for one, _ in diving.sticks]
+        map_, video = diving.inset.map, diving.video
+        return Rect(*map_.pos, *map_.size), Rect(*video.pos, *video.size), hands
+
+    small, large, hands = places()
+    assert large.holds(small)
+    assert large == diving.arranged["video"]
+    assert not any(one.overlaps(small) for one in hands)
+    diving.inset.swap(diving)
+    assert places() == (large, small, hands)
+    order = list(reversed(diving.children))
+    assert order[:3] == [diving.inset.map, diving.video, diving.inset.frame], "every control lies above both"
+    diving.inset.swap(diving)
+    assert places() == (small, large, hands)
+    diving.clear(small)
+    assert diving.inset.frame.right < 0, "what is said takes it off the glass"

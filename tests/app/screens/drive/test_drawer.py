@@ -8,7 +8,7 @@ from typing import Any
 import msgspec
 import numpy as np
 import pytest
-from kivy.metrics import Metrics
+from kivy.metrics import Metrics, sp
 
 from app.layout.rects import Rect
 from bridge.msgs.geometry_msgs import Pose, PoseWithCovariance, PoseWithCovarianceStamped
@@ -18,6 +18,7 @@ from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 from tests.app.screens.drive.test_dive import AQUA
 from tests.app.test_profiles import BOAT, DRONE, SCOUT, TRUCK
+from widgets.core.base import text_texture
 
 INFO = RobotInfo(name="Patrol-1", kind="wheels", model="patrol", max_speed=1.0, max_yaw_rate=2.0)
 LEAST_FREE = 0.6
@@ -72,9 +73,9 @@ def lids(driving: Glass, *, checks: bool = True) -> list[Rect]:
         rects += [Rect(*one) for one in hidden]
     rects += screen.checks_place if checks else []
     if screen.video.show_chip:
-        wide = min(screen.video.chip_room, 190 * Metrics.fontscale)
-        left, up = screen.video.x + screen.video.insets[0], screen.video.top - screen.video.insets[3]
-        rects.append(Rect(left, up - 32, wide, 32))
+        video, (wide, high) = screen.video, text_texture("640×480 · 14 fps · 123 ms", round(sp(12.5), 1)).size
+        left, up = video.x + video.insets[0] + video.chip_inset + 8, video.top - video.insets[3] - 8
+        rects.append(Rect(left, up - high - 5, min(video.chip_room, wide + 14), high + 5))
     return rects
 
 
@@ -108,7 +109,7 @@ def test_three_fifths_of_the_glass_are_free_while_any_robot_is_driven(
             video = screen.video
             assert (video.x, video.right, video.y) == (driving.app.shell.nav.right, size[0], 0), name
             measured[name, scale] = (
-                free(driving, Rect(0, 0, *size), checks=scale == 1.0),
+                free(driving, Rect(0, 0, *size)),
                 free(driving, Rect(*video.pos, *video.size)),
             )
             screen.rest()
@@ -116,6 +117,24 @@ def test_three_fifths_of_the_glass_are_free_while_any_robot_is_driven(
         low = {name: glass for name, (glass, _) in measured.items() if glass < LEAST_FREE}
         assert not low
     assert min(picture for _, picture in measured.values()) >= LEAST_FREE, measured
+
+
+@pytest.mark.parametrize("scale", [1.0, 1.3])
+def test_upright_two_thirds_of_any_robots_picture_are_free_and_a_map_lies_on_it(
+    driving: Glass, robot: FakeRobot, phone: Callable[..., None], scale: float
+) -> None:
+    Metrics.fontscale = scale
+    for name, info in ROBOTS.items():
+        screen = met(driving, robot, info)
+        phone((412, 892))
+        small, video = Rect(*screen.inset.frame.pos, *screen.inset.frame.size), screen.arranged["video"]
+        assert min(small.width, small.height) >= 63, (name, "a finger hits it")
+        assert video.holds(small), name
+        assert free(driving, video, checks=False) >= 2 / 3, name
+        screen.inset.frame.dispatch("on_release")
+        driving.stage.frames(3)
+        assert Rect(*screen.inset.map.pos, *screen.inset.map.size) == video, name
+        screen.rest()
 
 
 def test_three_figures_are_seen_while_driving_on_a_phones_side(

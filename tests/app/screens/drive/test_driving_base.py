@@ -36,7 +36,10 @@ def test_what_is_wrong_with_a_drone_is_read_upright_without_anything_seen_only_i
     screen.tick()
     driving.stage.frames(3)
     assert screen.low.top < tape.y, "the picture has room for both"
-    assert (tape.right > 0, screen.video.show_chip) == (True, False)
+    assert (tape.right > 0, screen.video.show_chip) == (True, True)
+    assert screen.low.top < screen.video.top - screen.video.insets[3] - 8 - CHIP[1], (
+        "below the picture's words"
+    )
 
 
 def test_the_picture_says_how_late_it_is_beside_what_lies_there_and_leaves_the_rest_out(
@@ -53,8 +56,8 @@ def test_the_picture_says_how_late_it_is_beside_what_lies_there_and_leaves_the_r
     driving.until(lambda: screen.checks.height > 0, "no checks")
     screen.arrange(Rect(0, 60, 412, 774), "tall", 1.0)
     driving.stage.frames(2)
-    (beside,) = screen.checks_place
-    chip = video.top - video.insets[3] - 8 - CHIP[1]
+    (low,) = screen.checks_place
+    chip, beside = video.top - video.insets[3] - 8 - CHIP[1], Rect(200, 0, low.width, low.height)
     screen.hide_chip([Rect(beside.x, chip, beside.width, beside.height)])
     assert video.chip_text() == "3 fps · 657 ms late"
     assert video.show_chip
@@ -67,4 +70,4 @@ def test_the_picture_says_how_late_it_is_beside_what_lies_there_and_leaves_the_r
     screen.tick()
     driving.stage.frames(2)
     assert screen.checks_place == [], "it has moved, and nothing is bad"
-    assert video.chip_text() == "640×480 · 3 fps · 657 ms late"
+    assert (video.show_chip, video.chip_text()) == (True, "3 fps · 657 ms late")
