@@ -21,6 +21,7 @@ from kivy.properties import (
     StringProperty,
 )
 from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
 from bridge.msgs import Msg
@@ -31,11 +32,15 @@ from widgets.core.language import DASH, figure
 from widgets.core.quantities import SI_KINDS, digits_for, quantities, to_shown, unit_of
 from widgets.core.theme import theme
 from widgets.fields.field_kinds import ENUM, NUMBER, TEXT
-from widgets.parts.labels import spaced
+from widgets.parts.labels import heading_look, spaced
 
-__all__ = ["Readout", "clock_figure"]
+__all__ = ["Readout", "ReadoutGrid", "clock_figure"]
 
 DEGREE = "°"
+LINE = 1.28
+"""Height of a line of type, in times of its size."""
+LEAST_SHARE = 0.45
+"""No smaller than in this part of its sizes a figure is written where it is low."""
 MAX_WORDS = 40
 """Letters of a text that are shown."""
 
@@ -54,6 +59,7 @@ Builder.load_string("""
         size_hint_x: None if root.fitted else 1
         role: 'danger' if root.state == 'alarm' else 'muted'
         font_size: root.headed[1]
+        close: root.headed[2]
     BoxLayout:
         id: row
         size_hint: None, None
@@ -63,8 +69,8 @@ Builder.load_string("""
             value: root.text
             unit: root.unit_after
             role: root.role
-            font_size: root.font_size
-            unit_size: max(sp(13), root.font_size * .56)
+            font_size: root.font_size * root.lowered
+            unit_size: max(sp(13), root.font_size * .56) * root.lowered
             room: 0 if root.fitted else max(root.width - aged.width - warning.width - 2 * row.spacing, dp(20))
         Label:
             id: aged
@@ -80,7 +86,7 @@ Builder.load_string("""
             id: warning
             name: 'warning'
             role: 'danger'
-            font_size: root.font_size * .8
+            font_size: root.font_size * root.lowered * .8
             width: self.font_size if root.state == 'alarm' else 0
             opacity: 1 if root.state == 'alarm' else 0
             pos_hint: {'center_y': .5}
@@ -93,6 +99,18 @@ def clock_figure(seconds: float) -> str:
         return DASH
     whole = max(0, round(seconds))
     return f"{whole // 60}:{whole % 60:02d}" if whole < 3600 else f"{whole // 3600}:{whole // 60 % 60:02d}"
+
+
+class ReadoutGrid(GridLayout):
+    """Figures in columns and rows; each is as high as its row, in smaller type where that is low."""
+
+    def do_layout(self, *args: Any) -> None:
+        """Tell each how high it may be."""
+        rows = math.ceil(len(self.children) / (self.cols or 1)) or 1
+        left = self.height - self.padding[1] - self.padding[3] - self.spacing[1] * (rows - 1)
+        for child in self.children:
+            child.high = max(left / rows, 1.0)
+        super().do_layout(*args)
 
 
 class Readout(RobotWidget, BoxLayout):
@@ -130,6 +148,8 @@ class Readout(RobotWidget, BoxLayout):
     """Of the value [px]."""
     fitted = BooleanProperty(True)
     """As wide as its words; else the width is given, and the name is cut short where it must be."""
+    high = NumericProperty(0.0)
+    """How high it may be [px]: its type is smaller where it would be higher; 0 for any height."""
     system = StringProperty("metric")
     """The operator's units, as in `quantities.system`, which it follows."""
 
@@ -180,23 +200,35 @@ class Readout(RobotWidget, BoxLayout):
     )
     """The unit where it stands apart from the figure, and to which side; a degree sign belongs to the figure."""
 
-    def _headed(self) -> tuple[str, float]:
+    def _lowered(self) -> float:
+        whole = (theme.size_label + self.font_size) * LINE + self.spacing + dp(1)
+        return max(LEAST_SHARE, min(1.0, self.high / whole)) if self.high else 1.0
+
+    lowered = AliasProperty(_lowered, bind=["high", "font_size", "spacing"], cache=True)
+    """Part of its sizes of type that it is written in, so that it is not too high, 0 to 1."""
+
+    def _headed(self) -> tuple[str, float, bool]:
         old = age_text(self.age) if self.state == "stale" else ""
         if not old:
-            return self.name, theme.size_label
+            return self._named()
         whole, brief = f"{self.name} · {old}", f"{self.name} {old.removesuffix(' old')}"
         if self.fitted or self._wide(whole) <= self.width:
-            return whole, theme.size_label
+            return whole, theme.size_label, False
         size = fitting_size([spaced(brief)], theme.size_label, self.width - dp(2))
         if self._wide(brief, size) <= self.width:
-            return brief, size
-        return self.name, theme.size_label
+            return brief, size, False
+        return self._named()
+
+    def _named(self) -> tuple[str, float, bool]:
+        if self.fitted:
+            return self.name, theme.size_label, False
+        return self.name, *heading_look(self.name, self.width - dp(2), theme.size_label * self.lowered)
 
     def _wide(self, heading: str, size: float | None = None) -> float:
         return float(text_texture(spaced(heading), size or theme.size_label, theme.font).width)
 
-    headed = AliasProperty(_headed, bind=["name", "state", "age", "fitted", "width"], cache=True)
-    """The name, and the age of the value where that must be shown and there is room for both; and the size of its type [px]."""
+    headed = AliasProperty(_headed, bind=["name", "state", "age", "fitted", "width", "lowered"], cache=True)
+    """The name, and the age of the value where that must be shown and there is room for both; the size of its type [px], and whether its letters stand close."""
 
     def _heading(self) -> str:
         return self.headed[0]

@@ -19,7 +19,18 @@ from widgets.core.base import MAX_LABEL_LINES, MIN_FONT_SIZE, fitting_size, leas
 from widgets.core.surfaces import Pressable
 from widgets.core.theme import theme
 
-__all__ = ["Chip", "FittedLabel", "Icon", "Remark", "SectionLabel", "Text", "ValueUnit", "spaced", "wrapped"]
+__all__ = [
+    "Chip",
+    "FittedLabel",
+    "Icon",
+    "Remark",
+    "SectionLabel",
+    "Text",
+    "ValueUnit",
+    "heading_look",
+    "spaced",
+    "wrapped",
+]
 
 HAIR_SPACE = "\u200a"
 SIGN = 19 / 15
@@ -63,8 +74,9 @@ Builder.load_string("""
     size: self.font_size, self.font_size
 
 <SectionLabel>:
-    text: self.spaced_title
-    font_size: theme.size_label
+    text: self.title.upper() if self.close else self.spaced_title
+    font_size: self.written[0]
+    close: self.written[1]
     role: 'muted'
     shorten: True
     shorten_from: 'right'
@@ -207,11 +219,33 @@ class Icon(Label):
     """Role of its colour."""
 
 
+def heading_look(title: str, room: float, largest: float = 0.0) -> tuple[float, bool]:
+    """Size of type [px], `largest` or that of all headings at most, in which one keeps to `room` [px], and whether its letters have to stand close for that."""
+    largest, room = (
+        largest or theme.size_label,
+        max(room - dp(3), 1.0),
+    )  # Kivy shortens words that fit to a pixel
+    size = fitting_size([spaced(title)], largest, room)
+    if text_texture(spaced(title), size, theme.font).width <= room:
+        return size, False
+    return fitting_size([title.upper()], largest, room), True
+
+
 class SectionLabel(Text):
     """The name over a group of things or over a value, in small capitals."""
 
     title = StringProperty("")
     spaced_title = StringProperty("")
+    fits = BooleanProperty(True)
+    """Its width is given, and its letters become smaller and come closer where they would be cut; else it is as wide as they are."""
+    close = BooleanProperty(False)
+    """Its letters do not stand apart."""
+
+    def _written(self) -> tuple[float, bool]:
+        return heading_look(self.title, self.width) if self.fits else (float(theme.size_label), False)
+
+    written = AliasProperty(_written, bind=["title", "width", "fits"], cache=True)
+    """Size of its type [px], and whether its letters stand close."""
 
     def on_title(self, *_: object) -> None:
         """Set the letters apart."""

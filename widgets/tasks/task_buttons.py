@@ -13,14 +13,15 @@ from typing import Any, ClassVar
 
 from kivy.clock import Clock
 from kivy.lang import Builder
-from kivy.metrics import dp
+from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.widget import Widget
 
 import widgets.parts.buttons  # noqa: F401 - its rules draw the buttons
 from bridge.msgs.pilothouse_msgs import TaskStatus
-from widgets.core.base import VEIL, Control
+from widgets.core.base import VEIL, Control, fitting_size
 from widgets.core.language import mark, tr, within
+from widgets.core.theme import theme
 from widgets.parts.column import Column
 
 __all__ = ["COMMANDS", "TaskButtons"]
@@ -58,7 +59,7 @@ Builder.load_string("""
     BoxLayout:
         id: row
         size_hint_y: None
-        height: max(theme.target, dp(54 if root.low else 64)) if root.brief else theme.target
+        height: max(theme.target, dp(54 if root.low else 64)) if root.flow == 'vertical' else theme.target
         spacing: theme.gap * .8
         PushButton:
             text: root.main_words
@@ -119,6 +120,8 @@ class TaskButtons(Control, Column):
     """State of the robot's task, as in TaskStatus."""
     brief = BooleanProperty(False)
     """Icons above the words, for a phone."""
+    cramped = BooleanProperty(False)
+    """Words beside their icons would be small, so that the icons are above them."""
 
     low = BooleanProperty(False)
     """Lower ones, for a phone on its side."""
@@ -189,9 +192,9 @@ class TaskButtons(Control, Column):
     main_icon = AliasProperty(_main_icon, bind=["main"], cache=True)
 
     def _flow(self) -> str:
-        return "vertical" if self.brief else "horizontal"
+        return "vertical" if self.brief or self.cramped else "horizontal"
 
-    flow = AliasProperty(_flow, bind=["brief"], cache=True)
+    flow = AliasProperty(_flow, bind=["brief", "cramped"], cache=True)
 
     def _sentence(self) -> str:
         if self.outcome == "none":
@@ -220,6 +223,26 @@ class TaskButtons(Control, Column):
         self._told = Clock.create_trigger(lambda _: None)
         super().__init__(**kwargs)
         self.bind(held=self._contradict, task_state=self._contradict)
+        for button in self.ids.row.children:
+            button.fbind("text", self._fit)
+            button.fbind("width", self._fit)
+        self.bind(brief=self._fit)
+        self._fit()
+
+    def _fit(self, *_: object) -> None:
+        """One size of type for all buttons."""
+        beside = self._size_in(theme.size_body, theme.size_icon + dp(8))
+        self.cramped = beside < min(sp(14), dp(14))
+        size = self._size_in(sp(14), 0.0) if self.flow == "vertical" else beside
+        for button in self.ids.row.children:
+            button.type_size = size
+
+    def _size_in(self, largest: float, taken: float) -> float:
+        """Size of type [px] in which each button's words have room beside what is `taken` [px]."""
+        return min(
+            fitting_size([one.text], largest, max(one.width - 2 * one.padding[0] - taken, 1.0), bold=True)
+            for one in self.ids.row.children
+        )
 
     def words(self, name: str) -> str:
         """What the button of a command says."""

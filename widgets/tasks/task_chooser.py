@@ -10,14 +10,14 @@ import math
 from collections.abc import Callable
 
 from kivy.lang import Builder
-from kivy.metrics import dp
-from kivy.properties import AliasProperty, BooleanProperty, ListProperty, StringProperty
+from kivy.metrics import dp, sp
+from kivy.properties import AliasProperty, BooleanProperty, ListProperty, NumericProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.parts.labels  # noqa: F401 - its rules draw the icons
 from bridge.msgs.pilothouse_msgs import TaskOrder
-from widgets.core.base import Control
+from widgets.core.base import Control, fitting_size
 from widgets.core.surfaces import Pressable
 from widgets.core.task_words import TASKS
 from widgets.parts.column import Grid
@@ -37,33 +37,35 @@ Builder.load_string("""
 <TaskTile>:
     orientation: 'vertical'
     size_hint_y: None
-    height: max(theme.target, dp(66)) if not root.about else dp(118)
+    height: max(theme.target, dp(66), dp(20) + sign.height + root.type_size * 1.3) if not root.about else max(dp(118), self.minimum_height)
     padding: dp(2), dp(9), dp(2), dp(7)
     spacing: dp(2)
     rim: 'plan' if root.chosen else 'line'
     ground: 'plan' if root.chosen else 'raised'
     press_share: .14
     Icon:
+        id: sign
         name: root.icon
+        font_size: min(theme.size_icon, dp(30))
         role: 'ink_plan' if root.chosen else 'plan'
         pos_hint: {'center_x': .5}
-    Label:
+    FittedLabel:
         text: root.text
-        font_name: theme.font
-        font_size: sp(13.5)
+        largest: root.type_size
+        room: max(root.width - dp(6), 1)
         bold: root.chosen
         color: theme.roles['ink_plan' if root.chosen else 'text']
         disabled_color: self.color
         size_hint_y: 1 if not root.about else None
-        height: dp(22)
+        height: max(dp(22), root.type_size * 1.3)
     Text:
         text: root.about
         role: 'ink_plan' if root.chosen else 'muted'
         font_size: sp(13)
         halign: 'center'
         valign: 'top'
-        text_size: self.width - dp(12), dp(52)
-        height: dp(52) if root.about else 0
+        text_size: self.width - dp(12), None
+        height: max(dp(52), self.texture_size[1]) if root.about else 0
         opacity: 1 if root.about else 0
 """)
 
@@ -76,6 +78,8 @@ class TaskTile(Pressable, BoxLayout):
     about = StringProperty("")
     """What it is for; empty to leave that out."""
     chosen = BooleanProperty(False)
+    type_size = NumericProperty("13.5sp")
+    """Of its word [px]."""
 
 
 class TaskChooser(Control, Grid):
@@ -103,7 +107,7 @@ class TaskChooser(Control, Grid):
     def __init__(self, **kwargs: object) -> None:
         self._tiles: dict[str, TaskTile] = {}
         super().__init__(**kwargs)
-        self.bind(tasks=self._build, chosen=self._mark, told=self._mark)
+        self.bind(tasks=self._build, chosen=self._mark, told=self._mark, width=self._fit, across=self._fit)
         self._build()
 
     def show(self, msg: TaskOrder) -> None:
@@ -124,6 +128,15 @@ class TaskChooser(Control, Grid):
             tile.bind(on_release=lambda _, task=task: self.choose(task))
             self.add_widget(tile)
         self._mark()
+        self._fit()
+
+    def _fit(self, *_: object) -> None:
+        """One size of type for all words."""
+        across = self.across
+        room = (self.width - (across - 1) * dp(8)) / across - dp(8)
+        size = fitting_size([tile.text for tile in self._tiles.values()], sp(13.5), max(room, 1.0), bold=True)
+        for tile in self._tiles.values():
+            tile.type_size = size
 
     def _mark(self, *_: object) -> None:
         for task, tile in self._tiles.items():

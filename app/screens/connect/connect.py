@@ -69,7 +69,7 @@ Builder.load_string("""
                 spacing: dp(8) if self.text else 0
                 edge: dp(13) if self.text else dp(8)
                 pressable: True
-                narrowest: min(theme.least, root.width / 6)
+                narrowest: min(theme.least, root.width / 5.8)
                 scan_words: tr('Setup')
                 pos_hint: {'center_y': .5}
                 on_release: root.app.show_setup()
@@ -81,7 +81,7 @@ Builder.load_string("""
                 spacing: dp(8) if self.text else 0
                 edge: dp(13) if self.text else dp(8)
                 pressable: True
-                narrowest: min(theme.least, root.width / 6)
+                narrowest: min(theme.least, root.width / 5.8)
                 pos_hint: {'center_y': .5}
                 on_release: root.app.themes.choose_next()
         BoxLayout:

@@ -216,9 +216,11 @@ class RobotCard(Card):
         self.entry = entry
         self.icon, self.lost = robot_icon(entry.icon), entry.state == "lost"
         self.title = entry.name or entry.address
-        about = [entry.description or tr("Saved address")]
+        about = entry.description or tr("Saved address")
         self.warning = entry.warning
-        self.subtitle = " · ".join([*about, entry.address] if entry.name else about)
+        self.subtitle = (
+            f"{entry.address} · {about}" if entry.name else about
+        )  # the address tells two of one name apart, and its end counts
         self.saved = entry.saved or entry.trust == "paired"
         self.trust_icon, words, self.trust_role = TRUST[entry.trust]
         self.trust_text = tr(words)

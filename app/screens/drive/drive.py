@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 from kivy.clock import Clock
-from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
 from app.core.hand import hand
@@ -22,6 +21,7 @@ from app.screens.parts.placing import off, put
 from widgets import SlideToConfirm
 from widgets.controls.sticks.stick import Stick
 from widgets.core.language import tr
+from widgets.instruments.readout import ReadoutGrid
 from widgets.parts.choices import Segmented
 from widgets.parts.kit import Card
 
@@ -51,7 +51,7 @@ class DriveScreen(Driving):
         places = dict(self.instruments.places)
         self._figures = places.pop("readouts", [])
         card = self._figures_card = Card(floating=True, padding=("12dp", "8dp"))
-        self.readouts = GridLayout(cols=2, spacing=("10dp", "4dp"))
+        self.readouts = ReadoutGrid(cols=2, spacing=("10dp", "4dp"))
         for figure in self._figures:
             self.readouts.add_widget(figure)
         card.add_widget(self.readouts)

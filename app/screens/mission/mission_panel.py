@@ -9,7 +9,6 @@ from kivy.clock import Clock
 from kivy.lang import Builder
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
-from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
 from app.layout.rects import Rect
@@ -19,6 +18,7 @@ from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskStatus
 from widgets import EventLog, MotionSelector, Readout, TaskButtons
 from widgets.core.language import figure, mark, tr, trn
+from widgets.instruments.readout import ReadoutGrid
 from widgets.parts.column import Column
 from widgets.parts.kit import Card
 from widgets.status.event_log import ago, appearance
@@ -212,7 +212,7 @@ class MissionPanel(BoxLayout):
         self._above: list[Widget] = []
         self._shown: tuple[object, ...] = ()
         self.readouts = Card(floating=True, padding=("14dp", "10dp"))
-        self.figures = GridLayout(cols=2, spacing=("12dp", "6dp"))
+        self.figures = ReadoutGrid(cols=2, spacing=("12dp", "6dp"))
         for readout in (self.speed, self.next, self.lap, self.left):
             readout.fitted, readout.size_hint_x = False, 1
             self.figures.add_widget(readout)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from kivy.lang import Builder
-from kivy.uix.gridlayout import GridLayout
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.link.capabilities import POSE
 from app.session.dashboard import Dashboard
 from widgets import Readout
 from widgets.core.language import mark, tr
+from widgets.instruments.readout import ReadoutGrid
 from widgets.parts.column import Column
 
 __all__ = ["Figures", "NoMissionPanel"]
@@ -59,7 +59,7 @@ class NoMissionPanel(Column):
         """The operator wants to go to `screen`."""
 
 
-class Figures(GridLayout):
+class Figures(ReadoutGrid):
     """How it moves and where it is, where a task would have told how far it is."""
 
     def __init__(self, dashboard: Dashboard, **kwargs: Any) -> None:

@@ -58,7 +58,7 @@ BETWEEN, AROUND = 2.0, 5.0
 Builder.load_string("""
 #:import fitting_size widgets.core.base.fitting_size
 <TopBar>:
-    narrowest: min(theme.least, self.width / (6 if self.form == 'tall' else 11))
+    narrowest: min(theme.least, self.width / (5.8 if self.form == 'tall' else 11))
     size_hint: None, None
     padding: (dp(2), 0, dp(8), 0) if root.form == 'tall' else (dp(6), 0, dp(16), 0)
     spacing: dp(4) if root.form == 'tall' else dp(12)

@@ -116,7 +116,7 @@ def test_its_card_has_its_icon_and_name(info: RobotInfo, stage: Any) -> None:
     robots.heard(from_json(to_json(hello), Hello), 0.0)
     card = stage.show(RobotCard(), size=(440, 200))
     card.show_entry(robots.entries()[0], "me")
-    assert (card.icon, card.subtitle) == ("air", "Airboat with a propeller · 10.0.0.3")
+    assert (card.icon, card.subtitle) == ("air", "10.0.0.3 · Airboat with a propeller")
 
 
 @pytest.mark.parametrize("icon", ["", "no_such_icon"])

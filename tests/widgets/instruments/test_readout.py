@@ -5,13 +5,14 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from kivy.metrics import Metrics
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import JointState
 from widgets.core.language import figure, language
 from widgets.core.quantities import quantities
-from widgets.instruments.readout import Readout, clock_figure
+from widgets.instruments.readout import Readout, ReadoutGrid, clock_figure
 
 
 @pytest.mark.parametrize(
@@ -162,3 +163,29 @@ def test_a_new_readout_begins_with_the_operators_units_and_the_languages_point()
     quantities.system, language.name = "imperial", "de"
     speed = Readout(unit="m/s", decimals=2, value=0.44704, state="live")
     assert (speed.text, speed.unit_after, speed.value) == ("1,00", "mph", 0.44704)
+
+
+@pytest.mark.parametrize("fontscale", [1.0, 1.3, 2.0])
+@pytest.mark.parametrize(("cols", "height"), [(3, 50), (2, 110), (1, 200)])
+def test_figures_keep_to_the_height_of_their_grid_in_every_size_of_text(stage, fontscale, cols, height):
+    Metrics.fontscale = fontscale
+    try:
+        grid = ReadoutGrid(cols=cols, size_hint=(None, None))
+        for name in ("Speed", "Höchsttempo", "Turn"):
+            grid.add_widget(
+                Readout(
+                    name=name,
+                    unit="m/s",
+                    value=0.42,
+                    fitted=False,
+                    size_hint_x=1,
+                    state="live",
+                    font_size="21sp",
+                )
+            )
+        stage.show(grid, size=(90 * cols, height))
+        stage.frames(4)
+        assert all(one.y >= grid.y and one.top <= grid.top + 1 for one in grid.children)
+        assert not any(one.ids.heading.is_shortened for one in grid.children)
+    finally:
+        Metrics.fontscale = 1.0

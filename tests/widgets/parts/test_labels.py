@@ -8,7 +8,7 @@ import pytest
 from kivy.metrics import dp, sp
 
 from widgets.core.base import MIN_FONT_SIZE, text_texture
-from widgets.parts.labels import FittedLabel
+from widgets.parts.labels import FittedLabel, SectionLabel
 
 
 def wide(text: str, size: float) -> float:
@@ -68,3 +68,13 @@ def test_words_that_get_room_again_are_whole_again(label: FittedLabel) -> None:
     label.text, label.room = "Homewards", 20
     label.room = 300
     assert (label.font_size, written(label)) == (sp(16), ["Homewards"])
+
+
+def test_a_heading_becomes_smaller_then_its_letters_come_closer_and_only_then_it_is_cut(stage: Any) -> None:
+    heading = stage.show(SectionLabel(title="Höchsttempo", size_hint_x=None))
+    looks = []
+    for width in (300, 108, 84, 40):
+        heading.width = width
+        stage.frames(1)
+        looks.append((heading.font_size == sp(13), heading.close, "".join(written(heading)).endswith("...")))
+    assert looks == [(True, False, False), (False, False, False), (False, True, False), (False, True, True)]

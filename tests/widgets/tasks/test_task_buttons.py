@@ -202,3 +202,11 @@ def test_every_command_has_words_and_an_icon():
 def test_why_nothing_can_be_pressed_is_not_veiled(stage):
     buttons = stage.show(TaskButtons(state="disabled", reason="It offers no tasks."), size=(380, 120))
     assert (buttons.veil[3], buttons.disabled) == (0.0, True)
+
+
+@pytest.mark.parametrize("width", [180, 300, 420])
+def test_all_buttons_are_written_in_one_size(stage, panel, width):
+    panel.brief, panel.width = True, width
+    panel.show(TaskStatus(state="RUNNING"))
+    stage.frames(3)
+    assert len({button.words_size for button in buttons(panel)}) == 1

@@ -32,7 +32,7 @@ def test_one_that_uses_the_name_of_a_paired_robot_is_told_apart(stage: Any) -> N
     card = stage.show(RobotCard(), size=(440, 200))
     sentence = "Not your paired Patrol-1: another robot uses its name."
     card.show_entry(Entry("ws://10.0.0.3:9090", "Patrol-1", silent=0.1, warning=sentence), ME)
-    assert (card.subtitle, card.warning) == ("Saved address · 10.0.0.3", sentence)
+    assert (card.subtitle, card.warning) == ("10.0.0.3 · Saved address", sentence)
 
 
 @pytest.mark.parametrize(
