@@ -122,6 +122,8 @@ class Readout(RobotWidget, BoxLayout):
     veiled = False
 
     name = StringProperty("")
+    brief_name = StringProperty("")
+    """Its name where there is no room for the other one; empty for none."""
     value = NumericProperty(math.nan)
     """In `unit` after `scale`; NaN is drawn as a dash."""
     unit = StringProperty("")
@@ -222,12 +224,18 @@ class Readout(RobotWidget, BoxLayout):
     def _named(self) -> tuple[str, float, bool]:
         if self.fitted:
             return self.name, theme.size_label, False
-        return self.name, *heading_look(self.name, self.width - dp(2), theme.size_label * self.lowered)
+        room, largest = self.width - dp(2), theme.size_label * self.lowered
+        look = heading_look(self.name, room, largest)
+        if self.brief_name and look[1] and text_texture(self.name.upper(), look[0], theme.font).width > room:
+            return self.brief_name, *heading_look(self.brief_name, room, largest)
+        return self.name, *look
 
     def _wide(self, heading: str, size: float | None = None) -> float:
         return float(text_texture(spaced(heading), size or theme.size_label, theme.font).width)
 
-    headed = AliasProperty(_headed, bind=["name", "state", "age", "fitted", "width", "lowered"], cache=True)
+    headed = AliasProperty(
+        _headed, bind=["name", "state", "age", "fitted", "width", "lowered", "brief_name"], cache=True
+    )
     """The name, and the age of the value where that must be shown and there is room for both; the size of its type [px], and whether its letters stand close."""
 
     def _heading(self) -> str:
@@ -239,7 +247,7 @@ class Readout(RobotWidget, BoxLayout):
     def _aged(self) -> str:
         return (
             age_text(self.age).removesuffix(" old")
-            if self.state == "stale" and self.heading == self.name
+            if self.state == "stale" and self.heading in (self.name, self.brief_name)
             else ""
         )
 

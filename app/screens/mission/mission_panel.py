@@ -204,6 +204,7 @@ class MissionPanel(BoxLayout):
         self.motion, self.tasks, self.events = MotionSelector(), TaskButtons(), EventLog(size_hint_y=1)
         self.speed = Readout(name=tr("Speed"), unit="m/s", decimals=2, path="twist.twist.linear.x")
         self.next = Readout(name=tr("Next point"), unit="m", decimals=1)
+        self.next.brief_name = tr("Next", context="point")
         self.lap = Readout(name=tr("Lap"))
         self.left = Readout(name=tr("Time left"), kind="clock", unit="min")
         self.lacking, self.plain = NoMissionPanel(), Figures(dashboard)

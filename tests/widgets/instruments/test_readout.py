@@ -189,3 +189,14 @@ def test_figures_keep_to_the_height_of_their_grid_in_every_size_of_text(stage, f
         assert not any(one.ids.heading.is_shortened for one in grid.children)
     finally:
         Metrics.fontscale = 1.0
+
+
+def test_a_name_without_room_gives_way_to_its_brief_one(stage):
+    readout = Readout(name="Nächster Punkt", brief_name="Nächster", fitted=False, size_hint_x=None, width=200)
+    stage.show(readout)
+    names = []
+    for width in (200, 80):
+        readout.width = width
+        stage.frames(2)
+        names.append((readout.heading, readout.ids.heading.is_shortened))
+    assert names == [("Nächster Punkt", False), ("Nächster", False)]
