@@ -42,7 +42,8 @@ _FIRST = (
 _BY_HAND: Mapping[str, tuple[Offer, ...]] = {
     "nav_msgs/Odometry": (
         Offer("Readout", FIGURE, "twist.twist.linear.xy", mark("Speed"), "m/s", digits=2, size=(2, 2)),
-        Offer("HeadingTape", INSTRUMENT, title=mark("Heading"), size=(4, 2)),
+        # no heading: wheels know no north
+        Offer("TurnTape", INSTRUMENT, title=mark("Turn"), size=(4, 3)),
     ),
     # the map says it better than two long figures
     "sensor_msgs/NavSatFix": (),

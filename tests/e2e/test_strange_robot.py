@@ -172,7 +172,7 @@ def test_a_lost_link_under_stop_leaves_stop_in_sight_and_says_what_is_so(
 
 
 SENSIBLE = (
-    *("Video", "LaserScanView", "Joystick", "ArtificialHorizon", "Battery", "Readout", "HeadingTape"),
+    *("Video", "LaserScanView", "Joystick", "ArtificialHorizon", "Battery", "Readout", "TurnTape"),
     "FieldView",
 )
 """What a robot with these topics is driven and watched by."""

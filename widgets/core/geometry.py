@@ -62,6 +62,8 @@ CARDINALS: dict[int, str] = {
 }
 """Letters of the four main headings [deg]."""
 
+NORTHERN = ("map", "world", "earth", "utm")
+"""Frames whose x axis points east, by their last names; a pose that names none is in `map`."""
 DASH = "–"
 """What a value that is not known looks like."""
 
@@ -207,10 +209,16 @@ def shortest_turn(start: float, end: float) -> float:
 
 
 def heading_of(msg: Imu | Odometry | PoseWithCovarianceStamped) -> float:
-    """Heading [deg] of the bow in a message; NaN for an Imu that measures no orientation."""
+    """Heading [deg] of the bow in a message; NaN for an Imu that measures no orientation, and in a frame that has no north.
+
+    Wheels begin to count where the robot stood and however it was turned: `odom` has none, `map` has.
+    """
     if isinstance(msg, Imu):
         known = msg.orientation_covariance[:1] != [-1]
         return heading_from_yaw(msg.orientation.yaw) if known else math.nan
+    frame = msg.header.frame_id.rsplit("/", 1)[-1]
+    if frame not in NORTHERN and (frame or isinstance(msg, Odometry)):
+        return math.nan
     return heading_from_yaw(msg.pose.pose.orientation.yaw)
 
 

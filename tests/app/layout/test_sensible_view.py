@@ -52,9 +52,13 @@ def test_what_one_drives_by_comes_first_and_a_stick_with_it():
         ("ArtificialHorizon", "/imu"),
         ("Battery", "/battery"),
         ("Readout", "/odometry"),
-        ("HeadingTape", "/odometry"),
+        ("TurnTape", "/odometry"),
         ("FieldView", "/gripper"),
     } <= set(found)
+
+
+def test_no_heading_is_claimed_from_wheels():
+    assert {name for name, topic in shown(ROVER) if topic == "/odometry"} == {"Readout", "TurnTape"}
 
 
 def test_what_programs_tell_each_other_is_left_out():

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from bridge.msgs.geometry_msgs import Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import Imu
+from bridge.msgs.std_msgs import Header
 from widgets.core import geometry
 from widgets.core.geometry import View
 
@@ -192,10 +193,23 @@ def test_the_heading_of_a_message_is_that_of_its_bow_and_unknown_where_none_is_m
     north = Quaternion.from_yaw(math.pi / 2)
     pose = PoseWithCovariance(Pose(orientation=north))
     assert geometry.heading_of(Imu(orientation=north)) == pytest.approx(0.0)
-    assert geometry.heading_of(Odometry(pose=pose)) == pytest.approx(0.0)
     assert geometry.heading_of(PoseWithCovarianceStamped(pose=pose)) == pytest.approx(0.0)
+    assert geometry.heading_of(Odometry(Header(frame_id="map"), pose=pose)) == pytest.approx(0.0)
+    assert geometry.heading_of(Odometry(Header(frame_id="robot/map"), pose=pose)) == pytest.approx(0.0)
     blind = Imu(orientation=north, orientation_covariance=[-1.0, *[0.0] * 8])
     assert math.isnan(geometry.heading_of(blind))
+
+
+@pytest.mark.parametrize("frame", ["odom", "robot_1/odom", "odom_combined", "base_link"])
+def test_there_is_no_heading_in_a_frame_that_has_no_north(frame):
+    pose, header = PoseWithCovariance(Pose(orientation=Quaternion.from_yaw(0.3))), Header(frame_id=frame)
+    assert math.isnan(geometry.heading_of(Odometry(header, pose=pose)))
+    assert math.isnan(geometry.heading_of(PoseWithCovarianceStamped(header, pose))), (
+        "as of a robot without a map"
+    )
+    assert math.isnan(geometry.heading_of(Odometry(pose=pose))), (
+        "wheels that name no frame count from anywhere"
+    )
 
 
 @pytest.mark.parametrize(
