@@ -47,7 +47,7 @@ class CheckedSettings:
     """A table of settings that is read value by value; what is not there is as usual, and no mistake."""
 
     def __init__(self, value: object, about: str) -> None:
-        """`value` is what was kept, None for nothing; `about` what the settings are of, in words."""
+        """`value` is what was kept, None for nothing; `about` what the settings are of, in words that are marked."""
         self._about = about
         self._wrong: list[str] = []
         self.values: Mapping[str, Any] = value if isinstance(value, Mapping) else {}
@@ -61,7 +61,7 @@ class CheckedSettings:
         if not self._wrong:
             return ""
         return tr("In the settings of {about} {wrong}: reset to default.").format(
-            about=self._about, wrong=", ".join(self._wrong)
+            about=tr(self._about), wrong=", ".join(self._wrong)
         )
 
     def flag(self, name: str, *, usual: bool) -> bool:

@@ -18,7 +18,7 @@ from kivy.metrics import Metrics
 from app.core.checked_settings import CheckedSettings
 from app.core.hand import HANDS, hand
 from app.core.settings_store import Settings
-from widgets.core.language import LANGUAGES, language
+from widgets.core.language import LANGUAGES, language, mark
 from widgets.core.quantities import SYSTEMS, quantities
 from widgets.core.theme import theme
 
@@ -43,13 +43,15 @@ class Preferences:
         self._settings, self._own_text = settings, float(Metrics.fontscale)
         names = ("units", "language", "gloves", "text", "hand")
         kept = {name: settings.get(name) for name in names if settings.get(name) is not None}
-        checked = CheckedSettings(kept or None, "this handheld")
+        checked = CheckedSettings(kept or None, mark("this handheld", "settings"))
+        language.name = checked.word(
+            "language", LANGUAGES, usual="en"
+        )  # first: what is no good is said in it
         self.text = checked.number("text", MIN_TEXT, MAX_TEXT, usual=1.0)
         """Size of text, `MIN_TEXT` to `MAX_TEXT`."""
         self.on_anew: Callable[[], object] = lambda: None
         """Called when everything on the glass is to be made anew."""
         quantities.system = checked.word("units", SYSTEMS, usual="metric")
-        language.name = checked.word("language", LANGUAGES, usual="en")
         theme.gloves = checked.flag("gloves", usual=False)
         hand.chosen = checked.word("hand", HANDS, usual="right")
         hand.take_up()

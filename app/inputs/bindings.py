@@ -11,7 +11,7 @@ from app.inputs.gamepad import pad_map
 from app.inputs.gamepad.pad_map import Profile
 from app.inputs.keys import key_table
 from app.inputs.keys.key_table import KeyTable
-from widgets.core.language import tr
+from widgets.core.language import mark, tr
 
 __all__ = ["Bindings"]
 
@@ -31,7 +31,7 @@ class Bindings:
         self.problems: list[str] = []
         self.keys, wrong = key_table.read(settings.get("keys"), MEANINGS)
         self.problems += wrong
-        kept = CheckedSettings(settings.get("gamepads"), "gamepads")
+        kept = CheckedSettings(settings.get(mark("gamepads", "settings")), mark("gamepads", "settings"))
         self.pads_on = kept.flag("on", usual=True)
         """Gamepads drive and their buttons mean something; STOP does all the same."""
         found = kept.values.get("profiles", {})

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from app.layout.arrange_drive import drive, two_sticks
 from app.layout.rects import (
-    ALL,
+    ALL_BESIDE,
     EDGE,
     Body,
     Rect,
@@ -256,7 +256,7 @@ def more(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
 
 def _stop_of_lists(body: Rect, shape: str, dp: float) -> StopPlace:
     """With STOP ALL beside it, so that it takes nothing of the lists above."""
-    return stop_place(body, shape, dp, beside=(84 if shape == "wide" else ALL) * dp)
+    return stop_place(body, shape, dp, beside=(84 if shape == "wide" else ALL_BESIDE) * dp)
 
 
 @handed

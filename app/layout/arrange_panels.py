@@ -5,7 +5,7 @@ Pure arithmetic in the window's pixels, origin at the lower left.
 
 from __future__ import annotations
 
-from app.layout.rects import ALL, EDGE, Rect, crowded, handed, stop_place, stop_tall
+from app.layout.rects import ALL_BESIDE, EDGE, Rect, crowded, handed, stop_place, stop_tall
 
 __all__ = ["panels"]
 
@@ -47,7 +47,7 @@ def _wide(body: Rect, dp: float, editing: bool) -> dict[str, Rect]:
 def _short(body: Rect, dp: float, editing: bool) -> dict[str, Rect]:
     """STOP and what can be done stay where they are whether panels are edited or not; what is edited lies beside the board then."""
     gap, row = 8 * dp, 52 * dp
-    stop = stop_place(body, "short", dp, beside=ALL * dp if editing else 0.0)
+    stop = stop_place(body, "short", dp, beside=ALL_BESIDE * dp if editing else 0.0)
     side = Rect(stop.left, body.y, body.right - stop.left, body.height)
     tabs = Rect(body.x + gap, body.top - row, side.x - body.x - 2 * gap, row - 4 * dp)
     board = Rect(body.x, body.y, side.x - body.x, body.height - row)

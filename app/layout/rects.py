@@ -12,6 +12,7 @@ from typing import Concatenate, ParamSpec, TypeVar
 
 __all__ = [
     "ALL",
+    "ALL_BESIDE",
     "EDGE",
     "Body",
     "Rect",
@@ -29,6 +30,8 @@ __all__ = [
 
 ALL = 54
 """Height of STOP ALL where it is above something [dp]."""
+ALL_BESIDE = 72
+"""Width of STOP ALL beside STOP on a phone's side [dp]: 11 mm, in which its words keep clear of its border."""
 EDGE = 12
 """From STOP to the edges of the body in its corner [dp]."""
 STOP = {

@@ -42,7 +42,7 @@ class Sounds:
     def __init__(self, settings: Settings, tones: Player | None = None) -> None:
         """`tones` play them; None for those of this device."""
         self._settings, self._tones = settings, tones
-        kept = CheckedSettings(settings.get("sounds"), "sounds")
+        kept = CheckedSettings(settings.get(mark("sounds", "settings")), mark("sounds", "settings"))
         self.on = {name: kept.flag(name, usual=False) for name in SOUNDS}
         """Name of each to whether it is to be heard."""
         self.volume = kept.number("volume", 0.0, 1.0, usual=USUAL_VOLUME)

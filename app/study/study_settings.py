@@ -8,6 +8,7 @@ from app.core.checked_settings import CheckedSettings
 from app.inputs.base.method_app import SettingsApp
 from app.intents.intents import INTENTS, METHODS
 from app.study.study import Plan, plan_of
+from widgets.core.language import mark
 
 __all__ = ["FLAGS", "StudySettings"]
 
@@ -21,7 +22,7 @@ class StudySettings:
     def __init__(self, app: SettingsApp) -> None:
         """`app` is asked for its `settings`."""
         self._app = app
-        kept = CheckedSettings(app.settings.get("study"), "the study")
+        kept = CheckedSettings(app.settings.get("study"), mark("the study", "settings"))
         for name, usual in FLAGS.items():
             kept.flag(name, usual=usual)
         self.left: tuple[Plan, int, int] | None = plan_of(kept.values.get("plan"), METHODS, tuple(INTENTS))

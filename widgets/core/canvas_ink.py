@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any, ClassVar
 
 import numpy as np
@@ -22,7 +23,7 @@ from widgets.core.base import RobotWidget, text_texture
 from widgets.core.shapes import FLOATS, Shapes
 from widgets.core.theme import theme
 
-__all__ = ["Drawing", "Fading", "Ink", "Sheet", "Told", "Word", "Words", "ground", "shader", "tint"]
+__all__ = ["Drawing", "Fading", "Ink", "Sheet", "Told", "Word", "Words", "folded", "ground", "shader", "tint"]
 
 FAR = 100_000
 """Off every glass [px]: a word that belongs farther away, or nowhere, is put there."""
@@ -197,6 +198,29 @@ def ground(shapes: Shapes, word: Word, colour: Sequence[float]) -> None:
     width, height = text_texture(word.text, round(word.size, 1), word.font, bold=word.bold).size
     left, y = word.x - width * word.anchor[0], word.y + height * (0.5 - word.anchor[1])
     shapes.line(np.array([[left - dp(3), y], [left + width + dp(3), y]]), height, colour)
+
+
+@lru_cache(maxsize=64)
+def _lines(text: str, size: float, room: float) -> tuple[str, ...]:
+    spaced = " " in text
+    lines: list[str] = []
+    for piece in text.split() if spaced else text:
+        longer = (f"{lines[-1]} {piece}" if spaced else lines[-1] + piece) if lines else piece
+        if lines and text_texture(longer, size).width <= room:
+            lines[-1] = longer
+        else:
+            lines.append(piece)
+    return tuple(lines)
+
+
+def folded(word: Word, room: float) -> list[Word]:
+    """The word in as many lines as it takes in `room` [px], together at its anchor, the first one on top."""
+    if not word.text or text_texture(word.text, word.size, word.font, bold=word.bold).width <= room:
+        return [word]
+    lines = _lines(word.text, word.size, room)
+    step = text_texture(word.text, word.size, word.font, bold=word.bold).height
+    top = word.y + (len(lines) - 1) * step * (1 - word.anchor[1])
+    return [replace(word, text=line, y=top - index * step) for index, line in enumerate(lines)]
 
 
 class Words:

@@ -11,16 +11,21 @@ import math
 from kivy.graphics import Color, Instruction, InstructionGroup, Rectangle
 from kivy.metrics import dp, sp
 
-from widgets.core.canvas_ink import Word, tint
+from widgets.core.base import fitting_size, text_texture
+from widgets.core.canvas_ink import Word, folded, tint
 from widgets.core.geometry import View
+from widgets.core.language import mark, tr
 from widgets.core.theme import theme
 
-__all__ = ["Beneath", "Box", "Ground", "attribution_word"]
+__all__ = ["Beneath", "Box", "Ground", "attribution_words"]
 
 HAZE = {"dark": 0.24, "sunlight": 0.52, "night": 0.70}
 """How much of the window's colour lies over the pictures at full opacity, so that marks stand out, 0 to 1."""
 NARROW = 520
 """Where there is less room, the word about the pictures' origin and the legend stand one above the other [dp]."""
+
+SHIPPED = mark("Drawn from the simulated world")
+"""What the maps that come with the app say of themselves."""
 
 Box = tuple[float, float, float, float]
 """x, y, width, height [px]."""
@@ -82,13 +87,27 @@ class Beneath:
             self.canvas.add(part)
 
 
-def attribution_word(text: str, free_box: Box, foot: float, *, above: bool) -> Word:
+def attribution_words(text: str, free_box: Box, foot: float, *, above: bool) -> list[Word]:
     """Whom the pictures are of, in the lower right corner of what is free; `above` a legend that is there too.
 
-    On a small map, which has neither scale nor legend (`foot` is NaN), in the lower left one.
+    On a small map, which has neither scale nor legend (`foot` is NaN), in the lower left one. Beside the scale, or above it
+    where it has no room there, and in as many lines as it takes.
     """
+    text = tr(text)
     x, y, wide, _ = free_box
     if math.isnan(foot):
-        return Word(text, x + dp(6), y + dp(4), sp(11), theme.text, anchor=(0, 0))
+        room = wide - dp(12)
+        size = fitting_size([text], sp(11), room)
+        return folded(Word(text, x + dp(6), y + dp(4), size, theme.text, anchor=(0, 0)), room)
     low = dp(8) + foot + (dp(24) if above and wide < dp(NARROW) else 0)
-    return Word(text, x + wide - dp(10), y + low, sp(11), theme.text, anchor=(1, 0))
+    room = wide - dp(26) - scale_room(wide)
+    size = fitting_size([text], sp(11), room)
+    if text_texture(text, size).width > room:
+        low, room = max(low, foot + dp(22) + sp(20)), wide - dp(20)
+        size = fitting_size([text], sp(11), room)
+    return folded(Word(text, x + wide - dp(10), y + low, size, theme.text, anchor=(1, 0)), room)
+
+
+def scale_room(wide: float) -> float:
+    """How far a map of that width has its scale from its left edge on [px]."""
+    return dp(16) + min(dp(140), wide / 3) + dp(6)

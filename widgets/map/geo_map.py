@@ -20,7 +20,7 @@ from widgets.core.canvas_ink import Word
 from widgets.core.geometry import View, tween
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.map.beneath import Beneath, attribution_word
+from widgets.map.beneath import Beneath, attribution_words
 from widgets.map.grid_map import fenced, patrol
 from widgets.map.ground import TileGround
 from widgets.map.map_marks import outlined
@@ -98,8 +98,9 @@ class GeoMap(MapOverlay):
     def _fill_robot(self, shapes: Shapes) -> Iterator[Word]:
         yield from super()._fill_robot(shapes)
         if self.ground is not None and self.ground.attribution:
-            word = attribution_word(self.ground.attribution, self.free_box, self.foot, above=bool(self.fence))
-            yield from outlined(word)
+            words = self.ground.attribution
+            for word in attribution_words(words, self.free_box, self.foot, above=bool(self.fence)):
+                yield from outlined(word)
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

@@ -35,7 +35,7 @@ from widgets.core.canvas_ink import Ink, Word, tint
 from widgets.core.geometry import Points, spread, tween
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.map.beneath import Beneath, Ground, attribution_word
+from widgets.map.beneath import Beneath, Ground, attribution_words
 from widgets.map.grid_picture import GridPicture
 from widgets.map.map_marks import grid_lines, outlined
 from widgets.map.map_overlay import MapOverlay
@@ -140,7 +140,8 @@ class GridMap(MapOverlay):
         )  # on a smaller one they would cover what is seen; a tap makes it large
         if large and self._beneath.shown and self.ground is not None and self.ground.attribution:
             words = self.ground.attribution
-            yield from outlined(attribution_word(words, self.free_box, self.foot, above=bool(self.fence)))
+            for word in attribution_words(words, self.free_box, self.foot, above=bool(self.fence)):
+                yield from outlined(word)
 
     def extent(self) -> Points:
         """The marks and what the grid knows."""

@@ -334,9 +334,9 @@ def scale_bar(shapes: Shapes, view: View, left: float, bottom: float, longest: f
     metres, words = round_length(longest / view.scale)
     right, high = left + metres * view.scale, bottom + dp(6)
     corners = np.array([[left, high], [left, bottom], [right, bottom], [right, high]])
-    edge, middle = dp(6), bottom + dp(9)
+    edge, middle = dp(6), bottom + sp(9)
     behind = np.array([[left - edge, middle], [right + edge, middle]])
-    shapes.line(behind, dp(26), tint(theme.bg, 0.85))  # a fence or a grid may run through it
+    shapes.line(behind, sp(26), tint(theme.bg, 0.85))  # a fence or a grid may run through it
     shapes.line(corners, dp(5), tint(theme.bg, 0.7))
     shapes.line(corners, dp(2), theme.text)
     yield from outlined(Word(words, (left + right) / 2, bottom + dp(4), sp(13), theme.text, anchor=(0.5, 0)))

@@ -29,7 +29,7 @@ from bridge.msgs.nav_msgs import Path
 from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray, Limits
 from bridge.msgs.sensor_msgs import LaserScan
 from widgets.core.base import VEIL
-from widgets.core.canvas_ink import Drawing, Ink, Word, Words, ground, tint
+from widgets.core.canvas_ink import Drawing, Ink, Word, Words, folded, ground, tint
 from widgets.core.detected import kind_word
 from widgets.core.geometry import Points, View, nice_floor, scan_points, spread
 from widgets.core.language import tr
@@ -228,9 +228,10 @@ class MapOverlay(MapRobot, Drawing):
         else:
             x, y = self._free_middle()
             words = self.unplaced or tr("Its place on this map is not known yet")
-            word = Word(words, x, y, sp(16), theme.text)
-            ground(shapes, word, tint(theme.bg, 0.85))
-            yield word
+            size = sp(16) if min(self.size) > dp(SMALL) else dp(11)
+            for word in folded(Word(words, x, y, size, theme.text), self.free_box[2] - dp(12)):
+                ground(shapes, word, tint(theme.bg, 0.85))
+                yield word
         if self.placed:
             x, y, yaw = self.placed
             pose = (x, y, yaw)

@@ -32,7 +32,7 @@ from app.inputs.motion.shake import (
 from app.inputs.motion.shake.gravity import Motion
 from app.inputs.motion.tilt import turned
 from app.intents.intents import Heard
-from widgets.core.language import tr, within
+from widgets.core.language import mark, tr, within
 
 __all__ = ["CHOICES", "USUAL_MEANING", "ShakeInput"]
 
@@ -89,7 +89,7 @@ class ShakeInput(ToggleableMethod):
     # what is kept
 
     def _read(self) -> None:
-        read = CheckedSettings(self._app.settings.get("shake"), "shaking")
+        read = CheckedSettings(self._app.settings.get("shake"), mark("shaking", "settings"))
         kept, self._on, self._any = read.values, read.flag("on", usual=False), read.flag("any", usual=False)
         self.mistaken = read.sentence
         self.meaning: dict[Axis, str] = dict(USUAL_MEANING)

@@ -29,7 +29,7 @@ from app.intents.intents import LOCAL_INTENTS, Heard, Verdict
 from app.link.channels import EVENT, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
-from widgets.core.language import tr
+from widgets.core.language import mark, tr
 
 __all__ = ["RATES", "Talkback", "aloud"]
 
@@ -111,7 +111,7 @@ class Talkback(ToggleableMethod):
     # what is kept
 
     def _read(self) -> None:
-        kept = CheckedSettings(self._app.settings.get("talk"), "talking")
+        kept = CheckedSettings(self._app.settings.get("talk"), mark("talking", "settings"))
         self._on, self._rate = kept.flag("on", usual=False), kept.number("rate", *RATES, usual=1.0)
         self._voice = kept.word("voice", VOICES, next(iter(VOICES)))
         self.mistaken = kept.sentence

@@ -10,6 +10,7 @@ from app.inputs.base.method_app import MethodApp
 from app.inputs.base.toggleable_method import ToggleableMethod
 from app.inputs.voice.recognition.phrases import PHRASES
 from app.inputs.voice.recognizers import BEST, RECOGNIZERS
+from widgets.core.language import mark
 
 __all__ = ["VoiceOptions", "VoiceSettings", "read_settings"]
 
@@ -40,7 +41,7 @@ class VoiceSettings:
 
 def read_settings(value: object) -> tuple[VoiceSettings, str]:
     """The settings kept as `value`, and one sentence about what means nothing; empty when all is well."""
-    kept = CheckedSettings(value, "voice")
+    kept = CheckedSettings(value, mark("voice", "settings"))
     on, hands_free = kept.flag("on", usual=False), kept.flag("hands_free", usual=False)
     recognizer = kept.word("recognizer", {BEST, *RECOGNIZERS}, BEST)
     model = kept.values.get("model", "")

@@ -39,13 +39,13 @@ Builder.load_string("""
 #:import safe_area app.screens.parts.safe_area.safe_area
 <RobotCard>:
     size_hint: None, None
-    height: self.minimum_height
+    height: max(self.minimum_height, self.row_height)
     padding: dp(18), dp(18)
     spacing: dp(14)
     outline: 'danger' if root.lost else 'line'
     BoxLayout:
         size_hint_y: None
-        height: max(dp(50), sp(50), remove.height if root.saved else 0)
+        height: max(dp(50), titles.height, remove.height if root.saved else 0)
         spacing: dp(11)
         Icon:
             name: root.icon
@@ -54,8 +54,9 @@ Builder.load_string("""
             pos_hint: {'center_y': .5}
         Widget:
             id: snapshot
-            size_hint: None, 1
-            width: dp(72) if root.snapshot else 0
+            size_hint: None, None
+            size: (dp(72) if root.snapshot and root.width >= sp(330) else 0), dp(50)  # gives way to enlarged words
+            pos_hint: {'center_y': .5}
             canvas:
                 Color:
                     rgba: (1, 1, 1, .5 if root.lost else 1) if root.snapshot else (0, 0, 0, 0)
@@ -65,15 +66,22 @@ Builder.load_string("""
                     size: self.size
                     radius: [dp(8)]
         BoxLayout:
+            id: titles
             orientation: 'vertical'
+            size_hint_y: None
+            height: self.minimum_height
+            pos_hint: {'center_y': .5}
             Text:
                 text: root.title
                 bold: True
                 font_size: theme.size_title
-                size_hint_y: 1
+                size_hint_y: None
+                height: sp(25)
                 shorten: True
                 shorten_from: 'right'
             BoxLayout:
+                size_hint_y: None
+                height: max(sp(25), told.height)
                 spacing: dp(5) if root.trust_text else 0
                 Icon:
                     id: lock
@@ -93,12 +101,11 @@ Builder.load_string("""
                     size_hint: None, 1
                     width: self.texture_size[0]
                 Text:
-                    text: '· ' + root.subtitle if root.trust_text else root.subtitle
+                    id: told
+                    text: '· ' + root.subtitle if root.trust_text else root.subtitle  # whole, in as many lines as it takes
                     role: 'muted'
                     font_size: sp(15)
-                    size_hint_y: 1
-                    shorten: True
-                    shorten_from: 'right'
+                    pos_hint: {'center_y': .5}
         IconButton:
             id: remove
             icon: 'delete'
@@ -125,8 +132,7 @@ Builder.load_string("""
             size_hint_y: None
             height: self.texture_size[1] if root.warning else 0
     StackLayout:
-        size_hint_y: None
-        height: max(self.minimum_height, dp(34))
+        size_hint_min_y: max(self.minimum_height, dp(34))  # takes what its row leaves, so that the buttons are in line
         spacing: dp(10)
         Chip:
             icon: 'bolt'
@@ -204,6 +210,8 @@ class RobotCard(Card):
     watches = BooleanProperty(False)
     """Another person drives, and the big button only looks on."""
     button_height = NumericProperty("52dp")
+    row_height = NumericProperty(0)
+    """Height of the highest card beside it [px]; 0 for its own."""
     trust_text = StringProperty("")
     """How it is reached, in a word; empty within this machine."""
     trust_icon = StringProperty("")
@@ -216,7 +224,7 @@ class RobotCard(Card):
         self.entry = entry
         self.icon, self.lost = robot_icon(entry.icon), entry.state == "lost"
         self.title = entry.name or entry.address
-        about = entry.description or tr("Saved address")
+        about = tr(entry.description or mark("Saved address"))
         self.warning = entry.warning
         self.subtitle = (
             f"{entry.address} · {about}" if entry.name else about

@@ -114,7 +114,17 @@ class FleetScreen(RobotScreen):
             if entry.url == self.session.link.url:
                 self._show_own(card)
             card.saved = False  # what is forgotten is forgotten on the connect page
+        self._level()
         self.head.text = count(entries, self.session).words
+
+    def _level(self) -> None:
+        """Cards beside each other are as high as the highest of them."""
+        cards, columns = list(self.cards.values()), self.grid.cols or 1
+        for first in range(0, len(cards), columns):
+            row = cards[first : first + columns]
+            high = max(card.minimum_height for card in row)
+            for card in row:
+                card.row_height = high
 
     def _known(self) -> list[Entry]:
         """All of the list, the one on the glass first, be it heard or not."""

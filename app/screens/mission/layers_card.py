@@ -114,7 +114,7 @@ class LayersCard(Card):
 
     @staticmethod
     def _detail(source: Source) -> str:
-        return " · ".join(part for part in (tr(KINDS[source.kind]), source.attribution) if part)
+        return " · ".join(part for part in (tr(KINDS[source.kind]), tr(source.attribution)) if part)
 
     def _why_none(self) -> str:
         if self._keeper.place.datum is None:

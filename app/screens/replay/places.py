@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.layout.arrange import CORNER, more
-from app.layout.rects import ALL, Rect, StopPlace, between, crowded, handed, stop_place
+from app.layout.rects import ALL_BESIDE, Rect, StopPlace, between, crowded, handed, stop_place
 from widgets.core.theme import theme
 
 __all__ = ["SPACING", "buttons_width", "moment", "panes", "replay", "replay_alone"]
@@ -29,7 +29,7 @@ def replay(body: Rect, shape: str, dp: float = 1.0, least: float = 0.0) -> dict[
     """With a robot: `main`, `line`, `buttons`, `stop` and `notice`; `least` is the least height of a button [px]."""
     gap = 12 * dp
     places = more(body, shape, dp)
-    stop = places["stop"] if shape != "short" else stop_place(body, shape, dp, beside=ALL * dp)
+    stop = places["stop"] if shape != "short" else stop_place(body, shape, dp, beside=ALL_BESIDE * dp)
     beside = stop.left if shape != "tall" and isinstance(stop, StopPlace) else stop.x
     high = min(stop.height, BUTTONS_HEIGHT * dp) if shape == "tall" else stop.height
     left = Rect(body.x + gap, stop.y, beside - body.x - 2 * gap, high)

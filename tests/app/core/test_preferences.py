@@ -81,6 +81,15 @@ def test_what_was_kept_and_is_no_good_says_so_and_the_default_holds(tmp_path, na
     assert preferences.text == 1.0
 
 
+def test_what_is_no_good_is_said_in_the_kept_language(tmp_path):
+    settings = kept(tmp_path, language="de", text=40)
+    sentence = Preferences(settings).sentence
+    settings.close()
+    assert "dieses Handgerät" in sentence
+    assert "handheld" not in sentence
+    assert "not 40" not in sentence
+
+
 @pytest.mark.parametrize("name", ["units", "language", "text"])
 def test_words_figures_and_places_are_made_anew(settings, name):
     preferences, made = Preferences(settings), []

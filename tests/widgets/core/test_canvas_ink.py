@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from widgets.core import canvas_ink as ink
-from widgets.core.canvas_ink import Drawing, Ink, Told, Word, Words, tint
+from widgets.core.base import text_texture
+from widgets.core.canvas_ink import Drawing, Ink, Told, Word, Words, folded, tint
 from widgets.core.shapes import FLOATS, Shapes
 from widgets.core.theme import theme
 from widgets.instruments import horizon
@@ -115,6 +116,22 @@ def test_a_word_is_held_at_its_anchor(anchor, share):
     rectangle = words._slots[0][1]
     assert rectangle.pos[0] == pytest.approx(100 - share * rectangle.size[0], abs=0.5)
     assert rectangle.pos[1] == pytest.approx(100 - share * rectangle.size[1], abs=0.5)
+
+
+@pytest.mark.parametrize("text", ["Its place on this map is not known yet", "它在这张地图上的位置尚不清楚"])
+@pytest.mark.parametrize("up", [0.0, 0.5, 1.0])
+def test_a_sentence_without_room_is_in_lines_about_its_anchor_and_loses_nothing(text, up):
+    word = Word(text, 50, 40, 14, theme.text, anchor=(0.5, up))
+    room = text_texture(text, 14).width / 2.5
+    lines = folded(word, room)
+    assert len(lines) >= 3
+    assert (" " if " " in text else "").join(line.text for line in lines) == text
+    assert all(text_texture(line.text, 14).width <= room for line in lines)
+    high = text_texture(text, 14).height
+    low = min(line.y - up * high for line in lines)
+    assert low + up * len(lines) * high == pytest.approx(40), "all of them are held at the anchor"
+    assert [line.y for line in lines] == sorted((line.y for line in lines), reverse=True)
+    assert folded(word, 1000) == [word]
 
 
 def test_words_that_are_moved_lie_where_new_ones_would():

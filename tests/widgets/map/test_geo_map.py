@@ -6,7 +6,9 @@ from pathlib import Path
 import pytest
 
 from bridge.core.geo import Datum
+from widgets.core.base import text_texture
 from widgets.core.geometry import View
+from widgets.map.beneath import attribution_words, scale_room
 from widgets.map.geo_map import GeoMap
 
 DATUM = Datum(45.5069, -73.579)
@@ -114,3 +116,16 @@ def test_the_default_source_of_mapview_is_never_asked(stage, monkeypatch):
     made = stage.show(GeoMap(tiles=TILES, datum=DATUM), size=(300, 200))
     made.zoom_in()
     stage.frames(3)
+
+
+@pytest.mark.parametrize("wide", [90, 150, 240, 330, 600])
+@pytest.mark.parametrize("foot", [0.0, math.nan])
+def test_whom_the_pictures_are_of_is_told_whole_beside_the_scale_or_above_it(stage, wide, foot):
+    words = attribution_words("Drawn from the simulated world", (0, 0, wide, 400), foot, above=False)
+    assert " ".join(word.text for word in words) == "Drawn from the simulated world"
+    for word in words:
+        long = text_texture(word.text, word.size).width
+        left = word.x - word.anchor[0] * long
+        assert left >= 0
+        assert left + long <= wide
+        assert math.isnan(foot) or left >= scale_room(wide) or word.y >= 40, "not over the scale"

@@ -121,7 +121,7 @@ class StopAll(Outlined, Control, AnchorLayout):
         lines = 2 if self.tight and not self.active else 1
         if self.height - lines * self.word_size * LINE_HEIGHT < sp(MIN_FONT_SIZE) * LINE_HEIGHT:
             return ""
-        size, room = sp(MIN_FONT_SIZE), self.width - dp(8)
+        size, room = sp(MIN_FONT_SIZE), self.width - dp(14)
         return next((note for note in self._notes() if fitting_size([note], size, room) >= size), "")
 
     def _notes(self) -> list[str]:

@@ -47,6 +47,21 @@ def test_the_one_on_the_glass_comes_first_and_says_what_it_does(
     assert fleet.cards[own(driving)].driver_text == "you"
 
 
+def test_cards_beside_each_other_are_as_high_and_say_the_whole_address(driving: Glass, fleet: Any) -> None:
+    fleet.grid.cols = 2
+    driving.stage.frames(2)
+    fleet._show()
+    driving.stage.frames(3)
+    mine, other = fleet.cards.values()
+    assert mine.height == other.height
+    assert mine.ids.connect.y == other.ids.connect.y
+    for card in (mine, other):
+        told = card.ids.told
+        assert card.entry.address in told.text
+        assert not told.shorten
+        assert told.texture_size[1] <= told.height
+
+
 def test_another_says_battery_and_driver_as_it_tells_them(driving: Glass, fleet: Any) -> None:
     hear(driving, OTHER, "Scout-1", battery=0.42, driver="Bob")
     card = fleet.cards[OTHER]
