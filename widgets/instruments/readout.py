@@ -32,7 +32,7 @@ from widgets.core.language import DASH, figure
 from widgets.core.quantities import SI_KINDS, digits_for, quantities, to_shown, unit_of
 from widgets.core.theme import theme
 from widgets.fields.field_kinds import ENUM, NUMBER, TEXT
-from widgets.parts.labels import heading_look, spaced
+from widgets.parts.labels import heading_fits, heading_look, spaced
 
 __all__ = ["Readout", "ReadoutGrid", "clock_figure"]
 
@@ -58,8 +58,7 @@ Builder.load_string("""
         width: self.texture_size[0] if root.fitted else self.width
         size_hint_x: None if root.fitted else 1
         role: 'danger' if root.state == 'alarm' else 'muted'
-        font_size: root.headed[1]
-        close: root.headed[2]
+        look: root.headed[1:]
     BoxLayout:
         id: row
         size_hint: None, None
@@ -224,11 +223,9 @@ class Readout(RobotWidget, BoxLayout):
     def _named(self) -> tuple[str, float, bool]:
         if self.fitted:
             return self.name, theme.size_label, False
-        room, largest = self.width - dp(2), theme.size_label * self.lowered
-        look = heading_look(self.name, room, largest)
-        if self.brief_name and look[1] and text_texture(self.name.upper(), look[0], theme.font).width > room:
-            return self.brief_name, *heading_look(self.brief_name, room, largest)
-        return self.name, *look
+        room = self.width - dp(2)
+        name = self.brief_name if self.brief_name and not heading_fits(self.name, room) else self.name
+        return name, *heading_look(name, room, theme.size_label * self.lowered)
 
     def _wide(self, heading: str, size: float | None = None) -> float:
         return float(text_texture(spaced(heading), size or theme.size_label, theme.font).width)

@@ -10,7 +10,7 @@ from typing import Any
 from kivy.input import MotionEvent
 from kivy.lang import Builder
 from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
+from kivy.properties import AliasProperty, BooleanProperty, ListProperty, NumericProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.label import Label
 from kivy.uix.widget import Widget
@@ -27,6 +27,7 @@ __all__ = [
     "SectionLabel",
     "Text",
     "ValueUnit",
+    "heading_fits",
     "heading_look",
     "spaced",
     "wrapped",
@@ -231,20 +232,26 @@ def heading_look(title: str, room: float, largest: float = 0.0) -> tuple[float, 
     return fitting_size([title.upper()], largest, room), True
 
 
+def heading_fits(title: str, room: float) -> bool:
+    """Whether a heading is read whole in `room` [px]."""
+    size, close = heading_look(title, room)
+    return not close or text_texture(title.upper(), size, theme.font).width <= room - dp(3)
+
+
 class SectionLabel(Text):
     """The name over a group of things or over a value, in small capitals."""
 
     title = StringProperty("")
     spaced_title = StringProperty("")
-    fits = BooleanProperty(True)
-    """Its width is given, and its letters become smaller and come closer where they would be cut; else it is as wide as they are."""
+    look: ListProperty[Any] = ListProperty()
+    """Size of its type [px] and whether its letters stand close, where what it belongs to decides that; else its own width does."""
     close = BooleanProperty(False)
     """Its letters do not stand apart."""
 
     def _written(self) -> tuple[float, bool]:
-        return heading_look(self.title, self.width) if self.fits else (float(theme.size_label), False)
+        return tuple(self.look) if self.look else heading_look(self.title, self.width)
 
-    written = AliasProperty(_written, bind=["title", "width", "fits"], cache=True)
+    written = AliasProperty(_written, bind=["title", "width", "look"], cache=True)
     """Size of its type [px], and whether its letters stand close."""
 
     def on_title(self, *_: object) -> None:

@@ -12,6 +12,7 @@ from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
 from widgets.core.language import tr
 from widgets.core.quantities import said
 from widgets.parts.kit import Card
+from widgets.parts.labels import heading_fits
 
 __all__ = ["SPEED", "YAW_RATE", "SpeedCard", "allowed"]
 
@@ -24,7 +25,7 @@ Builder.load_string("""
     padding: dp(6), dp(10)
     spacing: dp(4)
     SectionLabel:
-        title: tr('Max speed') if root.width > dp(90) else tr('Max')
+        title: root.heading
         halign: 'center'
         height: self.texture_size[1] if root.titled else 0
         opacity: 1 if root.titled else 0
@@ -62,6 +63,12 @@ class SpeedCard(Card):
 
     driven = StringProperty("")
     """What drives instead of the stick, and how fast, as in `task: 1.9 m/s`; empty while nothing does."""
+
+    def _heading(self) -> str:
+        whole = tr("Max speed")
+        return whole if self.width > dp(90) and heading_fits(whole, self.width - dp(12)) else tr("Max")
+
+    heading = AliasProperty(_heading, bind=["width"], cache=True)
 
     def _told(self) -> tuple[str, str]:
         return said(self.maximum_speed, "speed", 2)

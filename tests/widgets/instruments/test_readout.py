@@ -187,6 +187,9 @@ def test_figures_keep_to_the_height_of_their_grid_in_every_size_of_text(stage, f
         stage.frames(4)
         assert all(one.y >= grid.y and one.top <= grid.top + 1 for one in grid.children)
         assert not any(one.ids.heading.is_shortened for one in grid.children)
+        grid.width -= 20 * cols
+        stage.frames(4)
+        assert all(one.ids.heading.font_size == pytest.approx(one.headed[1]) for one in grid.children)
     finally:
         Metrics.fontscale = 1.0
 
