@@ -24,7 +24,16 @@ from widgets.core.icons import icon
 from widgets.core.language import tr
 from widgets.core.theme import theme
 
-__all__ = ["STATES", "Control", "RobotWidget", "age_text", "fitting_size", "least_size", "text_texture"]
+__all__ = [
+    "STATES",
+    "Control",
+    "RobotWidget",
+    "age_text",
+    "fitting_size",
+    "least_size",
+    "line_height",
+    "text_texture",
+]
 
 STATES = ("never", "live", "stale", "alarm", "disabled")
 VEIL = {"stale": 0.55, "disabled": 0.62}
@@ -38,6 +47,8 @@ MAX_SHORTENED = 500
 """Letters of a label that is cut short with dots where it has no room: how much that costs grows with their square."""
 MAX_LABEL, MAX_LABEL_LINES = 20_000, 400
 """Letters and lines of any other label: what is longer has no texture on a phone."""
+MIN_LINE, MEASURED_SIZE = 1.28, 50.0
+"""Height of a line of type, in times of its size, at least; and the size in which one is measured [px]."""
 MIN_FONT_SIZE = 10.0
 """No type is made smaller than this to fit [sp]; where text is enlarged, not smaller than as many dp."""
 
@@ -130,6 +141,11 @@ def _bound_labels() -> None:
 
 
 _bound_labels()
+
+
+def line_height() -> float:
+    """Height of a line of the theme's type, in times of its size: that of Chinese is higher than that of Latin letters."""
+    return max(MIN_LINE, text_texture("Åg", MEASURED_SIZE).height / MEASURED_SIZE)
 
 
 def least_size() -> float:

@@ -26,7 +26,7 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
-from widgets.core.base import RobotWidget, age_text, fitting_size, text_texture
+from widgets.core.base import RobotWidget, age_text, fitting_size, line_height, text_texture
 from widgets.core.field_paths import value_at
 from widgets.core.language import DASH, figure
 from widgets.core.quantities import SI_KINDS, digits_for, quantities, to_shown, unit_of
@@ -37,8 +37,6 @@ from widgets.parts.labels import heading_fits, heading_look, spaced
 __all__ = ["Readout", "ReadoutGrid", "clock_figure"]
 
 DEGREE = "°"
-LINE = 1.28
-"""Height of a line of type, in times of its size."""
 LEAST_SHARE = 0.45
 """No smaller than in this part of its sizes a figure is written where it is low."""
 MAX_WORDS = 40
@@ -202,7 +200,7 @@ class Readout(RobotWidget, BoxLayout):
     """The unit where it stands apart from the figure, and to which side; a degree sign belongs to the figure."""
 
     def _lowered(self) -> float:
-        whole = (theme.size_label + self.font_size) * LINE + self.spacing + dp(1)
+        whole = (theme.size_label + self.font_size) * line_height() + self.spacing + dp(1)
         return max(LEAST_SHARE, min(1.0, self.high / whole)) if self.high else 1.0
 
     lowered = AliasProperty(_lowered, bind=["high", "font_size", "spacing"], cache=True)

@@ -26,7 +26,7 @@ SETTLE_DURATION = 0.5
 """A button whose meaning has changed takes no finger for so long [s]: that finger meant what it did before."""
 
 Builder.load_string("""
-#:import LINE widgets.parts.labels.LINE
+#:import line_height widgets.core.base.line_height
 <PushButton>:
     size_hint_y: None
     height: theme.target
@@ -51,7 +51,7 @@ Builder.load_string("""
         FittedLabel:
             id: words
             text: root.text
-            largest: min(root.type_size or (theme.size_body if root.flow == 'horizontal' else sp(14)), max(dp(8), root.height - (sign.height + dp(2) if root.flow == 'vertical' and root.signed else 0)) / LINE)
+            largest: min(root.type_size or (theme.size_body if root.flow == 'horizontal' else sp(14)), max(dp(8), root.height - (sign.height + dp(2) if root.flow == 'vertical' and root.signed else 0)) / line_height())
             room: max(root.words_room, 1)
             lines: 2 if root.height >= sp(34) + (theme.size_icon + dp(2) if root.flow == 'vertical' and root.icon else 0) else 1
             bold: True
@@ -120,7 +120,7 @@ Builder.load_string("""
         pos_hint: {'center_x': .5}
     FittedLabel:
         text: root.text
-        largest: root.type_size or min(sp(12.5), max(dp(12.5), (root.inner - sign.height) / LINE))
+        largest: root.type_size or min(sp(12.5), max(dp(12.5), (root.inner - sign.height) / line_height()))
         room: max(root.width - dp(6), 1)
         lines: 1
         color: theme.roles[root.tint or ('text' if root.active else 'muted')]

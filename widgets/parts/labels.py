@@ -15,7 +15,14 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
-from widgets.core.base import MAX_LABEL_LINES, MIN_FONT_SIZE, fitting_size, least_size, text_texture
+from widgets.core.base import (
+    MAX_LABEL_LINES,
+    MIN_FONT_SIZE,
+    fitting_size,
+    least_size,
+    line_height,
+    text_texture,
+)
 from widgets.core.surfaces import Pressable
 from widgets.core.theme import theme
 
@@ -36,8 +43,6 @@ __all__ = [
 HAIR_SPACE = "\u200a"
 SIGN = 19 / 15
 """Size of a chip's icon, in times of its type."""
-LINE = 1.28
-"""Height of a line of type, in times of its size."""
 
 Builder.load_string("""
 <Text>:
@@ -318,7 +323,7 @@ class Chip(Pressable, BoxLayout):
     """The longest words it usually holds; it is never narrower than they are, so that its neighbours stand still."""
 
     def _words_size(self) -> float:
-        return float(min(self.largest, self.height / LINE))
+        return float(min(self.largest, self.height / line_height()))
 
     words_size = AliasProperty(_words_size, bind=["height", "largest"], cache=True)
     """Of its type [px]: it is no higher than the pill."""
@@ -344,7 +349,7 @@ class Chip(Pressable, BoxLayout):
         """
         high, edge = high or self.height, self.edge if math.isnan(edge) else edge
         largest = largest or self.largest
-        size = min(largest, high / LINE)
+        size = min(largest, high / line_height())
         written = max((text_texture(one, size, theme.font).width for one in (words, usual) if one), default=0)
         sign = min(largest * SIGN, high * 0.78) if self.icon else 0.0
         gap = dp(8) if self.icon and words else 0.0

@@ -14,12 +14,11 @@ from app.layout.arrange import Rect
 from app.screens.parts.placing import put
 from app.screens.parts.screen_table import MORE, SCREENS, beyond, tabs
 from bridge.msgs.pilothouse_msgs import Event
-from widgets.core.base import fitting_size
+from widgets.core.base import fitting_size, line_height
 from widgets.core.language import mark, tr
 from widgets.core.surfaces import Edged
 from widgets.core.theme import theme
 from widgets.parts.kit import NavButton, PushButton
-from widgets.parts.labels import LINE
 
 __all__ = ["Rail"]
 
@@ -111,7 +110,7 @@ class Rail(Edged, FloatLayout):
         else:
             self._below_each_other(buttons, rect, dp)
         inner = buttons[0].inner
-        high = max(12.5 * dp, (inner - max(24 * dp, inner * 0.55)) / LINE)
+        high = max(12.5 * dp, (inner - max(24 * dp, inner * 0.55)) / line_height())
         room = min(button.width for button in buttons) - 6 * dp
         size = fitting_size([button.text for button in buttons], min(sp(12.5), high), room)
         for button in buttons:
