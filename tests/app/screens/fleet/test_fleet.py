@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
+from app.layout.views import Panel, View
 from app.link.camera_decoder import Picture
 from app.screens.parts.leave_dialog import LeaveDialog
 from app.screens.shell import status_text
@@ -121,22 +123,37 @@ def test_cards_of_one_row_stand_at_its_upper_end(driving: Glass, fleet: Any) -> 
 
 
 STATES = {
-    "ready": (ControlStatus(mode="MANUAL"), "READY", "free"),
-    "another's": (ControlStatus(mode="MANUAL", driver="Anna", driver_id="a"), "MANUAL · Anna", "other"),
-    "another's task": (ControlStatus(mode="AUTO", driver="Anna", driver_id="a"), "AUTO", "other"),
-    "stopped": (ControlStatus(mode="STOPPED", stopped=True, at_rest=True), "STOPPED", "free"),
+    "ready": (ControlStatus(mode="MANUAL"), "READY", "free", "take control"),
+    "another's": (
+        *(ControlStatus(mode="MANUAL", driver="Anna", driver_id="a"), "MANUAL · Anna"),
+        *("other", "driven by Anna"),
+    ),
+    "another's task": (
+        *(ControlStatus(mode="AUTO", driver="Anna", driver_id="a"), "AUTO"),
+        *("other", "driven by Anna"),
+    ),
+    "stopped": (
+        *(ControlStatus(mode="STOPPED", stopped=True, at_rest=True), "STOPPED"),
+        *("free", "take control"),
+    ),
 }
-"""What the robot tells, to the mode in words and who has control."""
+"""What the robot tells, to the mode in words, who has control, and the words of that on the chip."""
 
 
-def test_bar_fleet_more_stick_and_task_buttons_say_the_same_of_who_drives(
+def test_bar_chip_fleet_more_panels_stick_and_task_buttons_say_the_same_of_who_drives(
     driving: Glass, robot: FakeRobot, fleet: Any
 ) -> None:
     app, session = driving.app, driving.app.session
     session.authority.wanted = False
     app.show("more")
     drive, mission, more = (app.screens[name] for name in ("drive", "mission", "more"))
-    for case, (status, words, who) in STATES.items():
+    panels = app.screens["panels"]
+    places: dict[str, Any] = {"wide": (0, 0, 4, 6), "tall": (0, 0, 6, 6), "short": (0, 0, 4, 4)}
+    info, views = session.robot.info, (View("Drive", (Panel("Joystick", **places),)),)
+    app.profiles.save(info, replace(app.profiles.of(info), views=views))
+    app.show("panels")
+    driving.until(lambda: panels.sticks, "no stick on the view")
+    for case, (status, words, who, chip_words) in STATES.items():
         robot.control = status
         robot.publish("/control/status", status)
         driving.until(lambda status=status: session.control_status.mode == status.mode, case)
@@ -151,10 +168,15 @@ def test_bar_fleet_more_stick_and_task_buttons_say_the_same_of_who_drives(
         chip, card = app.shell.bar, fleet.cards[own(driving)]
         assert chip.mode_text.startswith(words.split(" · ")[0]), case
         assert bool(card.driver_text) == bool(chip.control_text), case
+        assert chip.control_text == chip_words, f"{case}: the chip"
         assert more.tiles["control"].about == status_text.control(session, brief=False)[0], case
         held = who == "other" or status.stopped
         assert (drive.stick.state == "disabled") == held, f"{case}: the stick"
+        app.show("panels")
+        panels.tick()
+        assert (panels.sticks[0][0].state == "disabled") == held, f"{case}: the panels"
         assert (mission.panel.tasks.disabled or mission.panel.tasks.held) == held, f"{case}: the tasks"
+    app.show("fleet")
     robot.stop()
     driving.until(lambda: not session.connected, "it stands")
     driving.until(lambda: fleet.cards[own(driving)].note.startswith("no link"), "the fleet")

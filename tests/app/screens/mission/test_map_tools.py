@@ -7,11 +7,13 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
+from kivy.metrics import mm
 
 from app.layout.rects import Rect
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
+from widgets.core.theme import theme
 
 ORDER = ("zoom_in", "zoom_out", "centre", "measure", "fit", "layers", "undo", "redo")
 AT = PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(3.0, 4.0), Quaternion.from_yaw(0.5))))
@@ -91,3 +93,43 @@ def test_what_there_is_no_room_for_is_left_out_and_following_never(mission, body
     assert shown[0 if left_out else 2] == "centre"
     tops = [buttons[name].top for name in shown]
     assert all(above - 40 >= below for above, below in pairwise(tops))
+
+
+@pytest.mark.parametrize(
+    ("body", "form"),
+    [(Rect(0, 60, 412, 774), "tall"), (Rect(68, 0, 824, 364), "short")],
+    ids=["tall", "short"],
+)
+def test_no_button_is_under_a_card_over_the_map_and_each_comes_back_with_it_gone(
+    mission: Any, body: Rect, form: str
+) -> None:
+    buttons = [mission.ids[name] for name in ORDER]
+
+    def shown() -> list[Any]:
+        mission.arrange(body, form, 1.0)
+        return [button for button in buttons if button.parent is not None]
+
+    before = shown()
+    mission._maps.toggle_card(mission)
+    card, left = mission.card.place, shown()
+    assert card is not None
+    assert not [one for one in left if Rect(*one.pos, *one.size).overlaps(card)]
+    if form == "tall":
+        assert len(left) < len(before), "some would lie under it"
+    mission._maps.toggle_card(mission)
+    assert shown() == before
+
+
+@pytest.mark.parametrize(("gloves", "share"), [(False, 0.02), (False, 0.98), (True, 0.02), (True, 0.98)])
+def test_the_edge_of_a_phones_sheet_is_as_high_as_a_finger_needs_and_all_of_it_pulls(
+    mission: Any, driving: Glass, gloves: bool, share: float
+) -> None:
+    theme.gloves = gloves
+    try:
+        mission.arrange(Rect(0, 60, 412, 774), "tall", 1.0)
+        grip = mission.ids.handle
+        assert grip.height >= (theme.target if gloves else mm(10)) - 1e-6
+        driving.stage.tap(grip.center_x, grip.y + share * grip.height)
+        assert mission.sheet == 1, "it is not pulled"
+    finally:
+        theme.gloves = False
