@@ -152,7 +152,8 @@ def _entries(part: str) -> list[int]:
         if level and depth < level:
             break
         if opens or (sign == "," and depth == level):
-            start = _SPACE.match(part, token.end()).end()  # type: ignore[union-attr] - it matches nothing too
+            space = _SPACE.match(part, token.end())
+            start = space.end() if space else token.end()
             lines, at = lines + part.count("\n", at, start), start
             found.append(lines)
     return found

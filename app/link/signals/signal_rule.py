@@ -5,7 +5,7 @@ Whatever drives, stops or commands a robot has a way of its own, with limits, an
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from typing import Protocol
 
 from bridge.core.topic_choice import OURS
@@ -84,7 +84,9 @@ def topic_fault(offer: Offer | None, topic: str, kind: type[Msg], services: Coll
     return ""
 
 
-def hearing_fault(topic: str, publishers: Sequence[str], subscribers: Sequence[str], *, ours: bool) -> str:
+def hearing_fault(
+    topic: str, publishers: Collection[str], subscribers: Collection[str], *, ours: bool
+) -> str:
     """Why nothing is sent to a topic whose publishers and subscribers are these nodes, in one sentence; empty where it may be.
 
     `ours` says that it is a Pilothouse robot, whose own topics are all in the table: only a program beside it can listen.

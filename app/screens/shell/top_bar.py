@@ -273,9 +273,9 @@ class TopBar(EdgedBox):
             "more": self.form != "wide",  # a phone's navigation leads there
             "battery": "stack" in given,
         }
-        parts = NARROW if tall else PARTS
+        parts: Sequence[str] = NARROW if tall else PARTS
         if "stack" in given and not tall:
-            parts = tuple("stack" if name == "link" else name for name in parts)
+            parts = ["stack" if name == "link" else name for name in parts]
         return [name for name in parts if not absent.get(name)]
 
     def _fitted(self) -> None:
