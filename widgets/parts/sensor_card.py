@@ -6,7 +6,9 @@ class LineSensorView(Gauge):
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
+from functools import lru_cache
 from typing import Any
 
 from kivy.metrics import dp, sp
@@ -29,6 +31,15 @@ def wide(text: str, size: float, *, bold: bool = False) -> float:
 def first_fitting(texts: Iterable[str], size: float, room: float, *, bold: bool = False) -> str:
     """The first of `texts`, longest first, that fits into `room` [px] in type of `size` [px]; empty when none does."""
     return next((text for text in texts if wide(text, size, bold=bold) <= room), "")
+
+
+@lru_cache(maxsize=256)
+def _cut(text: str, size: float, room: float, font: str) -> str:  # noqa: ARG001 - the widths are those of that font
+    """As much of `text` as fits into `room` [px], with dots for the rest; `font` is that of the theme."""
+    if wide(text, size) <= room:
+        return text
+    count = bisect_right(range(1, len(text)), room, key=lambda kept: wide(f"{text[:kept].rstrip()}…", size))
+    return f"{text[:count].rstrip()}…" if count else ""
 
 
 class Gauge(Glass, Drawing):
@@ -74,7 +85,7 @@ class Gauge(Glass, Drawing):
     def header(self, figures: Sequence[str], role: str = "text", *, told: bool = True) -> Iterator[Word]:
         """The name in the upper left corner and the first of `figures` that fits beside it, longest first.
 
-        Where none does the name gives way, or, when it is not `told`, the figure.
+        Where none does the name gives way, or, when it is not `told`, the figure. A name longer than the card is cut.
         """
         left, y = self.x + self.edge, self.top - self.edge - sp(6)
         right = self.right - self.edge - (dp(22) if self.alarmed else 0)
@@ -83,5 +94,6 @@ class Gauge(Glass, Drawing):
         figure = first_fitting(figures, sp(13), right - left - taken, bold=True)
         if told and not figure and figures:
             figure, name = first_fitting(figures, sp(13), right - left, bold=True), ""
-        yield Word(name, left, y, sp(11.5), theme.muted, anchor=(0, 0.5))
+        room = right - left - (wide(figure, sp(13), bold=True) + dp(8) if figure else 0)
+        yield Word(_cut(name, sp(11.5), room, theme.font), left, y, sp(11.5), theme.muted, anchor=(0, 0.5))
         yield Word(figure, right, y, sp(13), theme.roles[role], bold=True, anchor=(1, 0.5))
