@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from app.link.capabilities import CAMERA
 from app.session.robot_profile import RobotProfile
+from bridge.core.topics import camera_topics
 from bridge.msgs.vision_msgs import Detection2DArray
 
 __all__ = ["CameraChoice"]
@@ -26,6 +27,15 @@ class CameraChoice:
         if robot.foreign and robot.capabilities is not None:
             return "" if robot.capabilities.source(CAMERA) else None
         return watched
+
+    @property
+    def topic(self) -> str:
+        """The robot's name of the topic whose pictures are watched; empty while that is not known, and without a camera."""
+        robot = self._robot
+        if robot.introduced:
+            return camera_topics(robot.info.cameras).get(self.wanted(None) or "", "")
+        offer = robot.capabilities
+        return (offer.source(CAMERA) or "") if robot.foreign and offer is not None else ""
 
     def choose_next(self) -> None:
         """Choose the robot's next camera, after the last the first; no change where it has one or none."""

@@ -70,7 +70,7 @@ Builder.load_string("""
         y: root.y + root.inset + beneath.height
         width: max(root.width - 2 * root.inset, dp(1))
         height: max(root.height - root.head - root.inset - dp(4) - beneath.height, dp(1))
-        opacity: .35 if root.away else 1
+        opacity: 0 if root.problem else .35 if root.away else 1  # what shows nothing says nothing beside the reason
     Text:
         text: root.problem
         role: 'muted'

@@ -23,6 +23,7 @@ from app.screens.shell.screen_host import ScreenHost
 from app.session.session import Session
 from widgets import Video
 from widgets.controls.sticks.stick import Stick
+from widgets.core.language import tr
 
 __all__ = ["ViewShow"]
 
@@ -131,7 +132,11 @@ class ViewShow:
             found = self._session.cameras.detections_shown
             if panel.topic.endswith("/compressed"):
                 self._feeds.bind(
-                    widget, "/detections", seen, lambda said: widget.show(found(said)), fresh=False
+                    widget,
+                    "/detections",
+                    lambda: seen() and not self._other_camera(panel),
+                    lambda said: widget.show(found(said)),
+                    fresh=False,
                 )
                 return
         for number, topic in enumerate(panel.topics):
@@ -181,9 +186,19 @@ class ViewShow:
 
     @property
     def videos(self) -> list[Video]:
-        """Pictures of the camera that are in sight."""
+        """Pictures of the chosen camera that are in sight."""
         cards = (card for card in self._cards.values() if isinstance(card.widget, Video))
-        return [card.widget for card in cards if self._board.in_sight(card)]
+        return [
+            card.widget
+            for card in cards
+            if self._board.in_sight(card) and not self._other_camera(self._view.panels[int(card.shown)])
+        ]
+
+    def _other_camera(self, panel: Panel) -> bool:
+        """The panel is of a camera, and the pictures that come are known to be of another: it must not show them as its own."""
+        watched = self._session.cameras.topic
+        camera = panel.widget == "Video" and panel.topic.endswith("/compressed")
+        return camera and bool(watched) and panel.topic != watched
 
     def enter(self) -> None:
         """Come onto the glass."""
@@ -231,6 +246,9 @@ class ViewShow:
             told = self._signals is not None and index in self._signals.widgets
             card.beneath = self._signals.problem(index) if self._signals is not None and told else ""
             card.problem = self._feeds.problem(topic) if topic and not told else ""
+            if self._other_camera(self._view.panels[index]):
+                watched = self._session.cameras.topic
+                card.problem = tr("Another camera is chosen: {topic}.").format(topic=watched)
         videos = self.videos
         for video in videos[1:]:
             video.state, video.age = videos[0].state, videos[0].age

@@ -75,3 +75,14 @@ def test_a_foreign_robots_picture_is_watched_by_its_topic(
 ) -> None:
     robot.profile.capabilities = Capabilities.of(topics, frozenset())
     assert robot.cameras.wanted("front") == watched
+    assert robot.cameras.topic == next((name for name in topics if name.endswith("/compressed")), "")
+
+
+def test_the_topic_that_is_watched_is_known_by_the_robots_name_of_it(robot: Robot) -> None:
+    assert robot.cameras.topic == "", "before anything is known of the robot"
+    robot.has("front", "down")
+    assert robot.cameras.topic == "/camera/image/compressed"
+    robot.cameras.choose_next()
+    assert robot.cameras.topic == "/camera/down/image/compressed"
+    robot.has()
+    assert robot.cameras.topic == ""

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
 
 from app.layout.panel_grid import Place
@@ -157,6 +158,28 @@ def test_messages_are_drawn_where_they_are_in_sight_alone(
     compass.show = shown.append
     driving.stage.frames(10)
     assert shown == []
+
+
+def test_a_panel_of_a_camera_shows_no_other_cameras_pictures(
+    driving: Glass, robot: FakeRobot, panels: Any
+) -> None:
+    session, profiles = driving.app.session, driving.app.profiles
+    info = session.robot.info
+    of = [Panel("Video", f"/camera/{camera}image/compressed") for camera in ("", "down/")]
+    profiles.save(info, replace(profiles.of(info), views=(View("Cameras", tuple(of)),)))
+    robot.publish("/robot/info", msgspec.structs.replace(info, cameras=["front", "down"]))
+    driving.until(lambda: session.robot.info.cameras == ["front", "down"], "its cameras")
+    panels.reload()
+    first, second = (panels.shows.card_of(number) for number in range(2))
+    for chosen, (shows, other) in (("/camera/", (first, second)), ("/camera/down/", (second, first))):
+        driving.stage.frames(10)
+        panels.shows.tick()
+        assert panels.shows.videos == [shows.widget]
+        assert panels.picture is shows.widget
+        assert shows.problem == ""
+        assert other.problem == f"Another camera is chosen: {chosen}image/compressed."
+        assert other.ids.place.opacity == 0, "nor an old picture"
+        session.cameras.choose_next()
 
 
 def test_a_second_stick_for_the_same_is_refused_in_a_sentence(driving: Glass, panels: Any) -> None:
