@@ -44,6 +44,8 @@ __all__ = [
     "two_sticks",
 ]
 
+MODES_HEIGHT = 46
+"""Of what chooses what a finger on the map does [dp]; in gloves a whole target."""
 SELECTION = 310
 """Width of the bar for what is selected on a phone's map [dp]."""
 MAX_LIST_WIDTH = 720
@@ -110,7 +112,7 @@ def mission(
     """
     if shape == "tall":
         return _mission_tall(body, dp, sheet_open, grip)
-    gap, wide = 14 * dp, shape == "wide"
+    gap, wide, target = 14 * dp, shape == "wide", body.target if isinstance(body, Body) else 0.0
     side = min(max(344 * dp, body.width * 0.22), 420 * dp) if wide else 304 * dp
     panel = Rect(body.right - side, body.y, side, body.height)
     stop = stop_place(body, shape, dp)
@@ -124,14 +126,14 @@ def mission(
         "side": panel,
         "stop": stop,
     }
-    button = (52 if wide else 46) * dp
+    button, modes = max((52 if wide else 46) * dp, target), max(MODES_HEIGHT * dp, target)
     free = Rect(area.x, area.y + 142 * dp, area.width, area.height - 142 * dp) if wide else area
     places["tools"] = _column(free, button, 8, gap, 8 * dp if wide else 6 * dp)
     places["modes"] = Rect(
-        area.x + gap, area.top - gap - 46 * dp, min(384 * dp, places["tools"].x - area.x - 2 * gap), 46 * dp
+        area.x + gap, area.top - gap - modes, min(384 * dp, places["tools"].x - area.x - 2 * gap), modes
     )
     if wide:
-        places |= _mission_instruments(area, gap, dp)
+        places |= _mission_instruments(area, places["modes"].y, gap, dp)
     else:
         places |= _mission_short(area, places["tools"].x - gap, gap, dp)
     return places | {"notice": _mission_notice(places, gap, dp)}
@@ -157,13 +159,13 @@ def _mission_notice(places: dict[str, Rect], gap: float, dp: float) -> Rect:
     return Rect(modes.x, low, right - modes.x, modes.y - 8 * dp - low)
 
 
-def _mission_instruments(area: Rect, gap: float, dp: float) -> dict[str, Rect]:
-    """Along the lower edge of the map."""
+def _mission_instruments(area: Rect, low: float, gap: float, dp: float) -> dict[str, Rect]:
+    """Along the lower edge of the map; the selection below the modes, which end at `low` [px]."""
     picture = min(252 * dp, area.width * 0.28)
     video = Rect(area.x + gap, area.y + gap, picture, picture * 0.75)
     compass = Rect(video.right + 20 * dp, area.y + gap, 154 * dp, 154 * dp)
     readouts = Rect(area.right - gap - 232 * dp, area.y + gap, 232 * dp, 128 * dp)
-    selection = Rect(area.x + gap, area.top - 2 * gap - 98 * dp, 330 * dp, 52 * dp)
+    selection = Rect(area.x + gap, low - gap - 52 * dp, 330 * dp, 52 * dp)
     return {"video": video, "compass": compass, "readouts": readouts, "selection": selection}
 
 
@@ -184,8 +186,10 @@ def _mission_tall(body: Rect, dp: float, sheet_open: bool, grip: float) -> dict[
     area = Rect(body.x, body.y + low, body.width, body.height - low)
     picture = min(148 * dp, body.width * 0.4)
     video = Rect(area.x + gap, area.top - gap - picture * 0.66, picture, picture * 0.66)
-    tools = _column(area, 50 * dp, 5, gap, 8 * dp)
-    modes = Rect(area.x + gap, area.y + gap, body.width - 3 * gap - 50 * dp, 46 * dp)
+    target = body.target if isinstance(body, Body) else 0.0
+    button = max(50 * dp, target)
+    tools = _column(area, button, 5, gap, 8 * dp)
+    modes = Rect(area.x + gap, area.y + gap, tools.x - area.x - 2 * gap, max(MODES_HEIGHT * dp, target))
     return {
         "map": area,
         "side": sheet,
@@ -197,9 +201,7 @@ def _mission_tall(body: Rect, dp: float, sheet_open: bool, grip: float) -> dict[
         "tools": tools,
         "video": video,
         "modes": modes,
-        "selection": Rect(
-            area.x + gap, area.y + 2 * gap + 46 * dp, min(340 * dp, body.width - 3 * gap - 50 * dp), 52 * dp
-        ),
+        "selection": Rect(area.x + gap, modes.top + gap, min(340 * dp, tools.x - area.x - 2 * gap), 52 * dp),
     }
 
 

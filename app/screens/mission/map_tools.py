@@ -15,7 +15,7 @@ from widgets.parts.kit import IconButton
 
 __all__ = ["MapTools", "float_over"]
 
-SPARE = (("zoom_in", "zoom_out"), ("measure",))
+SPARE = (("zoom_in", "zoom_out"), ("measure",), ("fit",), ("redo",))
 """What is left out where there is no room for all, the first first: two fingers enlarge as well."""
 
 

@@ -250,6 +250,19 @@ def test_stop_all_beside_stop_covers_nothing(size: tuple[int, int], name: str) -
             assert not stop.other.overlaps(place), key
 
 
+@pytest.mark.parametrize("size", [size for size in SIZES if min(size) > 360])
+def test_in_gloves_the_maps_modes_and_tools_are_as_large_as_a_target(size: tuple[int, int]) -> None:
+    target = 76.0
+    room, shape = shell(*size, target=target)["body"], form(*size)
+    places = mission(Body(room.x, room.y, room.width, room.height, target=target), shape)
+    assert places["modes"].height >= target
+    assert min(places["tools"].width, places["tools"].height) >= target
+    assert not places["modes"].overlaps(places["tools"])
+    assert not places["modes"].overlaps(places["selection"])
+    assert room.holds(places["modes"])
+    assert room.holds(places["tools"])
+
+
 @pytest.mark.parametrize("size", SIZES)
 def test_in_gloves_bar_and_navigation_are_as_wide_as_a_target(size: tuple[int, int]) -> None:
     places = shell(*size, target=76.0)
