@@ -91,8 +91,3 @@ class TileAddress:
     def shown(self) -> str:
         """The address without what may be a key: neither query nor fragment."""
         return re.split(r"[?#]", self.template)[0]
-
-    @property
-    def place_for_dense(self) -> bool:
-        """The server can be asked for tiles of twice the pixels."""
-        return "{r}" in self.template

@@ -117,8 +117,7 @@ class SignalSender:
 
     def _look(self, topics: dict[str, type[Msg]]) -> None:
         for topic in set(self._looked) - set(topics):
-            self.slot.let_go(topic)
-            self._faults.pop(topic, None)
+            self._faults.pop(topic, None)  # so that what is held there rests, until its finger is lifted
         self._looked = topics
         self._wake.set()
         self._asking.set()

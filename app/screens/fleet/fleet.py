@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Protocol
+from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import ObjectProperty
@@ -35,18 +35,6 @@ Builder.load_string("""
         id: listed
         spacing: dp(10)
 """)
-
-
-class FleetList(Protocol):
-    """The list of robots, as far as the fleet needs it."""
-
-    client_name: str
-
-    def entries(self) -> list[Entry]:
-        """All that can be connected to."""
-
-    def forget(self, url: str) -> None:
-        """Take a saved address off the list."""
 
 
 class FleetScreen(RobotScreen):

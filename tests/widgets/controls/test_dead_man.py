@@ -165,6 +165,19 @@ def test_it_takes_no_finger_while_it_is_hidden(stage, scene):
     assert not scene.knob.held
 
 
+def test_hidden_it_rests_at_once_and_not_with_the_next_look(scene):
+    scene.knob.opacity = 0
+    assert not scene.knob.held
+
+
+def test_a_finger_on_a_disabled_one_is_left_to_what_lies_below(stage, scene):
+    scene.knob.rest()
+    scene.disabled = True
+    touch = stage.touch(50, 50)
+    assert not scene.knob.on_touch_down(touch)
+    assert scene.knob.finger is None
+
+
 def test_nothing_watches_once_it_is_let_go(stage, scene):
     before = len(stage.clock.get_events())
     scene.knob.rest()

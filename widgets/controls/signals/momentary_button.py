@@ -24,19 +24,17 @@ from widgets.core.language import tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 
-__all__ = ["EXPIRY", "SEND_PERIOD", "MomentaryButton"]
+__all__ = ["SEND_PERIOD", "MomentaryButton"]
 
 SEND_PERIOD = 0.1
 """Between two messages while it is held [s]."""
-EXPIRY = 0.5
-"""The robot is to take silence of this length for false [s]: five messages lost, or a handheld that died."""
 
 
 class MomentaryButton(BoolControl):
     """Dispatches `on_command(Bool(True))` when a finger comes down and every `period` while it stays, `Bool(False)` once after.
 
     False follows when the finger is lifted or slides off, and when the button is disabled, moved, hidden, covered or removed
-    under it. A False that is lost on the way is not said again: what listens takes a silence of `EXPIRY` for false, and so does
+    under it. A False that is lost on the way is not said again: what listens takes a silence of 0.5 s for false, and so does
     a robot whose link is cut.
     """
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator, Callable
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -16,6 +17,7 @@ from app.link.signals.signal_slot import REST_REPEATS
 from bridge.core.errors import NoReply
 from bridge.msgs.rosapi_msgs import PublishersResponse, SubscribersResponse
 from bridge.msgs.std_msgs import Bool, String
+from tests.app.link.test_link import Operator
 from tests.bridge.wires import Clock
 
 ON, OFF = Bool(True), Bool(False)
@@ -102,6 +104,7 @@ async def test_what_is_held_goes_to_a_topic_that_was_advertised_once_and_rests_a
     assert desk.advertised == [("/horn", Bool)]
     assert desk.news == [SignalNews("/horn")]
     assert set(await desk.wait(1.0, finger=True)) == {("/horn", ON)}
+    assert not any(desk.late), "only a rest may leave late"
     desk.sender.let_go("/horn")
     assert await desk.wait(1.0) == [("/horn", OFF)] * REST_REPEATS
     assert desk.late[-1]
@@ -186,6 +189,34 @@ async def test_a_topic_that_no_control_on_the_glass_is_bound_to_gets_nothing(des
     assert await desk.wait(1.0) == []
 
 
+async def test_of_a_topic_that_another_type_is_bound_to_since_nothing_leaves_before_it_is_asked_again(
+    desk: Desk,
+) -> None:
+    desk.sender.look({"/horn": String})
+    desk.sender.say("/horn", ON)
+    desk.sender.send()
+    assert desk.sent == []
+
+
+async def test_a_topic_that_left_the_glass_and_came_back_is_not_held_by_the_same_finger(desk: Desk) -> None:
+    await desk.wait(0.5, finger=True)
+    for topics in ({}, {"/horn": Bool}):
+        desk.sender.look(topics)
+        await desk.turn()
+    assert ON not in [msg for _, msg in await desk.wait(0.5, finger=True)]
+    desk.sender.let_go("/horn")
+    assert ("/horn", ON) in await desk.wait(0.5, finger=True), "lifted, it holds anew"
+
+
+async def test_what_waits_when_the_link_is_lost_is_forgotten_and_not_only_held_back(desk: Desk) -> None:
+    desk.sender.hold("/horn", ON, OFF)
+    desk.sender.say("/horn", ON)
+    desk.sender.on_lost()
+    assert not desk.sender.slot.busy
+    desk.sender.hold("/horn", ON, OFF)
+    assert not desk.sender.slot.busy, "the same finger holds nothing over the next link"
+
+
 async def test_nothing_leaves_before_it_is_known_who_listens(desk: Desk) -> None:
     desk.sender.on_lost()
     desk.sender.on_connected()
@@ -234,3 +265,16 @@ async def test_a_node_of_the_robot_that_begins_to_publish_ends_the_sending_over_
     assert desk.news[-1].problem == "The robot itself publishes /horn: nothing else is sent there."
     desk.sender.say("/horn", ON)
     assert await desk.wait(1.0) == []
+
+
+def test_stop_lets_switches_and_buttons_go_before_anything_of_it_is_sent(tmp_path: Path) -> None:
+    operator = Operator("ws://127.0.0.1:9", tmp_path, wants_control=True)
+    signals = operator.link.signals
+    signals.say("/lamp", ON)
+    signals.hold("/horn", ON, OFF)
+    assert signals.slot.busy
+    operator.link.stop()
+    assert not signals.slot.busy
+    signals.hold("/horn", ON, OFF)
+    assert not signals.slot.busy, "the same finger holds nothing after STOP"
+    operator.close()
