@@ -4,7 +4,7 @@ for offer in offers(Odometry, "/odom"):
     print(offer.widget, offer.field, offer.title)      # HeadingTape … Readout twist.twist.linear.x Linear x …
 
 There is no table of types here. Each widget of the catalogue declares what it takes (`RobotWidget.accepts`, `shows_fields`,
-`draws`, `Control.publishes`), so that a new widget is offered as soon as the catalogue has it.
+`draws`, `Control.to_topic`), so that a new widget is offered as soon as the catalogue has it.
 """
 
 from __future__ import annotations
@@ -148,7 +148,7 @@ def _made_for(kind: type[Msg], *, commanded: bool | None) -> Iterator[Offer]:
     for name, widget in _kinds():
         size = widget.grid_size
         if issubclass(widget, Control):
-            if commanded is not False and widget.publishes and issubclass(kind, widget.sends):
+            if commanded is not False and widget.to_topic and issubclass(kind, widget.sends):
                 yield Offer(
                     name, COMMAND, size=size, fit=_fit(widget, kind, widget.sends, commanded=commanded)
                 )

@@ -82,7 +82,7 @@ def only_shows(name: str) -> bool:
 def tells(name: str) -> bool:
     """The widget of that name sends what a finger says to a topic of the robot's own, and does not drive."""
     kind = getattr(widgets, name)
-    return issubclass(kind, Control) and kind.publishes and hasattr(kind, "at_rest")
+    return issubclass(kind, Control) and kind.to_topic and hasattr(kind, "at_rest")
 
 
 def is_hand(name: str) -> bool:

@@ -166,10 +166,10 @@ def test_the_size_of_every_widget_fits_the_grid():
             assert 1 <= rows <= 12, name
 
 
-def test_what_publishes_says_what():
+def test_what_is_for_a_topic_says_of_which_type():
     for name in widgets.CATALOGUE:
         kind = getattr(widgets, name)
-        assert not (issubclass(kind, Control) and kind.publishes) or kind.sends, name
+        assert not (issubclass(kind, Control) and kind.to_topic) or kind.sends, name
 
 
 def test_numbers_are_offered_over_time_behind_their_figure_and_other_fields_are_not():

@@ -269,8 +269,8 @@ class Control(RobotWidget):
 
     sends: ClassVar[tuple[type[Msg], ...]] = ()
     """Types that `on_command` carries."""
-    publishes: ClassVar[bool] = False
-    """What `on_command` carries goes to a topic of the robot as it is, again and again."""
+    to_topic: ClassVar[bool] = False
+    """What `on_command` carries is for a topic of the robot as it is; whoever binds the event may publish it."""
 
     __events__: tuple[str, ...] = ("on_command",)
 

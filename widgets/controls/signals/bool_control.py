@@ -27,7 +27,7 @@ class BoolControl(DeadMan, Gauge):
     """A named bool of the robot under a finger. `show` takes what the robot says of it, `on_command` carries what is asked."""
 
     sends = (Bool,)
-    publishes: ClassVar = True
+    to_topic: ClassVar = True
     at_rest: ClassVar[Bool | None] = None
     """What ends that which it sends while it is held; None for one that asks once."""
     grid_size: ClassVar = (3, 2)

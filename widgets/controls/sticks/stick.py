@@ -73,7 +73,7 @@ class Stick(Grip, Drawing):
     A subclass says how a push is `shaped`, where its middle and its `travel` are, which `order` that is, and draws it.
     """
 
-    publishes: ClassVar = True
+    to_topic: ClassVar = True
     drawn_from: ClassVar[tuple[str, ...]] = ("forward", "left")
 
     forward = NumericProperty(0.0)
