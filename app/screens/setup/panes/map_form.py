@@ -7,6 +7,7 @@ from typing import Any
 
 from kivy.clock import Clock
 from kivy.graphics.texture import Texture
+from kivy.metrics import dp
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.image import Image
 
@@ -24,6 +25,8 @@ QUIET = 0.8
 """How long nothing is typed before a tile is asked for [s]."""
 LOOK_PERIOD = 0.1
 """How often it is looked whether one came [s]."""
+TILE = 160
+"""Side of the tile that is shown [dp]."""
 USUAL_NAME = mark("Streets")
 
 
@@ -41,7 +44,9 @@ class MapForm(Column):
         self._try = Clock.create_trigger(lambda _: self._begin_trial(), QUIET)
         self._look = Clock.create_trigger(lambda _: self._end_trial(), LOOK_PERIOD)
         self._make_fields()
-        self.tile = Image(size_hint=(None, None), size=("160dp", "160dp"), fit_mode="contain")
+        self.tile = Image(size_hint=(None, None), size=(dp(TILE), dp(TILE)), fit_mode="contain", opacity=0)
+        # without a texture it would be a white square
+        self.tile.bind(texture=lambda tile, texture: setattr(tile, "opacity", 0 if texture is None else 1))
         self.problem, self.came = Remark(role="danger"), Remark()
         self.save = PrimaryButton(text=tr("Save"), icon="check")
         self.save.bind(on_release=lambda _: self._keep())
@@ -51,12 +56,13 @@ class MapForm(Column):
         self.save.bind(height=buttons.setter("height"))
         for button in (cancel, self.save):
             buttons.add_widget(button)
-        shown = BoxLayout(size_hint_y=None, height="160dp", spacing="12dp")
+        shown = BoxLayout(size_hint_y=None, height=0, spacing="12dp")
+        self.came.bind(text=lambda _, words: setattr(shown, "height", dp(TILE) if words else 0))
         shown.add_widget(self.tile)
         shown.add_widget(self.came)
         self.came.pos_hint = {"center_y": 0.5}
         words = tr("{z}, {x} and {y} stand for the tile; {-y} counts from the south, {s} is a, b or c, {r} is @2x, {key} the key. The server sees which places you look at.")  # fmt: skip
-        for widget in (*self.fields.values(), self.problem, shown, buttons):
+        for widget in (*self.fields.values(), self.problem, buttons, shown):
             self.add_widget(widget)
         for widget in (Remark(text=words, role="muted"), *self._lines):
             self.add_widget(widget)

@@ -3,6 +3,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from kivy.uix.scrollview import ScrollView
 
 from app.maps.map_source import URL, Source
 from app.maps.regions import RegionPlan
@@ -45,6 +46,28 @@ def test_a_server_is_added_after_a_tile_of_it_was_seen(pane, driving: Glass, tow
     assert names(driving)[0] == "Town"
     assert pane.listed.parent is not None, "the list is back"
     assert len(pane.rows) == 2
+
+
+def test_before_an_address_is_typed_there_is_no_empty_tile_and_save_and_cancel_are_in_sight(
+    pane, driving: Glass, town
+):
+    driving.stage.window.size = (412, 892)
+    driving.stage.frames(10)
+    pane.ask()
+    driving.stage.frames(10)
+    form = pane.form
+    view = next(one for one in form.walk_reverse() if isinstance(one, ScrollView))
+    low, high = view.to_window(view.x, view.y)[1], view.to_window(view.x, view.top)[1]
+    for button in form.save.parent.children:
+        y = button.to_window(button.x, button.y)[1]
+        assert low <= y <= y + button.height <= high, button.text
+    assert (form.tile.opacity, form.tile.parent.height) == (0, 0)
+    form.fields["where"].text = town.url
+    driving.until(lambda: form.tile.texture is not None, "no tile")
+    assert form.tile.opacity == 1
+    assert form.tile.parent.height == form.tile.height
+    form.fields["where"].text = ""
+    assert (form.tile.opacity, form.tile.parent.height) == (0, 0)
 
 
 def test_an_address_that_names_no_tiles_says_why_while_it_is_typed_and_nothing_is_asked(
