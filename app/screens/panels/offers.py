@@ -105,6 +105,10 @@ def control_panel(widget: str) -> Panel:
     return Panel(widget, pad="right" if widget == "TiltCircle" else "left")
 
 
+FIELDS = (mark("Pressed"),)
+"""Titles that our own robots' fields give a panel."""
+
+
 def widget_name(widget: str) -> str:
     """A widget as people call it: `LaserScanView` is `Laser scan`."""
     if widget in _NAMES:

@@ -59,7 +59,7 @@ PANES: dict[str, Pane] = {
         lambda _: tr(SYSTEMS[quantities.system]),
     ),
     "language": Pane(
-        "group",
+        "text_fields",  # letters
         mark("Language"),
         "app.screens.setup.panes.language_pane:LanguagePane",
         lambda _: language.tongue.own_name,
@@ -74,7 +74,7 @@ PANES: dict[str, Pane] = {
         lambda _: tr(HANDS[hand.chosen]),
     ),
     "text": Pane(
-        "text_fields",
+        "zoom_in",
         mark("Size of text"),
         "app.screens.setup.panes.text_pane:TextPane",
         lambda app: f"{app.preferences.text * 100:.0f} %",
