@@ -15,7 +15,7 @@ from app.screens.connect.robot_card import RobotCard, same_named
 from app.screens.parts.placing import Area, above, put  # noqa: F401 - a rule names the area
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.parts.screen_table import SCREENS
-from app.screens.shell import status_text as standing
+from app.screens.shell import status_text
 from app.session.session import Session
 from app.stop.robot_count import count
 from bridge.msgs.pilothouse_msgs import TaskStatus
@@ -139,7 +139,7 @@ class FleetScreen(RobotScreen):
     def _show_own(self, card: RobotCard) -> None:
         """What its link says is newer than its HELLO."""
         session = self.session
-        words, _, role = standing.mode(session)
+        words, _, role = status_text.mode(session)
         task: TaskStatus | None = session.feeds.latest("/task/status")
         doing = (
             TASKS[task.task].doing
@@ -153,7 +153,7 @@ class FleetScreen(RobotScreen):
         battery = session.feeds.latest("/battery_state")
         if battery is not None and math.isfinite(battery.percentage):
             card.battery_text = f"{battery.percentage * 100:.0f} %"
-        card.driver_text, _, card.driver_role = standing.control(session, brief=True)
+        card.driver_text, _, card.driver_role = status_text.control(session, brief=True)
         card.driver_icon, card.outline = "", "accent"
         card.quiet, card.action = True, tr("On the glass: drive it")
 

@@ -17,7 +17,7 @@ from app.screens.parts.placing import Area, above, put  # noqa: F401 - a rule na
 from app.screens.parts.robot_screen import RobotScreen
 from app.screens.parts.screen_table import Entry, beyond
 from app.screens.parts.themes import THEMES
-from app.screens.shell import status_text as standing
+from app.screens.shell import status_text
 from app.screens.shell.key_help import toggle_help
 from app.session.session import Session
 from widgets.core.language import mark, tr
@@ -125,7 +125,7 @@ class MoreScreen(RobotScreen):
         """Say how control, the recording and the theme stand."""
         if not self.tiles:
             return
-        words, icon, role = standing.control(self.session, brief=False)
+        words, icon, role = status_text.control(self.session, brief=False)
         control, record, tint = (self.tiles[name] for name in ("control", "record", "theme"))
         control.icon, control.role, control.about = icon, role, words
         running = self.app.records.recorder is not None

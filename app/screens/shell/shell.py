@@ -22,7 +22,7 @@ from app.screens.parts.robot_screen import RobotScreen
 from app.screens.parts.safe_area import safe_area
 from app.screens.parts.screen_table import MORE
 from app.screens.parts.themes import Themes
-from app.screens.shell import status_text as standing
+from app.screens.shell import status_text
 from app.screens.shell.announcements import Announcements
 from app.screens.shell.control_cards import ControlCards
 from app.screens.shell.control_toggle import ControlToggle
@@ -55,7 +55,7 @@ Builder.load_string("""
 """)
 
 
-def stop_place(place: Rect) -> StopPlace:
+def place_of_stop(place: Rect) -> StopPlace:
     """The place of STOP [px], with that of STOP ALL where the screen gave one."""
     alone = StopPlace(place.x, place.y, place.width, place.height)
     return place if isinstance(place, StopPlace) else alone
@@ -259,7 +259,7 @@ class Shell(FloatLayout):
             put(screen, room)
             size = room.x, room.y, room.width, room.height
             body = arrange.Body(*size, self.shares_stop, hand.left, theme.least)
-            self.stop_place = stop_place(screen.arrange(body, self.form, dp))
+            self.stop_place = place_of_stop(screen.arrange(body, self.form, dp))
             put(self.stop, self.stop_place)
         self._place_notices()
 
@@ -287,7 +287,7 @@ class Shell(FloatLayout):
 
     def _look(self) -> None:
         """Say in the same frame what the robot is and who has it, as soon as that is another."""
-        stands = standing.standing(self.session)
+        stands = status_text.standing(self.session)
         if stands != self._stands:
             self._stands = stands
             self.tick()

@@ -23,7 +23,7 @@ import widgets.instruments.link_quality
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.screens.parts.giving_way import giving_way
 from app.screens.parts.method_chip import InputsChip  # noqa: F401 - its rule draws what is used here
-from app.screens.shell import status_text as standing
+from app.screens.shell import status_text
 from app.session.session import Session
 from widgets.core.base import text_texture
 from widgets.core.language import tr
@@ -322,19 +322,19 @@ class TopBar(EdgedBox):
     def tick(self, session: Session) -> None:
         """Say how the robot stands now."""
         self.robot_name, self.protected = session.robot.name, session.protected
-        self.mode_text, self.mode_icon, self.mode_role = standing.mode(session, self.form)
-        self.mode_brief, *_ = standing.mode(session, "tall")
+        self.mode_text, self.mode_icon, self.mode_role = status_text.mode(session, self.form)
+        self.mode_brief, *_ = status_text.mode(session, "tall")
         self.mode_offered = (
             session.connected and not session.robot.foreign and session.robot.offers("/mode/set")
         )
-        self.fix_text, self.fix_role = standing.fix(session)
+        self.fix_text, self.fix_role = status_text.fix(session)
         offer = session.robot.capabilities
         self.located = offer is None or "/fix" in offer.topics or session.feeds.latest("/fix") is not None
-        self.control_text, self.control_icon, self.control_role = standing.control(
+        self.control_text, self.control_icon, self.control_role = status_text.control(
             session, brief=self.form != "wide"
         )
-        self.control_brief, *_ = standing.control(session, brief=True)
-        words, _, other = standing.control_nav(session)
+        self.control_brief, *_ = status_text.control(session, brief=True)
+        words, _, other = status_text.control_nav(session)
         self.named = words if other else self.control_text if self.form == "tall" else ""
         chip = self.ids.link
         chip.state = "live"

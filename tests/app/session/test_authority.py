@@ -10,7 +10,7 @@ import pytest
 from app.core.settings_store import Settings
 from app.link.channels import LINK
 from app.link.feeds import Feeds, Post
-from app.screens.shell import status_text as standing
+from app.screens.shell import status_text
 from app.session.authority import LAPSE_PERIOD
 from app.session.session import Session
 from bridge.client.client import LinkState, Phase
@@ -110,8 +110,8 @@ def test_who_asks_sees_how_long_still_and_can_take_it_back(watch: Watch) -> None
     watch.clock.time += 2.5
     assert watch.authority.asking
     assert watch.authority.left == pytest.approx(7.5)
-    assert standing.control(watch.session, brief=False)[0] == "asked Bob · 8 s"
-    assert standing.control_nav(watch.session)[0] == "Ask · 8 s"
+    assert status_text.control(watch.session, brief=False)[0] == "asked Bob · 8 s"
+    assert status_text.control_nav(watch.session)[0] == "Ask · 8 s"
     watch.authority.toggle()
     assert watch.asked == ["release"]
     watch.told(BOBS)
@@ -123,14 +123,14 @@ def test_the_countdown_ends_at_zero_and_is_not_guessed_without_a_clock(watch: Wa
     watch.clock.time += 12.0
     assert watch.authority.left == 0.0
     watch.link.robot_time = lambda: float("nan")
-    assert standing.control(watch.session, brief=False)[0] == "Anna asks"
+    assert status_text.control(watch.session, brief=False)[0] == "Anna asks"
 
 
 def test_the_driver_is_told_who_asks_and_what_became_of_it(watch: Watch) -> None:
     watch.told(MINE)
     watch.told(watch.asks(MINE, "Anna", "a"))
     assert watch.authority.asked
-    assert standing.control(watch.session, brief=False)[0] == "Anna asks · 10 s"
+    assert status_text.control(watch.session, brief=False)[0] == "Anna asks · 10 s"
     watch.told(MINE)
     assert watch.news == [("You keep control: Anna does not ask any more.", "info")]
 
@@ -160,8 +160,8 @@ def test_who_asked_is_told_the_end_of_it(watch: Watch, end: ControlStatus, news:
 def test_who_watches_sees_who_asks_whom(watch: Watch) -> None:
     watch.told(BOBS)
     watch.told(watch.asks(BOBS, "Anna", "a"))
-    assert standing.control(watch.session, brief=False)[0] == "driven by Bob · Anna asks"
-    assert standing.control_nav(watch.session) == ("Ask · 10 s", "hourglass_top", "warn")
+    assert status_text.control(watch.session, brief=False)[0] == "driven by Bob · Anna asks"
+    assert status_text.control_nav(watch.session) == ("Ask · 10 s", "hourglass_top", "warn")
     watch.told(ControlStatus(driver="Anna", driver_id="a"))
     assert watch.news == [("Anna asks Bob for control.", "info"), ("Anna has control.", "info")]
 
@@ -255,20 +255,20 @@ def test_nobody_claims_control_over_a_link_that_is_silent(watch: Watch) -> None:
 
 def test_a_long_name_is_cut_in_the_bar(watch: Watch) -> None:
     watch.told(ControlStatus(driver="the tablet of the harbour master", driver_id="b"))
-    assert standing.control(watch.session, brief=True)[0] == "the tablet of…"
+    assert status_text.control(watch.session, brief=True)[0] == "the tablet of…"
 
 
 def test_a_phone_says_who_drives_by_name_and_sign(watch: Watch) -> None:
     watch.told(FREE)
-    assert standing.control_nav(watch.session) == ("Control", "lock_open", "")
+    assert status_text.control_nav(watch.session) == ("Control", "lock_open", "")
     watch.told(MINE)
-    assert standing.control_nav(watch.session) == ("You", "person", "")
+    assert status_text.control_nav(watch.session) == ("You", "person", "")
     watch.told(BOBS)
-    assert standing.control_nav(watch.session) == ("Bob", "lock", "warn")
+    assert status_text.control_nav(watch.session) == ("Bob", "lock", "warn")
     watch.told(ControlStatus(driver="Anna's tablet", driver_id="a"))
-    assert standing.control_nav(watch.session)[0] == "Anna's…"
+    assert status_text.control_nav(watch.session)[0] == "Anna's…"
     watch.link.silence = 2.1
-    assert standing.control_nav(watch.session) == ("Control", "help", "")
+    assert status_text.control_nav(watch.session) == ("Control", "help", "")
 
 
 def test_control_that_is_free_is_asked_for_once_each_time_that_it_becomes_free(tmp_path: Path) -> None:
