@@ -12,7 +12,15 @@ from bridge.core.topics import TOPICS
 from bridge.msgs import TYPES
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
-from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, Imu, LaserScan, Range, Temperature
+from bridge.msgs.sensor_msgs import (
+    BatteryState,
+    CompressedImage,
+    Imu,
+    LaserScan,
+    NavSatFix,
+    Range,
+    Temperature,
+)
 from bridge.msgs.std_msgs import Float32, String
 from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import fitting
@@ -140,6 +148,11 @@ def test_every_offer_of_a_field_can_be_made_and_shows_an_empty_message():
         tried.add((offer.widget, offer.field))
         getattr(widgets, offer.widget)(**offer.options).show(TYPES[name]())
     assert len(tried) > 100
+
+
+def test_a_fix_by_satellite_is_shown_on_a_map_first():
+    assert names(NavSatFix)[0] == "GeoMap"
+    assert "GridMap" not in names(NavSatFix), "whose frame no fix tells"
 
 
 def test_a_new_widget_is_offered_by_what_it_accepts(monkeypatch):

@@ -6,6 +6,7 @@ robot.on("/pose", map.show)
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, ClassVar
@@ -16,6 +17,9 @@ from kivy.properties import ObjectProperty, StringProperty
 from kivy.uix.widget import Widget
 
 from bridge.core.geo import Datum
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
+from bridge.msgs.sensor_msgs import NavSatFix
 from widgets.core.canvas_ink import Word
 from widgets.core.geometry import View, tween
 from widgets.core.shapes import Shapes
@@ -36,6 +40,7 @@ MAX_ENLARGEMENT = 8.0
 class GeoMap(MapOverlay):
     """The map of `MapOverlay` on aerial pictures, north up."""
 
+    accepts: ClassVar[tuple[type[Msg], ...]] = (*MapOverlay.accepts, NavSatFix)
     specificity: ClassVar[float | None] = 0.25
     drawn_from: ClassVar[tuple[str, ...]] = (*MapOverlay.drawn_from, "tiles", "datum")
     may_turn = False
@@ -47,12 +52,49 @@ class GeoMap(MapOverlay):
 
     def __init__(self, **kwargs: Any) -> None:
         self._beneath = Beneath()
+        self._by_fix = False
         self._colour, self._ground = Color(), Rectangle()
         super().__init__(**kwargs)
         for part in (self._colour, self._ground, self._beneath.canvas):
             self.canvas.before.add(part)
         self.bind(tiles=self._open, datum=self._open)
         self._open()
+
+    def show(self, msg: Msg) -> None:
+        """Take over what `MapOverlay` does, and a fix by satellite: a place without a heading, which no fix tells.
+
+        Without a datum the map's origin is where the first fix was. Without a fix the place is not known.
+        """
+        if isinstance(msg, NavSatFix):
+            self._show_fix(msg)
+            return
+        if isinstance(msg, PoseWithCovarianceStamped):
+            self._by_fix = False
+        super().show(msg)
+
+    def _show_fix(self, fix: NavSatFix) -> None:
+        known = fix.status.status >= 0 and abs(fix.latitude) < 90 and abs(fix.longitude) <= 180
+        if not known:
+            self.robot = [math.nan] * 3
+            return
+        first = self.datum is None
+        if self.datum is None:
+            self.datum = Datum(fix.latitude, fix.longitude)
+        x, y = self.datum.to_local(fix.latitude, fix.longitude)
+        self._by_fix = True
+        self._show_pose(PoseWithCovarianceStamped(fix.header, PoseWithCovariance(Pose(Point(x, y)))))
+        if first:
+            self.centre_on_robot()
+
+    def _robot_shapes(
+        self, shapes: Shapes, pose: tuple[float, float, float], *, faded: bool, alarm: bool
+    ) -> None:
+        if not self._by_fix:
+            super()._robot_shapes(shapes, pose, faded=faded, alarm=alarm)
+            return
+        x, y = self.view.to_screen(*pose[:2])
+        shapes.disc(x, y, self.mark_radius + dp(1), theme.danger if alarm else theme.text)
+        shapes.disc(x, y, self.mark_radius - dp(2), theme.muted if faded else theme.accent)
 
     @property
     def ground(self) -> TileGround | None:

@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 
 from bridge.core.geo import Datum
+from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
+from bridge.msgs.sensor_msgs import NavSatFix, NavSatStatus
 from widgets.core.base import text_texture
 from widgets.core.geometry import View
 from widgets.map.beneath import attribution_words, scale_room
@@ -129,3 +131,34 @@ def test_whom_the_pictures_are_of_is_told_whole_beside_the_scale_or_above_it(sta
         assert left >= 0
         assert left + long <= wide
         assert math.isnan(foot) or left >= scale_room(wide) or word.y >= 40, "not over the scale"
+
+
+def fix(east: float, north: float, status: int = 0) -> NavSatFix:
+    latitude, longitude = DATUM.to_geographic(east, north)
+    return NavSatFix(latitude=latitude, longitude=longitude, status=NavSatStatus(status=status))
+
+
+def test_a_fix_alone_makes_a_map_whose_origin_is_where_the_first_was(stage):
+    made = stage.show(GeoMap(state="live"), size=(400, 300))
+    made.show(fix(0, 0, status=-1))
+    assert (made.located, made.datum) == (False, None)
+    made.show(fix(0, 0))
+    made.show(fix(30, -20))
+    stage.frames(2)
+    assert made.robot[:2] == pytest.approx((30, -20), abs=1e-6)
+    assert made.view.to_screen(30, -20) == pytest.approx(made.center, abs=1), "it is followed"
+    assert len(made.trail) == 2
+    made.show(NavSatFix(latitude=math.nan, longitude=8.0))
+    assert not made.located, "no old place is shown as if it were that of now"
+
+
+def test_a_fix_claims_no_heading_and_a_pose_brings_it_back(stage, monkeypatch):
+    arrows = []
+    monkeypatch.setattr("widgets.map.map_marks.robot_mark", lambda *_, **__: arrows.append(1))
+    made = stage.show(GeoMap(datum=DATUM, state="live"), size=(400, 300))
+    made.show(fix(3, 4))
+    stage.frames(2)
+    assert (made.located, arrows) == (True, [])
+    made.show(PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(5.0, 4.0)))))
+    stage.frames(2)
+    assert arrows
