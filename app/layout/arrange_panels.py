@@ -27,8 +27,8 @@ def panels(body: Rect, shape: str, dp: float = 1.0, *, editing: bool = False) ->
 
 def _wide(body: Rect, dp: float, editing: bool) -> dict[str, Rect]:
     gap, row = EDGE * dp, 56 * dp
-    stop = stop_place(body, "wide", dp, beside=0.0 if editing else 84 * dp)
-    wide = max(SIDE * dp, stop.width) + 2 * gap
+    stop = stop_place(body, "wide", dp, beside=84 * dp)
+    wide = max(SIDE * dp, stop.end - stop.left if editing else stop.width) + 2 * gap
     side = Rect(body.right - wide, body.y, wide, body.height)
     room, high = Rect(side.x + gap, stop.y, wide - 2 * gap, stop.height), stop.head
     if editing:
@@ -45,9 +45,9 @@ def _wide(body: Rect, dp: float, editing: bool) -> dict[str, Rect]:
 
 
 def _short(body: Rect, dp: float, editing: bool) -> dict[str, Rect]:
-    """STOP and what can be done stay where they are whether panels are edited or not; what is edited lies beside the board then."""
+    """STOP, STOP ALL and what can be done stay where they are whether panels are edited or not; what is edited lies over the board then."""
     gap, row = 8 * dp, 52 * dp
-    stop = stop_place(body, "short", dp, beside=ALL_BESIDE * dp if editing else 0.0)
+    stop = stop_place(body, "short", dp, beside=ALL_BESIDE * dp)
     side = Rect(stop.left, body.y, body.right - stop.left, body.height)
     tabs = Rect(body.x + gap, body.top - row, side.x - body.x - 2 * gap, row - 4 * dp)
     board = Rect(body.x, body.y, side.x - body.x, body.height - row)

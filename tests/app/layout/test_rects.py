@@ -72,6 +72,32 @@ def test_stop_is_the_same_rectangle_on_every_screen_and_no_smaller_beside_stop_a
     assert min(width, height) >= max(80, target)
 
 
+@looped("target", [0.0, GLOVE])
+@looped("left", [False, True])
+@looped("size", SIZES)
+def test_stop_all_stays_where_it_is_on_a_screen_whatever_is_opened_or_edited_there(
+    size: tuple[int, int], left: bool, target: float
+) -> None:
+    shape = form(*size)
+    seen = screens(body_of(size, left=left, crowd=True, target=target), shape)
+    for name, opened in {
+        "mission": "sheet",
+        "drive": "pulled",
+        "two": "two switch",
+        "dive": "dive pulled",
+        "panels": "panels edited",
+    }.items():
+        stop, other = seen[name]["stop"], seen[opened]["stop"]
+        assert isinstance(stop, StopPlace)
+        assert stop == other, (name, opened)
+    edited = seen["panels edited"]
+    stop = edited["stop"]
+    assert isinstance(stop, StopPlace)
+    assert stop.other is not None
+    assert shape == "tall" or not edited["board"].overlaps(stop.other)
+    assert not edited["side"].overlaps(stop.other)
+
+
 @looped("crowd", [False, True])
 @looped("size", SIZES)
 def test_for_a_left_hand_nothing_lies_over_stop_or_over_stop_all(size: tuple[int, int], crowd: bool) -> None:
