@@ -146,7 +146,10 @@ class IntruderBadge(Drawing):
         why = (
             f"{text} · {tr('it counts when seen three times in one place')}" if self.seen and not old else ""
         )
-        text = first_fitting((why, text), size, self.width - dp(38)) if why and self.count == 0 else text
+        if why and self.count == 0:
+            text = first_fitting((why, text, things_words(self.seen)), size, self.width - dp(38))
+        if not text:
+            return  # a box without words tells nothing
         width = wide(text, size) + dp(38)
         left, y = self._ground(shapes, width, dp(30), "glass"), self.top - dp(15)
         yield Word(icon("visibility"), left + dp(16), y, sp(15), theme.muted, font=theme.icons)

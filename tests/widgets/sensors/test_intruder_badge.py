@@ -64,6 +64,17 @@ def test_it_does_not_say_none_beside_one_that_is_marked_in_the_picture(stage, ba
     assert badge.texts[1] == "1 intruder"
 
 
+def test_of_what_is_marked_a_narrow_badge_tells_the_things_and_one_without_room_shows_no_box(stage, badge):
+    badge.show(found())
+    badge.seen = ["cone"]
+    badge.width = 108
+    stage.frames(2)
+    assert badge.texts[1:] == ["cone"]
+    badge.width = 42
+    stage.frames(2)
+    assert badge.texts == []
+
+
 def test_a_robot_that_does_not_know_where_it_is_tells_the_count_alone(stage, badge):
     badge.show(found((4.0, 0.0, 100.0)))
     stage.frames(2)
