@@ -17,6 +17,8 @@ __all__ = ["connecting_words", "has_failed"]
 def connecting_words(session: Session) -> tuple[str, str]:
     """A sentence and its level: the first attempt is news, a later one a warning."""
     state = session.link_state
+    if state.phase is Phase.CONNECTING and state.attempt == 1:
+        return tr("Connecting to {url} …").format(url=session.robot.url), "info"
     waits = state.phase is Phase.WAITING and session.retry_in > 0
     waiting = (
         tr(" Trying again in {retry_in} s.").format(retry_in=math.ceil(session.retry_in)) if waits else ""

@@ -12,13 +12,14 @@ from bridge.client.client import LinkState, Phase
 
 
 def session(phase: Phase, sentence: str, attempt: int, retry_in: float) -> Any:
-    return SimpleNamespace(link_state=LinkState(phase, sentence, attempt, retry_in), retry_in=retry_in)
+    state = LinkState(phase, sentence, attempt, retry_in)
+    return SimpleNamespace(link_state=state, retry_in=retry_in, robot=SimpleNamespace(url="ws://robot:9090"))
 
 
 @pytest.mark.parametrize(
     ("one", "words"),
     [
-        (session(Phase.CONNECTING, "Connecting …", 1, 0.0), ("Connecting …", "info")),
+        (session(Phase.CONNECTING, "Connecting to it.", 1, 0.0), ("Connecting to ws://robot:9090 …", "info")),
         (
             session(Phase.WAITING, "No robot answers.", 1, 1.2),
             ("No robot answers. Trying again in 2 s. Tap to cancel.", "warn"),
