@@ -94,9 +94,9 @@ class MissionEditor:
     sent: Draft | None = None
     """Under way to the robot; None when nothing is."""
     outcome: str = ""
-    """What became of the last sending, in one sentence."""
+    """What became of sending this draft last, in one sentence; empty again once it is changed."""
     failed: bool = False
-    """The last sending was refused or not answered."""
+    """That was refused or not answered."""
     _recall: str = ""
     """`asked` of the robot; then `told` or `accepted`, whichever it does first; empty when nothing is recalled."""
     _told: bool = False
@@ -138,7 +138,7 @@ class MissionEditor:
             del self._undo[:-STEPS]
         self._merge = merge
         self._redo.clear()
-        self.draft = draft
+        self.draft, self.outcome, self.failed = draft, "", False
         self.on_change()
 
     def add(self, x: float, y: float) -> None:
@@ -225,6 +225,7 @@ class MissionEditor:
         if source:
             target.append(self.draft)
             self.draft, self._merge = source.pop(), ""
+            self.outcome, self.failed = "", False
             self.on_change()
 
     def sending(self) -> Mission:

@@ -25,6 +25,17 @@ def xs(editor: MissionEditor) -> list[float]:
     return [x for x, _ in editor.draft.points]
 
 
+@pytest.mark.parametrize("change", [MissionEditor.undo, lambda editor: editor.remove(2)])
+def test_what_was_refused_is_said_of_no_other_draft(
+    editor: MissionEditor, change: Callable[[MissionEditor], None]
+) -> None:
+    editor.sending()
+    editor.answered(editor.draft, False, "Point 3 is inside a wall.")
+    assert (editor.failed, editor.outcome) == (True, "Point 3 is inside a wall.")
+    change(editor)
+    assert (editor.failed, editor.outcome) == (False, "")
+
+
 @pytest.mark.parametrize("index", [-1, 3])
 @pytest.mark.parametrize(
     "edit", [lambda e, i: e.move(i, 0, 0), lambda e, i: e.remove(i), lambda e, i: e.reorder(i, 0)]
