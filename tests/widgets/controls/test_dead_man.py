@@ -67,16 +67,16 @@ def under_a_dialogue(scene):
     ModalView(size_hint=(0.5, 0.5)).open(animation=False)
 
 
-class Question(FloatLayout):
-    """A dialogue of an app's own: a card on a shade, no ModalView."""
+class AskingCard(FloatLayout):
+    """A dialogue of an app's own: a card on a shade, no ModalView; of a name that no rule of Kivy's is for."""
 
 
-class Drawer(BoxLayout):
+class SlidingBox(BoxLayout):
     """Comes in from the side."""
 
 
 def under_a_question_beside_its_box(scene):
-    scene.add_widget(Question())
+    scene.add_widget(AskingCard())
 
 
 def under_a_card_on_a_layer(scene):
@@ -86,7 +86,7 @@ def under_a_card_on_a_layer(scene):
 
 
 def under_a_drawer(scene):
-    drawer = Drawer(size_hint=(None, None), size=(200, 300), pos=(-300, 0))
+    drawer = SlidingBox(size_hint=(None, None), size=(200, 300), pos=(-300, 0))
     scene.add_widget(drawer)
     drawer.x = 0
 
@@ -138,7 +138,7 @@ def test_what_is_scrolled_out_of_sight_rests_and_what_is_scrolled_within_it_is_h
 
 def test_what_let_the_finger_through_does_not_end_its_hold_but_a_dialogue_in_it_does(stage, scene):
     scene.knob.rest()
-    shown = Question()  # over all, seen through and letting every finger through
+    shown = AskingCard()  # over all, seen through and letting every finger through
     scene.add_widget(shown)
     stage.frames(2)
     stage.touch(50, 50).touch_down()
