@@ -40,6 +40,8 @@ def mode(session: Session, form: str = "wide") -> tuple[str, str, str]:
         return tr("no link"), "signal_disconnected", "muted"
     if session.robot.foreign and session.robot_stop.local.latched:
         return "STOP", *MODES["STOPPED"]
+    if session.link.silent:  # it may do something else by now, and who has control is unknown as well
+        return tr("unknown"), "help", "muted"
     how = steering(session)
     if how is None:
         return "—", "signal_disconnected", "muted"

@@ -22,11 +22,12 @@ def session(
     driving: bool = False,
     foreign: bool = False,
     driven: bool = True,
+    silent: bool = False,
 ) -> Any:
     told = {"/control/status": status, "/task/status": task}
     return SimpleNamespace(
         feeds=SimpleNamespace(latest=told.get),
-        link=SimpleNamespace(driving=driving, driven_by=Origin() if driven else NOBODY),
+        link=SimpleNamespace(driving=driving, driven_by=Origin() if driven else NOBODY, silent=silent),
         robot=SimpleNamespace(foreign=foreign),
         robot_stop=SimpleNamespace(local=SimpleNamespace(latched=False)),
         own_id=ME,
@@ -117,6 +118,12 @@ def test_who_has_control_and_has_not_driven_yet_is_ready(status, task, driving, 
 def test_a_robot_that_has_told_nothing_is_steered_by_nobody_knows_whom():
     assert steering(session(None)) is None
     assert status_text.mode(session(None))[0] == "—"
+
+
+@pytest.mark.parametrize("foreign", [False, True])
+def test_while_the_robot_is_not_heard_nobody_is_said_to_drive_it(foreign):
+    one = session(ControlStatus(mode="MANUAL", **MINE), driving=True, silent=True, foreign=foreign)
+    assert status_text.mode(one) == ("unknown", "help", "muted")
 
 
 def test_of_a_robot_that_tells_nobody_who_drives_the_own_stick_tells():
