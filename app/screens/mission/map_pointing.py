@@ -39,10 +39,6 @@ HINTS = {
 }
 
 
-SETS_GOING = ("start", "resume", "home")
-"""Commands of the task's buttons after which the robot drives by what was drawn."""
-
-
 class EditedMap(Protocol):
     """The mission screen, as far as fingers on its map need it."""
 
@@ -142,10 +138,14 @@ class MapPointing:
             self.places.stay()
         self.show()
 
-    def set_going(self, name: str) -> None:
-        """Who sets the robot going is not placing it any more, nor drawing its way: a tap that is meant otherwise changed it."""
-        placing, drawing = self._screen.mode == "place_robot", self._screen.mode in ("points", "home")
-        if (placing and name != "stop") or (drawing and name in SETS_GOING):
+    def commanded(self, name: str) -> None:
+        """Who commands the robot, but for its end, is not placing it any more; what is refused leaves who draws to mend it."""
+        if self._screen.mode == "place_robot" and name != "stop":
+            self._screen.mode = "view"
+
+    def set_going(self) -> None:
+        """The robot drives: nobody places it any more, nor draws its way, which a tap that is meant otherwise would change."""
+        if self._screen.mode in ("place_robot", "points", "home"):
             self._screen.mode = "view"
 
     def tick(self) -> None:

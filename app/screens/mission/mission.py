@@ -136,7 +136,7 @@ class MissionScreen(RobotScreen):
         ids.update(self._tools.buttons)
         self.add_widget(self.panel)
         self.panel.tasks.size_hint = (None, None)
-        self.panel.tasks.bind(on_command=lambda _, name: self._pointing.set_going(name))
+        self.panel.tasks.bind(on_command=lambda _, name: self._pointing.commanded(name))
         self.panel.lacking.bind(on_choose=lambda _, screen: self.app.show(screen))
         ids.handle.bind(on_touch_down=self._pull)
         ids.floats.add_widget(self.corner)

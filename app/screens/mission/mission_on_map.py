@@ -89,5 +89,5 @@ class MissionOnMap:
         area.visited = max(0, coming - 1) if status.motion != "random" else 0
         runs = status.state == "RUNNING"
         if runs and not self._ran:  # whoever has started it
-            self._pointing.set_going("start")
+            self._pointing.set_going()
         self._ran = runs

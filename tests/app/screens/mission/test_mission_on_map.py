@@ -199,8 +199,9 @@ def test_a_tap_on_the_map_of_a_robot_that_was_set_going_changes_no_point(
 ) -> None:
     mission.map.dispatch("on_add", *FREE)
     mission.mode = mode
-    mission.panel.tasks.ask("pause")
-    assert mission.mode == mode, "who pauses may go on drawing"
+    for command in ("pause", "start"):
+        mission.panel.tasks.ask(command)
+        assert mission.mode == mode, "who pauses, or is refused, may go on drawing"
     runs = TaskStatus(task_id=1, task="patrol", state="RUNNING", waypoints=1)
     robot.publish("/task/status", runs)  # as by another handheld, or by voice
     driving.until(lambda: mission.mode == "view", "it is drawn on")
