@@ -41,6 +41,19 @@ Builder.load_string("""
             radius: [theme.radius * 1.3]
         StencilPop
 
+# in the middle of the room that a question has, at most as large as it is told
+<RoomCard@Card>:
+    room: [0, 0, 1, 1]
+    wide: 0
+    high: 0
+    size_hint: None, None
+    width: min(self.wide, self.room[2] - dp(28))
+    height: min(self.high, self.room[3] - dp(24))
+    x: self.room[0] + (self.room[2] - self.width) / 2
+    y: self.room[1] + (self.room[3] - self.height) / 2
+    padding: dp(18)
+    spacing: dp(10)
+
 <AddressDialog>:
     Card:
         id: card

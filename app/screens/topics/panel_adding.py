@@ -23,15 +23,11 @@ __all__ = ["AddDialog", "add_panel"]
 Builder.load_string("""
 #:import tr widgets.core.language.tr
 <AddDialog>:
-    Card:
+    RoomCard:
         id: card
-        size_hint: None, None
-        width: min(dp(460), root.room[2] - dp(28))
-        height: min(root.room[3] - dp(24), dp(560))
-        x: root.room[0] + (root.room[2] - self.width) / 2
-        y: root.room[1] + (root.room[3] - self.height) / 2
-        padding: dp(18)
-        spacing: dp(10)
+        room: root.room
+        wide: dp(460)
+        high: dp(560)
         Text:
             text: tr('Add to panel')
             bold: True

@@ -31,15 +31,11 @@ __all__ = ["ShareDialog"]
 Builder.load_string("""
 #:import tr widgets.core.language.tr
 <ShareDialog>:
-    Card:
+    RoomCard:
         id: card
-        size_hint: None, None
-        width: min(dp(620), root.room[2] - dp(28))
-        height: min(root.room[3] - dp(24), dp(640))
-        x: root.room[0] + (root.room[2] - self.width) / 2
-        y: root.room[1] + (root.room[3] - self.height) / 2
-        padding: dp(18)
-        spacing: dp(10)
+        room: root.room
+        wide: dp(620)
+        high: dp(640)
         Text:
             text: tr('Share this profile')
             bold: True

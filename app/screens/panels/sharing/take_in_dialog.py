@@ -19,15 +19,11 @@ __all__ = ["TakeInDialog"]
 Builder.load_string("""
 #:import tr widgets.core.language.tr
 <TakeInDialog>:
-    Card:
+    RoomCard:
         id: card
-        size_hint: None, None
-        width: min(dp(520), root.room[2] - dp(28))
-        height: min(root.room[3] - dp(24), dp(480))
-        x: root.room[0] + (root.room[2] - self.width) / 2
-        y: root.room[1] + (root.room[3] - self.height) / 2
-        padding: dp(18)
-        spacing: dp(10)
+        room: root.room
+        wide: dp(520)
+        high: dp(480)
         Text:
             text: tr('A layout from outside')
             bold: True
