@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from bridge.core.codes import UNITS, Code, quantity_of
+from bridge.core.codes import Code
+from bridge.core.units import UNITS, quantity_of
 
 __all__ = ["DOCUMENT", "with_table"]
 

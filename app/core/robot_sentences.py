@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 
 from app.core.robot_docs import ROLES, payload_title
-from bridge.core.codes import Code, quantity_of
+from bridge.core.codes import Code
+from bridge.core.units import quantity_of
 from bridge.msgs.diagnostic_msgs import KeyValue
 from widgets.core.detected import kind_word
 from widgets.core.language import language, mark, tr

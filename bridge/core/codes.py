@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from enum import StrEnum
 from typing import Self
 
-__all__ = ["UNITS", "Code", "quantity_of"]
+__all__ = ["Code"]
 
 
 class Code(StrEnum):
@@ -415,55 +414,3 @@ class Code(StrEnum):
         "seconds",
     )
     DRAWING_FAST = "drawing_fast", "The handheld draws as many frames as usual again.", "seconds"
-
-
-UNITS: Mapping[str, str] = {
-    "length": "m",
-    "height": "m",
-    "speed": "m/s",
-    "turn": "rad/s",
-    "angle": "rad",
-    "duration": "s",
-    "share": "1",
-}
-"""Each kind of quantity that a parameter can be, to the unit in which it travels; `share` is 0 to 1."""
-_QUANTITIES: Mapping[str, str] = {
-    "room": "length",
-    "aside": "length",
-    "height": "height",
-    "reached": "height",
-    "lowest": "height",
-    "highest": "height",
-    "speed": "speed",
-    "seconds": "duration",
-    "age": "duration",
-    "dwell": "duration",
-    "duration": "duration",
-    "charge": "share",
-}
-"""Keys of parameters that mean the same in every code, to their kind."""
-_OWN_QUANTITIES: Mapping[tuple[str, str], str] = {
-    (Code.DWELL_INVALID, "max"): "duration",
-    (Code.DURATION_INVALID, "max"): "duration",
-    (Code.SPEED_INVALID, "max"): "speed",
-    (Code.COMMAND_LATE, "allowed"): "duration",
-    (Code.COMMAND_AHEAD, "allowed"): "duration",
-    (Code.DRIVE_LATE, "allowed"): "duration",
-    (Code.DRIVE_UNSTAMPED, "allowed"): "duration",
-    (Code.ARM_LATE, "allowed"): "duration",
-    (Code.BATTERY_TOO_LOW, "needed"): "share",
-    (Code.CHECK_BATTERY_LOW, "needed"): "share",
-    (Code.TRUST_DURATION_INVALID, "duration"): "",
-}
-"""A code and a key that mean something particular in it, to the kind; empty for no quantity."""
-
-
-def quantity_of(code: str, key: str, parameters: Mapping[str, str]) -> str:
-    """What the parameter `key` of a `code` is, a key of `UNITS`; empty for a word, a name or a count.
-
-    Where `parameters` has `quantity`, that says of which kind `asked` and `allowed` are.
-    """
-    if code == Code.DRIVE_EXCESSIVE and key in ("asked", "allowed"):
-        named = parameters.get("quantity", "")
-        return named if named in UNITS else ""
-    return _OWN_QUANTITIES.get((code, key), _QUANTITIES.get(key, ""))

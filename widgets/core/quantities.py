@@ -235,7 +235,7 @@ def read(text: str, kind: str) -> float:
 
 
 def quantity_words(value: float, kind: str) -> str:
-    """A figure of a robot's sentence with its unit; `kind` as of `bridge.core.codes.UNITS`, `value` in the unit there."""
+    """A figure of a robot's sentence with its unit; `kind` as of `bridge.core.units.UNITS`, `value` in the unit there."""
     return _WRITTEN[kind](value)
 
 

@@ -18,7 +18,8 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.parts.rows  # noqa: F401 - its rules draw what scrolls here
-from bridge.core.codes import Code, quantity_of
+from bridge.core.codes import Code
+from bridge.core.units import quantity_of
 from bridge.msgs.pilothouse_msgs import Check, Checklist
 from widgets.core.base import RobotWidget
 from widgets.core.language import language, mark, tr

@@ -7,7 +7,8 @@ import re
 import pytest
 
 from app.core.robot_sentences import SENTENCES, sentence
-from bridge.core.codes import UNITS, Code, quantity_of
+from bridge.core.codes import Code
+from bridge.core.units import UNITS, quantity_of
 from bridge.msgs.diagnostic_msgs import KeyValue
 from tests.looped import looped
 from widgets.core.language import PSEUDO, language
