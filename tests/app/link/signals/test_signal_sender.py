@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import socket
 from collections.abc import AsyncIterator, Callable
 from pathlib import Path
 from types import SimpleNamespace
@@ -268,13 +269,18 @@ async def test_a_node_of_the_robot_that_begins_to_publish_ends_the_sending_over_
 
 
 def test_stop_lets_switches_and_buttons_go_before_anything_of_it_is_sent(tmp_path: Path) -> None:
-    operator = Operator("ws://127.0.0.1:9", tmp_path, wants_control=True)
-    signals = operator.link.signals
-    signals.say("/lamp", ON)
-    signals.hold("/horn", ON, OFF)
-    assert signals.slot.busy
-    operator.link.stop()
-    assert not signals.slot.busy
-    signals.hold("/horn", ON, OFF)
-    assert not signals.slot.busy, "the same finger holds nothing after STOP"
-    operator.close()
+    with socket.create_server(
+        ("127.0.0.1", 0)
+    ) as mute:  # which refuses nothing: a link that is lost lets go too
+        operator = Operator(f"ws://127.0.0.1:{mute.getsockname()[1]}", tmp_path, wants_control=True)
+        try:
+            signals = operator.link.signals
+            signals.say("/lamp", ON)
+            signals.hold("/horn", ON, OFF)
+            assert signals.slot.busy
+            operator.link.stop()
+            assert not signals.slot.busy
+            signals.hold("/horn", ON, OFF)
+            assert not signals.slot.busy, "the same finger holds nothing after STOP"
+        finally:
+            operator.close()
