@@ -210,6 +210,12 @@ class Code(StrEnum):
     MAP_MISSING = "map_missing", "There is no map of where the robot is."
     MAP_UNUSABLE = "map_unusable", "The map cannot be used."
     POSITION_PLACED = "position_placed", "The actor placed the robot on the map.", "name", "x", "y"
+    POSITION_FOUND = "position_found", "The robot has found by itself that it is elsewhere.", "x", "y"
+    POSITION_CANDIDATE_UNKNOWN = (
+        "position_candidate_unknown",
+        "The robot has no such candidate for its place any more.",
+        "candidate",
+    )
     POSITION_INVALID = "position_invalid", "The pose to place the robot at is not all numbers."
     POSITION_UNKNOWN = "position_unknown", "The robot's position is unknown."
     POSITION_LOST = (
@@ -220,6 +226,10 @@ class Code(StrEnum):
     POSITION_SURE = "position_sure", "The robot is sure again where it is."
     POSITION_BY_WHEELS = "position_by_wheels", "The robot has no laser and reckons by its wheels."
     FENCE_LEFT = "fence_left", "The robot is outside its fence.", "x", "y"
+    FENCE_HEIGHT_UNKNOWN = (
+        "fence_height_unknown",
+        "The height is unknown: the robot goes neither up nor down because of its fence.",
+    )
     FENCE_NEAR = "fence_near", "The fence is near: the robot goes no nearer.", "room"
     FENCE_DRIFT = "fence_drift", "The robot is carried over its fence, or goes back from it.", "robot"
     FENCE_UNPLACED = "fence_unplaced", "The position is unknown, and so is the fence: the robot stays."
@@ -237,6 +247,15 @@ class Code(StrEnum):
     TASK_RESUMED = "task_resumed", "A paused task goes on.", "task"
     TASK_DONE = "task_done", "A task is done.", "task"
     TASK_FAILED = "task_failed", "A task failed.", "task"
+    TASK_PLACE_UNSURE = (
+        "task_place_unsure",
+        "The robot is there as far as it knows, but unsure of its place: the task is not done.",
+        "place",
+    )
+    TASK_PLACE_ASKED = (
+        "task_place_asked",
+        "The task waits until an operator says at which of its candidates the robot is.",
+    )
     TASK_REPLACED = "task_replaced", "Another task was requested instead.", "task", "instead"
     TASK_INTERRUPTED = "task_interrupted", "A restart cut a task.", "task"
     TASK_STOPPED = "task_stopped", "The actor's STOP paused the task.", "name"
@@ -256,13 +275,29 @@ class Code(StrEnum):
     TASK_ROBOT_ENDS = "task_robot_ends", "The robot's program ends, and the task with it."
     TASK_FAULT = "task_fault", "A fault of the robot's program ended the task.", "fault"
     TASK_BATTERY = "task_battery", "The battery is low and home cannot be reached; the task ended.", "charge"
+    TASK_LOOP_LATE = "task_loop_late", "The robot's computer lags too much: the task waits."
     TASK_SLOW = "task_slow", "Something took too long; the robot stays where it is.", "seconds"
     TASK_EDITED = "task_edited", "The patrol goes on with a new mission.", "count"
     WAY_BLOCKED = "way_blocked", "The way is blocked.", "place", "x", "y"
     WAY_MISSING = "way_missing", "There is no way to the place."
     WAY_ENDED = "way_ended", "The way straight on ended.", "x", "y"
     HEIGHT_UNREACHED = "height_unreached", "The height is not reached.", "height", "reached"
-    DOCK_DEAD = "dock_dead", "The dock gives no charge.", "place", "seconds"
+    DOCK_DEAD = "dock_dead", "The dock gives no charge: the contacts meet, but no current flows.", "place"
+    DOCK_UNSEEN = "dock_unseen", "The dock is not seen where it should be.", "place"
+    DOCK_TAKEN = "dock_taken", "Something stands in the dock.", "place"
+    DOCK_BLOCKED = "dock_blocked", "Something stands before the dock.", "place"
+    DOCK_MISSED = "dock_missed", "The contacts of robot and dock did not meet.", "place"
+    UNDOCK_BLOCKED = "undock_blocked", "The robot cannot leave the dock.", "place"
+    CHARGING = "charging", "The robot charges and goes on with enough.", "place", "charge", "until"
+    CHARGE_LOST = "charge_lost", "The dock charges no more.", "place", "charge"
+    CHARGE_UNKNOWN = (
+        "charge_unknown",
+        "The battery is silent: whether it charges is not known.",
+        "place",
+        "seconds",
+    )
+    CHARGE_NEEDED = "charge_needed", "There is too little charge to go on with.", "charge", "needed"
+    CHARGE_CUT = "charge_cut", "Somebody had the robot go on before its battery had enough.", "name", "charge"
     WAYPOINT_REACHED = "waypoint_reached", "A point or place was reached.", "place"
     WAYPOINT_SKIPPED = "waypoint_skipped", "A point cannot be reached and is skipped.", "place"
     MESSAGE_TOLD = "message_told", "The robot tells the message of its task.", "place", "message"
@@ -276,12 +311,20 @@ class Code(StrEnum):
     INTRUDER_FOUND = "intruder_found", "An intruder was found.", "id", "kind", "x", "y"
     INTRUDER_CIRCLED = (
         "intruder_circled",
-        "The robot went round an intruder, as far as there is room.",
+        "The robot went round an intruder, and saw so many of the sides; the others are named.",
         "id",
         "sides",
+        "count",
+        "missing",
     )
     BATTERY_LOW = "battery_low", "The battery is low.", "charge"
     BATTERY_GOING_HOME = "battery_going_home", "The battery is low: the robot goes home.", "charge"
+    BATTERY_GOING_TO_DOCK = (
+        "battery_going_to_dock",
+        "The battery is low: the robot goes to charge.",
+        "place",
+        "charge",
+    )
     BUMPER_TOUCHED = "bumper_touched", "The bumper touched something.", "side"
 
     # queue and schedule
@@ -309,6 +352,7 @@ class Code(StrEnum):
     MISSION_TOO_LONG = "mission_too_long", "The mission has too many points.", "count", "max"
     MOTION_UNKNOWN = "motion_unknown", "There is no such motion.", "motion"
     REACTION_UNKNOWN = "reaction_unknown", "There is no such reaction to an intruder.", "reaction"
+    CLASS_UNKNOWN = "class_unknown", "There is no such class of intruders.", "kind"
     DWELL_INVALID = "dwell_invalid", "The dwell is not allowed.", "dwell", "max"
     LAPS_INVALID = "laps_invalid", "The number of laps is not allowed.", "laps", "max"
 
@@ -332,6 +376,7 @@ class Code(StrEnum):
     HEIGHT_INVALID = "height_invalid", "The height is not allowed.", "height", "lowest", "highest"
     DURATION_INVALID = "duration_invalid", "The duration is not allowed.", "duration", "max"
     DOCK_MISSING = "dock_missing", "There is no dock."
+    CHARGE_INVALID = "charge_invalid", "The charge to stay for is not allowed.", "charge", "least"
     DOCK_UNDIRECTED = "dock_undirected", "The dock has no direction.", "place"
     PLACES_MISCOUNTED = "places_miscounted", "The task needs another number of places.", "count"
     PLACES_TOO_MANY = "places_too_many", "The task names too many places.", "count", "max"
@@ -346,6 +391,7 @@ class Code(StrEnum):
     PLACE_INVALID = "place_invalid", "The place's x and y are not numbers."
     PLACES_TAKEN_OVER = "places_taken_over", "The places of the world were taken over.", "count"
     PLACES_LEFT_OUT = "places_left_out", "Not all places of the world could be taken over."
+    PICTURE_MISSING = "picture_missing", "There is no picture with the event.", "id"
     EVENT_UNKNOWN = "event_unknown", "There is no event with that number.", "id"
     EVENTS_TOO_MANY = "events_too_many", "Too many events at once.", "count", "max"
     HISTORY_RANGE_INVALID = (
@@ -389,6 +435,15 @@ class Code(StrEnum):
     ARM_HELD = "arm_held", "The arm was held before it was there."
     ARM_LATE = "arm_late", "The arm was not there in time.", "allowed"
 
+    SIMULATION_SLOW = (
+        "simulation_slow",
+        "The simulation is slower than real time; the robot goes slower or rests.",
+        "factor",
+        "seconds",
+    )
+    LOOP_LATE = "loop_late", "The robot's control loop is late; the robot goes slower or rests.", "seconds"
+    LOOP_ON_TIME = "loop_on_time", "The robot's loop, or its simulation, keeps up again."
+
     # the checks before the first motion
 
     CHECK_BATTERY_GOOD = "check_battery_good", "The battery is charged."
@@ -398,7 +453,7 @@ class Code(StrEnum):
     CHECK_SENSORS_SILENT = "check_sensors_silent", "Sensors are silent.", "sensors"
     CHECK_POSITION_GOOD = "check_position_good", "The robot knows where it is."
     CHECK_POSITION_UNKNOWN = "check_position_unknown", "The robot has no place on the map."
-    CHECK_POSITION_UNSURE = "check_position_unsure", "The laser does not match the map."
+    CHECK_POSITION_UNSURE = "check_position_unsure", "The robot is not sure of its place."
     CHECK_STOP_GOOD = "check_stop_good", "STOP was tested."
     CHECK_STOP_UNTESTED = "check_stop_untested", "STOP was not tested since the start."
     CHECK_CLOCK_GOOD = "check_clock_good", "The clocks agree."

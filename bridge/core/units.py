@@ -49,6 +49,9 @@ _OWN_QUANTITIES: Mapping[tuple[str, str], str] = {
     (Code.ARM_LATE, "allowed"): "duration",
     (Code.BATTERY_TOO_LOW, "needed"): "share",
     (Code.CHECK_BATTERY_LOW, "needed"): "share",
+    (Code.CHARGE_NEEDED, "needed"): "share",
+    (Code.CHARGE_INVALID, "least"): "share",
+    (Code.CHARGING, "until"): "share",
     (Code.TRUST_DURATION_INVALID, "duration"): "",
 }
 """A code and a key that mean something particular in it, to the kind; empty for no quantity."""

@@ -35,10 +35,14 @@ EXTENDS = {
     "pilothouse_msgs/DeleteScheduleResponse": "pilothouse_msgs/CommandResponse",
     "pilothouse_msgs/GetHistoryRequest": "pilothouse_msgs/CommandRequest",
     "pilothouse_msgs/GetHistoryResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/GetIntruderPictureRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/GetIntruderPictureResponse": "pilothouse_msgs/CommandResponse",
     "pilothouse_msgs/AcknowledgeEventsRequest": "pilothouse_msgs/CommandRequest",
     "pilothouse_msgs/AcknowledgeEventsResponse": "pilothouse_msgs/CommandResponse",
     "pilothouse_msgs/SetModeRequest": "pilothouse_msgs/CommandRequest",
     "pilothouse_msgs/SetModeResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/ChoosePlaceRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/ChoosePlaceResponse": "pilothouse_msgs/CommandResponse",
     "pilothouse_msgs/SetOptionRequest": "pilothouse_msgs/CommandRequest",
     "pilothouse_msgs/SetOptionResponse": "pilothouse_msgs/CommandResponse",
     "pilothouse_msgs/SetLightsRequest": "pilothouse_msgs/CommandRequest",
@@ -88,7 +92,7 @@ ALSO: dict[str, dict[str, tuple[str, ...]]] = {
 
 DEFAULTS = {
     "pilothouse_msgs/RobotInfo": dict.fromkeys(("latitude", "longitude", "camera_fov"), "math.nan"),
-    "pilothouse_msgs/Waypoint": {"yaw": "math.nan"},
+    "pilothouse_msgs/Waypoint": dict.fromkeys(("yaw", "height"), "math.nan"),
     "pilothouse_msgs/TaskProgress": dict.fromkeys(("progress", "distance_to_next", "time_left"), "math.nan"),
     "pilothouse_msgs/Event": {"position": "Point(math.nan, math.nan, math.nan)"},
     "pilothouse_msgs/Bumper": {"bearing": "math.nan"},
@@ -97,10 +101,21 @@ DEFAULTS = {
     "pilothouse_msgs/SetMissionRequest": {"stamp": "math.nan"},
     "pilothouse_msgs/Place": {"yaw": "math.nan"},
     "pilothouse_msgs/TaskOrder": dict.fromkeys(
-        ("heading", "speed", "throttle", "height", "duration"), "math.nan"
+        ("heading", "speed", "throttle", "height", "duration", "charge_to"), "math.nan"
     ),
     "pilothouse_msgs/Limits": dict.fromkeys(
-        ("max_speed", "max_yaw_rate", "min_depth", "max_depth", "max_height", "max_slope"), "math.nan"
+        (
+            "max_speed",
+            "max_yaw_rate",
+            "min_depth",
+            "max_depth",
+            "max_height",
+            "max_slope",
+            "floor",
+            "ceiling",
+            "clearance",
+        ),
+        "math.nan",
     ),
     "pilothouse_msgs/Manoeuvre": dict.fromkeys(("speed", "throttle", "yaw", "height"), "math.nan"),
     "pilothouse_msgs/ArmOrder": {

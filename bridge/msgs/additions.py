@@ -13,6 +13,8 @@ import msgspec
 from bridge.msgs.base import Msg
 
 __all__ = [
+    "DETECTED_CLASSES",
+    "INTRUDER_CLASSES",
     "MAX_DWELL",
     "MANOEUVRES",
     "MAX_LAPS",
@@ -37,6 +39,10 @@ PLACE_KINDS = ("place", "office", "home", "dock", "reception", "lab", "hall")
 """Kinds of named places."""
 REACTIONS = ("stop", "report", "circle")
 """Reactions of a patrol to an intruder: halt, only report it, or circle it once with the camera on it, then continue."""
+DETECTED_CLASSES = ("cone", "person", "car", "box")
+"""Classes of things that a robot's camera tells apart; a box is a crate, a carton or a barrel that stands free."""
+INTRUDER_CLASSES = ("person", "cone")
+"""Classes that count as intruders on a patrol whose mission names none."""
 TASKS = (
     "patrol",
     "deliver",

@@ -9,10 +9,11 @@ from msgspec import Meta, field
 
 from bridge.msgs.additions import MANOEUVRES, MAX_DWELL, MAX_LAPS, MOTIONS, PLACE_KINDS, REACTIONS, TASKS
 from bridge.msgs.arrays import Float32Array, Float64Array, Int32Array
-from bridge.msgs.base import Msg, int32
+from bridge.msgs.base import Msg, int32, uint32
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.geometry_msgs import Point, Point32, Polygon, Twist
+from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
@@ -28,6 +29,8 @@ __all__ = [
     "Bumper",
     "Check",
     "Checklist",
+    "ChoosePlaceRequest",
+    "ChoosePlaceResponse",
     "CommandRequest",
     "CommandResponse",
     "Compass",
@@ -45,6 +48,8 @@ __all__ = [
     "GetEventsResponse",
     "GetHistoryRequest",
     "GetHistoryResponse",
+    "GetIntruderPictureRequest",
+    "GetIntruderPictureResponse",
     "GetMeRequest",
     "GetMeResponse",
     "GetMissionRequest",
@@ -84,6 +89,8 @@ __all__ = [
     "Person",
     "Place",
     "PlaceArray",
+    "PlaceCandidate",
+    "PlaceCandidates",
     "REACTIONS",
     "RecallMissionRequest",
     "RecallMissionResponse",
@@ -402,8 +409,27 @@ class Checklist(Msg, frozen=True, gc=False):
     """Always the same checks in the same order."""
 
 
+class ChoosePlaceRequest(CommandRequest, frozen=True, gc=False):
+    """Tells the robot at which of its candidates it is."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/ChoosePlaceRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "uint32")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    id: uint32 = 0
+    """Of the candidate, as in /localisation/candidates."""
+
+
+class ChoosePlaceResponse(CommandResponse, frozen=True, gc=False):
+    """What `ChoosePlace` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/ChoosePlaceResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
 class Compass(Msg, frozen=True, gc=False):
-    """A tilt-compensated compass: the magnetic field, levelled by the accelerometer."""
+    """A compass that knows its level: heading, roll and pitch, by the magnetic field and weight, and by a
+    gyro where it has one.
+    """
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Compass"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64", "float64", "float64")
@@ -411,11 +437,11 @@ class Compass(Msg, frozen=True, gc=False):
     header: Header = Header()
     """Frame base_link."""
     heading: float = math.nan
-    """Heading of the bow [deg], 0 north, clockwise, 0 to 360; NaN while the unit falls freely."""
+    """Heading of the bow [deg], 0 north, clockwise, 0 to 360; NaN while it knows none."""
     roll: float = 0.0
-    """Roll by the accelerometer [rad]."""
+    """Roll, as it finds its level [rad]."""
     pitch: float = 0.0
-    """Pitch by the accelerometer [rad], positive nose down."""
+    """Pitch likewise [rad], positive nose down."""
 
 
 class ControlStatus(Msg, frozen=True, gc=False):
@@ -438,7 +464,11 @@ class ControlStatus(Msg, frozen=True, gc=False):
         "bool",
         "time",
         "bool",
+        "float64",
+        "float64",
+        "float64",
     )
+    UNITS: ClassVar[dict[str, str]] = {"loop_lag": "s"}
     stamp: Time = Time()
     """When it changed."""
     mode: str = "MANUAL"
@@ -471,6 +501,14 @@ class ControlStatus(Msg, frozen=True, gc=False):
     """When STOP last brought the robot to rest, operators' clock; 0 when never since its start."""
     lost_link_stops_task: bool = False
     """A task is paused when the link to the driver is lost; /settings/set switches it."""
+    loop_cap: float = 1.0
+    """Share of the full speed that the robot's own loop allows: less while its control or its simulation
+    lags, 0 while it rests for that.
+    """
+    real_time_factor: float = 1.0
+    """Seconds of a lagging simulation that pass in a second; 1 while it keeps up, and of real robots."""
+    loop_lag: float = 0.0
+    """Age of the newest data while the loop lags [s]; 0 while it is on time."""
 
 
 class DeletePlaceRequest(CommandRequest, frozen=True, gc=False):
@@ -698,8 +736,8 @@ class Waypoint(Msg, frozen=True, gc=False):
     """A point to pass, in the map frame."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Waypoint"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("float64", "float64", "float64", "string")
-    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "yaw": "rad"}
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("float64", "float64", "float64", "string", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "yaw": "rad", "height": "m"}
     x: float = 0.0
     """East of the map's origin [m]."""
     y: float = 0.0
@@ -708,6 +746,10 @@ class Waypoint(Msg, frozen=True, gc=False):
     """Direction to stand in [rad], 0 east, anticlockwise; NaN when any will do."""
     name: str = ""
     """Name; empty without one."""
+    height: float = math.nan
+    """To be at there, above the map's origin [m], negative below water, of robots that swim or fly; NaN or
+    0 for the one that it has.
+    """
 
 
 class TaskOrder(Msg, frozen=True, gc=False):
@@ -726,13 +768,14 @@ class TaskOrder(Msg, frozen=True, gc=False):
         "float64",
         "float64",
         "float64",
+        "float64",
     )
     UNITS: ClassVar[dict[str, str]] = {"heading": "rad", "speed": "m/s", "height": "m", "duration": "s"}
     id: int32 = 0
     """Given by the robot; 0 for a new one."""
     task: str = ""
-    """patrol, deliver, guide, go_to, go_home, hold, follow_heading, dock, take_off, land or surface;
-    RobotInfo lists those that a robot knows.
+    """patrol, deliver, guide, go_to, go_home, hold, follow_heading, dock, undock, take_off, land or
+    surface; RobotInfo lists those that a robot knows.
     """
     places: list[str] = []
     """Names of places. patrol: none for the stored mission; deliver: from, to and optionally a third to go
@@ -753,11 +796,15 @@ class TaskOrder(Msg, frozen=True, gc=False):
     given.
     """
     height: float = math.nan
-    """For take_off, hold and follow_heading: height to hold above the map's origin [m], negative below
+    """Of robots that swim or fly: height to go at or to hold, above the map's origin [m], negative below
     water; NaN for the default or the present one.
     """
     duration: float = math.nan
     """Time to hold or to follow the heading [s]; NaN for until stopped."""
+    charge_to: float = math.nan
+    """For dock: it stays until the battery has this share, 0 to 1; NaN to be done as soon as it takes
+    charge.
+    """
 
 
 class TaskRun(Msg, frozen=True, gc=False):
@@ -821,6 +868,42 @@ class GetHistoryResponse(CommandResponse, frozen=True, gc=False):
     """Newest first."""
 
 
+class GetIntruderPictureRequest(CommandRequest, frozen=True, gc=False):
+    """Returns the picture of an intruder, as the robot kept it with the event that reported it."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetIntruderPictureRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "int32",
+        "string",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    event: int32 = 0
+    """Number of the event."""
+    boot: str = ""
+    """The log that the event belongs to; empty for the robot's present one."""
+
+
+class GetIntruderPictureResponse(CommandResponse, frozen=True, gc=False):
+    """What `GetIntruderPicture` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetIntruderPictureResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "bool",
+        "string",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
+        "sensor_msgs/CompressedImage",
+    )
+    picture: CompressedImage = CompressedImage()
+    """JPEG, at most 192 pixels long and 24 kB."""
+
+
 class GetMeRequest(Msg, frozen=True, gc=False):
     """Returns who the robot takes the caller for."""
 
@@ -869,6 +952,7 @@ class Mission(Msg, frozen=True, gc=False):
         "bool",
         "string",
         "string",
+        "string[]",
     )
     UNITS: ClassVar[dict[str, str]] = {"dwell": "s"}
     stamp: Time = Time()
@@ -889,6 +973,8 @@ class Mission(Msg, frozen=True, gc=False):
     """Name under which it is stored; empty for a mission without one."""
     on_intruder: str = ""
     """stop, report or circle when an intruder is found; empty reports it."""
+    intruder_classes: list[str] = []
+    """Classes that count as intruders: cone, person, car or box; none means person and cone."""
 
 
 class GetMissionResponse(Msg, frozen=True, gc=False):
@@ -1021,7 +1107,7 @@ class Intruder(Msg, frozen=True, gc=False):
     id: int32 = 0
     """Counts from 1 for each run of the robot side."""
     class_id: str = "cone"
-    """Its class."""
+    """Its class: cone, person, car, box, or unknown where the camera is not sure."""
     position: Point = Point()
     """Position in map [m]."""
     first_seen: Time = Time()
@@ -1122,6 +1208,9 @@ class Limits(Msg, frozen=True, gc=False):
         "float64",
         "geometry_msgs/Polygon[]",
         "geometry_msgs/Polygon[]",
+        "float64",
+        "float64",
+        "float64",
     )
     UNITS: ClassVar[dict[str, str]] = {
         "max_speed": "m/s",
@@ -1132,6 +1221,9 @@ class Limits(Msg, frozen=True, gc=False):
         "max_slope": "rad",
         "keep_in": "m",
         "keep_out": "m",
+        "floor": "m",
+        "ceiling": "m",
+        "clearance": "m",
     }
     max_speed: float = math.nan
     """Greatest speed, along any direction [m/s]; NaN for none beside RobotInfo's."""
@@ -1149,6 +1241,14 @@ class Limits(Msg, frozen=True, gc=False):
     """Areas in map [m], of which it stays in at least one; none for everywhere."""
     keep_out: list[Polygon] = []
     """Areas in map [m] that it never enters, holes of the others included."""
+    floor: float = math.nan
+    """Of the fence: lowest height above the map's origin [m], negative under water; taking off and landing
+    pass it. NaN for none.
+    """
+    ceiling: float = math.nan
+    """Of the fence: greatest height above the map's origin [m], negative under water; NaN for none."""
+    clearance: float = math.nan
+    """Kept at least between the body and anything on ways of its own [m]; NaN for what its kind keeps."""
 
 
 class LineSensor(Msg, frozen=True, gc=False):
@@ -1433,6 +1533,43 @@ class PlaceArray(Msg, frozen=True, gc=False):
     """When it changed, operators' clock."""
     places: list[Place] = []
     """In the order of their ids."""
+
+
+class PlaceCandidate(Msg, frozen=True, gc=False):
+    """A place where the robot may be: as far as it can tell, it fits what the robot measures."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/PlaceCandidate"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("uint32", "float64", "float64", "float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "yaw": "rad", "spread": "m"}
+    id: uint32 = 0
+    """Kept while the question is open, and never given again in a run of the robot side; the first
+    candidate of each question has 1, 27, 53, ..., so that screens can call it A.
+    """
+    x: float = 0.0
+    """In map [m]."""
+    y: float = 0.0
+    """In map [m]."""
+    yaw: float = 0.0
+    """In map [rad], 0 east, anticlockwise."""
+    share: float = 0.0
+    """How likely it is beside all others, 0 to 1."""
+    spread: float = 0.0
+    """Uncertainty of the place in the worst direction, one standard deviation [m]."""
+
+
+class PlaceCandidates(Msg, frozen=True, gc=False):
+    """Where the robot may be, while it cannot tell by itself; latched on /localisation/candidates, sent on
+    change.
+    """
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/PlaceCandidates"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "pilothouse_msgs/PlaceCandidate[]", "string")
+    header: Header = Header()
+    """Frame map."""
+    candidates: list[PlaceCandidate] = []
+    """The likeliest first; two or more are a question to the operator, none is no question."""
+    reason: str = ""
+    """One sentence: why it asks; empty for none."""
 
 
 class RecallMissionRequest(CommandRequest, frozen=True, gc=False):
@@ -2041,8 +2178,8 @@ class TaskStatus(Msg, frozen=True, gc=False):
     visited: int32 = 0
     """Waypoints reached in this run."""
     phase: str = ""
-    """driving, waiting, dwelling, holding, turning, planning (searches a path), docking, circling, taking
-    off, landing or surfacing; empty for none of them.
+    """driving, waiting, dwelling, holding, turning, planning (searches a path), docking, undocking,
+    charging, circling, taking off, landing, surfacing or unsure (of its place); empty for none of them.
     """
     asks: str = ""
     """A question that /task/confirm answers, as in: Has it been picked up at Office 12? Empty for none."""

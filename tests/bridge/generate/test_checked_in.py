@@ -149,7 +149,7 @@ def test_what_the_parser_has_no_copy_of_has_the_fields_that_its_package_publishe
 UNKNOWN = {
     "Place": "yaw",
     "TaskOrder": "heading, speed, duration",
-    "Limits": "max_speed, max_yaw_rate, min_depth, max_depth, max_height, max_slope",
+    "Limits": "max_speed, max_yaw_rate, min_depth, max_depth, max_height, max_slope, floor, ceiling, clearance",
     "Following": "distance",
     "SetQueueRequest": "stamp",
 }
