@@ -18,6 +18,8 @@ from app.layout import layout as layouts
 from app.lean_kivy import be_lean
 from app.profiles.profile_link import is_profile_link, text_of_link
 from app.screens.parts.screen_table import names
+from bridge.core.errors import BridgeError
+from bridge.discovery.domain import VARIABLE, check_domain, discovery_domain
 from bridge.trust.pairing import SCHEME, PairLink
 from bridge.trust.robot_link import RobotLink, read_link
 
@@ -51,7 +53,12 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--screen", default="mission", choices=names(), help="first screen after connecting")
     parser.add_argument("--theme", choices=THEMES, help="colours; default: the last choice")
     parser.add_argument("--size", help="size of the window [px], as in 412x892")
+    parser.add_argument(
+        "--domain",
+        help=f"discovery domain: find only robots of the same one; by default {VARIABLE}, else that of all",
+    )
     arguments = parser.parse_args(argv)
+    _enter_domain(arguments.domain)
     for link in arguments.pair:
         PairLink.read(link)
     if arguments.url is not None and is_profile_link(arguments.url):
@@ -67,6 +74,16 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     if arguments.size is not None and not SIZE.fullmatch(arguments.size):
         raise ValueError(f"A size is written as 412x892, not {arguments.size!r}.")
     return arguments
+
+
+def _enter_domain(name: str | None) -> None:
+    """Find robots of the domain of that `name` from now on, if any, and have the built-in simulator be of it too."""
+    try:
+        if name is not None:
+            os.environ[VARIABLE] = check_domain(name)
+        discovery_domain()
+    except BridgeError as fault:
+        raise ValueError(str(fault)) from fault
 
 
 def prepare(size: str | None = None) -> None:

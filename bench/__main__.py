@@ -15,6 +15,7 @@ from pathlib import Path
 from bench.support.harness import COUNTS, ON_DEMAND, Context, Result, load, measure, names
 from bench.support.noise import Noise
 from bench.support.report import as_json, document, table, write
+from bridge.discovery.domain import VARIABLE
 
 ROOT = Path(__file__).parents[1]
 OUT = ROOT / "out" / "bench"
@@ -85,6 +86,7 @@ def main(arguments: Sequence[str]) -> int:
     """0 for any figures; 1 when a bench crashed."""
     known = names()
     asked = options(arguments, known)
+    os.environ[VARIABLE] = f"bench-{os.getpid()}"  # robots of others are neither measured nor stopped
     usual = [name for name in known if name not in ON_DEMAND]
     chosen = asked.name or (usual if asked.doc is None else [])
     context = Context(asked.data, {name: getattr(asked, name) for name in COUNTS})

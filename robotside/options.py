@@ -14,6 +14,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Protocol
 
+from bridge.core.errors import BridgeError
+from bridge.discovery.domain import VARIABLE, check_domain, discovery_domain
 from bridge.server.reception.pages import read_origin
 from robotside.bringing_up import guide
 from robotside.bringing_up.settling import NO_ASK, VARIABLES, Ask, blamed, settle
@@ -164,6 +166,10 @@ def _add_more(serve: argparse.ArgumentParser) -> None:
         help="directory of the database; each of several robots has its own in it",
     )
     add("--name", default="", help="name of the robot; names of several robots, separated by commas")
+    add(
+        "--domain",
+        help="discovery domain: only handhelds of the same one find the robot; by default PILOTHOUSE_DOMAIN, else that of all",
+    )
     add("--mdns", action="store_true", help="announce the robot by mDNS too, for networks without broadcast")
     add("--gui", action="store_true", help="show simulated robots in the physics engine's window")
     add("--with-parent", action="store_true", help="exit when the program that started it exits")
@@ -207,6 +213,7 @@ def _add_trust(serve: argparse.ArgumentParser) -> None:
 def _check(options: argparse.Namespace) -> None:
     _check_trust(options)
     _check_mdns(options)
+    _check_domain(options)
     for name in ("port", "http_port"):
         number = getattr(options, name)
         if not 0 <= number <= 65535:
@@ -228,6 +235,16 @@ def _check_mdns(options: argparse.Namespace) -> None:
         raise UserMistake(
             f"--mdns needs zeroconf, which is not installed: {how_to_install('mdns')} brings it."
         )
+
+
+def _check_domain(options: argparse.Namespace) -> None:
+    """Have what the robot side announces, and what it starts, go by the option."""
+    try:
+        if options.domain is not None:
+            os.environ[VARIABLE] = check_domain(options.domain)
+        discovery_domain()
+    except BridgeError as fault:
+        raise UserMistake(str(fault)) from fault
 
 
 def _check_trust(options: argparse.Namespace) -> None:

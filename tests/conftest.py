@@ -15,11 +15,13 @@ import threading
 import time
 from collections.abc import AsyncIterator, Generator, Iterator
 from pathlib import Path
+from uuid import uuid4
 
 import pytest
 from hypothesis import HealthCheck, settings
 
 from app.garbage_collector import Collector
+from bridge.discovery.domain import VARIABLE
 from bridge.server.reception.log_limit import STRANGERS
 from tests import headless
 from tests.apart import Apart
@@ -47,7 +49,8 @@ def _mode(config: pytest.Config) -> str:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Prepare Kivy before any test module imports it."""
+    """Prepare Kivy before any test module imports it, and have no robot of others on the network found or stopped."""
+    os.environ[VARIABLE] = f"test-{uuid4().hex[:16]}"
     config.stash[MODE] = _mode(config)
     headless.prepare(config.stash[MODE])
     if config.stash[MODE] == "logic":

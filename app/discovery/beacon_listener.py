@@ -19,6 +19,7 @@ from app.link.feeds import Mailbox
 from bridge.core.errors import BridgeError
 from bridge.core.network_thread import NetworkThread
 from bridge.discovery.beacon import Listener
+from bridge.discovery.domain import discovery_domain
 from bridge.discovery.hello import Hello
 
 __all__ = ["HELLO", "LATENCY", "BeaconListener"]
@@ -40,7 +41,8 @@ class BeaconListener:
         """`now` is our clock [s]."""
         self._mailbox, self._network, self._now = mailbox, network, now
         self._inbox, self._probes = HelloInbox(), ProbeSchedule()
-        self._calls = RollCalls(self._take, now)
+        self._domain = discovery_domain()
+        self._calls = RollCalls(self._take, now, self._domain)
         self._last = now()
         """When the last robot was heard [s]."""
         self._running: concurrent.futures.Future[None] | None = None
@@ -64,7 +66,7 @@ class BeaconListener:
         self._calls.wants(listed)
 
     async def _run(self) -> None:
-        listener = Listener(self._hear)
+        listener = Listener(self._hear, domain=self._domain)
         try:
             with sees_broadcasts():
                 await self._listen(listener)

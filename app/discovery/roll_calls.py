@@ -47,9 +47,15 @@ class _NeedsTls(Exception):
 class RollCalls:
     """The addresses to ask, whose turn it is, and what they answer."""
 
-    def __init__(self, hear: Callable[[Hello, tuple[str, int]], None], now: Callable[[], float]) -> None:
-        """`hear(hello, (host, port))` is called for each robot that is there; `now` is our clock [s]."""
-        self._hear, self._now = hear, now
+    def __init__(
+        self, hear: Callable[[Hello, tuple[str, int]], None], now: Callable[[], float], domain: str = ""
+    ) -> None:
+        """`hear(hello, (host, port))` is called for each robot that is there; `now` is our clock [s].
+
+        At addresses that were only found, robots of other discovery domains than `domain` are left out; who is at an
+        address that somebody saved is wanted.
+        """
+        self._hear, self._now, self._domain = hear, now, domain
         self._saved: tuple[str, ...] = ()
         self._found: dict[str, float] = {}
         """Addresses that were found, with when each answered last, or was found [s]."""
@@ -128,6 +134,8 @@ class RollCalls:
         if url in self._found:
             self._found[url] = self._now()
         for hello in hellos:
+            if url not in self._saved and hello.domain != self._domain:
+                continue
             is_asked = urlsplit(hello.url).port == port
             # as it is saved
             self._hear(msgspec.structs.replace(hello, url=url) if is_asked else hello, (where, port))

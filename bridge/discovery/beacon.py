@@ -143,15 +143,20 @@ def _at(url: str, address: str) -> str:
 
 
 class Listener:
-    """Receives the hellos of all robots on the local network."""
+    """Receives the hellos of all robots of one discovery domain on the local network."""
 
     def __init__(
-        self, on_hello: Callable[[Hello, tuple[str, int]], None], *, port: int = PORT, host: str = ""
+        self,
+        on_hello: Callable[[Hello, tuple[str, int]], None],
+        *,
+        port: int = PORT,
+        host: str = "",
+        domain: str = "",
     ) -> None:
-        """`on_hello(hello, (host, port))` is called with each hello and the address that it came from."""
+        """`on_hello(hello, (host, port))` is called with each hello of this `domain` and the address that it came from."""
         self.port = port
         """UDP port; with 0 a free one, known after `start()`."""
-        self._host = host
+        self._host, self._domain = host, domain
         self._on_hello = on_hello
         self.refused = 0
         """Datagrams that were no HELLO."""
@@ -193,7 +198,8 @@ class Listener:
                 self._said_at = now
                 log.info("%d datagrams were no HELLO; the last, from %s: %s", self.refused, host, fault)
             return
-        self._on_hello(hello, (host, port))
+        if hello.domain == self._domain:
+            self._on_hello(hello, (host, port))
 
 
 class _HelloReceiver(asyncio.DatagramProtocol):

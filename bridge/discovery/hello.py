@@ -16,6 +16,7 @@ import msgspec
 
 from bridge.codec import from_json, to_json
 from bridge.core.errors import ProtocolError
+from bridge.discovery.domain import DOMAIN
 from bridge.msgs import Msg
 
 __all__ = ["MAX_DATAGRAM", "Hello", "host_of", "is_loopback", "port_of", "read_hello", "tidy", "write_hello"]
@@ -69,6 +70,8 @@ class Hello(Msg, frozen=True, gc=False):
     """Whoever says this hears the robot itself: a surveillance centre may have lost it."""
     key: str = ""
     """The first 32 hex digits of its certificate's SHA-256; empty when it has none. Only TLS proves it."""
+    domain: str = ""
+    """Its discovery domain; empty for that of everybody who names none."""
 
 
 def read_hello(datagram: bytes, source: str) -> Hello:
@@ -88,6 +91,8 @@ def read_hello(datagram: bytes, source: str) -> Hello:
         raise ProtocolError(f"boot has at most {MAX_BOOT} letters, digits and signs, and no spaces.")
     if not _KEY.fullmatch(hello.key):
         raise ProtocolError("key is empty or 32 hex digits.")
+    if not DOMAIN.fullmatch(hello.domain):
+        raise ProtocolError("domain has at most 32 letters, digits, _ and -.")
     url = _checked_url("url", hello.url, ("ws", "wss"), source)
     http = hello.http and _checked_url("http", hello.http, ("http", "https"), source)
     return msgspec.structs.replace(hello, url=url, http=http, driver_id="")

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from app.__main__ import quieten
+from bridge.discovery.domain import VARIABLE
 from examples.demo.options import options
 
 
@@ -30,6 +31,8 @@ def _prepare(size: str, *, window: bool) -> None:
         os.environ.update(SDL_VIDEODRIVER="offscreen", SDL_AUDIODRIVER="dummy", LIBGL_ALWAYS_SOFTWARE="1")
         os.environ.setdefault("LP_NUM_THREADS", "1")
     os.environ["KIVY_CLOCK"] = "free_all"
+    # robots of others on the network are neither listed nor stopped
+    os.environ[VARIABLE] = f"demo-{os.getpid()}"
     from kivy.config import Config
 
     width, height = map(int, size.split("x"))

@@ -10,6 +10,7 @@ from urllib.parse import urlsplit
 from bridge.core.codes import Code
 from bridge.core.errors import BridgeError
 from bridge.discovery.beacon import Beacon, Hello
+from bridge.discovery.domain import discovery_domain
 from bridge.server.reception.pages import PagePolicy
 from bridge.server.reception.reception import anyone
 from robotside.core.clock import RobotClock
@@ -262,4 +263,5 @@ class StationServer:
             boot=self.station.events.boot,
             key=self.keys.claim if self.keys else "",
             reached=self.station.robot.reached,
+            domain=discovery_domain(),
         )

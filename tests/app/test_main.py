@@ -38,6 +38,10 @@ ROOT = Path(__file__).parents[2]
             "This is no pairing link of a robot; one begins with pilothouse:// and is complete.",
         ),
         (["--size", "large"], "A size is written as 412x892, not 'large'."),
+        (
+            ["--domain", "team 2"],
+            "A discovery domain has at most 32 letters, digits, _ and -, which 'team 2' is not.",
+        ),
         (["--colour"], "Unrecognized arguments: --colour."),
     ],
 )

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import asyncio
 import itertools
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 
 from bridge.client.remote_robot import RemoteRobot
+from bridge.discovery.beacon import Listener
+from bridge.discovery.domain import discovery_domain
 from bridge.msgs.geometry_msgs import Twist
 from examples.demo.robot import RobotProcess
 from examples.demo.witness import Witness
-from tests.e2e.handheld import Cable, Handheld, handheld
+from tests.e2e.handheld import PATIENCE, Cable, Handheld, handheld
 
 PERIOD = 0.05
 """Between two drive commands of the other client [s]."""
@@ -110,3 +113,35 @@ def test_stop_all_from_the_connect_screen_stops_what_somebody_else_drives_and_co
         assert glass.one("StopList").title == "STOPPED 1 of 1"
         glass.run(1.0)
         assert witness.speed() < 0.01, "a latched STOP holds against the stick of anybody"
+
+
+async def announced(name: str, domain: str) -> None:
+    """Wait until the robot of that `name` says HELLO in `domain`."""
+    heard = asyncio.Event()
+    listener = Listener(lambda hello, _: heard.set() if hello.name == name else None, domain=domain)
+    await listener.start()
+    try:
+        async with asyncio.timeout(PATIENCE):
+            await heard.wait()
+    finally:
+        await listener.close()
+
+
+def test_stop_all_leaves_robots_of_another_domain_alone(robot: RobotProcess, tmp_path: Path) -> None:
+    elsewhere = f"{discovery_domain()}-2"
+    theirs_only = ("--domain", elsewhere, "--name", "Theirs", "--state", str(tmp_path / "state"))
+    with RobotProcess(*theirs_only, log=tmp_path / "theirs.log") as theirs, handheld(tmp_path) as glass:
+        asyncio.run(announced("Theirs", elsewhere))
+        glass.until(
+            lambda: any(each.state == "live" for each in glass.app.robots.entries()),
+            "the robot of this domain",
+        )
+        with somebody_drives(theirs.url), closing(Witness(theirs.url)) as seen:
+            glass.until(lambda: seen.speed() > 0.2, "the other client to drive")
+            button = glass.one("StopAll")
+            glass.settle(button)
+            glass.play(glass.hand.tap(button.to_window(*button.center)))
+            glass.until(lambda: button.word == "1 of 1", "the robot of this domain to stop")
+            glass.run(1.0)
+            assert seen.speed() > 0.2, "who drives a robot of another domain goes on"
+            assert "Theirs" not in [each.name for each in glass.app.robots.entries()]

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from app.discovery.known_robots import Entry
 from app.discovery.roll_calls import RollCalls
 from bridge.client.client import BridgeClient
 from bridge.msgs.geometry_msgs import Twist
@@ -130,6 +131,7 @@ async def test_a_robot_that_is_killed_is_lost_to_who_watches_over_many(tmp_path)
     async with foreign() as north, foreign() as south, centre([north, south], tmp_path) as (first, _):
         reached: dict[str, bool] = {}
         calls = RollCalls(lambda hello, _: reached.update({hello.name: hello.reached}), lambda: 0.0)
+        calls.wants([Entry(first, "", saved=True)])
         await calls._ask(first)
         assert reached == {"North": True, "South": True}
         await south.close()
@@ -144,5 +146,6 @@ async def test_a_tablet_that_knows_one_address_of_the_centre_knows_all_its_robot
     async with foreign() as north, foreign() as south, centre([north, south], tmp_path) as (first, second):
         heard: dict[str, str] = {}
         calls = RollCalls(lambda hello, _: heard.update({hello.name: hello.url}), lambda: 0.0)
+        calls.wants([Entry(first, "", saved=True)])
         await calls._ask(first)
         assert heard == {"North": first, "South": second}

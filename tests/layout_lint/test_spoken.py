@@ -10,6 +10,7 @@ from typing import Any
 import msgspec
 import pytest
 
+from bridge.discovery.domain import discovery_domain
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass, running
 from tests.headless import Stage
@@ -80,7 +81,7 @@ def look(glass: Glass, written: Written) -> None:
 def test_every_word_on_the_glass_comes_from_a_catalogue_and_every_figure_is_written_as_the_language_does(
     spoken: Written,
 ) -> None:
-    known = {*told(), glass_name()}
+    known = {*told(), glass_name(), discovery_domain()}
     left = {
         (scene, text): words
         for text, scene in spoken.texts.items()

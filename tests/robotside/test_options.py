@@ -157,6 +157,7 @@ def test_a_wrong_file_among_several_is_named(tmp_path: Path) -> None:
             "--world is for simulated robots only.",
         ),
         ("--gui", "--gui needs a display, and DISPLAY is not set."),
+        ("--domain a/b", "A discovery domain has at most 32 letters, digits, _ and -, which 'a/b' is not."),
     ],
 )
 def test_what_cannot_be_is_one_sentence(monkeypatch: pytest.MonkeyPatch, words: str, said: str) -> None:

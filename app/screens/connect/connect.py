@@ -18,6 +18,7 @@ from app.screens.parts.safe_area import safe_area
 from app.screens.parts.themes import THEMES
 from app.session.last_pictures import LastPictures
 from app.stop.robot_count import count
+from bridge.discovery.domain import discovery_domain
 from widgets.core.base import fitting_size
 from widgets.core.language import mark, tr
 from widgets.core.surfaces import EdgedBox  # noqa: F401 - its rule draws the bar
@@ -167,6 +168,12 @@ class RobotList(Protocol):
         """Take a saved address off the list."""
 
 
+def looking() -> str:
+    """What is said while no robot is found: of which discovery domain robots are looked for, if of one with a name."""
+    domain = discovery_domain()
+    return tr("Looking for robots of {domain}").format(domain=domain) if domain else tr("Looking for robots")
+
+
 class Visit(Protocol):
     """The visits to robots, as far as the cards need them."""
 
@@ -226,7 +233,7 @@ class ConnectScreen(FloatLayout):
 
     def __init__(self, **kwargs: Any) -> None:
         self.simulator_text = tr("Start the built-in simulator")
-        self.nearby, self.nearby_short = tr("Looking for robots"), tr("searching")
+        self.nearby, self.nearby_short = looking(), tr("searching")
         super().__init__(**kwargs)
         self._banner: Banner | None = None
         self._hint = Text(text=tr(HINT), role="muted", halign="center", padding=(16, 24))
@@ -292,7 +299,7 @@ class ConnectScreen(FloatLayout):
             card.show_place(twin=entry.name in double)
             card.show_thumb(self.app.visit.seen.of(entry.url) if self.app is not None else None)
         known = count(entries, None)
-        self.nearby = known.words if known.robots else tr("Looking for robots")
+        self.nearby = known.words if known.robots else looking()
         self.nearby_short = known.brief_words if known.robots else tr("searching")
         if entries and self._hint.parent is not None:
             self.ids.notices.remove_widget(self._hint)

@@ -16,6 +16,7 @@ from app.discovery.probes import MAX_AT_ONCE
 from app.link.feeds import Mailbox
 from app.screens.connect.connect import ConnectScreen
 from bridge.discovery.beacon import Listener
+from bridge.discovery.domain import discovery_domain
 from bridge.discovery.hello import Hello
 
 
@@ -132,3 +133,8 @@ async def test_mdns_is_tried_only_once_no_robot_was_heard_for_a_while(
     nearby = BeaconListener(Mailbox(lambda: None), None, now=lambda: now[0])  # type: ignore[arg-type]
     await nearby._browse()
     assert started == [108.0]
+
+
+def test_what_is_asked_at_addresses_that_were_found_is_of_the_own_domain_too() -> None:
+    nearby = BeaconListener(Mailbox(lambda: None), None, now=lambda: 0.0)  # type: ignore[arg-type]
+    assert nearby._calls._domain == nearby._domain == discovery_domain() != ""

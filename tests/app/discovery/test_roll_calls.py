@@ -120,6 +120,24 @@ async def test_all_robots_of_the_robot_side_at_a_saved_address_are_there():
         assert asked.heard == [("Patrol-1", url), ("Scout-1", "ws://localhost:9091")]
 
 
+async def test_a_robot_of_another_domain_is_there_at_a_saved_address_only():
+    elsewhere = Hello(name="Patrol-1", url="ws://192.0.2.9:9090", domain="team-2")
+    here: list[Hello] = []
+    server = BridgeServer(Door(), documents={PATH: lambda: write_roll(here)})
+    await server.start(port=0)
+    url = f"ws://127.0.0.1:{server.port}"
+    here += [Hello(name="Patrol-1", url=url, domain="team-2"), elsewhere]
+    try:
+        found, saved = Asked(), Asked(url)
+        found.calls.add(url)
+        await found.calls._ask(url)
+        await saved.calls._ask(url)
+    finally:
+        await server.close()
+    assert found.heard == []
+    assert [name for name, _ in saved.heard] == ["Patrol-1", "Patrol-1"]
+
+
 async def test_a_robot_that_speaks_by_tls_alone_is_asked_by_tls_next_time(tmp_path):
     async with robot(tmp_path) as port:
         url = f"ws://127.0.0.1:{port}"
