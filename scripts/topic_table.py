@@ -4,11 +4,18 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from bridge.core.topics import TOPICS, Topic
+from bridge.core.topics import NAMED, SERVER_TOPICS, TOPICS, Topic
 
 ROOT = Path(__file__).parents[1]
 DOCUMENTS = (ROOT / "docs" / "bridge.md",)
 BEGIN, END = "<!-- topics: written by scripts/topic_table.py -->", "<!-- end of topics -->"
+
+ALL = (
+    *(entry for entry in TOPICS if entry.to == "handheld"),
+    *NAMED,
+    *SERVER_TOPICS,
+    *(entry for entry in TOPICS if entry.to != "handheld"),
+)
 
 
 def when(topic: Topic) -> str:
@@ -23,7 +30,7 @@ def when(topic: Topic) -> str:
 def table() -> str:
     """The table in Markdown."""
     lines = ["| topic | type | to | rate | content |", "|---|---|---|---|---|"]
-    lines += [f"| `{t.name}` | {t.type.MSGTYPE} | {t.to} | {when(t)} | {t.doc} |" for t in TOPICS]
+    lines += [f"| `{t.name}` | {t.type.MSGTYPE} | {t.to} | {when(t)} | {t.doc} |" for t in ALL]
     return "\n".join(lines)
 
 

@@ -5,8 +5,9 @@ Liveness, throttling, recording and the documentation are derived from it.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from bridge.msgs import (
     Msg,
@@ -14,13 +15,26 @@ from bridge.msgs import (
     geometry_msgs,
     nav_msgs,
     pilothouse_msgs,
+    rosbridge_msgs,
     rosgraph_msgs,
     sensor_msgs,
+    std_msgs,
     tf2_msgs,
     vision_msgs,
 )
 
-__all__ = ["CAMERA", "SONARS", "TOPICS", "Topic", "camera_topics", "topic"]
+__all__ = [
+    "CAMERA",
+    "NAMED",
+    "SERVER_TOPICS",
+    "SONARS",
+    "TEMPERATURE",
+    "TOPICS",
+    "Topic",
+    "camera_topics",
+    "named",
+    "topic",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -221,8 +235,47 @@ TOPICS: tuple[Topic, ...] = (
     ),
 )
 
-_BY_NAME = {entry.name: entry for entry in TOPICS}
+NAME = "NAME"
+"""What stands in the table for the name of a part, where a robot has a topic for each of several."""
 
+TEMPERATURE = Topic(
+    f"/temperature/{NAME}",
+    sensor_msgs.Temperature,
+    2,
+    "handheld",
+    "how warm a motor is, by its name in `/motors`",
+    on_demand=True,
+)
+
+_PICTURES = Topic(
+    f"/camera/{NAME}/image/compressed",
+    sensor_msgs.CompressedImage,
+    15,
+    "handheld",
+    "any further camera, by its name in `cameras` of `/robot/info`",
+    on_demand=True,
+)
+
+NAMED: tuple[Topic, ...] = (TEMPERATURE, _PICTURES)
+"""Topics of which a robot has one for each of its parts, each called by the part's name in place of `NAME`."""
+
+SERVER_TOPICS: tuple[Topic, ...] = (
+    Topic("/client_count", std_msgs.Int32, 0, "handheld", "number of clients of the rosbridge server"),
+    Topic(
+        "/connected_clients",
+        rosbridge_msgs.ConnectedClients,
+        0,
+        "handheld",
+        "clients of the rosbridge server",
+    ),
+)
+"""What the server of the rosbridge protocol adds to the robot's own."""
+
+_BY_NAME = {entry.name: entry for entry in (*TOPICS, *SERVER_TOPICS)}
+
+_NAMED = tuple(
+    (re.compile(re.escape(entry.name).replace(NAME, r"[A-Za-z]\w*"), re.ASCII), entry) for entry in NAMED
+)
 
 CAMERA = "/camera/image/compressed"
 """Pictures of a robot's first camera."""
@@ -234,6 +287,16 @@ def camera_topics(cameras: Iterable[str]) -> dict[str, str]:
     return {name: one if number else CAMERA for number, (name, one) in enumerate(named.items())}
 
 
+def named(family: Topic, part: str) -> Topic:
+    """The line of `family`, one of `NAMED`, for the part of that name."""
+    return replace(family, name=family.name.replace(NAME, part))
+
+
 def topic(name: str) -> Topic:
-    """The table's line for `name`; KeyError when the robot has no such topic."""
-    return _BY_NAME[name]
+    """The table's line for `name`; KeyError when no robot has such a topic."""
+    if name in _BY_NAME:
+        return _BY_NAME[name]
+    for pattern, family in _NAMED:
+        if pattern.fullmatch(name):
+            return replace(family, name=name)
+    raise KeyError(name)

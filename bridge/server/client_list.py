@@ -6,16 +6,14 @@ from collections.abc import Callable, Collection
 
 from bridge.codec.now import stamp_of
 from bridge.core.robot_catalogue import Operator
-from bridge.core.topics import Topic
+from bridge.core.topics import SERVER_TOPICS
 from bridge.msgs import Msg
 from bridge.msgs.rosbridge_msgs import ConnectedClient, ConnectedClients
 from bridge.msgs.std_msgs import Int32
 
 __all__ = ["CLIENT_TOPICS", "publish_clients"]
 
-COUNT = Topic("/client_count", Int32, 0, "handheld", "number of clients of this server")
-CLIENTS = Topic("/connected_clients", ConnectedClients, 0, "handheld", "clients of this server")
-CLIENT_TOPICS = (COUNT, CLIENTS)
+COUNT, CLIENTS = CLIENT_TOPICS = SERVER_TOPICS
 """Latched; a server adds them to the robot's own."""
 
 

@@ -10,7 +10,7 @@ import math
 import re
 from collections.abc import Iterable
 
-from bridge.core.topics import SONARS, Topic
+from bridge.core.topics import SONARS, TEMPERATURE, Topic, named
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import Event, MotorArray, SonarRing
 from bridge.msgs.rosgraph_msgs import Log
@@ -20,8 +20,6 @@ from robotside.core.bus import Bus
 
 __all__ = ["DerivedTopics"]
 
-TEMPERATURE_RATE = 2.0
-"""Of a temperature [Hz]: a motor warms in minutes."""
 _EARLY = 0.01
 """A temperature may come so much before it is due [s]: motors are measured at a rate of their own."""
 MAX_MOTORS = 64
@@ -51,17 +49,7 @@ class DerivedTopics:
     @property
     def topics(self) -> tuple[Topic, ...]:
         """Those that only this robot has: the temperature of each of its motors."""
-        return tuple(
-            Topic(
-                _warm(name),
-                Temperature,
-                TEMPERATURE_RATE,
-                "handheld",
-                f"how warm the motor {name} is",
-                on_demand=True,
-            )
-            for name in self._motors
-        )
+        return tuple(named(TEMPERATURE, name) for name in self._motors)
 
     def want(self, topic: str, wanted: bool) -> None:
         """`topic` is wanted from now on, or no longer; topics that are not derived are ignored."""
@@ -103,7 +91,7 @@ class DerivedTopics:
 
     def _falls(self, topic: str, now: float) -> bool:
         """It is time for another one; on average they come at the rate, at any rate of the motors."""
-        due, period = self._due.get(topic, -math.inf), 1 / TEMPERATURE_RATE
+        due, period = self._due.get(topic, -math.inf), 1 / TEMPERATURE.rate
         if due - period <= now < due - _EARLY:
             return False
         self._due[topic] = (due if abs(now - due) < period else now) + period
@@ -117,7 +105,7 @@ def _one(ring: SonarRing, number: int, distance: float) -> Range:
 
 
 def _warm(name: str) -> str:
-    return f"/temperature/{name}"
+    return named(TEMPERATURE, name).name
 
 
 def _nameable(names: Iterable[str]) -> list[str]:
