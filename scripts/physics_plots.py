@@ -16,7 +16,7 @@ import msgspec
 
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from scripts.plots import BLUE, GREEN, ORANGE, Plot, Series, page
+from scripts.plots import BLUE, GREEN, GREY, ORANGE, PURPLE, RED, Plot, Series, page
 from sim.core.constants import GRAVITY, STEPS_PER_SECOND
 from sim.physics.backend_bullet import State
 from sim.simulation.simulation import Simulation
@@ -25,11 +25,14 @@ from sim.vehicles.aqua import PARAMETERS as SWIMMER
 from sim.vehicles.ardrone import ARDRONE
 from sim.vehicles.ardrone import PARAMETERS as QUADROTOR
 from sim.vehicles.commander import COMMANDER
+from sim.vehicles.commander import PARAMETERS as TRUCK
 from sim.vehicles.minnow import MINNOW
 from sim.vehicles.minnow import PARAMETERS as BOAT
 from sim.vehicles.model import Model
 from sim.vehicles.scout import SCOUT
+from sim.world.surfaces import GRIP
 from tests.sim.dynamics.otter import PUBLISHED, TOLD, sail
+from tests.sim.dynamics.single_track import steady
 from tests.sim.rooms import plain
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
@@ -155,42 +158,81 @@ def pairs(simulation: Simulation, seconds: float) -> Iterator[tuple[float, tuple
     return iter([(time, place) for (time, _), place in zip(times, xs, strict=True)])
 
 
+def bends(surface: str) -> tuple[Plot, Plot]:
+    """Turn rate and speed of the truck over steering and ordered speed, against the balance of forces."""
+    world = plain()
+    world = msgspec.structs.replace(world, ground=msgspec.structs.replace(world.ground, surface=surface))
+    grip = world.ground.grip
+    rates: list[Series] = []
+    aside: list[Series] = []
+    expected: Points = []
+    angles = (0.05, 0.1, 0.2, 0.3, 0.4, 0.46, 0.52)
+    for speed, colour in zip((1.0, 2.0, 3.0, 4.0, 5.0), (GREY, GREEN, BLUE, PURPLE, RED), strict=True):
+        simulation = Simulation(world, COMMANDER, noise=False)
+        found: Points = []
+        accelerated: Points = []
+        for angle in angles:
+            simulation.vehicle.manoeuvre(Manoeuvre(kind="steer", speed=speed, steering=angle))
+            spin(simulation, 10.0)
+            state, yaw = simulation.vehicle.state(), simulation.pose()[2]
+            along = math.cos(yaw) * state.velocity[0] + math.sin(yaw) * state.velocity[1]
+            rate = state.turning[2]
+            found.append((angle, rate))
+            accelerated.append((angle, along * rate))
+            expected.append((angle, steady(TRUCK, along, angle, grip).rate))
+        simulation.close()
+        rates.append(Series(f"{speed:g}", found, colour))
+        aside.append(Series(f"{speed:g}", accelerated, colour))
+    balance = Series("balance of forces", expected, ORANGE, dots=True)
+    limit = Series("friction limit", [(0.0, grip * GRAVITY), (0.52, grip * GRAVITY)], ORANGE)
+    name = surface.replace("_", " ")
+    return (
+        Plot(
+            f"Truck on {name}, told 1 to 5 m/s: turn rate",
+            "steering [rad]",
+            "turn rate [rad/s]",
+            [*rates, balance],
+        ),
+        Plot(
+            f"Truck on {name}, told 1 to 5 m/s: aside",
+            "steering [rad]",
+            "acceleration [m/s²]",
+            [*aside, limit],
+        ),
+    )
+
+
 def truck() -> list[Plot]:
-    """Circles against L/tan δ, and braking."""
-    ours: Points = []
-    theory: Points = []
-    base = COMMANDER.parameters.axles.base  # type: ignore[attr-defined]  # the truck's own figures
-    with running(COMMANDER) as simulation:
-        for degrees in (4, 8, 12, 16, 20, 24, 28):
-            steering = math.radians(degrees)
-            simulation.vehicle.manoeuvre(Manoeuvre(kind="steer", speed=2.0, steering=steering))
-            spin(simulation, 4.0)
-            before = simulation.pose()
-            spin(simulation, 1.0)
-            after = simulation.pose()
-            turned = math.remainder(after[2] - before[2], math.tau)
-            ours.append((degrees, math.dist(before[:2], after[:2]) / 2 / math.sin(turned / 2)))
-            theory.append((degrees, base / math.tan(steering)))
+    """Bends over all speeds and steering angles, and braking."""
+    plots = [*bends("asphalt"), *bends("wet_grass")]
+    ways: list[Series] = []
+    grips = {"asphalt": BLUE, "wet_grass": GREEN}
+    for surface, colour in grips.items():
+        world = plain()
+        world = msgspec.structs.replace(world, ground=msgspec.structs.replace(world.ground, surface=surface))
+        simulation = Simulation(world, COMMANDER, noise=False)
         simulation.vehicle.manoeuvre(Manoeuvre(kind="steer", speed=5.0))
-        spin(simulation, 6.0)
+        spin(simulation, 8.0)
         simulation.vehicle.stop()
         start = simulation.pose()[:2]
-        braking = follow(simulation, 2.5, lambda state: math.dist(start, state.position[:2]), 0.02)
+        braking = follow(
+            simulation, 3.2, lambda state, start=start: math.dist(start, state.position[:2]), 0.02
+        )
+        base = braking[0][1]
+        ways.append(Series(surface.replace("_", " "), [(t, way - base) for t, way in braking], colour))
+        simulation.close()
     stop = [(t, 5 * t - 1.5 * t * t) for t in (0.0, 0.4, 0.8, 1.2, 5 / 3)]
-    return [
-        Plot(
-            "Truck: turning radius at 2 m/s",
-            "steering [deg]",
-            "radius [m]",
-            [Series("ours", ours), Series("L / tan(steering)", theory, ORANGE, dots=True)],
-        ),
+    most = GRIP["wet_grass"] * GRAVITY
+    slide = [(t, 5 * t - most * t * t / 2) for t in (0.5, 1.0, 1.5, 2.0, 5 / most)]
+    plots.append(
         Plot(
             "Truck: braking from 5 m/s",
             "time [s]",
             "way [m]",
-            [Series("ours", braking), Series("v t - a t²/2, a = 3 m/s²", stop, ORANGE, dots=True)],
-        ),
-    ]
+            [*ways, Series("v t - a t²/2, a of brakes, of friction", [*stop, *slide], ORANGE, dots=True)],
+        )
+    )
+    return plots
 
 
 def swimmer() -> list[Plot]:

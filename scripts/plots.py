@@ -10,12 +10,14 @@ from pathlib import Path
 
 from PIL import Image, ImageDraw, ImageFont
 
-__all__ = ["BLUE", "GREEN", "GREY", "ORANGE", "Plot", "Series", "page"]
+__all__ = ["BLUE", "GREEN", "GREY", "ORANGE", "PURPLE", "RED", "Plot", "Series", "page"]
 
 Colour = tuple[int, int, int]
 BLUE: Colour = (38, 99, 176)
 ORANGE: Colour = (214, 96, 24)
 GREEN: Colour = (40, 130, 74)
+PURPLE: Colour = (122, 74, 160)
+RED: Colour = (176, 38, 58)
 GREY: Colour = (120, 124, 130)
 INK: Colour = (34, 37, 42)
 PALE: Colour = (224, 227, 231)

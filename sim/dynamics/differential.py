@@ -42,6 +42,7 @@ class Wheels(Table, frozen=True, kw_only=True):
     mass: Positive
     """Of one [kg]."""
     friction: Positive
+    """As a part of the grip that the ground gives to rubber."""
     torque: Positive
     """The most at one wheel [N m]."""
     ticks: Positive

@@ -69,11 +69,14 @@ class Bullet:
         self.ground = -1
         """Number of the ground; -1 when there is none."""
 
-    def add_ground(self, height: float = 0.0) -> int:
-        """The level ground at z = `height` [m]; its number."""
+    def add_ground(self, height: float = 0.0, grip: float = 1.0) -> int:
+        """The level ground at z = `height` [m]; its number.
+
+        On it every body has its own friction times `grip`.
+        """
         self._wake()
         self._measures.fixed.add_ground(height)
-        self.ground = self._make.ground(height)
+        self.ground = self._make.ground(height, grip)
         return self.ground
 
     def add_static(self, shapes: Sequence[Shape]) -> int:
@@ -99,11 +102,7 @@ class Bullet:
         return body
 
     def add_wheeled(self, spec: WheeledBody, position: Vec3, rotation: Quat) -> int:
-        """A wheeled vehicle; its number.
-
-        Its joints are the driven wheels in the order of `spec.wheels`, then of each steered wheel the knuckle and the
-        wheel itself.
-        """
+        """A wheeled vehicle; its number. Its joints are the driven wheels in the order of `spec.wheels`."""
         return self._enter(self._make.wheeled(spec, position, rotation), spec)
 
     def add_floating(self, spec: Floating, position: Vec3, rotation: Quat) -> int:
@@ -166,13 +165,6 @@ class Bullet:
         self._sleep.turn(body, joint, speed)
         p.setJointMotorControl2(
             body, joint, p.VELOCITY_CONTROL, targetVelocity=speed, force=torque, physicsClientId=self._client
-        )
-
-    def steer(self, body: int, joint: int, angle: float, torque: float) -> None:
-        """Let the motor of `joint` hold `angle` [rad] with at most `torque` [N m], until the next order."""
-        self._sleep.wake()
-        p.setJointMotorControl2(
-            body, joint, p.POSITION_CONTROL, targetPosition=angle, force=torque, physicsClientId=self._client
         )
 
     def apply(self, body: int, at: Vec3, force: Vec3, torque: Vec3) -> None:

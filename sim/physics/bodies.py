@@ -47,7 +47,7 @@ class Contact:
 
 @dataclass(frozen=True, slots=True)
 class WheeledBody:
-    """A body on driven wheels, and casters or steered wheels; its frame lies on the ground, x forward."""
+    """A body on driven wheels and casters; its frame lies on the ground, x forward."""
 
     shell: Shape
     mass: float
@@ -55,25 +55,24 @@ class WheeledBody:
     inertia: Vec3
     """About the axes through the centre of mass [kg m2]."""
     centre_of_mass: Vec3
-    wheels: tuple[Vec3, ...]
-    """Centres of the driven wheels; they turn about y."""
-    wheel_radius: float
-    wheel_mass: float
-    wheel_friction: float
     friction: float
     """Of the shell against other things."""
+    wheels: tuple[Vec3, ...] = ()
+    """Centres of the driven wheels; they turn about y."""
+    wheel_radius: float = 0.0
+    wheel_mass: float = 0.0
+    wheel_friction: float = 0.0
+    """As a part of the ground's."""
     casters: tuple[Vec3, ...] = ()
     """Centres of the casters, which slide without friction."""
     caster_radius: float = 0.0
     caster_mass: float = 0.0
-    steered: tuple[Vec3, ...] = ()
-    """Centres of the wheels that roll freely on steered knuckles; of the same make as the driven ones."""
 
     @property
     def radius(self) -> float:
         """Of a sphere about its centre of mass that all of it fits in [m]."""
         com = self.centre_of_mass
-        rolling = (math.dist(centre, com) + self.wheel_radius for centre in (*self.wheels, *self.steered))
+        rolling = (math.dist(centre, com) + self.wheel_radius for centre in self.wheels)
         sliding = (math.dist(centre, com) + self.caster_radius for centre in self.casters)
         return max(math.dist(self.shell.position, com) + self.shell.radius, *rolling, *sliding)
 

@@ -16,8 +16,8 @@ _MAX_SOLIDS = 16
 """Of a thing; pybullet leaves out any more without a warning."""
 _NO_JOINTS = 1
 """Of a fixed thing; pybullet would else take it for a robot without joints and include it in every step."""
-_KNUCKLE_MASS = 0.5
-"""Mass of the knuckle of a steered wheel [kg], and its moments of inertia [kg m2]."""
+_OF_THE_OTHER = 1.0
+"""Friction of a fixed thing: the engine multiplies that of two bodies, so that on it every body has its own, not half of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,9 +29,6 @@ class _Link:
     mass: float
     collision: int = -1
     kind: int = p.JOINT_REVOLUTE
-    axis: tuple[int, int, int] = (0, 1, 0)
-    parent: int = 0
-    """0 the body itself, then the links from 1 on."""
 
 
 class BodyMaker:
@@ -41,14 +38,14 @@ class BodyMaker:
         """Bodies of the world `client`; they have visual shapes only when it is `visible` in the engine's window."""
         self._client, self._visible = client, visible
 
-    def ground(self, height: float) -> int:
-        """The level ground at z = `height` [m]."""
+    def ground(self, height: float, grip: float) -> int:
+        """The level ground at z = `height` [m], on which a body has its own friction times `grip`."""
         shape = p.createCollisionShape(p.GEOM_PLANE, physicsClientId=self._client)
         looks = -1
         if not self._visible:  # Bullet would else keep 10 MB of a chequered plane that is never seen
             speck = (0.001, 0.001, 0.001)
             looks = p.createVisualShape(p.GEOM_BOX, halfExtents=speck, physicsClientId=self._client)
-        return int(
+        ground = int(
             p.createMultiBody(
                 0,
                 shape,
@@ -58,6 +55,8 @@ class BodyMaker:
                 physicsClientId=self._client,
             )
         )
+        p.changeDynamics(ground, -1, lateralFriction=grip, physicsClientId=self._client)
+        return ground
 
     def static(self, shapes: Sequence[Shape]) -> int:
         """One thing made of solids that nothing moves; of one with many solids, the number of its first part."""
@@ -79,6 +78,7 @@ class BodyMaker:
         body = p.createMultiBody(
             0, number, -1, *pose, useMaximalCoordinates=_NO_JOINTS, physicsClientId=self._client
         )
+        p.changeDynamics(body, -1, lateralFriction=_OF_THE_OTHER, physicsClientId=self._client)
         if self._visible:
             for shape in shapes:
                 self.looks(shape)
@@ -109,11 +109,10 @@ class BodyMaker:
     def wheeled(self, spec: WheeledBody, position: Vec3, rotation: Quat) -> int:
         """A wheeled vehicle, its joints in the order that `Bullet.add_wheeled` gives."""
         com = spec.centre_of_mass
-        wheel = collision(self._client, Shape("sphere", (2 * spec.wheel_radius,) * 3))
-        links = [_Link(_less(centre, com), spec.wheel_mass, wheel) for centre in spec.wheels]
-        for centre in spec.steered:
-            links.append(_Link(_less(centre, com), _KNUCKLE_MASS, axis=(0, 0, 1)))
-            links.append(_Link((0.0, 0.0, 0.0), spec.wheel_mass, wheel, parent=len(links)))
+        links: list[_Link] = []
+        if spec.wheels:
+            wheel = collision(self._client, Shape("sphere", (2 * spec.wheel_radius,) * 3))
+            links += [_Link(_less(centre, com), spec.wheel_mass, wheel) for centre in spec.wheels]
         if spec.casters:
             caster = collision(self._client, Shape("sphere", (2 * spec.caster_radius,) * 3))
             links += [
@@ -147,9 +146,9 @@ class BodyMaker:
                 linkOrientations=[(0, 0, 0, 1)] * len(links),
                 linkInertialFramePositions=[(0, 0, 0)] * len(links),
                 linkInertialFrameOrientations=[(0, 0, 0, 1)] * len(links),
-                linkParentIndices=[link.parent for link in links],
+                linkParentIndices=[0] * len(links),
                 linkJointTypes=[link.kind for link in links],
-                linkJointAxis=[link.axis for link in links],
+                linkJointAxis=[(0, 1, 0)] * len(links),
                 physicsClientId=self._client,
             )
         )
@@ -179,25 +178,12 @@ class BodyMaker:
             )
 
     def _set_wheels(self, body: int, spec: WheeledBody) -> None:
-        wheels, steered = len(spec.wheels), len(spec.steered)
-        knuckles = range(wheels, wheels + 2 * steered, 2)
-        rolling = [*range(wheels), *(link + 1 for link in knuckles)]
-        for link in rolling:
+        wheels = len(spec.wheels)
+        for link in range(p.getNumJoints(body, physicsClientId=self._client)):
+            friction = spec.wheel_friction if link < wheels else 0.0
             p.changeDynamics(
-                body, link, lateralFriction=spec.wheel_friction, jointDamping=0, physicsClientId=self._client
+                body, link, lateralFriction=friction, jointDamping=0, physicsClientId=self._client
             )
-        for link in knuckles:
-            p.changeDynamics(
-                body,
-                link,
-                localInertiaDiagonal=(_KNUCKLE_MASS,) * 3,
-                jointDamping=0,
-                physicsClientId=self._client,
-            )
-        for link in rolling[wheels:]:
-            p.setJointMotorControl2(body, link, p.VELOCITY_CONTROL, force=0, physicsClientId=self._client)
-        for link in range(wheels + 2 * steered, p.getNumJoints(body, physicsClientId=self._client)):
-            p.changeDynamics(body, link, lateralFriction=0, physicsClientId=self._client)
 
 
 def _less(a: Vec3, b: Vec3) -> Vec3:

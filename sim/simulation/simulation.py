@@ -47,7 +47,7 @@ class Simulation:
             _check(model, world)
         self.world = world
         self.backend = Bullet(gui=gui)
-        self.backend.add_ground(world.bottom)
+        self.backend.add_ground(world.bottom, world.ground.grip)
         for prop in world.props:
             if prop.solids:  # a door that stands open has none
                 self.backend.add_static(prop.solids)

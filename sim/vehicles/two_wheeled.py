@@ -22,7 +22,7 @@ from sim.dynamics.differential import (
     Wheels,
     body_of,
 )
-from sim.physics.backend_bullet import State
+from sim.physics.backend_bullet import Joint, State
 from sim.physics.motors import Motors
 from sim.sensors.odometry import OdometryParameters, WheelOdometry
 from sim.sensors.suite import Measurement
@@ -103,6 +103,11 @@ class TwoWheeled(Wheeled[D]):
         self.add_order()
         self.add_truth()
 
+    @property
+    def joints(self) -> list[Joint]:
+        """The left and the right wheel, as they are now."""
+        return self.scene.backend.joints(self.body, 2)
+
     def add_own(self) -> None:
         """Add the sensors that only this model has."""
         raise NotImplementedError
@@ -121,7 +126,7 @@ class TwoWheeled(Wheeled[D]):
         self.add_power()
 
     def _measure_wheels(self, _: State, stamp: float) -> Iterator[Measurement]:
-        joints = self.scene.backend.joints(self.body, 2)
+        joints = self.joints
         self._odometry.update(*joints)
         speeds = [joint.speed for joint in joints]
         torques = [joint.torque + math.copysign(self._rolling, joint.speed) for joint in joints]

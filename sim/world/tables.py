@@ -7,6 +7,8 @@ from typing import Annotated, Literal
 
 import msgspec
 
+from sim.world.surfaces import GRIP, LOOKS_LIKE, Surface
+
 __all__ = [
     "Bays",
     "Block",
@@ -69,6 +71,13 @@ class Ground(Entry, frozen=True):
     """Along y [m]."""
     look: Literal["asphalt", "water", "floor", "grass"] = "asphalt"
     """Appearance of the surface at z = 0, for pictures."""
+    surface: Surface | None = None
+    """What wheels roll on; None for what it looks like."""
+
+    @property
+    def grip(self) -> float:
+        """Friction coefficient of a rubber tyre on it."""
+        return GRIP[self.surface or LOOKS_LIKE[self.look]]
 
 
 class Wall(Entry, frozen=True):

@@ -12,6 +12,7 @@ from msgspec.structs import replace
 from sim.core.load import Load, with_loads
 from sim.core.parameters import CameraParameters
 from sim.dynamics.ackermann import AckermannBody, AckermannLimits, Axles
+from sim.dynamics.tyres import TyreParameters
 from sim.sensors.gps import GpsParameters
 from sim.sensors.laser import LaserParameters
 from sim.sensors.odometry import OdometryParameters
@@ -25,6 +26,7 @@ class CommanderParameters(Parameters, frozen=True, kw_only=True):
 
     body: AckermannBody
     axles: Axles
+    tyres: TyreParameters
     limits: AckermannLimits
     odometry: OdometryParameters
     laser: LaserParameters

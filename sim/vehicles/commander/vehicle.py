@@ -12,8 +12,9 @@ from bridge.msgs.sensor_msgs import JointState
 from bridge.msgs.std_msgs import Header, Time
 from sim.core.constants import GRAVITY
 from sim.core.shapes import from_yaw
-from sim.dynamics.ackermann import AckermannDrive, body_of
+from sim.dynamics.ackermann import AckermannDrive, body_of, footing_of
 from sim.dynamics.control import given
+from sim.dynamics.tyres import Ground
 from sim.physics.backend_bullet import Joint, State
 from sim.physics.motors import Motors
 from sim.sensors.gps import Gps
@@ -48,9 +49,11 @@ class Commander(Wheeled[CommanderParameters]):
             from_yaw(start.angle),
         )
         super().__init__(scene, parameters, body)
-        self._drive = AckermannDrive(parameters.axles, parameters.limits, backend, body)
+        ground = Ground(scene.world.bottom, scene.world.ground.grip)
+        footing = footing_of(parameters.body, parameters.axles, parameters.tyres)
+        self._drive = AckermannDrive(parameters.axles, parameters.limits, footing, ground, backend, body)
         self.motors = Motors(parameters.motor, WHEELS[:2])
-        self._joints: list[Joint] = backend.joints(body, 6)
+        self._joints: list[Joint] = self._drive.joints
         self._add_sensors()
 
     def _add_sensors(self) -> None:
@@ -82,6 +85,11 @@ class Commander(Wheeled[CommanderParameters]):
         self.add_order()
         self.add_truth()
 
+    @property
+    def joints(self) -> list[Joint]:
+        """The rear wheels, then knuckle and wheel front left and front right, as they are now."""
+        return self._drive.joints
+
     def begin(self, order: Manoeuvre) -> None:
         """Take up a twist, speed and steering, or brake."""
         if order.kind == "twist":
@@ -93,7 +101,7 @@ class Commander(Wheeled[CommanderParameters]):
             self._drive.brake()
 
     def _measure_wheels(self, _: State, stamp: float) -> Iterator[Measurement]:
-        self._joints = joints = self.scene.backend.joints(self.body, 6)
+        self._joints = joints = self.joints
         self._odometry.update(joints[0], joints[1])
         self._work(joints, 1 / self.parameters.odometry.rate)
         yield "/odom", self._odometry.odometry(stamp)

@@ -144,3 +144,30 @@ def test_what_is_put_somewhere_else_lies_still_there_however_it_moved(backend):
     assert (*state.velocity, *state.turning) == (0.0,) * 6
     assert state.position == pytest.approx((4.0, 5.0, 6.0))
     assert state.rotation == pytest.approx(from_yaw(1.0))
+
+
+@pytest.mark.parametrize("grip", [0.65, 0.5, 0.2])
+@pytest.mark.parametrize("way", [0.0, 0.4, math.pi / 4])
+def test_on_the_ground_a_body_slides_as_far_as_the_stated_friction_has_it(backend, grip, way):
+    """v²/2μg in every direction, with its own friction of 1: no other factor comes in."""
+    backend.add_ground(0.0, grip)
+    box = Floating(Shape("box", (0.4, 0.4, 0.1)), 10.0, (0.2, 0.2, 0.3), (0.0, 0.0, 0.0), 1.0)
+    body = backend.add_floating(box, (0.0, 0.0, 0.05), (0.0, 0.0, 0.0, 1.0))
+    backend.step()
+    backend.set_velocity(body, (2.0 * math.cos(way), 2.0 * math.sin(way), 0.0), (0.0, 0.0, 0.0))
+    start = backend.state(body).position
+    for _ in range(3 * STEPS_PER_SECOND):
+        backend.step()
+    slid = math.dist(start, backend.state(body).position)
+    assert slid == pytest.approx(2.0**2 / (2 * grip * GRAVITY), rel=0.02)
+
+
+def test_against_a_thing_a_body_has_its_own_friction_and_not_half_of_it(backend):
+    backend.add_static((Shape("box", (20.0, 4.0, 1.0), (0.0, 0.0, -0.5)),))
+    box = Floating(Shape("box", (0.4, 0.4, 0.1)), 10.0, (0.2, 0.2, 0.3), (0.0, 0.0, 0.0), 0.4)
+    body = backend.add_floating(box, (0.0, 0.0, 0.05), (0.0, 0.0, 0.0, 1.0))
+    backend.step()
+    backend.set_velocity(body, (2.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    for _ in range(3 * STEPS_PER_SECOND):
+        backend.step()
+    assert backend.state(body).position[0] == pytest.approx(2.0**2 / (2 * 0.4 * GRAVITY), rel=0.02)

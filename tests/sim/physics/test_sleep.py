@@ -137,7 +137,7 @@ def test_a_command_turns_the_wheels_in_the_same_step(robot):
     robot.drive(Twist.planar(0.5, 0.0))
     robot.read(2.0 + 1 / STEPS_PER_SECOND)
     vehicle = robot.simulation.vehicle
-    wheels = robot.simulation.backend.joints(vehicle.body, 2)
+    wheels = vehicle.joints[:2]
     assert all(wheel.speed > 1e-3 for wheel in wheels)
 
 
