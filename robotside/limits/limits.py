@@ -25,6 +25,7 @@ from robotside.kinds.vehicle_kind import Handling
 from robotside.limits.clamped_twist import ClampedTwist, scaled
 from robotside.limits.fence import Fence
 from robotside.limits.fence_limit import NOT_PLACED, FenceLimit
+from robotside.limits.grip_limit import braked_by, held_in_bend
 from robotside.mapping.occupancy_grid import Grid
 from robotside.motion.manoeuvres import VERTICAL_KINDS, Order, kept, leads_to, levelled
 from robotside.motion.measured import MeasuredState
@@ -67,7 +68,10 @@ class LimitKeeper:
         self._settings = settings
         self._own, self._radius = info, info.radius
         known = kind_of(info.kind).handling
-        self._handling: Handling = replace(known, braking=settings.braking or known.braking)
+        self._grip = settings.grip if kind_of(info.kind).on_the_ground else None
+        self._handling: Handling = braked_by(
+            replace(known, braking=settings.braking or known.braking), self._grip
+        )
         self._height = _highest(settings)
         self._deepest = -settings.max_depth if settings.max_depth is not None else -math.inf
         self._slope = math.radians(settings.max_slope_degrees or 0.0) or math.inf
@@ -174,7 +178,9 @@ class LimitKeeper:
             name = self.info.name or "The robot"
             said = f"{name} has turned over; put it upright first."
             return ClampedTwist(Twist(), Notice(Code.ROBOT_OVERTURNED, said, robot=name))
-        fitted = self._upright(slower(twist, self.info.max_speed, self.info.max_yaw_rate), measured)
+        slowed = slower(twist, self.info.max_speed, self.info.max_yaw_rate)
+        slowed = held_in_bend(slowed, self._handling, self._grip)
+        fitted = self._upright(slowed, measured)
         level = self._level(fitted.twist, measured)
         fenced = self._fence_limit.clamp(level.twist, measured)
         return ClampedTwist(fenced.twist, fitted.why or level.why or fenced.why)

@@ -175,7 +175,8 @@ class AckermannController(GroundBound):
         )
         speed = min(speed if sure else min(speed, UNSURE_SPEED), self._speed + 0.1)
         bend, room = self._free_of(bend, way, points)
-        self._speed = min(speed, math.sqrt(2 * BRAKING * max(0.0, room - MIN_ROOM / 2)))
+        by_bend = math.sqrt(self._pursuit.lateral_acceleration / max(abs(bend), 1e-3))
+        self._speed = min(speed, by_bend, math.sqrt(2 * BRAKING * max(0.0, room - MIN_ROOM / 2)))
         if room < MIN_ROOM:
             self._speed = 0.0
         if self._swings(bend) and self._speed <= MAX_SWING_SPEED:
