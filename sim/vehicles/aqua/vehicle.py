@@ -17,7 +17,7 @@ from sim.dynamics.swimmer import BuoyantBox, SwimmerBody, inertia_of
 from sim.physics.backend_bullet import State
 from sim.physics.bodies import Floating
 from sim.physics.motors import Motors
-from sim.sensors.compass import Compass
+from sim.sensors.compass import FILTER_RATE, Compass
 from sim.sensors.depth import DepthGauge
 from sim.sensors.suite import Measurement
 from sim.vehicles.aqua.looks import looks
@@ -61,13 +61,11 @@ class Aqua(Chassis[AquaParameters]):
 
     def _add_sensors(self) -> None:
         parameters, scene, suite = self.parameters, self.scene, self.suite
-        compass = Compass(parameters.compass, scene.generator("compass"))
+        self._compass = Compass(parameters.compass, scene.generator("compass"))
         depth = DepthGauge(parameters.depth, scene.weather, scene.generator("depth"))
         self.add_bumper_and_imu()
         self.add_reckoning(parameters.reckoning)
-        suite.add(
-            "compass", parameters.compass.rate, lambda state, at: [("/compass", compass.measure(state, at))]
-        )
+        suite.add("compass", FILTER_RATE, self._compass.messages)
         suite.add("depth", parameters.depth.rate, lambda state, at: [("/depth", depth.measure(state, at))])
         suite.add("legs", LEGS_RATE, self._measure_legs)
         self.add_power()
@@ -91,6 +89,7 @@ class Aqua(Chassis[AquaParameters]):
 
     def halt(self) -> None:
         """Let the fins stand still at once."""
+        self._compass.restart()
         self.fins.amplitudes = [0.0] * len(LEGS)
         self.fins.rest()
 

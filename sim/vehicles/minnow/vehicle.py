@@ -18,7 +18,7 @@ from sim.dynamics.sixdof import SixDof
 from sim.physics.backend_bullet import State
 from sim.physics.bodies import Floating
 from sim.physics.motors import Motors
-from sim.sensors.compass import Compass
+from sim.sensors.compass import FILTER_RATE, Compass
 from sim.sensors.gps import Gps
 from sim.sensors.suite import Measurement
 from sim.vehicles.chassis import Chassis
@@ -67,13 +67,11 @@ class Minnow(Chassis[MinnowParameters]):
     def _add_sensors(self) -> None:
         parameters, scene, suite = self.parameters, self.scene, self.suite
         gps = Gps(parameters.gps, scene.world.datum, scene.generator("gps"))
-        compass = Compass(parameters.compass, scene.generator("compass"))
+        self._compass = Compass(parameters.compass, scene.generator("compass"))
         self.add_bumper_and_imu()
         self.add_reckoning(parameters.reckoning)
         suite.add("gps", parameters.gps.rate, lambda state, at: [("/fix", gps.measure(state, at))])
-        suite.add(
-            "compass", parameters.compass.rate, lambda state, at: [("/compass", compass.measure(state, at))]
-        )
+        suite.add("compass", FILTER_RATE, self._compass.messages)
         suite.add("rudder", RUDDER_RATE, self._measure_rudder)
         self.add_power()
         self.add_order()
@@ -95,6 +93,7 @@ class Minnow(Chassis[MinnowParameters]):
 
     def halt(self) -> None:
         """Let propeller and rudder stand still at once."""
+        self._compass.restart()
         works = self.works
         works.throttle = works.thrust = works.wanted = works.angle = 0.0
 

@@ -197,6 +197,18 @@ def test_held_nose_down_it_swims_down(aqua):
     assert height(aqua) - before < -0.3
 
 
+@pytest.mark.parametrize(("roll", "pitch"), [(0.0, 0.8), (0.0, -0.8), (0.8, 0.0), (-0.8, 0.0), (0.8, -0.8)])
+def test_it_holds_the_greatest_roll_and_pitch_that_it_takes_under_way(roll, pitch):
+    """0.8 rad each: within 0.03 rad of it, and its speed through the water is what it is told."""
+    robot = swimmer(z=-6.0)
+    robot.manoeuvre(Manoeuvre(kind="tilt", speed=0.5, roll=roll, pitch=pitch))
+    until(robot, 9.0)
+    dynamics = body(robot)
+    robot.close()
+    assert angles(dynamics)[:2] == pytest.approx((roll, pitch), abs=0.03)
+    assert dynamics.through[0] == pytest.approx(0.5, abs=0.01)
+
+
 def test_it_surfaces_when_it_is_told_and_stays_there(aqua):
     aqua.manoeuvre(Manoeuvre(kind="surface"))
     until(aqua, 30.0)
