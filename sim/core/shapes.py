@@ -77,6 +77,8 @@ class Shape:
     """Strength of the sun's reflection, 0 matt to 1 polished; for pictures only."""
     glow: float = 0.0
     """Part of the colour that shows without light, 0 to 1; of leaves, how much of the ball is gaps. For pictures only."""
+    retro: bool = False
+    """It throws a laser's light straight back; for lasers only."""
 
     def at(self, position: Vec3, rotation: Quat) -> Shape:
         """The same shape carried along when its frame is placed at `position` and turned by `rotation`."""

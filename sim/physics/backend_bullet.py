@@ -16,7 +16,7 @@ from sim.core.shapes import Quat, Shape, Vec3, place
 from sim.physics.bodies import Contact, Floating, Joint, State, WheeledBody
 from sim.physics.bullet_bodies import BodyMaker
 from sim.physics.bullet_measures import Measures
-from sim.physics.fans import Fan
+from sim.physics.fans import Echoes, Fan
 from sim.physics.quiet_pybullet import p, quiet
 from sim.physics.sleep import SleepWatch
 from sim.physics.zero_pages import given_back
@@ -209,6 +209,15 @@ class Bullet:
         - from within a fixed sphere a beam looks through it here, and `rays` gives 0 for one towards its middle.
 
         While nothing moves, the very same fan gives the very same array, which is not to be changed.
+        """
+        return self._measures.sweep(body, fan).reach
+
+    def echoes(self, body: int, fan: Fan) -> Echoes:
+        """What `sweep` gives, and how strong each echo is.
+
+        Matt things answer with less than 100, the less the darker they are and the more askew the beam meets them; what throws
+        light straight back with 200 and more, up to 60 degrees from straight on. How far they are makes no difference: a
+        laser allows for it. The arrays are not to be changed.
         """
         return self._measures.sweep(body, fan)
 

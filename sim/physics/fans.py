@@ -7,16 +7,18 @@ the bearings that it spans; only these pairs are computed, exactly and all at on
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.shapes import Quat, Shape, Vec3, place, rotate
-from sim.physics.solid_tables import Balls, Boxes, Cylinders, Hulls, Pairs, spread
+from sim.physics.echoes import GROUND, reflection, strengths
+from sim.physics.solid_tables import Balls, Boxes, Cylinders, Entries, Hulls, Pairs, spread
 
-__all__ = ["Fan", "FixedSolids"]
+__all__ = ["Echoes", "Fan", "FixedSolids"]
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -102,6 +104,33 @@ class _Placed:
         return cls(fan, place(fan.start, position, rotation), axes)
 
 
+class Echoes(NamedTuple):
+    """What comes back of the beams of a fan."""
+
+    reach: Floats
+    """Of each, as a part of its length; 1 where it meets nothing."""
+    facing: Floats
+    """How straight on each meets what it meets: the cosine of the angle to the surface's normal; 0 where it meets nothing."""
+    reflection: Floats
+    """Of what each meets, as `reflection` has it; 0 for nothing."""
+
+    @property
+    def strength(self) -> Floats:
+        """Of each echo, 0 to 255 in whole numbers; 0 where there is none."""
+        return strengths(self.reflection, self.facing)
+
+
+class _Round(NamedTuple):
+    """The solids of one make that some beams may meet."""
+
+    reflections: Floats
+    """Of each solid."""
+    solids: Indices
+    """Of each pair of a beam and a solid."""
+    beams: Indices
+    entries: Entries
+
+
 class FixedSolids:
     """The ground and the solids of one world that nothing moves."""
 
@@ -121,28 +150,30 @@ class FixedSolids:
         self._shapes += shapes
         self._solids = self._near = None
 
-    def sweep(self, fan: Fan, position: Vec3, rotation: Quat) -> Floats:
-        """Reach of each beam of a `fan` on a body with its centre of mass at `position`, as a part of its length; 1 where it meets nothing.
+    def sweep(self, fan: Fan, position: Vec3, rotation: Quat) -> Echoes:
+        """The echoes of a `fan` on a body with its centre of mass at `position`.
 
         A beam that starts within a solid looks through it, and one that starts below the ground through that.
         """
         placed = _Placed.at(fan, position, rotation)
-        reach = np.ones(fan.count)
-        self._meet_ground(placed, reach)
+        echoes = Echoes(np.ones(fan.count), np.zeros(fan.count), np.zeros(fan.count))
+        self._meet_ground(placed, echoes)
         if self._near is None or not self._near.suits(placed):
             self._solids = self._solids or _Solids(self._shapes)
             self._near = _Surroundings(self._solids, placed)
-        self._near.meet(placed, reach)
-        return reach
+        self._near.meet(placed, echoes)
+        return echoes
 
-    def _meet_ground(self, placed: _Placed, reach: Floats) -> None:
+    def _meet_ground(self, placed: _Placed, echoes: Echoes) -> None:
         height = placed.origin[2] - self._floor
         ahead, left = placed.axes[0][2], placed.axes[1][2]
         if height <= 0 or height > math.hypot(ahead, left):
             return
         sinks = -(ahead * placed.fan.cosines + left * placed.fan.sines)
         meets = sinks >= height
-        reach[meets] = np.minimum(reach[meets], height / sinks[meets])
+        echoes.reach[meets] = np.minimum(echoes.reach[meets], height / sinks[meets])
+        facing = sinks[meets] / placed.fan.reach
+        echoes.facing[meets], echoes.reflection[meets] = facing, GROUND
 
 
 class _Solids:
@@ -155,6 +186,7 @@ class _Solids:
         ordered = [shape for group in made.values() for shape in group]
         self.middles = np.array([shape.position for shape in ordered]).reshape(-1, 3).T
         self.radii = np.array([shape.radius for shape in ordered])
+        self.reflections = np.array([reflection(shape) for shape in ordered])
         boxes = [Shape("box", shape.size, shape.position, shape.rotation).corners() for shape in ordered]
         self.corners = np.array(boxes).reshape(-1, 8, 3).transpose(2, 1, 0)
 
@@ -169,18 +201,30 @@ class _Surroundings:
         near = np.flatnonzero((apart * apart).sum(axis=0) <= far * far)
         self._corners = np.ascontiguousarray(solids.corners[:, :, near])
         ends = np.searchsorted(near, solids.ends).tolist()
-        self._tables, self._sizes = [], []
+        self._tables, self._sizes, self._reflections = [], [], []
         for table, base, start, end in zip(solids.tables, (0, *solids.ends), (0, *ends), ends, strict=False):
             if end > start:
                 self._tables.append(table.only(near[start:end] - base))
                 self._sizes.append(end - start)
+                self._reflections.append(solids.reflections[near[start:end]])
 
     def suits(self, placed: _Placed) -> bool:
         """They are all that a fan can meet."""
         return placed.fan.reach <= self._reach and math.dist(placed.origin, self._middle) <= _ROOM
 
-    def meet(self, placed: _Placed, reach: Floats) -> None:
-        """Shorten `reach` to the solids that the beams meet."""
+    def meet(self, placed: _Placed, echoes: Echoes) -> None:
+        """Shorten the reach of `echoes` to the solids that the beams meet, and say how strongly these answer."""
+        reach = echoes.reach
+        rounds = list(self._rounds(placed))
+        for each in rounds:
+            np.minimum.at(reach, each.beams, each.entries.parts)
+        for reflections, solids, beams, entries in rounds:
+            first = np.flatnonzero(entries.parts == reach[beams])
+            met = beams[first]
+            echoes.facing[met] = entries.facing(first) / placed.fan.reach
+            echoes.reflection[met] = reflections[solids[first]]
+
+    def _rounds(self, placed: _Placed) -> Iterator[_Round]:
         if not self._tables:
             return
         fan = placed.fan
@@ -190,12 +234,13 @@ class _Surroundings:
         beams = np.arange(counts.sum()) + np.repeat(first.ravel() - counts.cumsum() + counts, counts)
         cosines, sines = fan.cosines[beams], fan.sines[beams]
         low = row = 0
-        for table, size in zip(self._tables, self._sizes, strict=True):
+        for table, size, shine in zip(self._tables, self._sizes, self._reflections, strict=True):
             own = of_each[row : row + size]
             row, high = row + size, low + int(own.sum())
             if high > low:
                 pairs = Pairs(np.repeat(np.arange(size), own), cosines[low:high], sines[low:high])
-                np.minimum.at(reach, beams[low:high], table.enter(placed.origin, placed.axes, pairs))
+                entries = table.enter(placed.origin, placed.axes, pairs)
+                yield _Round(shine, pairs.solids, beams[low:high], entries)
             low = high
 
     def _spans(self, placed: _Placed) -> tuple[Floats, Floats]:

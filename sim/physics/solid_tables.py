@@ -7,14 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Self
+from typing import Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.shapes import Shape, Vec3, rotate
 
-__all__ = ["Balls", "Boxes", "Cylinders", "Hulls", "Pairs", "spread"]
+__all__ = ["Balls", "Boxes", "Cylinders", "Entries", "Hulls", "Pairs", "spread"]
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -46,6 +46,73 @@ class Pairs:
         return ahead[..., self.solids] * self.cosines + left[..., self.solids] * self.sines
 
 
+class Entries(Protocol):
+    """Where lines enter their solids."""
+
+    @property
+    def parts(self) -> Floats:
+        """Of each pair, as a part of the line's length; infinite where the line does not enter."""
+
+    def facing(self, some: Indices) -> Floats:
+        """How straight on those of `some` pairs enter: cosines of the angles to the surfaces' normals, times the lines' length [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class _FlatEntries:
+    """Through flat sides."""
+
+    parts: Floats
+    along: Floats
+    """How far each line goes along each side's normal [m]: (sides, pairs)."""
+    behind: Floats
+    """Where it gets behind the plane of each side; the last one is where it enters."""
+
+    def facing(self, some: Indices) -> Floats:
+        """As `Entries` has it."""
+        side = self.behind[:, some].argmax(axis=0)
+        facing: Floats = np.abs(self.along[side, some])
+        return facing
+
+
+@dataclass(frozen=True, slots=True)
+class _RoundEntries:
+    """Through the round side of a cylinder, or one of its ends."""
+
+    parts: Floats
+    round_: Floats
+    """Where each line gets within the round side, if it does."""
+    along: Floats
+    """How far each line goes along the axes of its cylinder [m]: (3, pairs)."""
+    away: Floats
+    """To the cylinder's middle along them [m]."""
+    radii: Floats
+
+    def facing(self, some: Indices) -> Floats:
+        """As `Entries` has it."""
+        parts, (x, y, z) = self.parts[some], self.along[:, some]
+        to_x, to_y = self.away[:2, some]
+        inward = (to_x - x * parts) * x + (to_y - y * parts) * y
+        facing: Floats = np.where(parts > self.round_[some], np.abs(z), np.abs(inward) / self.radii[some])
+        return facing
+
+
+@dataclass(frozen=True, slots=True)
+class _BallEntries:
+    """Into balls."""
+
+    parts: Floats
+    back: Floats
+    """Along each line to the ball's middle, times the line's length [m2]."""
+    square: float
+    """Of the lines' length [m2]."""
+    radii: Floats
+
+    def facing(self, some: Indices) -> Floats:
+        """As `Entries` has it."""
+        facing: Floats = np.abs(self.back[some] - self.parts[some] * self.square) / self.radii[some]
+        return facing
+
+
 class Hulls:
     """Tapered solids: what lies behind all of some planes."""
 
@@ -69,8 +136,8 @@ class Hulls:
         counts = self._counts[some]
         return type(self)(np.ascontiguousarray(self._planes[:, : counts.max(), some]), counts)
 
-    def enter(self, origin: Vec3, axes: Sequence[Vec3], pairs: Pairs) -> Floats:
-        """Where each line from `origin` enters its solid, as a part of its length; infinite for one that does not.
+    def enter(self, origin: Vec3, axes: Sequence[Vec3], pairs: Pairs) -> Entries:
+        """Where each line from `origin` enters its solid.
 
         `axes` are ahead and left in the lines' plane, as long as the lines [m].
         """
@@ -79,9 +146,9 @@ class Hulls:
         along[along == 0] = -_TINY
         parts = (self._planes[3] - here)[:, pairs.solids] / along
         inward = along < 0
-        enter = np.where(inward, parts, -np.inf).max(axis=0)
+        behind = np.where(inward, parts, -np.inf)
         leave = np.where(inward, np.inf, parts).min(axis=0)
-        return _met(enter, leave)
+        return _FlatEntries(_met(behind.max(axis=0), leave), along, behind)
 
 
 class _Straight:
@@ -115,29 +182,31 @@ class _Straight:
 class Boxes(_Straight):
     """Straight boxes."""
 
-    def enter(self, origin: Vec3, axes: Sequence[Vec3], pairs: Pairs) -> Floats:
+    def enter(self, origin: Vec3, axes: Sequence[Vec3], pairs: Pairs) -> Entries:
         """As `Hulls` has it."""
         ahead, left, away = self._seen(origin, axes)
         along = pairs.along(ahead, left)
         along[along == 0] = _TINY
         low, high = ((away - self._halves)[:, pairs.solids], (away + self._halves)[:, pairs.solids]) / along
-        return _met(np.minimum(low, high).max(axis=0), np.maximum(low, high).min(axis=0))
+        behind = np.minimum(low, high)
+        return _FlatEntries(_met(behind.max(axis=0), np.maximum(low, high).min(axis=0)), along, behind)
 
 
 class Cylinders(_Straight):
     """Straight round cylinders."""
 
-    def enter(self, origin: Vec3, axes: Sequence[Vec3], pairs: Pairs) -> Floats:
+    def enter(self, origin: Vec3, axes: Sequence[Vec3], pairs: Pairs) -> Entries:
         """As `Hulls` has it."""
         ahead, left, away = self._seen(origin, axes)
         outside = away[0] * away[0] + away[1] * away[1] - self._halves[0] * self._halves[0]
-        x, y, z = pairs.along(ahead, left)
-        to_x, to_y, to_z = away[:, pairs.solids]
+        x, y, z = along = pairs.along(ahead, left)
+        to_x, to_y, to_z = there = away[:, pairs.solids]
         enter, leave = _roots(to_x * x + to_y * y, x * x + y * y + _TINY, outside[pairs.solids])
-        z[z == 0] = _TINY
+        z[z == 0] = _TINY  # in `along`, too
         half = self._halves[2, pairs.solids]
         low, high = (to_z - half) / z, (to_z + half) / z
-        return _met(np.maximum(enter, np.minimum(low, high)), np.minimum(leave, np.maximum(low, high)))
+        parts = _met(np.maximum(enter, np.minimum(low, high)), np.minimum(leave, np.maximum(low, high)))
+        return _RoundEntries(parts, enter, along, there, self._halves[0, pairs.solids])
 
 
 class Balls:
@@ -157,12 +226,14 @@ class Balls:
         """Those in the columns `some`."""
         return type(self)(self._middles[:, some], self._squares[some])
 
-    def enter(self, origin: Vec3, axes: Sequence[Vec3], pairs: Pairs) -> Floats:
+    def enter(self, origin: Vec3, axes: Sequence[Vec3], pairs: Pairs) -> Entries:
         """As `Hulls` has it."""
         there = self._middles - np.array(origin)[:, None]
         outside = there[0] * there[0] + there[1] * there[1] + there[2] * there[2] - self._squares
         back = pairs.along(*spread(there, axes))
-        return _met(*_roots(back, sum(part * part for part in axes[0]), outside[pairs.solids]))
+        square = sum(part * part for part in axes[0])
+        parts = _met(*_roots(back, square, outside[pairs.solids]))
+        return _BallEntries(parts, back, square, np.sqrt(self._squares[pairs.solids]))
 
 
 def _roots(back: Floats, square: Floats | float, outside: Floats) -> tuple[Floats, Floats]:

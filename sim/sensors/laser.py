@@ -57,12 +57,21 @@ class Laser:
         )
 
     def measure(self, stamp: float) -> LaserScan:
-        """One sweep, all beams at `stamp` [s]; +inf where nothing is in range, -inf where it is too near (REP-117)."""
+        """One sweep, all beams at `stamp` [s]; +inf where nothing is in range, -inf where it is too near (REP-117).
+
+        Intensities are those of `Bullet.echoes`; 0 where there is no range.
+        """
         parameters = self._parameters
-        hits = self._backend.sweep(self._body, self._fan)
+        echoes = self._backend.echoes(self._body, self._fan)
+        hits = echoes.reach
         missed = hits >= 1.0
         ranges = hits * parameters.range_max + self._noise.normals(parameters.noise, len(hits))
         ranges[ranges < parameters.range_min] = -np.inf
         ranges[missed | (ranges > parameters.range_max)] = np.inf
-        measured = Float32Array(ranges.astype("<f4").tobytes())
-        return msgspec.structs.replace(self._blank, header=Header(Time.at(stamp), "laser"), ranges=measured)
+        strength = np.where(np.isfinite(ranges), echoes.strength, 0.0)
+        return msgspec.structs.replace(
+            self._blank,
+            header=Header(Time.at(stamp), "laser"),
+            ranges=Float32Array(ranges.astype("<f4").tobytes()),
+            intensities=Float32Array(strength.astype("<f4").tobytes()),
+        )

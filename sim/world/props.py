@@ -75,7 +75,7 @@ def wall(length: float, height: float, thickness: float) -> Prop:
     coping = (length, thickness + 0.06, 0.06)
     return Prop(
         "wall",
-        (Shape("box", size, (0.0, 0.0, height / 2)),),
+        (Shape("box", size, (0.0, 0.0, height / 2), colour=CONCRETE),),
         (
             Shape("box", (length, thickness, height - 0.06), (0.0, 0.0, height / 2 - 0.03), colour=CONCRETE),
             Shape("box", coping, (0.0, 0.0, height - 0.03), colour=(0.80, 0.79, 0.76)),
@@ -96,7 +96,7 @@ def lamp(height: float = 5.0) -> Prop:
     stripe = Shape("cylinder", (0.455, 0.455, 0.12), (0.0, 0.0, 0.40), colour=(0.86, 0.72, 0.16))
     arm = Shape("box", (1.3, 0.07, 0.07), (0.55, 0.0, height), colour=STEEL)
     head = Shape("box", (0.6, 0.22, 0.09), (1.05, 0.0, height - 0.03), colour=(0.83, 0.85, 0.86))
-    straight = Shape("cylinder", (0.16, 0.16, height), (0.0, 0.0, height / 2))
+    straight = Shape("cylinder", (0.16, 0.16, height), (0.0, 0.0, height / 2), colour=STEEL)
     return Prop("lamp", (foot, straight), (foot, stripe, pole, arm, head))
 
 
@@ -157,14 +157,20 @@ def car(model: str, colour: Colour) -> Prop:
     visuals = (*_hull(body, colour), *_cabin(body, colour), *_wheels(body), *_lights(body))
     rear, front = body.cabin
     solids = (
-        Shape("box", (body.length, body.width, body.belt - 0.16), (0.0, 0.0, (body.belt + 0.16) / 2)),
+        Shape(
+            "box",
+            (body.length, body.width, body.belt - 0.16),
+            (0.0, 0.0, (body.belt + 0.16) / 2),
+            colour=colour,
+        ),
         Shape(
             "box",
             (front - rear, body.width * 0.9, body.height - body.belt),
             ((front + rear) / 2, 0.0, (body.height + body.belt) / 2),
+            colour=GLASS,
         ),
         *(
-            Shape("box", (0.6, 0.2, 0.2), (x, y, 0.1))
+            Shape("box", (0.6, 0.2, 0.2), (x, y, 0.1), colour=RUBBER)
             for x in (-body.length * 0.3, body.length * 0.3)
             for y in (-body.width / 2 + 0.12, body.width / 2 - 0.12)
         ),
