@@ -45,8 +45,8 @@ class Prop:
         )
 
 
-def cone(height: float = 0.6) -> Prop:
-    """A traffic cone, orange with a white band, on a square foot; `height` [m]."""
+def cone(height: float = 0.6, colour: Colour = ORANGE, band: Colour = WHITE) -> Prop:
+    """A traffic cone of the colour with a band round it, on a square foot; `height` [m]."""
     foot = 0.03
     body = height - foot
     bottom, top = 0.38 * height, 0.06
@@ -63,9 +63,11 @@ def cone(height: float = 0.6) -> Prop:
         )
 
     side = bottom * 1.5
-    solid = Shape("cylinder", (bottom, bottom, height), (0.0, 0.0, height / 2), taper=(top / bottom,) * 2)
-    plate = Shape("box", (side, side, foot), (0.0, 0.0, foot / 2), colour=ORANGE, glow=0.12)
-    bands = (slice_(0.0, 0.42, ORANGE), slice_(0.42, 0.70, WHITE), slice_(0.70, 1.0, ORANGE))
+    solid = Shape(
+        "cylinder", (bottom, bottom, height), (0.0, 0.0, height / 2), colour=colour, taper=(top / bottom,) * 2
+    )
+    plate = Shape("box", (side, side, foot), (0.0, 0.0, foot / 2), colour=colour, glow=0.12)
+    bands = (slice_(0.0, 0.42, colour), slice_(0.42, 0.70, band), slice_(0.70, 1.0, colour))
     return Prop("cone", (solid,), (plate, *bands))
 
 

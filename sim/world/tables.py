@@ -10,6 +10,7 @@ import msgspec
 from sim.world.surfaces import GRIP, LOOKS_LIKE, Surface
 
 __all__ = [
+    "Barrel",
     "Bays",
     "Block",
     "Car",
@@ -161,6 +162,9 @@ class Cone(Tall, frozen=True):
     """A traffic cone: it is not on the robot's map."""
 
     height: Positive = 0.6
+    colour: tuple[Part, Part, Part] = (1.0, 0.36, 0.04)
+    band: tuple[Part, Part, Part] = (0.95, 0.95, 0.93)
+    """Colour of the band round it."""
 
 
 class Tree(Tall, frozen=True):
@@ -206,6 +210,20 @@ class Person(Tinted, frozen=True):
     """A person who looks towards `yaw`, in a shirt of the colour: not on the robot's map."""
 
     colour: tuple[Part, Part, Part] = (0.24, 0.42, 0.66)
+    trousers: tuple[Part, Part, Part] = (0.17, 0.20, 0.29)
+    skin: tuple[Part, Part, Part] = (0.80, 0.62, 0.50)
+    hair: tuple[Part, Part, Part] = (0.20, 0.15, 0.11)
+    height: Annotated[float, msgspec.Meta(ge=0.8, le=2.3)] = 1.75
+    """[m]"""
+    posture: Literal["standing", "walking", "waving", "bending", "crouching"] = "standing"
+
+
+class Barrel(Tinted, frozen=True):
+    """A barrel: it is not on the robot's map."""
+
+    height: Positive = 0.9
+    """[m]"""
+    colour: tuple[Part, Part, Part] = (0.16, 0.34, 0.62)
 
 
 class Ceiling(Entry, frozen=True):

@@ -10,10 +10,11 @@ import msgspec
 from sim.core.shapes import Shape
 from sim.world.props import Prop, block, car, cone, lamp, tree
 from sim.world.props_office import chair, door, lamp_panel, shelf, sofa
-from sim.world.props_people import fruit_tree, person, table
+from sim.world.props_people import Looks, barrel, fruit_tree, person, table
 from sim.world.props_water import buoy, coral, diver
 from sim.world.room_walls import outer_walls, partition
 from sim.world.tables import (
+    Barrel,
     Bays,
     Block,
     Car,
@@ -50,7 +51,7 @@ __all__ = ["World"]
 
 Name = Annotated[str, msgspec.Meta(min_length=1, max_length=60)]
 
-_LOOSE = ("cone", "person", "diver")
+_LOOSE = ("cone", "person", "diver", "barrel", "loose_model")
 """Kinds of things that move about."""
 
 
@@ -71,6 +72,7 @@ class World(Entry, frozen=True, dict=True):
     cars: tuple[Car, ...] = ()
     lamps: tuple[Lamp, ...] = ()
     cones: tuple[Cone, ...] = ()
+    barrels: tuple[Barrel, ...] = ()
     trees: tuple[Tree, ...] = ()
     blocks: tuple[Block, ...] = ()
     partitions: tuple[Partition, ...] = ()
@@ -125,11 +127,15 @@ class World(Entry, frozen=True, dict=True):
                 fruit_tree(entry.height, entry.fruits).at(entry.x, entry.y, entry.angle)
                 for entry in self.fruit_trees
             ),
-            *(person(entry.colour).at(entry.x, entry.y, entry.angle) for entry in self.people),
+            *(person(entry.colour, _looks(entry)).at(entry.x, entry.y, entry.angle) for entry in self.people),
             *(buoy(entry.colour).at(entry.x, entry.y, entry.angle) for entry in self.buoys),
             *(coral(entry.height).at(entry.x, entry.y, entry.angle, self.bottom) for entry in self.corals),
             *(diver().at(entry.x, entry.y, entry.angle, entry.z) for entry in self.divers),
-            *(cone(entry.height).at(entry.x, entry.y, entry.angle) for entry in self.cones),
+            *(
+                cone(entry.height, entry.colour, entry.band).at(entry.x, entry.y, entry.angle)
+                for entry in self.cones
+            ),
+            *(barrel(entry.height, entry.colour).at(entry.x, entry.y, entry.angle) for entry in self.barrels),
         )
 
     @property
@@ -139,7 +145,7 @@ class World(Entry, frozen=True, dict=True):
 
     @property
     def mapped(self) -> tuple[Shape, ...]:
-        """The solids that the robot's map knows: all but those of cones, people and divers."""
+        """The solids that the robot's map knows: all but those of what moves about."""
         return tuple(shape for prop in self.props if prop.kind not in _LOOSE for shape in prop.solids)
 
     @property
@@ -180,3 +186,7 @@ class World(Entry, frozen=True, dict=True):
             *(chair().at(entry.x, entry.y, entry.angle) for entry in self.chairs),
             *(sofa(entry.length).at(entry.x, entry.y, entry.angle) for entry in self.sofas),
         )
+
+
+def _looks(entry: Person) -> Looks:
+    return Looks(entry.trousers, entry.skin, entry.hair, entry.height, entry.posture)

@@ -85,7 +85,7 @@ def _points(world: World) -> Iterator[tuple[str, float, float]]:
     """Places of the things of the file, each with its key; the ends of a line are two."""
     yield "start", world.start.x, world.start.y
     for key in (
-        *("cars", "lamps", "trees", "cones", "blocks", "tables", "people", "fruit_trees"),
+        *("cars", "lamps", "trees", "cones", "barrels", "blocks", "tables", "people", "fruit_trees"),
         *("doors", "windows", "shelves", "chairs", "sofas"),
         *("tags", "buoys", "divers", "corals", "places", "arrows"),
     ):

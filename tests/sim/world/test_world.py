@@ -115,6 +115,42 @@ def test_a_missing_file_is_named(tmp_path):
             ("yaw = 0", "yaw = 0\n[[cones]]\nx = 1\ny = 9"),
             r"lot\.toml, line \d+: cones\[0\]: \(1, 9\) is off the ground",
         ),
+        *(
+            (
+                ("yaw = 0", f'yaw = 0\n[[docks]]\nname = "a"\nx = 3\ny = 1\n{lines}'),
+                rf"lot\.toml, line \d+: {fault}",
+            )
+            for lines, fault in [
+                (
+                    'kind = "socket"',
+                    r"docks\[0\]\.kind: must be one of cage, contacts, jetty, pad, not 'socket'",
+                ),
+                ('kind = "jetty"', r"docks\[0\]\.kind: 'jetty' needs water, .*'contacts' or 'pad' can be"),
+                ('kind = "contacts"\nz = 1', r"docks\[0\]\.z: .*'contacts' must be left out, not 1"),
+                ('kind = "pad"\nz = 9', r"docks\[0\]\.z: .*'pad' must be 0 to 3 here, not 9"),
+                ('kind = "pad"\ntag = 30', r"docks\[0\]\.tag: must be a whole number at most 29, not 30"),
+                ('kind = "pad"\npower = 0', r"docks\[0\]\.power: must be a number above 0, not 0"),
+                (
+                    'kind = "pad"\n[[places]]\nname = "A"\nx = 1\ny = 1',
+                    r"docks\[0\]\.name: there is a place 'a'",
+                ),
+                (
+                    'kind = "pad"\n[[docks]]\nname = "b"\nkind = "pad"\nx = 1\ny = 1',
+                    r"docks\[1\]\.tag: another dock has 0 already",
+                ),
+            ]
+        ),
+        (
+            (
+                "yaw = 0",
+                'yaw = 0\n[water]\ndepth = 3\n[[docks]]\nname = "a"\nx = 3\ny = 1\nkind = "contacts"',
+            ),
+            r"docks\[0\]\.kind: 'contacts' are for wheels and need dry land",
+        ),
+        (
+            ("yaw = 0", 'yaw = 0\n[water]\ndepth = 3\n[[docks]]\nname = "a"\nx = 3\ny = 1\nkind = "cage"'),
+            r"docks\[0\]\.z: of a dock of the kind 'cage' must be -2\.4 to -0\.6 here, not 0",
+        ),
     ],
 )
 def test_a_fault_is_named_with_file_key_and_reason(change, fault):
@@ -158,7 +194,8 @@ def test_the_office_has_rooms_a_lab_a_hall_a_reception_and_a_dock_and_people():
     world = load("office")
     kinds = [place.kind for place in world.places]
     assert kinds.count("office") == 8
-    assert {"lab", "hall", "reception", "dock"} <= set(kinds)
+    assert {"lab", "hall", "reception"} <= set(kinds)
+    assert [dock.kind for dock in world.docks] == ["contacts", "pad"]
     assert len(world.people) >= 3
     assert not any(
         prop.kind == "person" and shape in world.mapped for prop in world.props for shape in prop.solids
@@ -270,3 +307,31 @@ def test_a_directory_is_no_world_and_that_is_said(tmp_path):
     for world in (tmp_path, tmp_path / "dunes.toml"):
         with pytest.raises(WorldError, match=f"{world} is a directory; a world is one file"):
             load(world)
+
+
+@pytest.mark.parametrize(
+    ("height", "posture", "tall"),
+    [(1.75, "standing", 1.75), (1.5, "walking", 1.5), (1.75, "crouching", 1.35)],
+)
+def test_a_person_is_as_tall_as_the_file_says_in_each_posture(
+    height: float, posture: str, tall: float
+) -> None:
+    world = parse(
+        f"{TEXT}\n[[people]]\nx = 3.0\ny = 1.0\nheight = {height}\nposture = '{posture}'\n", "people.toml"
+    )
+    person = next(prop for prop in world.props if prop.kind == "person")
+    assert person.solids[0].size[2] == pytest.approx(tall, abs=0.01)
+    corners = [corner for shape in person.visuals for corner in shape.corners()]
+    assert max(z for _, _, z in corners) == pytest.approx(tall, abs=0.12)
+    assert -0.05 < min(z for _, _, z in corners) < 0.12
+    assert max(math.dist(corner[:2], (3.0, 1.0)) for corner in corners) < 0.75
+
+
+def test_a_posture_that_nobody_knows_is_refused() -> None:
+    with pytest.raises(WorldError, match="posture"):
+        parse(f"{TEXT}\n[[people]]\nx = 3.0\ny = 1.0\nposture = 'flying'\n", "people.toml")
+
+
+def test_a_barrel_stands_in_the_way_and_is_not_on_the_map() -> None:
+    world = parse(f"{TEXT}\n[[barrels]]\nx = 3.0\ny = 1.0\n", "barrel.toml")
+    assert len(world.solids) == len(world.mapped) + 1
