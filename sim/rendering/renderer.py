@@ -13,6 +13,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.core.meshes import is_mesh
 from sim.core.shapes import Colour, Shape
 from sim.rendering.mipmaps import add_mipmaps
 from sim.rendering.patterns import LEAVES_SIZE, leaves, web
@@ -208,8 +209,7 @@ class Renderer:
         self._solids = [
             (glossy, _Solids(kind, world.visuals, context, glossy=glossy, least=least))
             for glossy in (False, True)
-            for kind in KINDS
-            if kind != "leaves"
+            for kind in _kinds(world)
         ]
         self._leaves = _Solids("leaves", world.visuals, context)
         self._overhead = _Solids("box", world.overhead, context, least=0.02)
@@ -361,6 +361,12 @@ class Renderer:
         _set(program, "eye", view.eye)
         _set(program, "time", view.time % RIPPLE_PERIOD)
         _set(program, "haze", DEEP if self._under else HAZE)
+
+
+def _kinds(world: World) -> list[str]:
+    """The kinds of solids to draw: the plain ones, and each surface that a model of the world has."""
+    own = dict.fromkeys(shape.kind for shape in world.visuals if is_mesh(shape.kind))
+    return [*(kind for kind in KINDS if kind != "leaves"), *own]
 
 
 def _paint_lines(program: moderngl.Program, world: World) -> None:

@@ -171,6 +171,6 @@ def scene(world: World) -> Iterator[Shape]:
         turn = from_yaw(float(np.arctan2(by - ay, bx - ax)))
         yield Shape("box", size, ((ax + bx) / 2, (ay + by) / 2, 0.0), turn, colour=(0.92, 0.92, 0.92))
     for prop in world.props:
-        for shape in prop.visuals:
+        for shape in prop.outlines:
             if prop.kind == "cone" or np.linalg.norm(shape.size) / 2 > _MIN_RADIUS:
                 yield shape

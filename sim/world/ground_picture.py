@@ -63,7 +63,7 @@ def _painted(world: World) -> tuple[tuple[int, int], bytes]:
     if world.water:
         return (1, 1), zlib.compress(bytes((0, 255)))  # nothing is painted on it, and no shadow falls
     paint = _signs(world).blurred(0.012)
-    shapes = world.visuals
+    shapes = tuple(shape for prop in world.props for shape in prop.outlines)
     sunny = () if world.ground.look == "floor" else shapes
     shadow = _shadows(world, sunny).blurred(0.03).point(lambda v: int(255 - _SHADOW_DEPTH * v))
     contact = _contacts(world, shapes).blurred(0.16).point(lambda v: int(255 - _CONTACT_DEPTH * v))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from sim.core.meshes import is_mesh
 from sim.core.shapes import Colour, Quat, Shape, Vec3, from_yaw
 
 __all__ = ["Prop", "block", "car", "cone", "foliage", "lamp", "tree", "twigs", "wall"]
@@ -33,6 +34,11 @@ class Prop:
     visuals: tuple[Shape, ...]
     """Shapes that cameras see."""
     position: Vec3 = (0.0, 0.0, 0.0)
+
+    @property
+    def outlines(self) -> tuple[Shape, ...]:
+        """What it looks like in plain shapes: in place of a surface of its own, what bodies and lasers hit."""
+        return self.solids if any(is_mesh(shape.kind) for shape in self.visuals) else self.visuals
 
     def at(self, x: float, y: float, yaw: float, z: float = 0.0) -> Prop:
         """The same thing standing at (x, y) [m], `z` above 0, turned to `yaw` [rad]."""

@@ -9,11 +9,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.core.meshes import is_mesh, triangles
 from sim.core.shapes import Shape, Vec3
 
 __all__ = ["FLOATS", "KINDS", "mesh", "rows"]
 
 KINDS = ("box", "cylinder", "sphere", "leaves")
+"""Of plain shapes; others show a surface of their own."""
 FLOATS = 17
 """Numbers in a shape's row: position 3, rotation 4, size 3, taper 2, tint 3, gloss and glow."""
 
@@ -32,10 +34,22 @@ def mesh(kind: str) -> tuple[bytes, bytes]:
 
     Leaves have in place of the normal their place in a picture: once round and from bottom to top, 0 to 1.
     """
+    if is_mesh(kind):
+        return _own_surface(kind)
     faces = {"box": _box, "cylinder": _cylinder, "sphere": _sphere, "leaves": _leaves}[kind]()
     every = np.array([(*corner, *normal) for face in faces for corner, normal in face], dtype=np.float32)
     corners, order = np.unique(every.round(6), axis=0, return_inverse=True)
     return corners.tobytes(), order.astype(np.int32).tobytes()
+
+
+def _own_surface(kind: str) -> tuple[bytes, bytes]:
+    """Each triangle with corners of its own, flat: what has to be seen well is made of many."""
+    corners = triangles(kind)
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    normals = np.where(lengths > 0, normals / np.maximum(lengths, 1e-12), (0.0, 0.0, 1.0))
+    both = np.concatenate((corners, np.repeat(normals[:, None, :], 3, axis=1)), axis=2)
+    return both.astype(np.float32).tobytes(), np.arange(3 * len(corners), dtype=np.int32).tobytes()
 
 
 def _quad(a: Vec3, b: Vec3, c: Vec3, d: Vec3, normals: tuple[Vec3, Vec3, Vec3, Vec3]) -> Iterator[Triangle]:

@@ -25,6 +25,7 @@ __all__ = [
     "Ground",
     "Lamp",
     "Line",
+    "Model",
     "Partition",
     "Person",
     "Place",
@@ -322,6 +323,19 @@ class Place(Spot, frozen=True, kw_only=True):
     """Of the card of the person who belongs here; empty when there is none."""
     note: str = ""
     """Message to the people who are led here."""
+
+
+class Model(Spot, frozen=True, kw_only=True):
+    """A thing from a file of another program."""
+
+    file: str
+    """In glTF or URDF, beside the world's file or at a whole path."""
+    z: Finite = 0.0
+    """Of the origin of its frame [m]."""
+    scale: Annotated[float, msgspec.Meta(gt=0, le=1000)] = 1.0
+    """So many times as large as in its file."""
+    loose: bool = False
+    """True: it moves about, so that no map shows it."""
 
 
 class Tag(Entry, frozen=True):

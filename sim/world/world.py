@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from functools import cached_property
+from pathlib import Path
 from typing import Annotated
 
 import msgspec
 
 from sim.core.shapes import Shape
+from sim.parts.part import part
 from sim.world.props import Prop, block, car, cone, lamp, tree
 from sim.world.props_office import chair, door, lamp_panel, shelf, sofa
 from sim.world.props_people import Looks, barrel, fruit_tree, person, table
@@ -29,6 +31,7 @@ from sim.world.tables import (
     Ground,
     Lamp,
     Line,
+    Model,
     Partition,
     Person,
     Place,
@@ -90,6 +93,8 @@ class World(Entry, frozen=True, dict=True):
     buoys: tuple[Tinted, ...] = ()
     divers: tuple[Diver, ...] = ()
     corals: tuple[Coral, ...] = ()
+    models: tuple[Model, ...] = ()
+    """Things from files of other programs."""
     water: Water | None = None
     """None on dry land."""
     ceiling: Ceiling | None = None
@@ -136,6 +141,7 @@ class World(Entry, frozen=True, dict=True):
                 for entry in self.cones
             ),
             *(barrel(entry.height, entry.colour).at(entry.x, entry.y, entry.angle) for entry in self.barrels),
+            *(_model(entry) for entry in self.models),
         )
 
     @property
@@ -186,6 +192,13 @@ class World(Entry, frozen=True, dict=True):
             *(chair().at(entry.x, entry.y, entry.angle) for entry in self.chairs),
             *(sofa(entry.length).at(entry.x, entry.y, entry.angle) for entry in self.sofas),
         )
+
+
+def _model(entry: Model) -> Prop:
+    """The thing of a file where `entry` puts it; PartError when there is none."""
+    read = part(Path(entry.file), entry.scale)
+    made = Prop("loose_model" if entry.loose else "model", read.solids, read.visuals)
+    return made.at(entry.x, entry.y, entry.angle, entry.z)
 
 
 def _looks(entry: Person) -> Looks:

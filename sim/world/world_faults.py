@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from pathlib import Path
 
 from bridge.msgs.additions import PLACE_KINDS
 from sim.core.constants import GRAVITY
 from sim.core.shapes import Shape, beside
+from sim.parts.errors import PartError
+from sim.parts.part import part
 from sim.world.props import CAR_MODELS
 from sim.world.world import World
 
@@ -26,6 +29,8 @@ MAX_STEP_HEIGHT = 0.02
 """Things that are lower can be driven over [m]."""
 SCENERY_MARGIN = 30.0
 """Distance beyond the ground within which trees may stand [m]."""
+MAX_MODELS = 100
+"""Things from files of other programs."""
 MAX_STEEPNESS = 1 / 7
 """A wave in deep water that is higher than this part of its length breaks."""
 _TOLERANCE = 1e-6
@@ -40,6 +45,7 @@ def faults(world: World) -> Iterator[Fault]:
             f"{area:g} m2 are too many, at most {MAX_AREA:g} can be: its map has a cell for each 10 cm",
         )
     yield from _places(world)
+    yield from _models(world)
     for number, entry in enumerate(world.cars):
         if entry.model not in CAR_MODELS:
             yield f"cars[{number}].model", f"{entry.model!r} is not one of {', '.join(CAR_MODELS)}"
@@ -70,6 +76,17 @@ def _places(world: World) -> Iterator[Fault]:
         names.add(place.name.casefold())
 
 
+def _models(world: World) -> Iterator[Fault]:
+    if len(world.models) > MAX_MODELS:
+        yield "models", f"{len(world.models)} are too many, at most {MAX_MODELS} can be"
+        return
+    for number, entry in enumerate(world.models):
+        try:
+            part(Path(entry.file), entry.scale)
+        except PartError as fault:
+            yield f"models[{number}].file", str(fault)
+
+
 def _off_the_ground(world: World) -> Iterator[Fault]:
     half_length, half_width = world.ground.length / 2, world.ground.width / 2
     ends = f"which ends at x = ±{half_length:g} and y = ±{half_width:g}"
@@ -87,7 +104,7 @@ def _points(world: World) -> Iterator[tuple[str, float, float]]:
     for key in (
         *("cars", "lamps", "trees", "cones", "barrels", "blocks", "tables", "people", "fruit_trees"),
         *("doors", "windows", "shelves", "chairs", "sofas"),
-        *("tags", "buoys", "divers", "corals", "places", "arrows"),
+        *("tags", "buoys", "divers", "corals", "places", "arrows", "models"),
     ):
         for number, spot in enumerate(getattr(world, key)):
             yield f"{key}[{number}]", spot.x, spot.y

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from msgspec import structs
+
 from bridge.core.toml_files import FileFault, fault, read, text_of
 from sim.world.world import World
 from sim.world.world_faults import faults
@@ -32,15 +34,19 @@ def load(world: str | Path) -> World:
     if path.parent == _FOLDER and path.stem not in WORLDS:
         raise WorldError(f"There is no world {str(world)!r}; there is {', '.join(WORLDS)}.")
     try:
-        return parse(text_of(path), path.name)
+        return parse(text_of(path), path.name, path.parent)
     except FileFault as problem:
         raise WorldError(str(problem)) from problem
 
 
-def parse(text: str, source: str) -> World:
-    """The world that a TOML `text` describes; `source` is what a fault calls it."""
+def parse(text: str, source: str, folder: Path | None = None) -> World:
+    """The world that a TOML `text` describes; `source` is what a fault calls it, `folder` where the files of its models are."""
     try:
         world = read(text, World, source)
+        if world.models:
+            here = (folder or Path()).resolve()
+            placed = tuple(structs.replace(entry, file=str(here / entry.file)) for entry in world.models)
+            world = structs.replace(world, models=placed)
         for where, reason in faults(world):
             raise fault(text, source, where, reason)
     except FileFault as problem:
