@@ -106,7 +106,10 @@ _NAMES = {
 def summary(world: World) -> str:
     """Things that stand in the world, in one sentence."""
     ground, counts = world.ground, Counter(prop.kind for prop in world.props)
-    things = ", ".join(f"{counts[kind]} {name}" for kind, name in _NAMES.items() if counts[kind])
+    named = [f"{counts[kind]} {name}" for kind, name in _NAMES.items() if counts[kind]]
+    if world.docks:
+        named.append(f"{len(world.docks)} docks")
+    things = ", ".join(named)
     water = f"{world.water.depth:g} m of water; " if world.water else ""
     return f"{world.name}: {ground.length:g} x {ground.width:g} m; {water}{things or 'empty'}."
 

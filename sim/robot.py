@@ -25,6 +25,7 @@ from sim.simulation.shared_run import SharedRun
 from sim.simulation.simulation import Simulation
 from sim.vehicles.aqua import AQUA
 from sim.vehicles.ardrone import ARDRONE
+from sim.vehicles.charging import docked
 from sim.vehicles.commander import COMMANDER
 from sim.vehicles.minnow import MINNOW
 from sim.vehicles.model import Model, Vehicle, numbered, suits
@@ -112,7 +113,11 @@ class SimRobot:
 
     @property
     def places(self) -> list[Place]:
-        """The places of its world that have names, as a robot side may take them over; their ids are 0."""
+        """The places of its world that have names, as a robot side may take them over; their ids are 0.
+
+        Its docks are among them: where it stands when its contacts meet theirs, and the way that it faces then.
+        """
+        charging = self._vehicle.parameters.charging
         return [
             Place(
                 name=entry.name,
@@ -125,6 +130,11 @@ class SimRobot:
                 note=entry.note,
             )
             for entry in self.simulation.world.places
+        ] + [
+            Place(name=dock.name, kind="dock", x=x, y=y, yaw=yaw)
+            for dock in self.simulation.world.docks
+            if dock.kind == charging.dock
+            for x, y, yaw in [docked(charging, dock)]
         ]
 
     @property
@@ -239,7 +249,7 @@ class SimRobot:
         simulation, vehicle, stamp = self.simulation, self._vehicle, self._run.now
         yield from vehicle.measure(stamp, truth=TRUTH_TOPIC in self._wanted)
         if self._mishaps.is_due(simulation.steps):
-            for event in self._mishaps.update(vehicle.state()):
+            for event in self._mishaps.update(vehicle.state(), vehicle.dock):
                 yield "/events", event
         if self._cameras is not None:
             yield from self._cameras.shoot(self._wanted, stamp)

@@ -1,4 +1,4 @@
-"""Mishaps of a robot, reported to its operator: it turns over, sinks, or leaves the world."""
+"""Mishaps of a robot, reported to its operator: it turns over, sinks, leaves the world, or its dock has no current."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from sim.core.parameters import Info
 from sim.core.shapes import rotate
 from sim.physics.backend_bullet import State
 from sim.vehicles.scene import Scene
+from sim.world.tables import Dock
 
 __all__ = ["Mishaps"]
 
@@ -60,6 +61,7 @@ class Mishaps:
         """A robot in `scene`; one that dives may lie anyhow and deep."""
         self._name, self._world, self._weather = info.name, scene.world, scene.weather
         self._dives = info.dives
+        self._dead_docks = scene.dead_docks
         self._drowning = SINKING_CHECKS if info.floats else CONFIRM_CHECKS
         self._active: dict[Code, _Condition] = {}
 
@@ -67,8 +69,9 @@ class Mishaps:
         """Whether to check after so many physics `steps`."""
         return steps % CHECK_STEPS == 0
 
-    def update(self, state: State) -> Iterator[Event]:
-        """Events to report now."""
+    def update(self, state: State, dock: Dock | None = None) -> Iterator[Event]:
+        """Events to report now; the robot's contacts touch those of `dock`."""
+        yield from self._of_dock(state, dock)
         parameters = {Code.ROBOT_ASTRAY: [KeyValue("world", self._world.name)]}
         for code, text, patience, happens in self._conditions(state):
             if self._active.setdefault(code, _Condition(patience)).update(happens):
@@ -80,6 +83,20 @@ class Mishaps:
                     code=code.value,
                     parameters=[KeyValue("robot", self._name), *parameters.get(code, [])],
                 )
+
+    def _of_dock(self, state: State, dock: Dock | None) -> Iterator[Event]:
+        """It touches a dock that has no current: in whatever way it came there."""
+        dead = dock is not None and dock.name in self._dead_docks
+        watched = self._active.setdefault(Code.DOCK_DEAD, _Condition(CONFIRM_CHECKS))
+        if watched.update(dead) and dock is not None:
+            yield Event(
+                level="warn",
+                kind="robot",
+                text=f"{self._name} touches {dock.name}, which has no current to give.",
+                position=Point(*state.position),
+                code=Code.DOCK_DEAD.value,
+                parameters=[KeyValue("place", dock.name)],
+            )
 
     def clear(self) -> None:
         """Forget all mishaps: the robot was put back."""

@@ -48,15 +48,26 @@ class Simulation:
         self.world = world
         self.backend = Bullet(gui=gui)
         self.backend.add_ground(world.bottom, world.ground.grip)
-        for prop in world.props:
-            if prop.solids:  # a door that stands open has none
-                self.backend.add_static(prop.solids)
+        self.dead_docks = {dock.name for dock in world.docks if not dock.live}
+        """Names of the docks that have no current to give; may be changed."""
+        platforms = self._built(world)
         self.renderer = SharedRenderer(world, beside=draws_beside)
         """The renderer of the robots' cameras."""
         self.weather = Weather(world, Noise(seed, "gusts", on=noise))
         self.vehicles: list[Vehicle] = [
             model.build(
-                Scene(self.backend, world, self.weather, start, seed, noise, number), model.parameters
+                Scene(
+                    self.backend,
+                    world,
+                    self.weather,
+                    start,
+                    seed,
+                    noise,
+                    number,
+                    self.dead_docks,
+                    platforms,
+                ),
+                model.parameters,
             )
             for number, (model, start) in enumerate(placed)
         ]
@@ -67,6 +78,12 @@ class Simulation:
         """Physics steps done."""
         for _ in range(SETTLING_STEPS):
             self._step()
+
+    def _built(self, world: World) -> frozenset[int]:
+        """Put what stands in the world into the physics; the numbers of what a drone may land on there."""
+        # a door that stands open has no solids
+        numbers = {self.backend.add_static(prop.solids): prop.kind for prop in world.props if prop.solids}
+        return frozenset(number for number, kind in numbers.items() if kind == "pad")
 
     @property
     def vehicle(self) -> Vehicle:

@@ -11,6 +11,7 @@ import msgspec
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.msgs.std_msgs import Header, Time
+from sim.core.constants import STEPS_PER_SECOND
 from sim.core.shapes import Shape
 from sim.physics.backend_bullet import State
 from sim.physics.motors import Motors
@@ -19,14 +20,17 @@ from sim.sensors.bumper import BumperRing
 from sim.sensors.imu import InertialUnit
 from sim.sensors.reckoning import DeadReckoning, ReckoningParameters
 from sim.sensors.suite import Measure, Measurement, SensorSuite, as_odometry
+from sim.vehicles.charging import ChargingContacts
 from sim.vehicles.parameters import Parameters
 from sim.vehicles.scene import Scene
 from sim.vehicles.start_places import places
-from sim.world.tables import Start
+from sim.world.tables import Dock, Start
 
 __all__ = ["Chassis"]
 
 MANOEUVRE_RATE, MOTORS_RATE = 10.0, 5.0
+CONTACTS_STEPS = STEPS_PER_SECOND // 20
+"""Steps between two looks whether charging contacts meet."""
 RESET_CLEARANCE = 0.05
 """Kept free round a robot that is put back [m]."""
 
@@ -56,7 +60,8 @@ class Chassis(Generic[P]):
         self.laser_x = 0.0
         """Distance of its laser ahead of `base_link` [m]."""
         self.attached: list[Callable[[], tuple[Shape, ...]]] = []
-        self.battery = Battery(parameters.battery)
+        self.battery = Battery(parameters.battery, parameters.charging.current)
+        self._contacts = ChargingContacts(parameters.charging, scene.world.docks)
         self.motors: Motors
         self.order = Manoeuvre(kind="rest")
         """The order that it follows."""
@@ -66,8 +71,12 @@ class Chassis(Generic[P]):
         self._home = home.position, home.rotation
         self.raft = -1
         """Number of the raft that it stands on where there is no ground, and which is no obstacle; -1 for none."""
+        self.landings: frozenset[int] = frozenset()
+        """Numbers of the bodies that it lands on, and which are no obstacles for it."""
         self.grounded = False
         """Its shell touches the ground or something else."""
+        self.dock: Dock | None = None
+        """The dock whose contacts it touches; None when it touches none."""
         self._step = 0
 
     @property
@@ -145,9 +154,25 @@ class Chassis(Generic[P]):
         self._step += 1
         backend = self.scene.backend
         touched = backend.touching(self.body)
-        contacts = [contact for contact in touched if contact.body not in (backend.ground, self.raft)]
+        footing = (backend.ground, self.raft, *self.landings)
+        contacts = [contact for contact in touched if contact.body not in footing]
+        if self._step % CONTACTS_STEPS == 0:
+            self._meet_dock()
         self.grounded = bool(touched)
         self.bumper.update(self._step, contacts, self.state() if contacts else None)
+
+    def _meet_dock(self) -> None:
+        """Connect the battery to the dock that it touches, and to none when it touches none."""
+        self.dock = dock = self._contacts.dock_at(self.state()) if self.may_charge else None
+        if dock is None:
+            self.battery.connect(None)
+        else:
+            self.battery.connect(dock.power if dock.name not in self.scene.dead_docks else 0.0)
+
+    @property
+    def may_charge(self) -> bool:
+        """Its contacts are where a dock's can meet them: those of one that flies are not before it has landed."""
+        return True
 
     def state(self) -> State:
         """True pose and motion, in `map`."""
@@ -156,12 +181,14 @@ class Chassis(Generic[P]):
     @property
     def has_measurements(self) -> bool:
         """`measure` has something to give after this step; else it need not be called."""
-        return self.bumper.changed or self.suite.anything_due(self._step)
+        return self.bumper.changed or self.battery.changed or self.suite.anything_due(self._step)
 
     def measure(self, stamp: float, *, truth: bool) -> Iterator[Measurement]:
         """Measurements that are due after this step, with `stamp` [s]; ground truth only when `truth` asks for it."""
         if self.bumper.changed and not self.suite.is_due("bumper", self._step):
             yield "/bumper", self.bumper.message(stamp)
+        if self.battery.changed and not self.suite.is_due("battery", self._step):
+            yield "/battery_state", self.battery.message(stamp)
         for topic, message in self.suite.measure(self._step, self.state, stamp):
             if truth or topic != "/sim/ground_truth":
                 yield topic, message

@@ -20,6 +20,7 @@ from sim.sensors.bumper import BumperRing
 from sim.sensors.suite import SensorSuite
 from sim.vehicles.parameters import Parameters
 from sim.vehicles.scene import Scene
+from sim.world.tables import Dock
 from sim.world.world import World
 
 __all__ = ["Model", "Vehicle", "numbered", "suits"]
@@ -46,6 +47,8 @@ class Vehicle(Protocol):
     """Its number in the physics."""
     bumper: BumperRing
     """Counts its bumps."""
+    dock: Dock | None
+    """The dock whose contacts it touches; None when it touches none."""
     raft: int
     """Number of the raft that it stands on where there is no ground; -1 for none."""
 

@@ -12,6 +12,7 @@ from sim.core.parameters import CameraParameters, Info, Limits, Rate, Table
 from sim.physics.motors import MotorParameters
 from sim.sensors.battery import BatteryParameters
 from sim.sensors.imu import ImuParameters
+from sim.vehicles.charging import ChargingParameters
 
 __all__ = ["Parameters", "load", "outline"]
 
@@ -25,6 +26,7 @@ class Parameters(Table, frozen=True, kw_only=True):
     imu: ImuParameters
     bumper: Rate
     battery: BatteryParameters
+    charging: ChargingParameters
     truth: Rate
 
     @property

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from sim.core.noise import Noise
 from sim.physics.backend_bullet import Bullet
@@ -27,6 +27,10 @@ class Scene:
     """With False every sensor is exact."""
     number: int = 0
     """Which of the vehicles of this world it is, from 0 on."""
+    dead_docks: set[str] = field(default_factory=set)
+    """Names of the docks that have no current to give just now; may change."""
+    platforms: frozenset[int] = frozenset()
+    """Numbers of the bodies that what flies lands on."""
 
     def generator(self, sensor: str) -> Noise:
         """The random errors of one of its sensors, independent of all others."""

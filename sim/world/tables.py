@@ -19,6 +19,8 @@ __all__ = [
     "Coral",
     "Datum",
     "Diver",
+    "Dock",
+    "DockKind",
     "Door",
     "Entry",
     "FruitTree",
@@ -323,6 +325,26 @@ class Place(Spot, frozen=True, kw_only=True):
     """Of the card of the person who belongs here; empty when there is none."""
     note: str = ""
     """Message to the people who are led here."""
+
+
+DockKind = Literal["contacts", "jetty", "pad", "cage"]
+"""For robots on wheels, boats, drones, and what swims under water."""
+
+
+class Dock(Spot, frozen=True, kw_only=True):
+    """Where robots of one kind charge: its place is where their contacts meet its own, its yaw the way that they face then."""
+
+    name: str
+    """Of the place that it is, for the robots that it is for."""
+    kind: DockKind
+    z: Finite = 0.0
+    """Of the top of a pad and of the middle of a cage's coil [m]; others stand on the ground or float."""
+    tag: Annotated[int, msgspec.Meta(ge=0, le=29)] = 0
+    """Number of the visible tag on it, of AprilTag 36h11."""
+    power: Annotated[float, msgspec.Meta(gt=0, le=50_000)] = 500.0
+    """Most that it gives [W]."""
+    live: bool = True
+    """False: it has no current to give."""
 
 
 class Model(Spot, frozen=True, kw_only=True):

@@ -11,6 +11,7 @@ import msgspec
 from sim.core.shapes import Shape
 from sim.parts.part import part
 from sim.world.props import Prop, block, car, cone, lamp, tree
+from sim.world.props_docks import MAKERS
 from sim.world.props_office import chair, door, lamp_panel, shelf, sofa
 from sim.world.props_people import Looks, barrel, fruit_tree, person, table
 from sim.world.props_water import buoy, coral, diver
@@ -25,6 +26,7 @@ from sim.world.tables import (
     Coral,
     Datum,
     Diver,
+    Dock,
     Door,
     Entry,
     FruitTree,
@@ -90,6 +92,8 @@ class World(Entry, frozen=True, dict=True):
     tags: tuple[Tag, ...] = ()
     places: tuple[Place, ...] = ()
     """Names that people give to places in it."""
+    docks: tuple[Dock, ...] = ()
+    """Where robots charge."""
     buoys: tuple[Tinted, ...] = ()
     divers: tuple[Diver, ...] = ()
     corals: tuple[Coral, ...] = ()
@@ -141,6 +145,10 @@ class World(Entry, frozen=True, dict=True):
                 for entry in self.cones
             ),
             *(barrel(entry.height, entry.colour).at(entry.x, entry.y, entry.angle) for entry in self.barrels),
+            *(
+                MAKERS[entry.kind](entry.tag, entry.z).at(entry.x, entry.y, entry.angle, entry.z)
+                for entry in self.docks
+            ),
             *(_model(entry) for entry in self.models),
         )
 

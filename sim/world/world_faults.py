@@ -12,6 +12,7 @@ from sim.core.shapes import Shape, beside
 from sim.parts.errors import PartError
 from sim.parts.part import part
 from sim.world.props import CAR_MODELS
+from sim.world.tables import Dock
 from sim.world.world import World
 
 __all__ = ["MAX_NAME_LENGTH", "faults"]
@@ -33,6 +34,10 @@ MAX_MODELS = 100
 """Things from files of other programs."""
 MAX_STEEPNESS = 1 / 7
 """A wave in deep water that is higher than this part of its length breaks."""
+MIN_PLATFORM, MAX_PLATFORM = 0.1, 3.0
+"""Heights of a pad over water, and of any [m]."""
+CAGE_ROOM = 0.6
+"""From the middle of a cage to the surface and to the ground [m]."""
 _TOLERANCE = 1e-6
 
 
@@ -45,6 +50,7 @@ def faults(world: World) -> Iterator[Fault]:
             f"{area:g} m2 are too many, at most {MAX_AREA:g} can be: its map has a cell for each 10 cm",
         )
     yield from _places(world)
+    yield from _docks(world)
     yield from _models(world)
     for number, entry in enumerate(world.cars):
         if entry.model not in CAR_MODELS:
@@ -87,6 +93,43 @@ def _models(world: World) -> Iterator[Fault]:
             yield f"models[{number}].file", str(fault)
 
 
+def _docks(world: World) -> Iterator[Fault]:
+    names = {place.name.casefold() for place in world.places}
+    tags: set[int] = set()
+    for number, dock in enumerate(world.docks):
+        key = f"docks[{number}]"
+        if not dock.name.strip() or len(dock.name) > MAX_NAME_LENGTH:
+            yield f"{key}.name", f"must have 1 to {MAX_NAME_LENGTH} characters, not {dock.name[:80]!r}"
+        if dock.name.casefold() in names:
+            yield f"{key}.name", f"there is a place {dock.name!r} already"
+        names.add(dock.name.casefold())
+        if dock.tag in tags:
+            yield f"{key}.tag", f"another dock has {dock.tag} already: a camera would take one for the other"
+        tags.add(dock.tag)
+        yield from _dock_height(world, dock, key)
+
+
+def _dock_height(world: World, dock: Dock, key: str) -> Iterator[Fault]:
+    """Each kind is in its own element, at a height that a robot of its kind can come to."""
+    depth = world.water.depth if world.water else 0.0
+    if dock.kind == "contacts" and world.water:
+        yield (
+            f"{key}.kind",
+            "'contacts' are for wheels and need dry land; in water 'jetty', 'cage' or 'pad' can be",
+        )
+    elif dock.kind in ("jetty", "cage") and not world.water:
+        yield f"{key}.kind", f"{dock.kind!r} needs water, and there is none; 'contacts' or 'pad' can be"
+    lowest, highest = {
+        "contacts": (0.0, 0.0),
+        "jetty": (0.0, 0.0),
+        "pad": (MIN_PLATFORM if world.water else 0.0, MAX_PLATFORM),
+        "cage": (CAGE_ROOM - depth, -CAGE_ROOM),
+    }[dock.kind]
+    if not lowest <= dock.z <= highest:
+        allowed = "be left out" if lowest == highest else f"be {lowest:g} to {highest:g} here"
+        yield f"{key}.z", f"of a dock of the kind {dock.kind!r} must {allowed}, not {dock.z:g}"
+
+
 def _off_the_ground(world: World) -> Iterator[Fault]:
     half_length, half_width = world.ground.length / 2, world.ground.width / 2
     ends = f"which ends at x = ±{half_length:g} and y = ±{half_width:g}"
@@ -104,7 +147,7 @@ def _points(world: World) -> Iterator[tuple[str, float, float]]:
     for key in (
         *("cars", "lamps", "trees", "cones", "barrels", "blocks", "tables", "people", "fruit_trees"),
         *("doors", "windows", "shelves", "chairs", "sofas"),
-        *("tags", "buoys", "divers", "corals", "places", "arrows", "models"),
+        *("tags", "buoys", "divers", "corals", "places", "arrows", "docks", "models"),
     ):
         for number, spot in enumerate(getattr(world, key)):
             yield f"{key}[{number}]", spot.x, spot.y

@@ -25,7 +25,9 @@ from tests.lacking import lacking
 
 def test_without_arguments_it_says_what_stands_in_the_world(capsys):
     assert main([]) == 0
-    assert capsys.readouterr().out == "parking_lot: 40 x 30 m; 14 cars, 6 cones, 6 lamp posts, 11 trees.\n"
+    assert capsys.readouterr().out == (
+        "parking_lot: 40 x 30 m; 14 cars, 6 cones, 6 lamp posts, 11 trees, 2 docks.\n"
+    )
 
 
 class _Faulty(ModuleType):

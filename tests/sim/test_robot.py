@@ -210,7 +210,7 @@ def test_it_knows_the_places_of_its_world_that_have_names():
     assert len(places) == 12
     assert (places["lab"].kind, places["lab"].note) == ("lab", "Here robots are built and tested.")
     assert places["room_3"].tag == "card-3"
-    assert places["dock"].yaw == 0.0
+    assert places["dock"].yaw == math.pi
 
 
 def test_closing_twice_does_nothing(robot):

@@ -53,6 +53,7 @@ class Ardrone(Chassis[ArdroneParameters]):
         at = (start.x, start.y, own.height / 2)
         body = scene.backend.add_floating(body_of(own), at, from_yaw(start.angle))
         super().__init__(scene, parameters, body)
+        self.landings = scene.platforms
         if scene.world.water:
             raft = Shape("box", (1.0, 1.0, 0.2), (start.x, start.y, -0.1), from_yaw(start.angle))
             self.raft = scene.backend.add_static([raft])
@@ -108,6 +109,11 @@ class Ardrone(Chassis[ArdroneParameters]):
             and self.grounded
             and math.hypot(*self.state().velocity) < MAX_STANDING_SPEED
         )
+
+    @property
+    def may_charge(self) -> bool:
+        """Landed."""
+        return self.stands
 
     def reset(self) -> None:
         """Stand where it started."""

@@ -9,6 +9,7 @@ import pytest
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Event
 from sim.core.shapes import from_yaw
+from sim.robot import make
 from sim.simulation.mishaps import CHECK_RATE, CLEAR_CHECKS, CONFIRM_CHECKS, SINKING_CHECKS, Mishaps
 from sim.vehicles.minnow import MINNOW
 from tests.sim.rooms import alone, plain, robot_in, until
@@ -118,4 +119,18 @@ def test_one_that_was_put_back_is_told_of_at_once_when_it_falls_again():
     robot.reset()
     until(robot, 0.1)
     assert topple() == ["Patrol-1 has turned over."]
+    robot.close()
+
+
+def test_a_dock_without_current_is_told_once_when_the_contacts_have_met_for_a_moment():
+    robot = make("patrol", "office", camera=False, noise=False)
+    robot.read(0.0)
+    (dock,) = (place for place in robot.places if place.kind == "dock")
+    vehicle = robot.simulation.vehicle
+    robot.simulation.backend.place(vehicle.body, (dock.x, dock.y, 0.0), from_yaw(dock.yaw))
+    assert told(robot.read(2.0)) == []
+    robot.simulation.dead_docks.add("dock")
+    assert told(robot.read(2.3)) == []
+    assert told(robot.read(4.0)) == ["Patrol-1 touches dock, which has no current to give."]
+    assert told(robot.read(6.0)) == []
     robot.close()
