@@ -23,6 +23,9 @@ RESOLUTION = 0.1
 """Edge of a cell [m]."""
 MARGIN = 1.0
 """Of unknown round the ground [m]."""
+TOUCH = 1e-6
+"""A cell that an obstacle comes no nearer than this [m] is touched and not full: else rounding would decide it, one way at one end of a wall and
+the other way at its other end."""
 CLEARANCE = 0.45
 """Things that hang higher than this are no obstacle for a ground robot [m]."""
 
@@ -70,7 +73,8 @@ def _covers(shape: Shape, x: Grid, y: Grid) -> NDArray[np.bool_]:
     cosine, minus_sine, _ = rotate_back(shape.rotation, (1.0, 0.0, 0.0))
     dx, dy = x - shape.position[0], y - shape.position[1]
     along, across = cosine * dx - minus_sine * dy, minus_sine * dx + cosine * dy
-    half_x, half_y = shape.size[0] / 2 + RESOLUTION / 2, shape.size[1] / 2 + RESOLUTION / 2
+    reach = RESOLUTION / 2 - TOUCH
+    half_x, half_y = shape.size[0] / 2 + reach, shape.size[1] / 2 + reach
     if shape.kind == "box":
         return (np.abs(along) < half_x) & (np.abs(across) < half_y)
     return np.asarray(along**2 + across**2 < half_x**2)

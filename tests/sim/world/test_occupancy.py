@@ -52,3 +52,14 @@ def test_a_turned_cars_outline_is_as_large_as_the_car(grid):
     near = full[np.ix_(np.abs(rows - car.y) < 2.2, np.abs(columns - car.x) < 1.2)]
     assert near.any(axis=1).sum() * 0.1 == pytest.approx(3.9, abs=0.2)
     assert near.any(axis=0).sum() * 0.1 == pytest.approx(1.72, abs=0.2)
+
+
+def test_both_walls_of_a_corridor_are_drawn_as_far_from_its_middle():
+    grid = occupancy(load("office"), 0.0)
+    info = grid.info
+    full = np.array(grid.data).reshape(info.height, info.width) == 100
+    middles = np.arange(info.height) * info.resolution + info.origin.position.y + info.resolution / 2
+    column = int((-5.5 - info.origin.position.x) / info.resolution)
+    walls = middles[full[:, column]]
+    assert walls[walls > 0].min() == pytest.approx(1.15)
+    assert walls[walls < 0].max() == pytest.approx(-1.15)
