@@ -18,7 +18,7 @@ from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.geometry_msgs import Point, Point32, Pose, Quaternion, Twist
 from bridge.msgs.pilothouse_msgs import Event, Manoeuvre, Place, RobotInfo
 from sim.core.order_limits import check, cut
-from sim.payloads import PAYLOADS, laden, mount
+from sim.payloads import PAYLOADS, laden, mount, reach
 from sim.simulation.cameras import CAMERA_TOPIC, Cameras
 from sim.simulation.mishaps import Mishaps
 from sim.simulation.shared_run import SharedRun
@@ -266,7 +266,7 @@ def info_of(vehicle: Vehicle, world: World, *, camera: bool) -> RobotInfo:
         world=world.name,
         max_speed=parameters.limits.speed,
         max_yaw_rate=parameters.limits.yaw_rate,
-        radius=parameters.radius,
+        radius=max(parameters.radius, reach(vehicle)),
         cameras=[each.name for each in vehicle.cameras] if camera else [],
         latitude=world.datum.latitude,
         longitude=world.datum.longitude,

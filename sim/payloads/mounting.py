@@ -7,6 +7,7 @@ A payload that is not mounted is not made: it costs nothing and says nothing.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
@@ -35,7 +36,7 @@ from sim.payloads.simple import (
 )
 from sim.vehicles.model import Model, Vehicle
 
-__all__ = ["PAYLOADS", "PayloadParameters", "laden", "load", "mount"]
+__all__ = ["PAYLOADS", "PayloadParameters", "laden", "load", "mount", "reach"]
 
 
 class PayloadParameters(Table, frozen=True, kw_only=True):
@@ -94,6 +95,12 @@ def mount(
     vehicle.battery.others = lambda: sum(payload.power for payload in mounted.values())
     vehicle.attached.extend(payload.shapes for payload in mounted.values())
     return mounted
+
+
+def reach(vehicle: Vehicle) -> float:
+    """How far what is mounted reaches from `base_link`, whichever way, as it is folded now [m]; 0 for nothing."""
+    shapes = [shape for attached in vehicle.attached for shape in attached()]
+    return max((math.hypot(x, y) for shape in shapes for x, y, _ in shape.corners()), default=0.0)
 
 
 def _make(name: str, vehicle: Vehicle, figures: PayloadParameters) -> Mounted:

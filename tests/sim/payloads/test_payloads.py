@@ -409,3 +409,21 @@ def test_a_pose_beyond_the_joints_is_refused_before_anything_moves():
     with pytest.raises(ValueError, match="pose 'broken' is beyond the limits"):
         mount(simulation.vehicle, ["arm"], msgspec.structs.replace(FIGURES, arm=arm))
     simulation.close()
+
+
+HOMES = {"commander": "parking_lot", "minnow": "lake", "aqua": "tank"}
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_a_robot_says_how_large_it_is_with_what_is_mounted(name):
+    """Rangers sit on its edge, half of their 3 cm beyond it; everything else lies within, the arm as it is folded at first."""
+    own = ROBOTS[name].parameters.radius
+    for payload in PAYLOADS:
+        try:
+            robot = make(name, HOMES.get(name, "office"), camera=False, payloads=[payload])
+        except ValueError:
+            continue  # it has one, or cannot carry it
+        said = robot.info.radius
+        robot.close()
+        beyond = math.hypot(own + 0.015, 0.015) if payload == "ultrasound" else own
+        assert said == pytest.approx(beyond, abs=1e-9), payload
