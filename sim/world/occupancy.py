@@ -15,7 +15,7 @@ from bridge.msgs.std_msgs import Header, Time
 from sim.core.shapes import Shape, rotate, rotate_back
 from sim.world.world import World
 
-__all__ = ["occupancy"]
+__all__ = ["RESOLUTION", "covered", "occupancy"]
 
 Grid = NDArray[np.floating[Any]]
 
@@ -42,23 +42,30 @@ def occupancy(world: World, stamp: float) -> OccupancyGrid:
     y = south + (np.arange(rows) + 0.5) * RESOLUTION
     cells = np.full((rows, columns), -1, dtype=np.int8)
     cells[np.ix_(np.abs(y) < width / 2, np.abs(x) < length / 2)] = 0
-    cells[_full(world.mapped, x, y)] = 100
+    cells[covered((shape for shape in world.mapped if _is_low(shape)), x, y)] = 100
     time = Time.at(stamp)
     info = MapMetaData(time, RESOLUTION, columns, rows, Pose(Point(west, south)))
     return OccupancyGrid(Header(time, "map"), info, Int8Array(cells.tobytes()))
 
 
-def _full(shapes: Iterable[Shape], x: Grid, y: Grid) -> NDArray[np.bool_]:
+def covered(shapes: Iterable[Shape], x: Grid, y: Grid) -> NDArray[np.bool_]:
+    """Which cells upright `shapes` cover, or come within half a cell of: (rows, columns).
+
+    `x` and `y` are the middles of columns and rows [m], rising by `RESOLUTION`.
+    """
     full = np.zeros((len(y), len(x)), dtype=np.bool_)
     for shape in shapes:
-        if shape.position[2] - shape.size[2] / 2 < CLEARANCE:
-            # only the cells round it: of all of them at once a large ground has too many
-            east, north, _ = map(abs, rotate(shape.rotation, (1.0, 0.0, 0.0)))
-            long, wide, _ = shape.size
-            columns = _near(x, shape.position[0], (long * east + wide * north) / 2 + RESOLUTION)
-            rows = _near(y, shape.position[1], (long * north + wide * east) / 2 + RESOLUTION)
-            full[rows, columns] |= _covers(shape, *np.meshgrid(x[columns], y[rows]))
+        # only the cells round it: of all of them at once a large ground has too many
+        east, north, _ = map(abs, rotate(shape.rotation, (1.0, 0.0, 0.0)))
+        long, wide, _ = shape.size
+        columns = _near(x, shape.position[0], (long * east + wide * north) / 2 + RESOLUTION)
+        rows = _near(y, shape.position[1], (long * north + wide * east) / 2 + RESOLUTION)
+        full[rows, columns] |= _covers(shape, *np.meshgrid(x[columns], y[rows]))
     return full
+
+
+def _is_low(shape: Shape) -> bool:
+    return shape.position[2] - shape.size[2] / 2 < CLEARANCE
 
 
 def _near(middles: Grid, at: float, reach: float) -> slice:
