@@ -12,6 +12,7 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Pose, Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.core.notice import Notice, Problem
+from robotside.core.refusal import OrderRefused
 from robotside.core.robot import (
     Equipped,
     Levelled,
@@ -33,6 +34,10 @@ def port_info(robot: Robot) -> RobotInfo:
     """Who `robot` is: one that is reached over a link that passes twists only is not said to know more."""
     info = robot.info
     return info if isinstance(robot, Manoeuvrable) or not info.manoeuvres else replace(info, manoeuvres=[])
+
+
+def _refused(said: str) -> OrderRefused:
+    return OrderRefused(Notice(Code.EQUIPMENT_REFUSED, said))
 
 
 def _as_it_is(order: Order) -> Order:
@@ -96,13 +101,13 @@ class GuardedRobot:
     def manoeuvre(self, order: Manoeuvre) -> None:
         """Move by `order`, as far as it may, until the next one; brake while STOP is pressed.
 
-        A robot that does not know the kind gets the twist that comes nearest; ValueError with one sentence where none does.
+        A robot that does not know the kind gets the twist that comes nearest; OrderRefused where none does, or the robot refuses it.
         """
         if order.kind == "rest":
             self.stop()
             return
         if order.kind in VERTICAL_KINDS and order.kind not in self.info.manoeuvres:
-            raise ValueError(f"{self.info.name} cannot {order.kind.replace('_', ' ')}.")
+            raise _refused(f"{self.info.name} cannot {order.kind.replace('_', ' ')}.")
         self._take(order)
 
     def again(self) -> None:
@@ -176,7 +181,10 @@ class GuardedRobot:
             else:
                 self._robot.drive(order)
         elif isinstance(self._robot, Manoeuvrable):
-            self._robot.manoeuvre(order)
+            try:
+                self._robot.manoeuvre(order)
+            except ValueError as problem:
+                raise _refused(str(problem)) from problem
         else:
             self.stop()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from robotside.core.notice import Notice
 
-__all__ = ["Refusal"]
+__all__ = ["OrderRefused", "Refusal"]
 
 
 class Refusal(Exception):
@@ -14,3 +14,7 @@ class Refusal(Exception):
         super().__init__(notice)
         self.notice = notice
         """One sentence for the operator, with its code."""
+
+
+class OrderRefused(Refusal, ValueError):
+    """The robot does not follow an order to move, which changes nothing: what gave it ends, and the robot rests."""

@@ -1,4 +1,4 @@
-"""Faults of the robot's own program: they end the task at rest, and driving by hand goes on."""
+"""Faults of the robot's own program, and orders that the robot refuses: they end the task at rest, and driving by hand goes on."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 from bridge.core.codes import Code
 from robotside.core.notice import Notice, Problem
+from robotside.core.refusal import OrderRefused
 from robotside.records.events import Say
 from robotside.tasks.engine import Engine
 
@@ -31,6 +32,11 @@ class FaultGuard:
         """Run `think` and give what it says is not done; if it fails, the task fails with the robot at rest."""
         try:
             return think() or ""
+        except OrderRefused as refused:  # no fault of the program
+            if self._engine.active:
+                self._brake()
+            self._engine.fail(refused.notice)
+            return refused.notice
         except Exception as fault:
             if self._engine.active:
                 self._brake()

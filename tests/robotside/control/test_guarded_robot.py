@@ -5,10 +5,12 @@ from __future__ import annotations
 import msgspec
 import pytest
 
+from bridge.core.codes import Code
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Pose, Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.control.guarded_robot import GuardedRobot, port_info
+from robotside.core.refusal import OrderRefused
 from robotside.motion.manoeuvres import Order
 from tests.fakes import FakeRobot
 
@@ -117,6 +119,17 @@ def test_a_manoeuvre_goes_to_who_knows_it_and_brakes_while_stop_is_pressed() -> 
     assert robot.commands == [None, None]
 
 
+def test_a_manoeuvre_that_the_robot_refuses_is_told_by_its_sentence() -> None:
+    class Picky(Flier):
+        def manoeuvre(self, order: Manoeuvre) -> None:
+            raise ValueError("-5 m is below the ground; Fake-1 goes on as before.")
+
+    with pytest.raises(OrderRefused) as refused:
+        GuardedRobot(Picky(), lambda: False).manoeuvre(HOVER)
+    assert refused.value.notice == "-5 m is below the ground; Fake-1 goes on as before."
+    assert refused.value.notice.code == Code.EQUIPMENT_REFUSED
+
+
 def test_a_manoeuvre_is_looked_at_again_wherever_the_robot_gets() -> None:
     robot, free = Flier(), True
     guarded = GuardedRobot(robot, lambda: False, lambda order: order if free else Twist())
@@ -131,7 +144,7 @@ def test_one_that_knows_no_manoeuvres_gets_what_its_limits_make_of_them_and_refu
     guarded = GuardedRobot(robot, lambda: False, lambda order: AHEAD)
     guarded.manoeuvre(Manoeuvre(kind="course"))
     assert robot.commands == [AHEAD]
-    with pytest.raises(ValueError, match=r"^Fake-1 cannot land\.$"):
+    with pytest.raises(OrderRefused, match=r"^Fake-1 cannot land\.$"):
         guarded.manoeuvre(LAND)
     assert robot.commands == [AHEAD]
 

@@ -9,6 +9,7 @@ import pytest
 
 from bridge.core.codes import Code
 from robotside.core.notice import Notice
+from robotside.core.refusal import OrderRefused
 from robotside.station.fault_guard import FAULT_PERIOD, FaultGuard
 
 
@@ -30,7 +31,7 @@ class Guarded:
         self.now, self.braked = 10.0, 0
         self.tasks, self.codes = Tasks(active=active), list[str]()
         tasks: Any = self.tasks
-        self._guard = FaultGuard(tasks, self._brake, self._say, lambda: self.now)
+        self.guard = FaultGuard(tasks, self._brake, self._say, lambda: self.now)
 
     def _brake(self) -> None:
         self.braked += 1
@@ -40,7 +41,7 @@ class Guarded:
         self.codes.append(text.code)
 
     def fail(self) -> None:
-        self._guard.run(self._think)
+        self.guard.run(self._think)
 
     @staticmethod
     def _think() -> None:
@@ -71,3 +72,18 @@ def test_a_fault_that_comes_in_each_step_is_told_now_and_then_and_brakes_each_ti
     guarded.now += FAULT_PERIOD
     guarded.fail()
     assert len(guarded.codes) == 2
+
+
+def test_an_order_that_the_robot_refuses_ends_the_task_at_rest_by_its_sentence_and_is_no_fault() -> None:
+    guarded, refused = Guarded(), Notice(Code.HEIGHT_INVALID, "Too high.")
+
+    def think() -> None:
+        raise OrderRefused(refused)
+
+    assert guarded.guard.run(think) is refused
+    assert guarded.braked == 1
+    assert guarded.tasks.failed == [Code.HEIGHT_INVALID]
+    assert guarded.codes == []
+    by_hand = Guarded(active=False)
+    assert by_hand.guard.run(think) is refused
+    assert by_hand.braked == 0
