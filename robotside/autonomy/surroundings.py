@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+
 import numpy as np
 
 from bridge.msgs.pilothouse_msgs import RobotInfo, SonarRing
@@ -10,6 +13,7 @@ from robotside.core.pose2 import Points, Pose2
 from robotside.localisation.pose_estimator import PoseEstimator
 from robotside.mapping.laser_points import LaserProjection
 from robotside.mapping.moving_obstacles import MovingObstacles
+from robotside.mapping.sight import POSE_ERROR, Sight
 from robotside.mapping.sonar_points import SonarProjection
 from robotside.navigation.navigator import Navigator
 from robotside.perception.intruder_watch import IntruderWatch
@@ -35,7 +39,9 @@ class Surroundings:
         stamp = scan.header.stamp.seconds
         points = self._laser.points(scan)
         self._pose_estimator.on_scan(points, stamp)
-        placed = self._take_in(points, stamp, now, mapping=mapping)
+        placed = self._take_in(
+            points, stamp, now, lambda pose, doubt: self._laser.sight(scan, pose, doubt), mapping=mapping
+        )
         if placed is not None:
             self._watch.on_scan(placed, stamp)
 
@@ -43,7 +49,14 @@ class Surroundings:
         """Sonars have measured, of a robot without a laser: they keep it off obstacles and help to localise it."""
         self._pose_estimator.on_sonar(self._sonars.arcs(ring))
         points, stamp = self._sonars.points(ring), ring.header.stamp.seconds
-        self._take_in(points, stamp, now, mapping=mapping, vague=True)
+        self._take_in(
+            points,
+            stamp,
+            now,
+            lambda pose, doubt: self._sonars.sight(ring, pose, doubt),
+            mapping=mapping,
+            vague=True,
+        )
 
     def points(self, pose: Pose2, *, moved: bool) -> Points:
         """The points of the last sweep in `base_link` at `pose`; with `moved` False as they were measured."""
@@ -51,10 +64,24 @@ class Surroundings:
             return self._points
         return pose.inverse().apply(self._swept.apply(self._points))
 
+    def forget(self) -> None:
+        """The position was wrong, and so is where all that was swept from it seemed to be."""
+        self._movers, self._swept = MovingObstacles(), None
+
     def _take_in(
-        self, points: Points, stamp: float, now: float, *, mapping: bool, vague: bool = False
+        self,
+        points: Points,
+        stamp: float,
+        now: float,
+        sight: Callable[[Pose2, float], Sight | None],
+        *,
+        mapping: bool,
+        vague: bool = False,
     ) -> Points | None:
-        """Take `points` in `base_link` in; where they are in `map`, None while the position is not certain."""
+        """Take `points` in `base_link` in; where they are in `map`, None while the position is not certain.
+
+        `sight` gives what the sweep saw through from a pose, give or take some metres.
+        """
         self._points = points
         self._swept = self._pose_estimator.track.at(stamp)
         if self._swept is None or not self._pose_estimator.sure:
@@ -64,7 +91,11 @@ class Surroundings:
             obstacles = self._navigator.obstacles
             fresh = obstacles.fresh(placed, vague=vague)
             moved = self._movers.moving(placed, stamp, fresh)  # what the map knows does not move
-            obstacles.update(placed[fresh & ~moved], now, vague=vague)
+            # by two standard deviations, of which the sight reckons with some by itself
+            spread = self._pose_estimator.spread
+            doubt = max(0.0, 2.0 * spread - POSE_ERROR)
+            through = sight(self._swept, doubt) if math.isfinite(spread) else None
+            obstacles.update(placed[fresh & ~moved], now, vague=vague, sight=through)
             # sonars are too coarse to tell what moves: whatever is not on the map may
             moving = fresh if vague else fresh & moved
             self._points = np.concatenate([points, self._movers.nearer(points[moving])])

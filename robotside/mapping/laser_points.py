@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from bridge.msgs.sensor_msgs import LaserScan
 from robotside.core.pose2 import ORIGIN, Points, Pose2
+from robotside.mapping.sight import BeamSight
 
 __all__ = ["LaserProjection"]
 
@@ -30,3 +31,18 @@ class LaserProjection:
             hit = (ranges > scan.range_min) & (ranges < scan.range_max)
         points = self._beams[hit] * ranges[hit][:, None]
         return points if self._mount == ORIGIN else self._mount.apply(points)
+
+    def sight(self, scan: LaserScan, pose: Pose2, doubt: float = 0.0) -> BeamSight | None:
+        """What the sweep saw through from the robot's `pose`, give or take `doubt` [m]; None for a sweep in no direction.
+
+        A beam that met nothing (+inf) is free as far as the laser reaches; one that measured nothing, or too near, is not.
+        """
+        ranges = np.frombuffer(scan.ranges, dtype=np.float32).astype(np.float64)
+        first, step = scan.angle_min, scan.angle_increment
+        if not step or not len(ranges):
+            return None
+        with np.errstate(invalid="ignore"):
+            free = np.where(ranges > scan.range_min, np.minimum(ranges, scan.range_max), 0.0)
+        if step < 0:  # mounted upside down
+            first, step, free = first + step * (len(free) - 1), -step, free[::-1]
+        return BeamSight(pose.then(self._mount), first, step, free, doubt)

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bridge.msgs.pilothouse_msgs import SonarRing
-from robotside.core.pose2 import Points
+from robotside.core.pose2 import Points, Pose2
+from robotside.mapping.sight import ConeSight
 
 __all__ = ["MAX_OBSTACLE_RANGE", "SonarProjection"]
 
@@ -39,6 +40,17 @@ class SonarProjection:
     def arcs(self, ring: SonarRing) -> NDArray[np.float64]:
         """The ends of all cones that measured something not too far away, shape (echoes, places, 2) in `base_link` [m]."""
         return _ends(ring, 0.0, MAX_ECHO_RANGE, ARC_PLACES)
+
+    def sight(self, ring: SonarRing, pose: Pose2, doubt: float = 0.0) -> ConeSight:
+        """What the ring saw through from the robot's `pose`, give or take `doubt` [m].
+
+        A cone that met nothing (+inf) is free as far as a sonar reaches; one that measured nothing, or too near, is not.
+        """
+        ranges = np.asarray(ring.ranges, dtype=np.float64)
+        bearings = np.asarray(ring.bearings, dtype=np.float64)[: len(ranges)]
+        with np.errstate(invalid="ignore"):
+            free = np.where(ranges >= ring.range_min, np.minimum(ranges, ring.range_max), 0.0)
+        return ConeSight(pose, bearings, ring.field_of_view, ring.radius, free[: len(bearings)], doubt)
 
 
 def _ends(ring: SonarRing, least: float, most: float, across: Points) -> NDArray[np.float64]:
