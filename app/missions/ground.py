@@ -16,14 +16,16 @@ from bridge.msgs.nav_msgs import OccupancyGrid
 from widgets.core.language import figure, tr
 from widgets.core.quantities import said
 
-__all__ = ["Fault", "Ground"]
+__all__ = ["CLEARANCE", "Fault", "Ground"]
 
 OCCUPIED_FROM = 50
 """Cells of at least this value are occupied, of 0 to 100; those below 0 are not known and no place to stand either."""
 MIN_CELL = 0.1
 """Least width of a cell that is judged by [m]: a finer map is looked at in blocks."""
-MARGIN = 0.08
-"""Kept between the body and anything [m]."""
+CLEARANCE = 0.05
+"""Kept in a gap on the way, where a robot's limits say no other figure [m]."""
+MARGIN = 0.03
+"""More than that is kept at a place [m]."""
 ESCAPE_DISTANCE = 0.6
 """A robot that stands too close to something finds its way out within this distance [m]."""
 MIN_RESOLUTION = 1e-4
@@ -54,23 +56,23 @@ class Fault:
 class Ground:
     """One map and the room that one robot needs on it."""
 
-    def __init__(self, grid: OccupancyGrid, radius: float) -> None:
-        """`radius` is that of the robot's body [m]."""
+    def __init__(self, grid: OccupancyGrid, radius: float, clearance: float = CLEARANCE) -> None:
+        """`radius` is that of the robot's body, `clearance` what it keeps on its way [m]."""
         info = grid.info
         self._cells = np.frombuffer(grid.data, np.int8).reshape(info.height, info.width)
         self._block = max(1, math.floor(MIN_CELL / info.resolution + 1e-6))
         self._edge = info.resolution * self._block
         """Of a block [m]."""
         self._left, self._low = info.origin.position.x, info.origin.position.y
-        self._need = radius + MARGIN
+        self._need, self._tight = radius + clearance + MARGIN, radius + clearance
         rows, columns = self._cells.shape
         self._shape = -(-rows // self._block), -(-columns // self._block)
         self._rooms: dict[tuple[int, int], float] = {}
         """What was found at blocks that were asked of: a mission is judged each time that it is drawn."""
 
     @classmethod
-    def of(cls, grid: OccupancyGrid | None, radius: float) -> Ground | None:
-        """None where there is no map that places can be judged by."""
+    def of(cls, grid: OccupancyGrid | None, radius: float, clearance: float = CLEARANCE) -> Ground | None:
+        """None where there is no map that places can be judged by; lengths as in the constructor."""
         if grid is None:
             return None
         info = grid.info
@@ -79,7 +81,8 @@ class Ground:
             math.isfinite(place.x) and math.isfinite(place.y) and MIN_RESOLUTION <= info.resolution < math.inf
         )
         usable = finite and info.width * info.height == len(grid.data) > 0
-        return cls(grid, radius) if usable and abs(info.origin.orientation.yaw) <= MAX_YAW else None
+        straight = abs(info.origin.orientation.yaw) <= MAX_YAW
+        return cls(grid, radius, clearance) if usable and straight else None
 
     def fault(self, name: str, x: float, y: float, robot: tuple[float, float] | None) -> Fault | None:
         """Why the robot would not go to (x, y) in `map` [m], called `name`; None when it would.
@@ -151,11 +154,14 @@ class Ground:
 
     @cached_property
     def _patches(self) -> Indices | None:
-        """The number of the patch of ground that each block belongs to, -1 where the robot cannot stand; None for a map too large."""
+        """The number of the patch of ground that each block belongs to, -1 where the robot cannot be; None for a map too large.
+
+        A wall stands somewhere in its block, and the middle of a gap beside the middle of one: what may be wide enough is no fault.
+        """
         if self._shape[0] * self._shape[1] > MAX_WAY_CELLS:
             return None
         bad = _in_blocks(_no_place(self._cells), self._block)
-        return _numbered(~_widened(bad, self._need / self._edge + 0.5))
+        return _numbered(~_widened(bad, max(self._tight / self._edge - 0.5, 0.5)))
 
 
 def _no_place(cells: NDArray[np.int8]) -> Mask:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
 from app.link.feeds import Feeds
-from app.missions.ground import Fault, Ground
+from app.missions.ground import CLEARANCE, Fault, Ground
 from app.missions.mission_editor import Draft
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import OccupancyGrid
@@ -26,7 +27,7 @@ class Refusals:
         self._feeds = feeds
         self._told: Limits | None = None
         self._fence = Fence()
-        self._judged_by: tuple[OccupancyGrid | None, float] = None, 0.0
+        self._judged_by: tuple[OccupancyGrid | None, float, float] = None, 0.0, 0.0
         self._ground: Ground | None = None
 
     @property
@@ -42,9 +43,12 @@ class Refusals:
         """The robot's map; None where it told none that places can be judged by."""
         grid: OccupancyGrid | None = self._feeds.latest("/map")
         info: RobotInfo | None = self._feeds.latest("/robot/info")
+        told: Limits | None = self._feeds.latest("/limits")
         radius = 0.0 if info is None else _room(info)
-        if self._judged_by[0] is not grid or self._judged_by[1] != radius:
-            self._judged_by, self._ground = (grid, radius), Ground.of(grid, radius)
+        clearance = CLEARANCE if told is None or math.isnan(told.clearance) else told.clearance
+        if self._judged_by[0] is not grid or self._judged_by[1:] != (radius, clearance):
+            self._judged_by = grid, radius, clearance
+            self._ground = Ground.of(grid, radius, clearance)
         return self._ground
 
     def fault(self, name: str, x: float, y: float) -> Fault | None:

@@ -28,10 +28,10 @@ DISCS, GIRTH = (0.0, 0.39, 0.78), 0.36
 """The body is covered by three discs so far ahead of the rear axle and so large, as parts of the robot's radius."""
 
 MARGIN = 0.2
-"""Kept between the body and anything on the map [m]."""
+"""Kept between the body and anything on its way, unless the robot's configuration says otherwise [m]."""
 
-GAP = 0.12
-"""Kept between the body and anything that the laser sees [m]."""
+NARROW_SHARE = 0.6
+"""Of that so much is kept between the body and anything that the laser sees: the rest is for steering."""
 
 BEND_SHARE = 0.9
 """It plans with bends of so much of its tightest, so that it can steer back to its way."""
@@ -90,15 +90,20 @@ class AckermannController(GroundBound):
     keeps_courses = False
     look = 12.0
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: Robot, clearance: float | None = None) -> None:
+        """`clearance` is kept on the way [m]; None for the usual one."""
         super().__init__()
+        self._margin = MARGIN if clearance is None else clearance
         info = robot.info
         self._robot = robot
         self._bend, self._pursuit = bend_of(info), kind_of(info.kind).pursuit
         self.discs: tuple[float, ...] = tuple(part * info.radius for part in DISCS)
         self._girth = girth(info)
         self.turning = 1.0 / (BEND_SHARE * self._bend)
-        self.cruise, self.clear = min(CRUISE_SHARE * info.max_speed, MAX_SPEED), self._girth + MARGIN + 0.1
+        self.cruise, self.clear = (
+            min(CRUISE_SHARE * info.max_speed, MAX_SPEED),
+            self._girth + self._margin + 0.1,
+        )
         self._pieces: list[Piece] = []
         self._follower: PathFollower | None = None
         self._speed = 0.0
@@ -126,12 +131,24 @@ class AckermannController(GroundBound):
         for place, called in (((pose.x, pose.y), "The robot"), (goal[:2], name)):
             if not grid.holds(*place):
                 raise Unreachable(f"{place_sentence(called, *place)} is off the map.")
+        pieces = yield from self._among(obstacles, planner, pose, goal)
+        if pieces:
+            return pieces
+        none = Unreachable(f"There is no way to {place_sentence(name, *goal[:2])} that it can drive.")
+        # the map's own walls stay where they are: without a way between them there is none to wait for
+        free = (yield from self._among(obstacles[:0], planner, pose, goal)) if len(obstacles) else []
+        if not free:
+            raise none
+        way = np.concatenate([piece.points for piece in free])
+        raise planner.blocked(none, name, goal[:2], way, obstacles)
+
+    def _among(
+        self, obstacles: Points, planner: Planner, pose: Pose2, goal: tuple[float, float, float]
+    ) -> Search:
+        """A way round the walls of the map and `obstacles`; no pieces when there is none."""
         grid = yield from planner.seeing(obstacles)
-        lattice = LatticePlanner(grid, BEND_SHARE * self._bend, self.discs, self._girth, MARGIN)
-        pieces = yield from lattice.search(pose, goal)
-        if not pieces:
-            raise Unreachable(f"There is no way to {place_sentence(name, *goal[:2])} that it can drive.")
-        return pieces
+        lattice = LatticePlanner(grid, BEND_SHARE * self._bend, self.discs, self._girth, self._margin)
+        return (yield from lattice.search(pose, goal))
 
     def forget(self) -> None:
         """Have no way any more."""
@@ -226,7 +243,7 @@ class AckermannController(GroundBound):
         discs = np.column_stack([px.ravel(), py.ravel()])
         at_first = np.hypot(near[:, 0, None] - ahead, near[:, 1, None]).min(axis=1)
         # from what is too close already it may go away
-        bound = np.minimum(self._girth + GAP, at_first - 0.01).clip(0.0)
+        bound = np.minimum(self._girth + NARROW_SHARE * self._margin, at_first - 0.01).clip(0.0)
         # (p - q)^2 < bound^2, written so that it is one product of all with all
         far = (discs**2).sum(axis=1)[:, None] - 2.0 * (discs @ near.T)
         touches = (far < bound**2 - (near**2).sum(axis=1)).any(axis=1)

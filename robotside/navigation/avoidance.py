@@ -22,7 +22,19 @@ HORIZON = 2.5
 """Obstacles farther away than this do not matter yet [m]."""
 
 GAP = 0.10
-"""Kept between the body and anything that the laser sees [m]."""
+"""Kept between the body and anything that the laser sees, where the way has so much room [m]."""
+
+NARROW_SHARE = 0.6
+"""Of the clearance that a way is planned with, so much is kept where it leads through a gap: the rest is for steering."""
+
+STEERING_ERROR = 0.01
+"""The way is left by so much at least [m]."""
+
+CREEP_SPEED, SPEED_PER_ROOM = 0.12, 2.5
+"""With no room beside the body it goes at the first, and faster by the second with each metre of it [m/s, 1/s]."""
+
+FINE_CURVATURES = np.array([-0.8, -0.6, -0.4, -0.2, -0.1, 0.1, 0.2, 0.4, 0.6, 0.8])
+"""Tried beside the wanted one in a gap, as differences to it [1/m]."""
 
 BRAKING = 0.4
 """Deceleration counted on when something is ahead [m/s2]."""
@@ -72,22 +84,38 @@ def free_lengths(curvatures: NDArray[np.float64], points: Points, reach: float) 
 class Avoidance:
     """Chooses the twist for one robot of `radius` [m]."""
 
-    def __init__(self, radius: float, *, max_yaw_rate: float) -> None:
-        self._reach = radius + GAP
+    def __init__(self, radius: float, *, max_yaw_rate: float, clearance: float = GAP) -> None:
+        """`clearance` is what ways are planned with at least [m]."""
+        self._radius = radius
+        self._least = radius + NARROW_SHARE * clearance
+        self._usual = max(radius + GAP, self._least)
         self._turn = max_yaw_rate
         self._last = 0.0
 
-    def choose(self, distance: float, bearing: float, speed: float, points: Points) -> AvoidanceResult:
+    def choose(
+        self,
+        distance: float,
+        bearing: float,
+        speed: float,
+        points: Points,
+        room: float = math.inf,
+    ) -> AvoidanceResult:
         """The twist towards an aim at `distance` [m] and `bearing` [rad], at up to `speed` [m/s].
 
-        `points` are what the laser sees, in `base_link`.
+        `points` are what the laser sees, in `base_link`; the way goes by at `room` [m] from the nearest of them.
         """
         if abs(bearing) > 1.0:
             return AvoidanceResult(Twist.planar(0.0, self._rate(2.0 * bearing)), False)
         wanted = 2.0 * math.sin(bearing) / max(distance, 0.1)
         near = points[np.hypot(points[:, 0], points[:, 1]) < HORIZON]
-        curvatures = np.append(CURVATURES, wanted)
-        free = free_lengths(curvatures, near, self._reach)
+        # no more is kept than the way itself has, or no arc led through its gaps
+        reach = max(self._least, min(self._usual, room - STEERING_ERROR))
+        narrow = reach < self._usual
+        curvatures = np.concatenate([CURVATURES, wanted + FINE_CURVATURES] if narrow else [CURVATURES])
+        curvatures = np.append(curvatures, wanted)
+        if narrow:
+            speed = min(speed, CREEP_SPEED + SPEED_PER_ROOM * max(0.0, room - self._radius))
+        free = free_lengths(curvatures, near, reach)
         needed = min(distance, MIN_FREE_LENGTH + speed * speed / (2 * BRAKING) + 0.4)
         best = self._best(curvatures, free, wanted, needed)
         if free[best] < min(MIN_FREE_LENGTH, distance * 0.5):

@@ -28,6 +28,9 @@ TURNING_SPEED = 0.4
 TURNING_RADIUS = 3.0
 """Of the bend in which a boat comes about [m]."""
 
+LOOK_ASIDE = 0.18
+"""What is nearer than this to the body on its way is in it [m]."""
+
 YAW_TOLERANCE = 0.1
 """It looks to where it should within this [rad]."""
 
@@ -40,11 +43,15 @@ class CourseController(SinglePath):
     discs: tuple[float, ...] = (0.0,)
     look = 10.0
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: Robot, clearance: float | None = None) -> None:
+        """`clearance` is that of its ways [m]; None for the usual one."""
         info = robot.info
         super().__init__(kind_of(info.kind).pursuit)
         self._robot, self._comes_about = robot, kind_of(info.kind).comes_about
-        self.cruise, self.clear = min(CRUISE_SHARE * info.max_speed, MAX_SPEED), info.radius + 0.18
+        self.cruise, self.clear = (
+            min(CRUISE_SHARE * info.max_speed, MAX_SPEED),
+            info.radius + max(LOOK_ASIDE, clearance or 0.0),
+        )
         self.turning = TURNING_RADIUS if kind_of(info.kind).comes_about else 0.0
         self.height = math.nan
         self.aloft = "take_off" not in info.manoeuvres

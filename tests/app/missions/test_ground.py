@@ -8,7 +8,7 @@ import random
 import numpy as np
 import pytest
 
-from app.missions.ground import MARGIN, MAX_WAY_CELLS, Ground
+from app.missions.ground import CLEARANCE, MARGIN, MAX_WAY_CELLS, Ground
 from bridge.msgs.arrays import Int8Array
 from bridge.msgs.geometry_msgs import Point, Pose, Quaternion
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
@@ -46,12 +46,13 @@ def said(ground: Ground | None, x: float, y: float, robot: tuple[float, float] |
     return fault.sentence.replace("\u00a0", " ").replace("−", "-") if fault is not None else ""
 
 
+@pytest.mark.parametrize("clearance", [0.05, 0.3])
 @pytest.mark.parametrize("resolution", [0.05, 0.1, 0.25], ids=lambda one: f"cells of {one} m")
-def test_it_says_what_the_robot_says(resolution: float) -> None:
+def test_it_says_what_the_robot_says(resolution: float, clearance: float) -> None:
     chance = random.Random(7)
     cells = (np.random.default_rng(7).random((60, 80)) < 0.03) * np.int8(100)
     msg = chart(cells, resolution)
-    ground, planner = Ground.of(msg, RADIUS), Planner(Grid.from_msg(msg), RADIUS)
+    ground, planner = Ground.of(msg, RADIUS, clearance), Planner(Grid.from_msg(msg), RADIUS, clearance)
     wide, high = 80 * resolution, 60 * resolution
     kinds = set()
     for _ in range(300):
@@ -62,7 +63,7 @@ def test_it_says_what_the_robot_says(resolution: float) -> None:
     assert len(kinds) >= 4
 
 
-@pytest.mark.parametrize(("gap", "passes"), [(0, False), (5, False), (8, True), (20, True)])
+@pytest.mark.parametrize(("gap", "passes"), [(0, False), (2, False), (5, True), (8, True), (20, True)])
 def test_a_place_that_no_way_leads_to_is_said_as_by_the_robot(gap: int, passes: bool) -> None:
     msg = chart(room(gap), corner=(0.0, 0.0))
     ground, planner = Ground.of(msg, RADIUS), Planner(Grid.from_msg(msg), RADIUS)
@@ -72,7 +73,9 @@ def test_a_place_that_no_way_leads_to_is_said_as_by_the_robot(gap: int, passes: 
         return
     with pytest.raises(Unreachable) as refused:
         planner.plan((1.0, 1.0), (9.0, 2.0), "Lab")
-    assert said(ground, 9.0, 2.0, (1.0, 1.0)) == str(refused.value)
+    told = said(ground, 9.0, 2.0, (1.0, 1.0))
+    assert told == "There is no way to Lab at (9.0, 2.0)."
+    assert str(refused.value).startswith(told[:-1])  # which gap is too narrow the robot alone measures
     assert said(ground, 2.0, 2.0, (1.0, 1.0)) == ""
     assert said(ground, 9.0, 2.0) == ""  # where the robot is is not known
 
@@ -128,7 +131,7 @@ def test_the_room_that_is_needed_is_that_of_the_robot_and_a_margin() -> None:
     ground = Ground.of(chart(room(), corner=(0.0, 0.0)), RADIUS)
     fault = ground.fault("Lab", 0.25, 2.0, None) if ground is not None else None
     assert fault is not None
-    assert f"needs {RADIUS + MARGIN:.2f}\u00a0m" in fault.sentence
+    assert f"needs {RADIUS + CLEARANCE + MARGIN:.2f}\u00a0m" in fault.sentence
     assert fault.brief == "0.15\u00a0m free"
 
 

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from app.link.feeds import Feeds, Post
@@ -125,6 +127,17 @@ def test_another_map_is_taken_at_once(feeds, refusals):
     free = OccupancyGrid(info=WALLED.info, data=Int8Array(bytes(100)))
     feeds.put("/map", Post(free, 1.0, 1))
     assert not refusals.draft(draft)
+
+
+def test_the_clearance_of_the_robots_limits_counts_at_once():
+    feeds = Feeds(lambda: 0.0)
+    refusals = Refusals(feeds)
+    feeds.put("/map", Post(WALLED, 0.0, 1))
+    feeds.put("/robot/info", Post(RobotInfo(radius=0.25), 0.0, 1))
+    draft = Draft(points=((5.5, 5.0),))  # 0.5 m from the wall
+    for number, (clearance, refused) in enumerate([(math.nan, 0), (0.3, 1), (0.1, 0)]):
+        feeds.put("/limits", Post(Limits(clearance=clearance), float(number), number))
+        assert len(refusals.draft(draft)) == refused
 
 
 def test_what_steers_like_a_car_is_judged_by_its_width():

@@ -75,3 +75,12 @@ def test_towards_the_end_of_a_blind_alley_it_is_slow_and_at_it_it_stands() -> No
     close = Avoidance(0.18, max_yaw_rate=1.9).choose(2.0, 0.0, 0.6, alley - [0.3, 0.0])
     assert close.blocked
     assert close.twist.linear.x == 0.0
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_however_near_its_way_leads_by_something_the_body_keeps_off_it(side: float) -> None:
+    """The way passes at 0.19 m, which is a centimetre beside the body: a share of the clearance is kept all the same."""
+    avoidance = Avoidance(0.18, max_yaw_rate=1.9, clearance=0.05)
+    way = avoidance.choose(2.0, 0.0, 0.5, np.array([[0.8, 0.19 * side]]), room=0.19)
+    assert way.twist.angular.z * side < 0.0
+    assert avoidance.choose(2.0, 0.0, 0.5, np.array([[0.8, 0.25 * side]]), room=0.25).twist.linear.x > 0.0

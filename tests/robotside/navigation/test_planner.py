@@ -54,6 +54,33 @@ def test_a_narrow_gap_is_used_where_there_is_no_other_way() -> None:
     assert plans.grid.clearance(path).min() > RADIUS
 
 
+@pytest.mark.parametrize("at", [0.0, 0.03, -0.47])
+@pytest.mark.parametrize("clearance", [0.02, 0.05, 0.12, 0.3, 0.5])
+def test_which_gaps_are_passed_is_a_matter_of_body_and_clearance_to_a_few_centimetres(
+    clearance: float, at: float
+) -> None:
+    """Posts that are not on the map stand across the hall; the way through them is measured against their places."""
+    plans = Planner(Grid.from_msg(FakeRobot().map()), RADIUS, clearance)
+    for wider in (0.02, -0.03):
+        width = 2 * (RADIUS + clearance) + wider
+        sides = np.concatenate([np.arange(at + width / 2, 6.0, 0.08), np.arange(at - width / 2, -6.0, -0.08)])
+        posts = np.column_stack([np.zeros(len(sides)), sides])
+        if wider > 0:
+            way = plans.plan((-3.0, 0.5), (3.0, 0.0), "Point 1", posts)
+            apart = np.hypot(way[:, None, 0] - posts[:, 0], way[:, None, 1] - posts[:, 1]).min()
+            assert apart > RADIUS + clearance - 0.02
+        else:
+            with pytest.raises(Unreachable, match=f"and the robot needs {2 * (RADIUS + clearance):.2f} m"):
+                plans.plan((-3.0, 0.5), (3.0, 0.0), "Point 1", posts)
+
+
+def test_a_robot_right_before_a_gap_that_is_too_narrow_does_not_take_it_for_its_way_out() -> None:
+    sides = np.concatenate([np.arange(0.2, 6.0, 0.08), np.arange(-0.2, -6.0, -0.08)])
+    posts = np.column_stack([np.zeros(len(sides)), sides])
+    with pytest.raises(Unreachable, match=r"is 0.40 m wide and the robot needs 0.46 m"):
+        planner().plan((-0.45, 0.0), (3.0, 0.0), "Point 1", posts)
+
+
 def test_obstacles_that_are_not_on_the_map_are_avoided() -> None:
     seen = np.array([[0.0, y] for y in np.arange(-0.5, 0.6, 0.1)])
     path = planner().plan((-5.0, 0.0), (5.0, 0.0), "Point 1", seen)
@@ -91,7 +118,7 @@ def test_a_closed_room_is_unreachable() -> None:
 
 
 def test_a_goal_that_something_new_stands_on_is_unreachable() -> None:
-    with pytest.raises(Unreachable, match=r"Point 2 at \(5.0, 0.0\) is too close to an obstacle"):
+    with pytest.raises(Unreachable, match=r"The way to Point 2 at \(5.0, 0.0\) is blocked at \(5.0, 0.1\)"):
         planner().plan((-5.0, 0.0), (5.0, 0.0), "Point 2", np.array([[5.0, 0.1]]))
 
 
