@@ -69,6 +69,7 @@ class Autonomy:
         fault: Callable[[str, float, float], Problem],
         fit: Callable[[Grid], Grid] = lambda grid: grid,
         heights: tuple[float, float] = (-math.inf, math.inf),
+        clearance: float | None = None,
         worker: Worker | None = None,
         looker: Worker | None = None,
     ) -> None:
@@ -76,7 +77,7 @@ class Autonomy:
 
         `fault` tells why the robot cannot or may not stand at a place that is called so, empty when it can.
         `fit` makes of the map the one to plan on, with all occupied where the robot may not go.
-        `heights` are the lowest and the highest at which it can and may be [m].
+        `heights` are the lowest and the highest at which it can and may be, `clearance` what it keeps on its ways, None for its kind's [m].
         `worker` looks for ways and makes maps ready, `looker` searches pictures; without them it is done in the steps of the loop.
         """
         worker = worker or InLoopWorker()
@@ -86,7 +87,8 @@ class Autonomy:
         self._silence = SensorSilence(info.kind)
         plan = PlanPublisher(bus.publish, lambda: self._now)
         self.pose_estimator = PoseEstimator(info, say, bus.publish)
-        self.navigator = Navigator(robot, Grid.unknown(), plan.show, worker)
+        self.navigator = Navigator(robot, Grid.unknown(), plan.show, worker, clearance)
+        self.navigator.heights = heights
         self._maps = MapIntake(self.pose_estimator, self.navigator, fit, say, worker)
         if chart is not None:
             self._maps.use(chart)

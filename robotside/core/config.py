@@ -45,6 +45,7 @@ Ring: TypeAlias = tuple[tuple[float, float], ...]
 _Above = Annotated[float, msgspec.Meta(gt=0.0)]
 _NotBelow = Annotated[float, msgspec.Meta(ge=0.0)]
 _Share = Annotated[float, msgspec.Meta(gt=0.0, le=1.0)]
+_Clearance = Annotated[float, msgspec.Meta(ge=0.02, le=0.5)]
 _Grip = Annotated[float, msgspec.Meta(ge=0.05, le=1.5)]
 _Degrees = Annotated[float, msgspec.Meta(gt=0.0, le=90.0)]
 _Port = Annotated[int, msgspec.Meta(ge=0, le=65535)]
@@ -89,6 +90,8 @@ class LimitSettings(_Section, frozen=True):
     """Deceleration that can be counted on [m/s2]; None for that of the robot's kind."""
     grip: _Grip | None = None
     """Friction coefficient of the ground that a robot drives on; None for one that is not known: the kind's own braking and bends count."""
+    clearance: _Clearance | None = None
+    """Kept at least between the body and anything on ways of its own [m]; None for that of the robot's kind."""
     keep_in: tuple[Ring, ...] = ()
     """The robot stays in at least one of these; none for everywhere."""
     keep_out: tuple[Ring, ...] = ()

@@ -102,6 +102,7 @@ class LimitKeeper:
             max_depth=_or_nan(told.max_depth),
             max_height=_or_nan(told.max_height),
             max_slope=math.radians(_or_nan(told.max_slope_degrees)),
+            clearance=_or_nan(told.clearance),
             keep_in=[_polygon(ring) for ring in told.keep_in],
             keep_out=[_polygon(ring) for ring in told.keep_out],
         )

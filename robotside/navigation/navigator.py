@@ -10,10 +10,10 @@ import numpy as np
 
 from bridge.core.codes import Code
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
+from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Points, Pose2
-from robotside.core.robot import Manoeuvrable, Robot
+from robotside.core.robot import Robot
 from robotside.core.text import place_sentence
 from robotside.core.worker import InLoopWorker, Worker
 from robotside.kinds.registry import kind_of
@@ -21,25 +21,20 @@ from robotside.mapping.obstacle_memory import ObstacleMemory
 from robotside.mapping.occupancy_grid import Grid
 from robotside.motion.stopping_path import REST, PlanarVelocity, reach
 from robotside.navigation.ackermann_controller import AckermannController, girth
+from robotside.navigation.arrival_check import ArrivalCheck
 from robotside.navigation.course_controller import CourseController
 from robotside.navigation.differential_controller import DifferentialController
+from robotside.navigation.height_orders import HeightOrders
 from robotside.navigation.path_controller import CRUISE_SHARE, UNSURE_SPEED, PathController
-from robotside.navigation.planner import STEP, Planner, Unreachable
+from robotside.navigation.planner import CLEARANCE, STEP, Planner, Unreachable
+from robotside.navigation.progress_watch import ProgressWatch, ReadyWatch
 from robotside.navigation.way_search import WaySearch
+from robotside.navigation.way_wait import WayWait
 
 __all__ = ["CRUISE_SHARE", "UNSURE_SPEED", "Goal", "Navigator", "LegState"]
 
 REPLAN_PERIOD = 1.0
 """Least time between two plans [s]."""
-
-STUCK_TIMEOUT = 10.0
-"""Without getting 0.1 m nearer or turning for this long, the way is blocked [s]."""
-
-READY_TIMEOUT = 20.0
-"""To get ready to go [s]."""
-
-MAX_STUCK = 3
-"""Times stuck on one leg before it is given up."""
 
 
 class LegState(Enum):
@@ -53,7 +48,15 @@ class LegState(Enum):
 class Goal:
     """A place to go to."""
 
-    def __init__(self, name: str, x: float, y: float, yaw: float = math.nan, place: str = "") -> None:
+    def __init__(
+        self,
+        name: str,
+        x: float,
+        y: float,
+        yaw: float = math.nan,
+        place: str = "",
+        height: float = math.nan,
+    ) -> None:
         self.name = name
         """As a sentence begins with it: `Point 3`."""
         self.place = place
@@ -62,6 +65,8 @@ class Goal:
         """In `map` [m]."""
         self.yaw = yaw
         """Direction to stand in [rad]; NaN when any will do."""
+        self.height = height or math.nan
+        """To go there at, above the map's origin [m]; NaN for the one that is kept."""
 
     @property
     def spoken(self) -> str:
@@ -70,7 +75,7 @@ class Goal:
         return name if name == self.place else f"{name[0].lower()}{name[1:]}"
 
 
-PATH_CONTROLLERS: dict[str, Callable[[Robot], PathController]] = {
+PATH_CONTROLLERS: dict[str, Callable[[Robot, float | None], PathController]] = {
     "differential": DifferentialController,
     "lattice": AckermannController,
     "course": CourseController,
@@ -78,9 +83,9 @@ PATH_CONTROLLERS: dict[str, Callable[[Robot], PathController]] = {
 """The path controllers, by `path_controller` of the robot's kind."""
 
 
-def path_controller_of(robot: Robot) -> PathController:
-    """The path controller of the robot's kind."""
-    return PATH_CONTROLLERS[kind_of(robot.info.kind).path_controller](robot)
+def path_controller_of(robot: Robot, clearance: float | None = None) -> PathController:
+    """The path controller of the robot's kind, which keeps a `clearance` [m]; None for the kind's own."""
+    return PATH_CONTROLLERS[kind_of(robot.info.kind).path_controller](robot, clearance)
 
 
 def required_radius(info: RobotInfo) -> float:
@@ -88,23 +93,33 @@ def required_radius(info: RobotInfo) -> float:
     return girth(info) if kind_of(info.kind).path_controller == "lattice" else info.radius
 
 
-class Navigator:
+class Navigator(HeightOrders):
     """Drives one robot on one map."""
 
     def __init__(
-        self, robot: Robot, grid: Grid, show: Callable[[Points], None], worker: Worker | None = None
+        self,
+        robot: Robot,
+        grid: Grid,
+        show: Callable[[Points], None],
+        worker: Worker | None = None,
+        clearance: float | None = None,
     ) -> None:
-        """`worker` looks for ways; without one it is done in `update`, a bit in each."""
+        """`worker` looks for ways; without one it is done in `update`, a bit in each.
+
+        `clearance` is kept between the body and anything on the way at least [m]; None for what its kind keeps.
+        """
         info = robot.info
-        self._robot, self._show = robot, show
+        controller = path_controller_of(robot, clearance)
+        super().__init__(robot, controller)
+        self._show = show
         self.kind = info.kind
         """Of robot, as its information calls it."""
-        self.controller: PathController = path_controller_of(robot)
-        """Follows the path."""
         self._radius = required_radius(info)
-        cruising = PlanarVelocity(self.controller.cruise, 0.0, 0.0)
-        self._stopping_distance = reach(cruising, REST, kind_of(info.kind).handling) + self.controller.clear
-        self._search = WaySearch(self.controller, worker or InLoopWorker())
+        self.clearance = CLEARANCE if clearance is None else clearance
+        """Kept on the way where it is narrow [m]."""
+        cruising = PlanarVelocity(controller.cruise, 0.0, 0.0)
+        self._stopping_distance = reach(cruising, REST, kind_of(info.kind).handling) + controller.clear
+        self._search = WaySearch(controller, worker or InLoopWorker())
         self.set_map(self.planner_on(grid))
         self._goal: Goal | None = None
         self.reason: Problem = ""
@@ -113,15 +128,14 @@ class Navigator:
         """What it does before it can go, as one sentence; empty when it goes."""
         self.sure = True
         """The position is trusted; otherwise it creeps."""
+        self._arrival = ArrivalCheck()
         self._turning = False
-        self._waits_since = math.inf
-        self._planned = self._moved = -math.inf
-        self._best = math.inf
-        self._stuck = 0
+        self._planned = -math.inf
+        self._progress, self._wait, self._ready = ProgressWatch(), WayWait(), ReadyWatch()
 
     def planner_on(self, grid: Grid) -> Planner:
         """For `set_map`: what takes its time on a large map, and may be done in another thread."""
-        return Planner(grid, self._radius)
+        return Planner(grid, self._radius, self.clearance)
 
     def set_map(self, planner: Planner) -> None:
         """Plan by `planner` on its map from now on; only between two tasks."""
@@ -136,7 +150,7 @@ class Navigator:
         """Along the path to the goal [m]; NaN without one."""
         return self._left
 
-    _left = math.nan
+    _left, _patient = math.nan, True
 
     @property
     def cruise(self) -> float:
@@ -154,6 +168,16 @@ class Navigator:
         return self._search.active
 
     @property
+    def doubts(self) -> bool:
+        """It stands where the goal should be, and is not sure of that."""
+        return self._arrival.waits
+
+    @property
+    def blocked(self) -> str:
+        """Why it stands and waits for a way that something blocks, as one sentence; empty when it does not."""
+        return self._wait.text
+
+    @property
     def turning(self) -> bool:
         """It is there and turns to the direction asked for."""
         return self._turning
@@ -162,48 +186,31 @@ class Navigator:
         """Move so until the next order, `update` or `rest`, with no one but the caller avoiding obstacles."""
         self._robot.drive(twist)
 
-    def measured(self, height: float) -> None:
-        """The robot is at a `height` above the map's origin [m]."""
-        self.controller.measured = height
+    def skip(self, seconds: float) -> None:
+        """The robot's clock jumped by `seconds` [s], in which nothing happened: it was none to get nowhere in."""
+        self._planned += seconds
+        for timed in (self._progress, self._wait, self._ready, self._arrival, self._search, self.obstacles):
+            timed.skip(seconds)
 
-    def flies(self, phase: str) -> None:
-        """Take over the phase of flight of a robot that flies, as in `FlightState`."""
-        self.controller.aloft = phase in ("flying", "landing")
-
-    @property
-    def height(self) -> float:
-        """Of the robot above the map's origin [m]; NaN while not known."""
-        return self.controller.measured
-
-    def keep_height(self, height: float) -> None:
-        """Go at a `height` above the map's origin [m] from now on; NaN for the one that it is at."""
-        self.controller.height = height
-
-    def take_off(self, height: float) -> None:
-        """Rise from the ground to a `height` above the map's origin [m], NaN for the usual one."""
-        self.controller.take_off(height)
-
-    def command(self, manoeuvre: Manoeuvre) -> None:
-        """The same for what a twist does not say, of a robot that knows manoeuvres; others stay as they are."""
-        if isinstance(self._robot, Manoeuvrable):
-            self._robot.manoeuvre(manoeuvre)
-
-    def head_for(self, goal: Goal) -> None:
-        """Begin a new leg; the path is planned with the next `update`."""
-        self._goal, self.reason = goal, ""
-        self.controller.forget()
-        self._search.drop()
-        self._waits_since = math.inf
-        self._stuck, self._left, self._moved = 0, math.nan, -math.inf
+    def head_for(self, goal: Goal, *, patient: bool = True) -> None:
+        """Begin a new leg; the path is planned with the next `update`. One that is `patient` waits where something blocks the way."""
+        self._goal, self.reason, self._patient = goal, "", patient
+        self._progress.begin()
+        self._forget()
 
     def rest(self) -> None:
         """Stand still and forget the path; a leg that goes on later is planned from wherever it is then."""
         self._robot.stop()
+        self._progress.pause()
+        self._forget()
+
+    def _forget(self) -> None:
+        """Have no way any more, look for none and wait for none."""
+        self._arrival.forget()
+        self._wait.forget()
         self.controller.forget()
         self._search.drop()
-        self._waits_since = math.inf
-        self._left = math.nan
-        self._moved = -math.inf
+        self._ready, self._left = ReadyWatch(), math.nan
 
     def finish(self) -> None:
         """Stand still; there is no goal any more."""
@@ -221,6 +228,9 @@ class Navigator:
         self.waits_for = self.ready(now)
         if self.waits_for:
             return LegState.BLOCKED if self.reason else LegState.UNDER_WAY
+        if self._wait.holds(now, self.obstacles.cleared):
+            self._robot.stop()
+            return LegState.UNDER_WAY
         if not controller.under_way and not self.planning:
             self._ask(now)
         looks = self.planning and not self._search_on(pose, goal, now)
@@ -228,17 +238,24 @@ class Navigator:
             self._robot.stop()  # it may be rolling still, with no way to roll along
             return LegState.BLOCKED if self.reason else LegState.UNDER_WAY
         if controller.arrived(pose):
-            return self._face(pose, goal)
-        self._left = controller.remaining(pose)
-        if not self._progresses(pose, now):
+            return self._face(pose, goal, now)
+        self._arrival.forget()
+        return self._go_on(pose, goal, points, now, looks=looks)
+
+    def _go_on(self, pose: Pose2, goal: Goal, points: Points, now: float, *, looks: bool) -> LegState:
+        """Drive on along the way, while another one is looked for if it `looks`."""
+        controller, self._left = self.controller, self.controller.remaining(pose)
+        stands = self._progress.stands(self._left, now)
+        if stands and self._progress.given_up:
+            self.reason = _stuck(pose, goal)
             return LegState.BLOCKED
-        if now - self._planned >= REPLAN_PERIOD and self._in_the_way(now, controller.look):
+        if stands or (now - self._planned >= REPLAN_PERIOD and self._in_the_way(now, controller.look)):
             self._ask(now)
         if self.planning and not looks:
             looks = not self._search_on(pose, goal, now)
-        if not looks or not controller.stands:
+        if controller.under_way and not (looks and controller.stands):
             self._steer(pose, points, now)
-        return LegState.UNDER_WAY
+        return LegState.BLOCKED if self.reason and not controller.under_way else LegState.UNDER_WAY
 
     def _steer(self, pose: Pose2, points: Points, now: float) -> None:
         """Go on along the way, unless something new is so near on it that only its controller could keep off it."""
@@ -250,13 +267,7 @@ class Navigator:
     def ready(self, now: float) -> str:
         """Get ready to go: what it does for that, as one sentence, empty when it goes. After too long there is a `reason`."""
         waits = self.controller.ready()
-        if not waits:
-            self._waits_since = math.inf
-            return ""
-        self._waits_since = min(self._waits_since, now)
-        if now - self._waits_since > READY_TIMEOUT:
-            said = f"{waits[:-1]} took longer than {READY_TIMEOUT:.0f} s; the robot stays where it is."
-            self.reason = Notice(Code.TASK_SLOW, said, seconds=READY_TIMEOUT)
+        self.reason = self._ready.late(waits, now) or self.reason
         return waits
 
     def _ask(self, now: float) -> None:
@@ -270,52 +281,56 @@ class Navigator:
         at = (goal.x, goal.y, goal.yaw)
         try:
             way = self._search.poll(
-                self.planner, pose, at, goal.name, lambda: self.obstacles.points(now), now
+                self.planner, pose, at, goal.name, lambda: self.obstacles.planned(now), now
             )
             if way is None:
                 return False
             self.controller.follow(way)
             self._left = self.controller.remaining(pose)
+            self._wait.over(now)
             self._show(np.concatenate([piece.points for piece in way]))
         except Unreachable as problem:
-            # an old path stays; standing still on it is noticed
-            self.reason = "" if self.controller.under_way else Notice(Code.WAY_MISSING, str(problem))
-        self._moved += now - self._search.asked
+            self._no_way(problem, goal, now)
+        self._progress.wait(now - self._search.asked)
         self._planned = now
         self._search.drop()
         return self.controller.under_way
+
+    def _no_way(self, problem: Unreachable, goal: Goal, now: float) -> None:
+        """Give up where the map has no way; wait where something stands on it that may go."""
+        if self.controller.under_way and not (problem.gap and problem.blocked):
+            self.reason = ""  # an old path stays; standing still on it is noticed
+        elif problem.blocked is None or not self._patient:
+            self.reason = Notice(Code.WAY_MISSING, str(problem))
+        else:
+            self._robot.stop()
+            self.controller.forget()
+            self._progress.pause()
+            self.reason = self._wait.blocked(problem, goal.name, now, self.obstacles.cleared)
 
     def _in_the_way(self, now: float, look: float) -> bool:
         """Something new is in the way that it has, nearer than `look` [m] along it."""
         ahead = self.controller.ahead[: int(look / STEP)]
         return bool(len(self.obstacles.near(ahead, self.controller.clear, now)))
 
-    def _face(self, pose: Pose2, goal: Goal) -> LegState:
-        """At the place: turn to the direction asked for, if any."""
+    def _face(self, pose: Pose2, goal: Goal, now: float) -> LegState:
+        """At the place: turn to the direction asked for, if any, and make sure that it is the place."""
         self._left = 0.0
-        if math.isnan(goal.yaw) or self.controller.face(pose, goal.yaw):
+        if not (math.isnan(goal.yaw) or self.controller.face(pose, goal.yaw)):
+            self._turning = True
+            return LegState.UNDER_WAY
+        if self.sure:
             return LegState.ARRIVED
-        self._turning = True
-        return LegState.UNDER_WAY
+        self._robot.stop()
+        refusal = self._arrival.refusal(goal.name.rstrip(","), now)
+        if refusal is None:
+            return LegState.UNDER_WAY
+        self.reason = refusal
+        return LegState.BLOCKED
 
-    def _progresses(self, pose: Pose2, now: float) -> bool:
-        """False when it has stood too long, after some plans anew; `reason` says where."""
-        if self._moved == -math.inf or self._left < self._best - 0.1:
-            self._moved, self._best = now, self._left
-            return True
-        if now - self._moved < STUCK_TIMEOUT:
-            return True
-        self._stuck += 1
-        self._moved = now
-        if self._stuck < MAX_STUCK and self._goal:
-            self._best = math.inf
-            self._ask(now)
-            return True
-        name = self._goal.name if self._goal else "the goal"
-        where = f"({pose.x:.1f}, {pose.y:.1f})"
-        said = f"Stuck at {where}: the way to {place_sentence(name, *self._at())} is blocked."
-        self.reason = Notice(Code.WAY_BLOCKED, said, place=name, x=pose.x, y=pose.y)
-        return False
 
-    def _at(self) -> tuple[float, float]:
-        return (self._goal.x, self._goal.y) if self._goal else (math.nan, math.nan)
+def _stuck(pose: Pose2, goal: Goal) -> Notice:
+    """Where it stood too long, after some plans anew."""
+    where = f"({pose.x:.1f}, {pose.y:.1f})"
+    said = f"Stuck at {where}: the way to {place_sentence(goal.name, goal.x, goal.y)} is blocked."
+    return Notice(Code.WAY_BLOCKED, said, place=goal.name, x=pose.x, y=pose.y)

@@ -37,6 +37,12 @@ class WaySearch:
         if not self.active:
             self.asked = now
 
+    def skip(self, seconds: float) -> None:
+        """The clock jumped by `seconds` [s], in which nothing happened."""
+        self.asked += seconds
+        if self._seen is not None:
+            self._seen = self._seen[0], self._seen[1] + seconds
+
     def drop(self) -> None:
         """Look for no way any more."""
         if self._job is not None:

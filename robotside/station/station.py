@@ -104,7 +104,7 @@ class Station:
         """What of the robot is switched on."""
         self.demand = Demand(self.sensors.want)
         first = list(robot.read(now))
-        self.autonomy = self._autonomy(first, rng)
+        self.autonomy = self._autonomy(first, rng, config)
         """What the robot does by itself."""
         self._make_guards(config)
         self._publish_first()
@@ -262,7 +262,7 @@ class Station:
             kind_unknown = Notice(Code.ROBOT_KIND_UNKNOWN, said, kind=self.info.kind)
             self.events.say("robot", kind_unknown, "warn")
 
-    def _autonomy(self, first: Iterable[tuple[str, Msg]], rng: random.Random) -> Autonomy:
+    def _autonomy(self, first: Iterable[tuple[str, Msg]], rng: random.Random, config: Config) -> Autonomy:
         return Autonomy(
             self.robot,
             next((msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None),
@@ -275,6 +275,7 @@ class Station:
             fault=self.fault,
             fit=self.keeper.marked,
             heights=self.keeper.heights(self.robot.heights),
+            clearance=config.limits.clearance,
             worker=self._worker,
             looker=self._looker,
         )

@@ -102,7 +102,7 @@ class Course:
         self.skipped_in_a_row = 0
         self._before = 0
         """Rounds done before that."""
-        self._longest = 0.0
+        self._longest = self._part = 0.0
         self._standing = False
         """The point was reached or given up, and the next one is not chosen yet."""
         self._again = False
@@ -174,7 +174,7 @@ class Course:
 
     def advance(self) -> Goal:
         """Choose the next point: the one after this, or in random motion any but this."""
-        count, self._longest, self._standing = len(self.goals), 0.0, False
+        count, self._longest, self._part, self._standing = len(self.goals), 0.0, 0.0, False
         if self._again:
             self._again = False
         elif self.motion == "random" and self._rng is not None and count > 1:
@@ -202,13 +202,15 @@ class Course:
         """Done of this lap, or of the whole where laps are counted, 0 to 1; `remaining` [m] of this leg."""
         visits, done = self._visits()
         self._longest = max(self._longest, remaining)
-        part = 0.0 if math.isnan(remaining) else 1.0 - remaining / max(self._longest, 0.1)
-        part *= not self._standing and done < visits
+        if not math.isnan(remaining):  # else it has come as far as it was known last
+            self._part = 1.0 - remaining / max(self._longest, 0.1)
+        part = self._part * (not self._standing and done < visits)
         earlier = self._before * len(self.goals) if self.total else 0
         return min(1.0, (earlier + done + part) / (earlier + visits))
 
     def time_left(self, remaining: float, cruise: float) -> float:
         """To the end of this lap, or of the whole where laps are counted [s], at `cruise` [m/s]; NaN when unknown."""
+        remaining = 0.0 if self._standing else remaining
         if math.isnan(remaining):
             return math.nan
         visits, done = self._visits()

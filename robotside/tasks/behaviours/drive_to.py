@@ -57,6 +57,14 @@ class DriveTo(Behaviour):
         if self._navigator.waits_for:
             now.report("taking off", self._navigator.waits_for, place=goal.place)
             return LEG_STATUS[leg]
+        if self._navigator.doubts:
+            self._was, self._since = now.pose, now.worked
+            now.report("unsure", f"Making sure that this is {goal.spoken}.", place=goal.place)
+            return LEG_STATUS[leg]
+        if self._navigator.blocked:
+            self._was, self._since = now.pose, now.worked
+            now.report("waiting", self._navigator.blocked, place=goal.place)
+            return LEG_STATUS[leg]
         if self._navigator.planning:
             now.report("planning", f"Looking for a way to {goal.spoken}.", place=goal.place)
             return LEG_STATUS[leg]

@@ -18,7 +18,6 @@ from robotside.navigation.ackermann_controller import AckermannController
 from robotside.navigation.avoidance import BRAKING, GAP, HORIZON, free_lengths
 from robotside.navigation.course_controller import CourseController
 from robotside.navigation.navigator import UNSURE_SPEED, Navigator
-from robotside.navigation.planner import MARGIN
 from robotside.tasks.behaviours.course import Span
 from robotside.tasks.behaviours.situation import Situation
 
@@ -35,6 +34,9 @@ MAX_BEND_SPEED = 1.0
 
 MIN_ROOM = 0.15
 """With less room than this it stands [m]."""
+
+SAME_THING = 0.3
+"""What the laser meets so much before a wall of the map at the most is that wall [m]: map and place are not exact, and more is kept of what is seen."""
 
 BLOCKED_TIMEOUT = 10.0
 """So long it waits for something in the way to go [s]."""
@@ -92,7 +94,7 @@ class FollowHeading(Behaviour):
             return Status.RUNNING
         wall, thing = self._wall(), self._thing()
         if min(wall, thing) < MIN_ROOM:
-            return self._stand(wall < MIN_ROOM)
+            return self._stand(wall < thing + SAME_THING)
         self._blocked_since = math.nan
         turns = abs(error) > MAX_BEARING
         said = f"Coming round to {towards}." if turns else f"Going straight at {towards}."
@@ -141,7 +143,7 @@ class FollowHeading(Behaviour):
 
     def _wall(self) -> float:
         """Free way ahead by the map, fence included [m], up to the horizon."""
-        need = self._navigator.radius + MARGIN
+        need = self._navigator.radius + self._navigator.clearance
         along = np.arange(0.0, self._horizon, 0.05)
         places, yaws = self._way(along)
         looks = np.column_stack([np.cos(yaws), np.sin(yaws)])
@@ -172,4 +174,5 @@ class FollowHeading(Behaviour):
         near = points[np.hypot(points[:, 0], points[:, 1]) < HORIZON]
         if not len(near):
             return self._horizon
-        return float(free_lengths(np.zeros(1), near, self._navigator.radius + GAP)[0])
+        reach = self._navigator.radius + max(GAP, self._navigator.clearance)
+        return float(free_lengths(np.zeros(1), near, reach)[0])

@@ -20,11 +20,11 @@ PERIOD = 0.05
 class Trip:
     """A guide on a robot that knows its pose exactly."""
 
-    def __init__(self, robot: FakeRobot) -> None:
+    def __init__(self, robot: FakeRobot, clearance: float | None = None) -> None:
         self.robot = robot
         self.now = 0.0
         self.plans: list[np.ndarray] = []
-        self.navigator = Navigator(robot, Grid.from_msg(robot.map()), self.plans.append)
+        self.navigator = Navigator(robot, Grid.from_msg(robot.map()), self.plans.append, clearance=clearance)
         self._laser = LaserProjection()
         self._points = np.empty((0, 2))
         self.room = math.inf
@@ -54,8 +54,9 @@ def trip(
     boxes: Sequence[Box] = (),
     pillars: Sequence[Pillar] = (),
     start: tuple[float, float, float] = (-6.0, 0.0, 0.0),
+    clearance: float | None = None,
 ) -> Trip:
-    return Trip(FakeRobot(start=start, boxes=boxes, pillars=pillars))
+    return Trip(FakeRobot(start=start, boxes=boxes, pillars=pillars), clearance)
 
 
 def arrived(robot: FakeRobot, goal: Goal) -> bool:
@@ -168,3 +169,75 @@ def test_after_the_last_leg_there_is_no_plan_to_show() -> None:
     run.go(Goal("Point 1", -3.0, 0.0))
     run.navigator.finish()
     assert len(run.plans[-1]) == 0
+
+
+def wall_with_a_gap(width: float, at: float = 0.0, thick: float = 0.06) -> list[Pillar]:
+    """Across the hall, of things that are not on the map, with one gap."""
+    beside = width / 2 + thick
+    rows = [*np.arange(at + beside, 6.0, 0.1).tolist(), *np.arange(at - beside, -6.0, -0.1).tolist()]
+    return [Pillar(0.0, y, thick) for y in rows]
+
+
+@pytest.mark.parametrize("at", [0.0, 0.03, 0.77, -1.42])
+@pytest.mark.parametrize("width", [0.5, 0.55, 0.65])
+def test_a_gap_of_half_a_metre_is_passed_slowly_and_without_contact(width: float, at: float) -> None:
+    run = trip(pillars=wall_with_a_gap(width, at), start=(-3.0, 0.0, 0.0))
+    goal = Goal("Point 1", 3.0, 0.0)
+    assert run.go(goal) is LegState.ARRIVED
+    assert run.room > 0.02
+
+
+@pytest.mark.parametrize("at", [0.0, 0.04])
+def test_a_gap_that_is_too_narrow_is_refused_with_its_width_and_the_one_that_is_needed(at: float) -> None:
+    run = trip(pillars=wall_with_a_gap(0.4, at), start=(-2.0, 0.0, 0.0))
+    assert run.go(Goal("Point 1", 3.0, 0.0)) is LegState.BLOCKED
+    assert "the gap at (" in run.navigator.reason
+    assert "is 0.4" in run.navigator.reason
+    assert "m wide and the robot needs 0.46 m" in run.navigator.reason
+    assert run.room > 0.1
+
+
+@pytest.mark.parametrize(
+    ("clearance", "width", "passes"),
+    [(0.12, 0.66, True), (0.3, 0.9, False)],
+)
+def test_a_gap_is_passed_or_refused_by_the_clearance_that_is_set(
+    clearance: float, width: float, passes: bool
+) -> None:
+    run = trip(pillars=wall_with_a_gap(width, 0.03), start=(-2.0, 0.0, 0.0), clearance=clearance)
+    leg = run.go(Goal("Point 1", 2.0, 0.0))
+    if passes:
+        assert leg is LegState.ARRIVED
+        assert run.room > 0.5 * clearance
+    else:
+        assert leg is LegState.BLOCKED
+        assert f"the robot needs {0.36 + 2 * clearance:.2f} m" in run.navigator.reason
+        assert run.room > clearance
+
+
+def test_a_wide_clearance_is_kept_from_what_appears_beside_the_way_as_well() -> None:
+    run = trip(pillars=[Pillar(0.0, 0.4), Pillar(2.0, -0.45)], clearance=0.4)
+    assert run.go(Goal("Point 1", 5.0, 0.0)) is LegState.ARRIVED
+    assert run.room > 0.24  # the share that avoidance itself keeps
+
+
+@pytest.mark.parametrize(("depth", "width"), [(0.4, 1.3), (0.4, 1.0), (0.3, 1.0), (0.3, 0.9), (0.2, 0.75)])
+def test_a_box_that_stands_against_a_wall_of_a_corridor_is_passed_without_contact(
+    depth: float, width: float
+) -> None:
+    """What is nearer than 0.35 m to a wall is not remembered, as the wall itself is seen there; the laser keeps off it all the same."""
+    walls = [Box(-4.0, -6.0, 4.0, -width / 2), Box(-4.0, width / 2, 4.0, 6.0)]
+    face = -width / 2 + depth
+    box = [Pillar(x, y, 0.03) for x in np.arange(-0.3, 0.31, 0.05) for y in (face - 0.03, face - 0.1)]
+    run = trip(boxes=walls, pillars=box, start=(-5.0, 0.0, 0.0))
+    assert run.go(Goal("Point 1", 5.0, 0.0)) is LegState.ARRIVED
+    assert run.room > 0.02
+
+
+def test_before_a_box_against_a_wall_that_leaves_no_room_it_stands_and_gives_up() -> None:
+    walls = [Box(-4.0, -6.0, 4.0, -0.35), Box(-4.0, 0.35, 4.0, 6.0)]
+    box = [Pillar(x, y, 0.03) for x in np.arange(-0.3, 0.31, 0.05) for y in (-0.03, -0.1)]
+    run = trip(boxes=walls, pillars=box, start=(-3.0, 0.0, 0.0))
+    assert run.go(Goal("Point 1", 5.0, 0.0)) is LegState.BLOCKED
+    assert run.room > 0.02
+    assert run.robot.at_rest

@@ -27,7 +27,7 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from robotside.core.config import Config, LimitSettings, RobotSettings
 from robotside.limits.limits import NOT_PLACED
-from tests.fakes import FakeRobot
+from tests.fakes import Box, FakeRobot
 from tests.robotside.scene import Scene
 
 WEST, SOUTH, EAST, NORTH = -3.0, -4.0, 6.0, 4.0
@@ -172,6 +172,21 @@ def test_from_outside_the_fence_no_task_starts_and_the_way_back_by_hand_is_free(
 
 
 # what is shown
+
+
+@pytest.mark.parametrize(("clearance", "state"), [(0.05, "SUCCEEDED"), (0.2, "FAILED")])
+def test_the_clearance_of_the_configuration_decides_which_gaps_are_passed(
+    tmp_path: Path, clearance: float, state: str
+) -> None:
+    """Between two cupboards of the map there is 0.6 m for a robot of 0.36 m."""
+    config = Config(limits=LimitSettings(clearance=clearance))
+    walls = [Box(1.0, -6.0, 1.2, -0.3), Box(1.0, 0.3, 1.2, 6.0)]
+    scene = Scene(FakeRobot(boxes=walls), tmp_path, config=config)
+    scene.run(5.5)
+    scene.go_to(2.2, 0.0)
+    assert scene.run_task().state == state
+    if state == "FAILED":
+        assert "m wide and the robot needs 0.76 m" in scene.task.reason
 
 
 def test_the_limits_are_told_to_whoever_comes(scene: Scene) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from py_trees.common import Status
 
+from robotside.core.pose2 import Pose2
 from robotside.tasks.behaviours.course import Span
 from robotside.tasks.behaviours.follow_heading import BLOCKED_TIMEOUT, FollowHeading
 from tests.fakes import Pillar
@@ -49,6 +50,16 @@ def test_it_stops_before_a_wall_and_says_where() -> None:
     assert stage.navigator.reason == (
         f"The way straight on ended at ({x:.1f}, 0.0) before a wall, the fence or the end of the map."
     )
+    assert stage.robot.contacts == 0
+
+
+@pytest.mark.parametrize("off", [-0.1, -0.05, 0.05])
+def test_a_wall_of_the_map_that_the_laser_sees_a_little_nearer_ends_it_at_once(off: float) -> None:
+    stage = Stage()
+    stage.off = Pose2(off, 0.0, 0.0)
+    assert stage.tick(make(stage, 0.0), 60.0) is Status.FAILURE
+    assert stage.navigator.reason.endswith("before a wall, the fence or the end of the map.")
+    assert stage.situation.now < 40.0  # it has not waited for the wall to go
     assert stage.robot.contacts == 0
 
 

@@ -136,6 +136,7 @@ def test_progress_counts_the_points_and_the_part_of_the_leg() -> None:
     course.advance()
     assert course.progress(8.0) == 0.0
     assert course.progress(4.0) == pytest.approx(1 / 8)
+    assert course.progress(math.nan) == pytest.approx(1 / 8), "it has come no less far where it has no way"
     course.reached()
     course.advance()
     assert course.progress(math.nan) == pytest.approx(1 / 4)
