@@ -35,3 +35,5 @@ class MeasuredState(msgspec.Struct, frozen=True):
     """It says itself that it lies there on its back."""
     touched: float | None = None
     """Bearing in `base_link` of what its bumper touches [rad]; None for nothing, and where it is unknown."""
+    height_spread: float = 0.0
+    """The uncertainty of the height, one standard deviation [m]."""
