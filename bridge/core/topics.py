@@ -156,6 +156,13 @@ TOPICS: tuple[Topic, ...] = (
         "handheld",
         "all intruders found, each once",
     ),
+    Topic(
+        "/localisation/candidates",
+        pilothouse_msgs.PlaceCandidates,
+        0,
+        "handheld",
+        "where the robot may be; two or more while it asks which of them it is",
+    ),
     Topic("/map", nav_msgs.OccupancyGrid, 0, "handheld", "the robot's own map"),
     Topic("/plan", nav_msgs.Path, 0, "handheld", "the planned path; empty when there is none"),
     Topic("/mission", pilothouse_msgs.Mission, 0, "handheld", "the mission stored on the robot"),

@@ -18,6 +18,7 @@ from bridge.msgs.pilothouse_msgs import (
     FlightState,
     Following,
     Mission,
+    RobotInfo,
     SonarRing,
     TagRead,
     TaskStatus,
@@ -78,7 +79,7 @@ class Autonomy:
         `fault` tells why the robot cannot or may not stand at a place that is called so, empty when it can.
         `fit` makes of the map the one to plan on, with all occupied where the robot may not go.
         `heights` are the lowest and the highest at which it can and may be, `clearance` what it keeps on its ways, None for its kind's [m].
-        `worker` looks for ways and makes maps ready, `looker` searches pictures; without them it is done in the steps of the loop.
+        `worker` looks for ways and makes maps ready, `looker` searches pictures, and the map for where the robot is; without them it is done in the steps of the loop.
         """
         worker = worker or InLoopWorker()
         info, say = robot.info, events.say
@@ -86,12 +87,10 @@ class Autonomy:
         self._bus, self._say, self._demand = bus, say, demand
         self._silence = SensorSilence(info.kind)
         plan = PlanPublisher(bus.publish, lambda: self._now)
-        self.pose_estimator = PoseEstimator(info, say, bus.publish)
+        self.pose_estimator = self._estimator(info, looker)
         self.navigator = Navigator(robot, Grid.unknown(), plan.show, worker, clearance)
         self.navigator.heights = heights
-        self._maps = MapIntake(self.pose_estimator, self.navigator, fit, say, worker)
-        if chart is not None:
-            self._maps.use(chart)
+        self._maps = self._map_intake(fit, worker, chart)
         self.situation = Situation()
         self.status_publisher = TaskStatusPublisher(
             records, lambda status: bus.publish("/task/status", status), clock
@@ -118,6 +117,19 @@ class Autonomy:
         self._contacts = ContactWatch(self.engine, self.pose_estimator, self.situation, say)
         plan.show(np.empty((0, 2)))
         self._handlers = self._make_handlers()
+
+    def _estimator(self, info: RobotInfo, looker: Worker | None) -> PoseEstimator:
+        made = PoseEstimator(info, self._say, self._bus.publish, looker)
+        made.on_found = lambda _: self._forget()
+        return made
+
+    def _map_intake(
+        self, fit: Callable[[Grid], Grid], worker: Worker, chart: OccupancyGrid | None
+    ) -> MapIntake:
+        made = MapIntake(self.pose_estimator, self.navigator, fit, self._say, worker)
+        if chart is not None:
+            made.use(chart)
+        return made
 
     def _engine(self, clock: Callable[[], float]) -> Engine:
         return Engine(
@@ -199,12 +211,20 @@ class Autonomy:
         if task and self.patrols_mission and mission.waypoints and isinstance(task.course, Course):
             task.course.edit(patrol_route(mission))
 
-    def place(self, pose: Pose2) -> None:
-        """An operator says where the robot is; what was seen and planned from the wrong place is forgotten."""
-        self.pose_estimator.place(pose)
+    def place(self, pose: Pose2, *, certain: bool = False) -> None:
+        """An operator says where the robot is; what was seen and planned from the wrong place is forgotten.
+
+        `certain` when it was one of the robot's own candidates.
+        """
+        self.pose_estimator.place(pose, certain=certain)
+        self._forget()
+
+    def _forget(self) -> None:
+        """The robot is elsewhere than it believed."""
         if self.engine.running:
             self.navigator.rest()
         self.navigator.obstacles.forget()
+        self._surroundings.forget()
         self.watch.intruders.forget()
 
     def _on_odometry(self, msg: Odometry) -> None:

@@ -69,7 +69,7 @@ def _position(looked: CheckInputs) -> Check:
         said = "The robot's position is unknown; place the robot on the map."
         return _check("position", "unknown", Notice(Code.CHECK_POSITION_UNKNOWN, said))
     if not looked.sure:
-        said = "The laser does not match the map; place the robot on the map."
+        said = "The robot is not sure of its place: choose where it is, or place it on the map."
         return _check("position", "bad", Notice(Code.CHECK_POSITION_UNSURE, said))
     return _check("position", "ok", Notice(Code.CHECK_POSITION_GOOD, "The robot knows where it is."))
 

@@ -9,8 +9,8 @@ from bridge.core.codes import Code
 from bridge.msgs.nav_msgs import OccupancyGrid
 from robotside.core.notice import Notice
 from robotside.core.worker import Job, Work, Worker, completed
+from robotside.localisation.field import Field
 from robotside.localisation.pose_estimator import PoseEstimator
-from robotside.localisation.scan_matching import Field
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.navigator import Navigator
 from robotside.navigation.planner import Planner

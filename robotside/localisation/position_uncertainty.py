@@ -41,3 +41,7 @@ class PositionUncertainty:
     def on_walls_seen(self) -> None:
         """It sees walls that are on its map, by which the filter goes from now on."""
         self._sees = True
+
+    def on_walls_gone(self) -> None:
+        """It sees too little to go by; what satellites and wheels say counts."""
+        self._sees = False

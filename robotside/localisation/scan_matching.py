@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from bridge.core.units import wrap
 from robotside.core.pose2 import Points, Pose2
-from robotside.mapping.distances import distance_from
-from robotside.mapping.occupancy_grid import Grid
+from robotside.localisation.field import Field
+from robotside.localisation.shared_errors import freshness, fused
 
-__all__ = ["Field", "Localiser", "Match"]
+__all__ = ["Localiser", "Match"]
 
 HIT_SPREAD = 0.06
 """Of a sweep's end points about the map's surfaces [m]; the grid's own coarseness is most of it."""
@@ -26,11 +26,20 @@ HIT_SPREAD = 0.06
 MAX_FIT_DISTANCE = 0.15
 """End points within this of a surface agree with the map [m]."""
 
-FIELD_RANGE = (-1.0, 2.0)
-"""Distances of the field end at these [m]: within a wall, and in the open."""
-
-INDEPENDENT_SHARE = 0.15
+INDEPENDENT_SHARE = 0.2
 """Part of the end points that count as independent evidence: neighbours err together."""
+
+SKIN_SPREAD, SKIN_DRIFT = 0.04, 0.01
+"""How far before the middle of the outermost full cells the surfaces may lie [m]: half a cell, as a map is made; and by how much that differs over a metre [m]."""
+
+STANDING_SPREAD, STANDING_TURN = 0.001, 0.0005
+"""What a pose may have changed unseen from sweep to sweep [m, rad]."""
+
+DRIFT_SPREAD = 0.06
+"""By how much wheels of a size that is not quite known are off after a metre [m], of which each step is a part in the same direction."""
+
+TURN_DISTANCE = 0.2
+"""What a turn of a radian changes of what is seen, as a way [m]."""
 
 MAX_BEAMS = 120
 """End points used of a sweep."""
@@ -60,69 +69,6 @@ DISTRUSTED_SWEEPS = 16
 """A position that is distrusted for another reason is as bad as after so many of them."""
 
 
-class Field:
-    """A map's distance field, readable between the cells and with slopes."""
-
-    def __init__(self, grid: Grid) -> None:
-        """It takes its time on a large map, and may be made in another thread."""
-        most = math.ceil(FIELD_RANGE[1] / grid.resolution) + 2
-        outside = distance_from(grid.occupied, most)
-        inside = distance_from(~grid.occupied, most)
-        signed = np.where(grid.occupied, 1.0 - inside, outside) * grid.resolution
-        values = np.clip(signed, *FIELD_RANGE)
-        slope_y, slope_x = np.gradient(values, grid.resolution)
-        self._layers = np.stack([values, slope_x, slope_y], axis=-1).astype(np.float32)
-        self._grid = grid
-
-    def read(self, points: Points) -> NDArray[np.float64]:
-        """Distance to the nearest surface [m] and its slope along x and y, shape (n, 3); constant off the map."""
-        rows, columns = self._layers.shape[:2]
-        u = ((points[:, 0] - self._grid.x) / self._grid.resolution - 0.5).clip(0, columns - 1.001)
-        v = ((points[:, 1] - self._grid.y) / self._grid.resolution - 0.5).clip(0, rows - 1.001)
-        j, i = u.astype(np.intp), v.astype(np.intp)
-        fu, fv = (u - j)[:, None], (v - i)[:, None]
-        layers = self._layers
-        low = layers[i, j] * (1 - fu) + layers[i, j + 1] * fu
-        high = layers[i + 1, j] * (1 - fu) + layers[i + 1, j + 1] * fu
-        return np.asarray(low * (1 - fv) + high * fv)
-
-    def closeness(self, centre: Pose2, reach: float, width: float) -> Closeness:
-        """How near to a surface each cell within `reach` [m] of `centre` is, `width` [m] being near."""
-        return Closeness(self._layers[:, :, 0], self._grid, centre, reach, width)
-
-
-class Closeness:
-    """A part of a map by how near to a surface each cell is: 1 on it, less the farther from it."""
-
-    def __init__(
-        self, distances: NDArray[np.float32], grid: Grid, centre: Pose2, reach: float, width: float
-    ) -> None:
-        """`distances` are the map's [m]; what lies beyond `reach` [m] of `centre` must not be asked for."""
-        self._grid = grid
-        self._rows, self._columns = (count - 1 for count in distances.shape)
-        ends = np.array([-reach, reach])
-        self._left, right = self._column(centre.x + ends).tolist()
-        self._bottom, top = self._row(centre.y + ends).tolist()
-        part = distances[self._bottom : top + 1, self._left : right + 1]
-        self._near = np.exp(-((part / width) ** 2)).ravel()
-        self._width = right - self._left + 1
-
-    def of(self, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float32]:
-        """Of points at each row of `x` [m] with each row of `y` [m], shape (rows of y, rows of x, points).
-
-        A column goes by x alone and a row by y alone: no cell is computed for a pair of them, only looked up.
-        """
-        columns, rows = self._column(x) - self._left, (self._row(y) - self._bottom) * self._width
-        near: NDArray[np.float32] = self._near[rows[:, None, :] + columns[None, :, :]]
-        return near
-
-    def _column(self, x: NDArray[np.float64]) -> NDArray[np.intp]:
-        return ((x - self._grid.x) / self._grid.resolution).clip(0, self._columns).astype(np.intp)
-
-    def _row(self, y: NDArray[np.float64]) -> NDArray[np.intp]:
-        return ((y - self._grid.y) / self._grid.resolution).clip(0, self._rows).astype(np.intp)
-
-
 @dataclass(frozen=True, slots=True)
 class Match:
     """A pose found by laying a sweep on the map."""
@@ -147,12 +93,19 @@ class Localiser:
         """Of x, y [m] and yaw [rad]."""
         self.fit = math.nan
         """Of the last sweep, 0 to 1; NaN before the first."""
+        self._skin, self._skin_variance = 0.0, SKIN_SPREAD**2
+        self._travelled = math.inf
         self._bad = 0
 
     @property
     def sure(self) -> bool:
         """The sweeps agree with the map."""
         return self.pose is not None and self._bad < UNSURE_AFTER
+
+    @property
+    def field(self) -> Field:
+        """The map's."""
+        return self._field
 
     def map_to_odom(self) -> Pose2:
         """The pose of the odometry's frame in `map`."""
@@ -164,6 +117,18 @@ class Localiser:
         """Begin anew at `pose`, believed to `spread` [m] and `turn` [rad] (one standard deviation)."""
         self.pose = pose
         self.covariance = np.diag([spread**2, spread**2, turn**2])
+        self._travelled = math.inf
+        self._bad = 0
+
+    @property
+    def spread(self) -> float:
+        """Of the place in its worst direction, one standard deviation [m]."""
+        return math.sqrt(_worst(self.covariance))
+
+    def take_over(self, other: Localiser) -> None:
+        """Be where `other` is, as sure as that one is."""
+        self.pose, self.covariance, self.fit = other.pose, other.covariance, other.fit
+        self._travelled = math.inf
         self._bad = 0
 
     def lift(self) -> None:
@@ -241,6 +206,8 @@ class Localiser:
         spread = (SLIP_SPREAD * travelled) ** 2 + doubt + 1e-9
         turn = (YAW_SPREAD[0] * travelled + YAW_SPREAD[1] * turned) ** 2 + 1e-9
         self.covariance += np.diag([spread, spread, turn])
+        self._travelled += travelled + TURN_DISTANCE * turned
+        self._skin_variance = min(SKIN_SPREAD**2, self._skin_variance + SKIN_DRIFT**2 * travelled)
         return into
 
     def distrust(self) -> None:
@@ -252,15 +219,36 @@ class Localiser:
         if self.pose is None or len(points) < 10:
             self._bad += self.pose is not None
             return
-        match = self._fit(self.pose, points[:: max(1, len(points) // MAX_BEAMS)])
+        start = self.pose
+        match, sweep, skin = self._fit_sweep(start, points[:: max(1, len(points) // MAX_BEAMS)])
         self.fit = match.fit
         if match.fit < MIN_FIT:
             self._bad += 1
         else:
             self._bad = 0
         if match.fit >= 0.5 * MIN_FIT:
-            self.pose = match.pose
-            self.covariance = np.asarray(np.linalg.inv(match.information), dtype=np.float64)
+            self._fuse(start, match, sweep, skin)
+
+    def _fuse(self, start: Pose2, match: Match, sweep: NDArray[np.float64], skin: float) -> None:
+        """Believe of a match what is new; `sweep` is what the sweep alone tells of x, y, yaw and the walls' skin."""
+        travelled, self._travelled = self._travelled, 0.0
+        fresh = freshness(travelled)
+        drift = STANDING_SPREAD**2 + DRIFT_SPREAD**2 * min(1.0, travelled)
+        self.covariance += np.diag([drift, drift, STANDING_TURN**2])
+        pose, both, walls = sweep[:3, :3], sweep[:3, 3], float(sweep[3, 3]) + 1.0 / self._skin_variance
+        alone = pose - np.outer(both, both) / walls
+        self.covariance, part = fused(self.covariance, alone, fresh)
+        off = np.array([match.pose.x - start.x, match.pose.y - start.y, wrap(match.pose.yaw - start.yaw)])
+        step = (part @ off).tolist()
+        self.pose = Pose2(start.x + step[0], start.y + step[1], wrap(start.yaw + step[2]))
+        known = walls - float(both @ np.linalg.solve(match.information, both))
+        variance, factor = fused(
+            np.array([[self._skin_variance]]),
+            np.array([[max(0.0, known - 1.0 / self._skin_variance)]]),
+            fresh,
+        )
+        self._skin += float(factor[0, 0]) * (skin - self._skin)
+        self._skin_variance = float(variance[0, 0])
 
     def search(self, points: Points, guess: Pose2, *, reach: float, turn: float) -> None:
         """Find the pose within `reach` [m] and `turn` [rad] of `guess` that fits best, and begin there."""
@@ -287,26 +275,56 @@ class Localiser:
                 best = Pose2(guess.x + float(dx[top]), guess.y + float(dy[top]), wrap(float(yaw)))
         return best
 
+    def _fit_sweep(self, start: Pose2, points: Points) -> tuple[Match, NDArray[np.float64], float]:
+        """The pose that fits best, what the sweep alone tells (4 x 4, of x, y, yaw and skin), and the walls' skin there [m]."""
+        prior = np.zeros((4, 4))
+        prior[:3, :3] = np.linalg.inv(self.covariance)
+        prior[3, 3] = 1.0 / self._skin_variance
+        pose, skin = start, self._skin
+        for _ in range(6):
+            gradient, information, fit = self._slope(pose, points, skin)
+            off = np.array(
+                [pose.x - start.x, pose.y - start.y, wrap(pose.yaw - start.yaw), skin - self._skin]
+            )
+            total = information + prior
+            step = np.linalg.solve(total, -(gradient + prior @ off)).tolist()
+            pose, skin = Pose2(pose.x + step[0], pose.y + step[1], wrap(pose.yaw + step[2])), skin + step[3]
+            if abs(step[0]) + abs(step[1]) < 1e-3 and abs(step[2]) < 5e-4:
+                break
+        return Match(pose, total[:3, :3], fit), information, skin
+
     def _fit(self, start: Pose2, points: Points) -> Match:
         prior = np.linalg.inv(self.covariance)
         pose = start
         for _ in range(6):
-            gradient, information, fit = self._slope(pose, points)
+            slope, whole, fit = self._slope(pose, points, 0.0)
             off = np.array([pose.x - start.x, pose.y - start.y, wrap(pose.yaw - start.yaw)])
-            total = information + prior
+            gradient, total = slope[:3], whole[:3, :3] + prior
             step = np.linalg.solve(total, -(gradient + prior @ off)).tolist()
             pose = Pose2(pose.x + step[0], pose.y + step[1], wrap(pose.yaw + step[2]))
             if abs(step[0]) + abs(step[1]) < 1e-3 and abs(step[2]) < 5e-4:
                 break
         return Match(pose, total, fit)
 
-    def _slope(self, pose: Pose2, points: Points) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-        """Gradient and Gauss-Newton information of the misfit at `pose`, and how many points fit."""
+    def _slope(
+        self, pose: Pose2, points: Points, skin: float
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+        """Gradient and Gauss-Newton information of the misfit at `pose` in x, y, yaw and skin, and how many points fit."""
         placed = pose.apply(points)
         found = self._field.read(placed)
-        off, gx, gy = found[:, 0], found[:, 1], found[:, 2]
-        jacobian = np.column_stack([gx, gy, gy * (placed[:, 0] - pose.x) - gx * (placed[:, 1] - pose.y)])
+        off, gx, gy = found[:, 0] - skin, found[:, 1], found[:, 2]
+        turn = gy * (placed[:, 0] - pose.x) - gx * (placed[:, 1] - pose.y)
+        jacobian = np.column_stack([gx, gy, turn, np.full(len(off), -1.0)])
         weight = 1.0 / (1.0 + (off / LOSS_DISTANCE) ** 2) ** 2
         weight *= INDEPENDENT_SHARE / HIT_SPREAD**2
         weighted = jacobian * weight[:, None]
         return weighted.T @ off, weighted.T @ jacobian, float((np.abs(off) < MAX_FIT_DISTANCE).mean())
+
+
+def _worst(covariance: NDArray[np.float64]) -> float:
+    """Variance of the place in its worst direction [m2]: the larger eigenvalue of the block of x and y.
+
+    Written out, at a sixth of the cost of LAPACK's answer: it is asked for with every step.
+    """
+    along, across, both = covariance.item(0, 0), covariance.item(1, 1), covariance.item(1, 0)
+    return (along + across) / 2.0 + math.hypot((along - across) / 2.0, both)

@@ -24,7 +24,7 @@ from bridge.msgs.vision_msgs import (
 from robotside.core.bus import Publish
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.worker import InLoopWorker, Job, Work, Worker
-from robotside.localisation.pose_estimator import OdometryTrack
+from robotside.localisation.odometry_track import OdometryTrack
 from robotside.perception.cone_detector import Sighting, find_cones
 from robotside.perception.intruder_tracker import IntruderTracker
 

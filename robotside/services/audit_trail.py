@@ -39,6 +39,7 @@ PARAMETERS = {
     "/gateways/bring_down": ("name", "own"),
     "/gateways/bring_up": ("name",),
     "/lights/set": ("brightness",),
+    "/localisation/choose": ("id",),
     "/mission/recall": ("name",),
     "/mission/set": ("mission.name",),
     "/mode/set": ("mode",),

@@ -1,4 +1,4 @@
-"""The services by which control is taken, asked for and given back, and the robot is given to a person or to its task."""
+"""The services by which control is taken, asked for and given back, the robot is given to a person or to its task, and told where it is."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterable
 from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Operator, Service
 from bridge.msgs.pilothouse_msgs import (
+    ChoosePlaceRequest,
+    ChoosePlaceResponse,
     CommandRequest,
     CommandResponse,
     SetModeRequest,
@@ -48,6 +50,9 @@ def control_services(station: Station, answering: CommandService) -> Iterable[Se
     for name, action in plain.items():
         yield service(name, action)
     yield service("/mode/set", steering.set_mode, "SetMode", SetModeRequest, SetModeResponse)
+    yield service(
+        "/localisation/choose", steering.choose_place, "ChoosePlace", ChoosePlaceRequest, ChoosePlaceResponse
+    )
     yield service("/settings/set", steering.set_option, "SetOption", SetOptionRequest, SetOptionResponse)
 
 
@@ -94,6 +99,13 @@ class _ControlOrders:
             return f"The robot is driven by hand{'; nothing starts by itself' if fresh else ' already'}."
         self._tasks.pause(client, asked)
         return "The robot is driven by hand; its task is paused."
+
+    def choose_place(self, client: Operator, asked: ChoosePlaceRequest) -> str:
+        """The robot is at that one of its candidates."""
+        problem = self._station.placing.choose(client, asked.id)
+        if problem:
+            raise Refusal(problem)
+        return "The robot is there."
 
     def set_option(self, client: Operator, asked: SetOptionRequest) -> str:
         """Switch a setting."""

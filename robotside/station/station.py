@@ -20,7 +20,7 @@ from bridge.core.robot_catalogue import Operator
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
 from bridge.msgs.nav_msgs import OccupancyGrid
-from bridge.msgs.pilothouse_msgs import Event, IntruderArray, Manoeuvre, RobotInfo
+from bridge.msgs.pilothouse_msgs import Event, IntruderArray, Manoeuvre, PlaceCandidates, RobotInfo
 from bridge.msgs.std_msgs import Header, Time
 from robotside.autonomy.autonomy import Autonomy
 from robotside.autonomy.readiness import Readiness
@@ -85,7 +85,7 @@ class Station:
         """`now` is the robot's clock at the start [s]; `name` goes before that of `config`.
 
         `civil` is what the computer's clock says, by which the schedule goes in `zone` [s]; the operators' when left out.
-        `worker` plans and `looker` searches pictures; without them that is done in the steps, a bit in each. Who made them closes
+        `worker` plans, `looker` searches pictures and maps; without them that is done in the steps, a bit in each. Who made them closes
         them.
         """
         self._worker, self._looker = worker, looker
@@ -149,7 +149,7 @@ class Station:
             tell = partial(self._remarks.make, client.id)
             problem = self._guard.run(lambda: tell(self.teleop.drive(client, msg, stamp)))
         elif isinstance(msg, PoseWithCovarianceStamped):
-            problem = self._placing.place(client, Pose2.from_msg(msg.pose.pose))
+            problem = self.placing.place(client, Pose2.from_msg(msg.pose.pose))
         self.publish_control()
         return problem
 
@@ -228,7 +228,8 @@ class Station:
         self._rest = RestDetector(self.info.kind, self.autonomy, self._port, now)
         self.missions = MissionStore(self.records, self.autonomy, say)
         """The stored mission."""
-        self._placing = Placing(self.controls, self.autonomy, self.fitness, say, self.clock)
+        self.placing = Placing(self.controls, self.autonomy, self.fitness, say, self.clock)
+        """Where operators say that the robot is."""
         self.stop = StopControl(
             self.info,
             self.controls,
@@ -247,6 +248,7 @@ class Station:
         """Publish what there is before anything has happened."""
         self.bus.publish("/robot/info", self.info)
         self.bus.publish("/limits", self.keeper.message)
+        self.bus.publish("/localisation/candidates", PlaceCandidates(Header(Time.at(self.now), "map")))
         self.bus.publish("/intruders", IntruderArray(Header(Time.at(self.now), "map")))
         self._control_status = ControlStatusPublisher(
             self.controls,

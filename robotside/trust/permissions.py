@@ -70,6 +70,7 @@ _DRIVE = (
     "call /events/acknowledge",
     "call /arm/move",
     "call /lights/set",
+    "call /localisation/choose",
 )
 _MANAGE = (
     "call /settings/set",

@@ -9,7 +9,12 @@ from pathlib import Path
 import pytest
 
 from robotside.core.pose2 import Points, Pose2
+from robotside.core.worker import Work
+from robotside.localisation import whereabouts
+from robotside.localisation.field import Field
+from robotside.localisation.place_search import Found
 from robotside.localisation.scan_matching import Localiser
+from robotside.localisation.sight import Look
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
 
@@ -29,8 +34,19 @@ def same_search_once() -> Iterator[None]:
             found[key] = search(it, points, guess, step, reach, turn)
         return found[key]
 
+    everywhere, places = whereabouts.search, dict[tuple[object, ...], list[Found]]()
+
+    def remembered_search(field: Field, look: Look) -> Work[list[Found]]:
+        grid = field.grid
+        place = (grid.x, grid.y, grid.resolution, grid.occupied.shape)
+        key = (sha256(grid.occupied.tobytes()).digest(), place, look.ends.tobytes(), look.ahead)
+        if key not in places:
+            places[key] = yield from everywhere(field, look)
+        return places[key]
+
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Localiser, "_best_near", remembered)
+        patch.setattr(whereabouts, "search", remembered_search)
         yield
 
 

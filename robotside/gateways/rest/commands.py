@@ -70,6 +70,7 @@ COMMANDS: tuple[Command, ...] = (
     Command("POST", "/stop/release", "/stop/release", "Releases STOP at the end of the hold."),
     Command("PUT", "/mode", "/mode/set", "MANUAL pauses the task, AUTO resumes it.", '{"mode": "MANUAL"}'),
     Command("PUT", "/settings/{name}", "/settings/set", "Switches a setting.", '{"value": "on"}'),
+    Command("POST", "/place", "/localisation/choose", "Says at which of its candidates it is.", '{"id": 1}'),
     Command("POST", "/robot/reset", "/robot/reset", "Puts a simulated robot back to its start."),
     Command("POST", "/tasks", "/task/start", "Starts a task.", '{"order": {"task": "go_home"}}'),
     Command("DELETE", "/tasks", "/task/cancel", "Ends the task."),

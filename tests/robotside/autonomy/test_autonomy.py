@@ -137,9 +137,7 @@ def test_an_intruder_is_told_once_and_the_patrol_does_about_it_what_the_mission_
     assert (scene.task.state, scene.task.phase) == (state, phase)
 
 
-def test_a_robot_that_was_carried_away_says_that_it_is_unsure_creeps_and_can_be_placed_again(
-    tmp_path: Path,
-) -> None:
+def test_a_robot_that_was_carried_away_says_that_it_is_unsure_creeps_and_finds_itself(tmp_path: Path) -> None:
     boxes = [Box(-1.0, 2.0, 1.0, 4.0), Box(3.0, -5.0, 4.0, -2.0), Box(-8.0, -4.0, -6.0, -3.0)]
     scene = Scene(FakeRobot(boxes=boxes), tmp_path)
     scene.run(4.0)
@@ -147,18 +145,18 @@ def test_a_robot_that_was_carried_away_says_that_it_is_unsure_creeps_and_can_be_
     scene.start()
     scene.run(2.0)
     scene.robot.pose = (-4.0, 4.0, 2.0)
-    scene.run(3.0)
-    assert any(said.startswith("Position unsure") for said in scene.events("localisation"))
+    estimator = scene.station.autonomy.pose_estimator
+    scene.until(lambda: not estimator.sure, 1.5)
+    scene.run(0.05)
     assert abs(scene.robot.twist.linear.x) <= 0.15
-    scene.ask("/task/pause")
-    x, y, yaw = scene.robot.pose
-    told = Pose(Point(x + 0.4, y - 0.3), Quaternion.from_yaw(yaw + 0.2))
-    scene.station.on_message(
-        scene.anna, "/initialpose", PoseWithCovarianceStamped(pose=PoseWithCovariance(told)), None
-    )
-    scene.run(1.0)
-    assert scene.events("localisation")[-1] == "Position sure again."
-    scene.ask("/task/resume")
+    scene.until(lambda: estimator.sure, 8.0)
+    x, y, _ = scene.robot.pose
+    assert estimator.pose is not None
+    assert estimator.pose.distance(x, y) < 0.2
+    said = scene.events("localisation")
+    assert any(each.startswith("Position unsure") for each in said)
+    assert any(each.startswith("The robot has found by itself") for each in said)
+    assert said[-1] == "Position sure again."
     assert scene.run_task().state == "SUCCEEDED"
     assert math.hypot(scene.robot.pose[0] - 8.0, scene.robot.pose[1]) < 0.2
     assert scene.robot.contacts == 0

@@ -44,7 +44,7 @@ def test_it_can_be_sent_as_json() -> None:
             {"sure": False},
             "position",
             "bad",
-            "The laser does not match the map; place the robot on the map.",
+            "The robot is not sure of its place: choose where it is, or place it on the map.",
         ),
         ({"stop_tested": False}, "stop", "unknown", "STOP was not tested since the start; press it once."),
         ({"offset": math.nan}, "clock", "unknown", "No handheld has sent its clock yet."),

@@ -23,6 +23,7 @@ MADE = {
     "/pose",
     "/detections",
     "/intruders",
+    "/localisation/candidates",
     "/plan",
     "/mission",
     "/task/status",

@@ -1,55 +1,143 @@
-"""What a robot says of how well it knows its place."""
+"""A place is believed only when no other place on the map explains as well what the laser sees."""
 
 from __future__ import annotations
 
 import math
 
-import numpy as np
-import pytest
+from msgspec.structs import replace
 
-from robotside.core.pose2 import ORIGIN, Pose2
-from robotside.localisation import pose_estimator
-from robotside.localisation.pose_estimator import OdometryTrack
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.sensor_msgs import NavSatFix, NavSatStatus
+from bridge.msgs.std_msgs import Header, Time
+from robotside.core.pose2 import Pose2
+from robotside.localisation.field import Field
+from robotside.mapping.occupancy_grid import Grid
+from tests.fakes import Box, FakeRobot, Pillar
+from tests.robotside.localisation.ride import DOOR, FLOOR, Ride, equal_rooms
 
+DESK = Box(7.0, 3.0, 8.0, 4.0)
+"""In the last room: from elsewhere it is not seen."""
 
-@pytest.mark.parametrize("seed", range(8))
-def test_the_worst_direction_is_the_larger_axis_of_the_ellipse_however_it_lies(seed: int) -> None:
-    root = np.random.default_rng(seed).normal(size=(3, 3)) * 10.0 ** (seed - 4)
-    covariance = root @ root.T
-    axes = np.linalg.eigvalsh(covariance[:2, :2])
-    assert pose_estimator._worst(covariance) == pytest.approx(axes[-1], rel=1e-12)
-
-
-def test_a_place_known_for_sure_has_no_spread_and_one_known_across_has_that_of_it() -> None:
-    assert pose_estimator._worst(np.zeros((3, 3))) == 0.0
-    assert pose_estimator._worst(np.diag([0.01, 0.09, 4.0])) == pytest.approx(0.09)
+CUPBOARD = Box(-8.0, -1.2, -7.0, 1.2)
+"""Across the west end of the corridor."""
 
 
-def track(*, velocity: Pose2 = ORIGIN) -> OdometryTrack:
-    """A robot that came a metre along x in a second, and went on with that velocity."""
-    made = OdometryTrack()
-    made.add(10.0, Pose2(0.0, 0.0, 0.0))
-    made.add(11.0, Pose2(1.0, 0.0, math.pi / 2), velocity)
-    return made
+def in_corridor(x: float, *more: Box, yaw: float = 0.0, beams: int = 120) -> FakeRobot:
+    return FakeRobot(start=(x, 0.0, yaw), hall=FLOOR, boxes=[*equal_rooms(), *more], beams=beams)
 
 
-def test_a_sensor_measures_where_the_robot_was_between_two_odometries() -> None:
-    assert track().at(10.5) == pytest.approx((0.5, 0.0, math.pi / 4))
+def test_who_is_placed_one_door_off_is_never_believed_and_finds_itself() -> None:
+    ride = Ride(in_corridor(-2.0, CUPBOARD), Pose2(-2.0 + DOOR, 0.0, 0.0))
+    ride.robot.drive(Twist.planar(0.3, 0.0))
+    ride.run(6.0)
+    assert ride.estimator.sure
+    assert ride.error < 0.1
+    assert ride.wrong == 0.0
+    assert "position_found" in ride.codes
 
 
-def test_a_sensor_that_measures_after_the_last_odometry_is_carried_on() -> None:
-    moving = track(velocity=Pose2(0.5, 0.1, 2.0))
-    assert moving.at(11.02) == pytest.approx((1.0 - 0.002, 0.01, math.pi / 2 + 0.04), abs=1e-9)
+def test_in_one_of_several_equal_rooms_it_asks_in_which_and_the_answer_is_believed() -> None:
+    ride = Ride(in_corridor(-2.0), Pose2(2.0, 0.0, 0.0))  # the floor looks the same after half a turn
+    ride.robot.pose = (-2.0, 3.2, 1.0)
+    ride.estimator.place(Pose2(2.0, 3.2, 1.0))
+    ride.run(3.0)
+    assert not ride.estimator.sure
+    asked = ride.asked[-1]
+    assert len(asked.candidates) >= 2
+    assert asked.reason.startswith("The robot may be at ")
+    assert sum(each.share for each in asked.candidates) <= 1.0 + 1e-9
+    right = [each for each in asked.candidates if math.hypot(each.x + 2.0, each.y - 3.2) < 0.3]
+    assert len(right) == 1
+    assert right[0].share > 0.02
+    ride.estimator.place(Pose2(right[0].x, right[0].y, right[0].yaw), certain=True)
+    ride.run(2.0)
+    assert ride.estimator.sure
+    assert ride.error < 0.1
+    assert ride.estimator.candidates == ()
+    assert not ride.asked[-1].candidates
 
 
-def test_it_is_not_carried_on_for_long_nor_before_what_is_remembered() -> None:
-    moving = track(velocity=Pose2(0.5, 0.0, 0.0))
-    for stamp in (11.1, 60.0):
-        assert moving.at(stamp) == pytest.approx((1.0, 0.05, math.pi / 2))
-    assert moving.at(9.0) == (0.0, 0.0, 0.0)
-    assert OdometryTrack().at(9.0) is None
+def test_a_robot_that_is_carried_while_it_drives_is_unsure_within_two_seconds_and_finds_itself() -> None:
+    ride = Ride(in_corridor(-4.0, CUPBOARD, DESK), Pose2(-4.0, 0.0, 0.0))
+    ride.robot.drive(Twist.planar(0.3, 0.0))
+    ride.run(3.0)
+    assert ride.estimator.sure
+    ride.robot.pose = (6.0, 3.0, 2.0)
+    ride.robot.drive(Twist.planar(0.0, 0.4))
+    ride.run(8.0)
+    assert 0.0 < ride.wrong <= 2.0  # it cannot know before it has looked a few times
+    assert ride.estimator.sure
+    assert ride.error < 0.1
+    assert "position_unsure" in ride.codes
 
 
-def test_one_that_does_not_know_its_speed_is_where_it_was() -> None:
-    for velocity in (Pose2(math.nan, 0.0, 0.0), Pose2(0.0, 0.0, math.inf)):
-        assert track(velocity=velocity).at(11.05) == (1.0, 0.0, math.pi / 2)
+def test_people_round_it_who_are_not_on_the_map_do_not_make_it_believe_another_place() -> None:
+    robot = in_corridor(-4.5, CUPBOARD)
+    robot.pillars = [
+        Pillar(-4.5 + math.cos(a) * 0.9, math.sin(a) * 0.7, 0.2) for a in (0.3, 1.2, 2.6, 4.0, 5.2)
+    ]
+    ride = Ride(robot, Pose2(-4.5, 0.0, 0.0))
+    ride.run(4.0)
+    assert ride.error < 0.1
+
+
+def test_a_sure_place_is_checked_against_all_others_on_the_way() -> None:
+    ride = Ride(in_corridor(-6.0, CUPBOARD), Pose2(-6.0, 0.0, 0.0))
+    ride.run(2.0)
+    assert ride.estimator.sure
+    searched: list[object] = []
+    submit = ride.estimator._whereabouts._worker.submit
+    ride.estimator._whereabouts._worker.submit = lambda work: searched.append(work) or submit(work)  # type: ignore[method-assign,func-returns-value]
+    ride.run(4.0)
+    assert not searched
+    ride.robot.drive(Twist.planar(0.5, 0.0))
+    ride.run(20.0)
+    assert len(searched) == 2
+
+
+def test_who_was_told_its_place_need_not_be_told_again_after_it_has_driven_and_turned_round() -> None:
+    ride = Ride(
+        FakeRobot(beams=120), Pose2(0.0, 0.0, 0.0)
+    )  # in a bare hall: it looks the same after half a turn
+    for speed, turn, seconds in ((0.5, 0.0, 5.0), (0.0, 0.8, 4.0), (0.5, 0.0, 7.0)):
+        ride.robot.drive(Twist.planar(speed, turn))
+        ride.run(seconds)
+        assert ride.estimator.sure
+    assert ride.codes == []
+    assert ride.error < 0.1
+
+
+def test_satellites_that_say_another_place_for_a_while_make_it_doubt_until_it_has_searched_the_map() -> None:
+    robot = in_corridor(-6.0, CUPBOARD)
+    robot.info = replace(robot.info, latitude=45.0, longitude=-73.0)
+    ride = Ride(robot, Pose2(-6.0, 0.0, 0.0))
+    ride.run(2.0)
+    assert ride.estimator.sure
+    for second in range(5):
+        fix = NavSatFix(Header(Time.at(ride.now + second)), NavSatStatus(), 45.001, -73.0)
+        ride.estimator.on_fix(fix)
+    doubted = False
+    for _ in range(40):
+        ride.run(0.05)
+        doubted = doubted or not ride.estimator.sure
+    assert doubted
+    assert any("satellites" in notice for notice in ride.said)
+    ride.run(2.0)
+    assert ride.codes.count("position_unsure") == 1  # it does not flap
+    assert ride.error < 0.1
+
+
+def test_where_things_of_the_map_are_gone_it_does_not_take_a_place_for_its_own_that_is_alike_without_them() -> (
+    None
+):
+    cars = [Box(x, 1.5, x + 1.0, 3.0) for x in (-6.0, -4.0, -2.0)]
+    with_cars = FakeRobot(start=(-4.0, 0.0, 0.5), hall=FLOOR, boxes=cars)
+    robot = FakeRobot(start=(-4.0, 0.0, 0.5), hall=FLOOR, beams=120)
+    ride = Ride(robot, Pose2(-4.0, 0.0, 0.5))
+    ride.estimator.set_map(Field(Grid.from_msg(with_cars.map())))
+    ride.estimator.place(Pose2(-4.0, 0.0, 0.5))
+    ride.robot.drive(Twist.planar(0.2, 0.2))
+    ride.run(8.0)
+    assert ride.wrong == 0.0
+    assert ride.error < 0.1
+    assert "position_found" not in ride.codes

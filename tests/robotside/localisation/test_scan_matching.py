@@ -12,7 +12,9 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import LaserScan
 from robotside.core.pose2 import Points, Pose2
-from robotside.localisation.scan_matching import DISTRUSTED_SWEEPS, UNSURE_AFTER, Field, Localiser
+from robotside.localisation import scan_matching
+from robotside.localisation.field import Field
+from robotside.localisation.scan_matching import DISTRUSTED_SWEEPS, UNSURE_AFTER, Localiser
 from robotside.mapping.laser_points import LaserProjection
 from robotside.mapping.occupancy_grid import Grid
 from tests.fakes import Box, FakeRobot, Pillar
@@ -211,3 +213,16 @@ def arcs(pose: Pose2, count: int = 24) -> NDArray[np.float64]:
         reach = np.minimum(to_x, to_y).min()
         ends.append(np.column_stack([reach * np.cos(angles), reach * np.sin(angles)]))
     return np.array(ends)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_worst_direction_is_the_larger_axis_of_the_ellipse_however_it_lies(seed: int) -> None:
+    root = np.random.default_rng(seed).normal(size=(3, 3)) * 10.0 ** (seed - 4)
+    covariance = root @ root.T
+    axes = np.linalg.eigvalsh(covariance[:2, :2])
+    assert scan_matching._worst(covariance) == pytest.approx(axes[-1], rel=1e-12)
+
+
+def test_a_place_known_for_sure_has_no_spread_and_one_known_across_has_that_of_it() -> None:
+    assert scan_matching._worst(np.zeros((3, 3))) == 0.0
+    assert scan_matching._worst(np.diag([0.01, 0.09, 4.0])) == pytest.approx(0.09)

@@ -23,6 +23,8 @@ from tests.robotside.scene import Scene
 
 NOTHING = np.empty((0, 2))
 LIMIT = 30.0
+CUPBOARD = Box(-9.0, 4.0, -8.0, 5.5)
+"""It makes the hall look different from its two ends, so that the robot is sure of its place."""
 
 
 @pytest.fixture
@@ -33,7 +35,7 @@ def worker() -> HeldWorker:
 @pytest.fixture
 def scene(tmp_path: Path, worker: HeldWorker) -> Iterator[Scene]:
     """It is sent somewhere and waits for its way."""
-    scene = Scene(FakeRobot(start=(-4.0, 0.0, 0.0)), tmp_path, worker=worker)
+    scene = Scene(FakeRobot(start=(-4.0, 0.0, 0.0), boxes=[CUPBOARD]), tmp_path, worker=worker)
     scene.run(3.5)
     worker.holds = True
     scene.go_to(4.0, 0.0)
@@ -175,7 +177,7 @@ def idle(thread: WorkerThread) -> Callable[[], None]:
 def test_whole_with_the_real_thread_it_plans_replans_and_arrives(
     tmp_path: Path, thread: WorkerThread
 ) -> None:
-    robot = FakeRobot(start=(-4.0, 0.0, 0.0), boxes=[Box(-0.5, -2.0, 0.5, 2.0)])
+    robot = FakeRobot(start=(-4.0, 0.0, 0.0), boxes=[CUPBOARD, Box(-0.5, -2.0, 0.5, 2.0)])
     scene, planned = Scene(robot, tmp_path, worker=thread), idle(thread)
     scene.run(3.5)
     scene.go_to(4.0, 0.0)
@@ -195,7 +197,7 @@ def test_whole_with_the_real_thread_it_plans_replans_and_arrives(
 def test_whole_with_the_real_thread_a_pause_in_the_middle_of_planning_is_obeyed(
     tmp_path: Path, thread: WorkerThread
 ) -> None:
-    robot = FakeRobot(start=(-4.0, 0.0, 0.0))
+    robot = FakeRobot(start=(-4.0, 0.0, 0.0), boxes=[CUPBOARD])
     scene, planned = Scene(robot, tmp_path, worker=thread), idle(thread)
     scene.run(3.5)
     gate, began = threading.Event(), threading.Event()

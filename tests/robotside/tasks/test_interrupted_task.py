@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from bridge.msgs.geometry_msgs import PoseWithCovariance, PoseWithCovarianceStamped
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
     GetHistoryRequest,
@@ -18,6 +19,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskQueue,
     Waypoint,
 )
+from robotside.core.pose2 import Pose2
 from tests.fakes import FakeRobot
 from tests.robotside.scene import SQUARE, Scene
 
@@ -54,6 +56,9 @@ def test_resumed_it_goes_on_under_its_number_at_the_point_that_it_headed_for(
         scene.run(0.5)
     scene.run(1.0)
     again = cut(scene, tmp_path)
+    x, y, yaw = again.robot.pose
+    placed = PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose2(x, y, yaw).to_msg()))
+    again.station.on_message(again.anna, "/initialpose", placed, None)  # the hall looks the same turned round
     assert again.ask("/task/resume").success
     again.run(0.1)
     assert (again.task.task_id, again.task.state, again.task.waypoint) == (1, "RUNNING", 2)

@@ -60,6 +60,7 @@ def test_who_watches_sees_what_there_is_and_may_go_and_changes_nothing_else() ->
         f"rosapi {ANY}",
         f"page {ANY}",
         "call /events/get",
+        "call /events/picture",
         "call /history/get",
         "call /mission/get",
         "call /missions/get",
