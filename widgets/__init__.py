@@ -68,6 +68,7 @@ if TYPE_CHECKING:
     from widgets.status.paused_card import PausedCard as PausedCard
     from widgets.status.question_card import QuestionCard as QuestionCard
     from widgets.status.reset_card import ResetCard as ResetCard
+    from widgets.status.where_card import WhereCard as WhereCard
     from widgets.study.sus_form import SusForm as SusForm
     from widgets.study.tlx_scales import TlxScales as TlxScales
     from widgets.tasks.mission_list import MissionList as MissionList
@@ -147,6 +148,7 @@ CATALOGUE: dict[str, str] = {
     "UltrasoundView": "widgets.sensors.ultrasound",
     "Video": "widgets.sensors.video",
     "WhenPicker": "widgets.tasks.when_picker",
+    "WhereCard": "widgets.status.where_card",
     "DPad": "widgets.controls.sticks.d_pad",
     "ToggleSwitch": "widgets.controls.signals.toggle_switch",
     "TickBox": "widgets.controls.signals.tick_box",

@@ -95,7 +95,7 @@ SENTENCES: Mapping[str, str] = {
     Code.POSITION_UNKNOWN: mark("The robot does not know where it is. Place it on the map."),
     Code.POSITION_LOST: mark("No fix or compass: the robot assumes the map's origin. Place it on the map."),
     Code.POSITION_UNSURE: mark(
-        "Position unsure: what the robot senses does not match the map. Place it on the map."
+        "Position unsure: other places fit as well, or what the robot senses does not match the map. Place it on the map."
     ),
     Code.POSITION_SURE: mark("Position sure again."),
     Code.POSITION_BY_WHEELS: mark(

@@ -34,6 +34,9 @@ class OpenQuestion:
             return self._answer_handover
         if question.parent is not None and question.open and not question.blocked:
             return self._answer_question
+        where = shell.standing.where
+        if where.parent is not None and where.open and not where.blocked:
+            return self._answer_where
         return None
 
     def answer(self, yes: bool) -> str:
@@ -61,6 +64,16 @@ class OpenQuestion:
     def _answer_handover(self, yes: bool) -> str:
         self._app.shell.cards.handover.ask("grant" if yes else "object")
         return tr("Control is handed over.") if yes else tr("Control is kept.")
+
+    def _answer_where(self, yes: bool) -> str:
+        """Yes says that the robot is at the first of its candidates, which the card says; no leads to the map."""
+        card = self._app.shell.standing.where
+        asked = card.headline
+        if yes:
+            card.choose(0)
+            return f"{asked} {card.places[0].text}."
+        card.dispatch("on_by_hand")
+        return tr("{asked} Not yet.").format(asked=asked)
 
     def _answer_question(self, yes: bool) -> str:
         card = self._app.shell.question

@@ -23,6 +23,8 @@ from bridge.msgs.pilothouse_msgs import (
     BringDownGatewayResponse,
     BringUpGatewayRequest,
     BringUpGatewayResponse,
+    ChoosePlaceRequest,
+    ChoosePlaceResponse,
     CommandRequest,
     CommandResponse,
     ControlStatus,
@@ -116,6 +118,9 @@ COMMANDS: dict[str, Kind] = {
         mark("keep the place"),
         SetPlaceResponse,
         lambda fields: (fields["place"].id, fields["place"].id or fields["place"].name),
+    ),
+    "choose_place": Kind(
+        "/localisation/choose", ChoosePlaceRequest, mark("choose where it is"), ChoosePlaceResponse
     ),
     "place_delete": Kind(
         "/places/delete",

@@ -55,10 +55,9 @@ class Session:
 
         `key` is that of a paired robot, by which it has to prove who it is.
         """
-        self.key = key
-        self.link, self.feeds = link, feeds
-        self.client_id = client_id
-        self._now = now
+        self.link, self.feeds, self.client_id, self.key = link, feeds, client_id, key
+        self._now, self.placed = now, (-math.inf, 0.0, 0.0)
+        """When [s, robot clock] and where in `map` x, y [m] the robot was put from here last; -inf for never."""
         self.outcomes: dict[str, Outcome] = {}
         """The last outcome of each command by its name."""
         self.listeners: list[Callable[[str, Post], None]] = []
@@ -282,4 +281,6 @@ class Session:
 
     def place_robot(self, x: float, y: float, yaw: float) -> None:
         """Tell the robot that it is at (x, y) in `map` [m], turned to `yaw` [rad]."""
-        self.link.place(initial_pose(x, y, yaw, self.link.robot_time()))
+        now = self.link.robot_time()
+        self.placed = now, x, y
+        self.link.place(initial_pose(x, y, yaw, now))

@@ -428,7 +428,7 @@ def test_a_tap_takes_it_away_until_drawing_is_slow_anew(driving: Glass) -> None:
         return SLOW_DRAWING in driving.banners()
 
     assert said(True)
-    driving.tap(shell._standing.drawing)
+    driving.tap(shell.standing.drawing)
     assert not said(True)
     assert not said(False)
     assert said(True)

@@ -26,7 +26,7 @@ from kivy.properties import (
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Path
-from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray, Limits
+from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray, Limits, PlaceCandidates
 from bridge.msgs.sensor_msgs import LaserScan
 from widgets.core.base import VEIL
 from widgets.core.canvas_ink import Drawing, Ink, Word, Words, folded, ground, tint
@@ -38,8 +38,8 @@ from widgets.core.theme import theme
 from widgets.map import fence_marks
 from widgets.map import map_marks as marks
 from widgets.map.fence import Fence
+from widgets.map.map_candidates import MapCandidates
 from widgets.map.map_measure import measure_marks
-from widgets.map.map_robot import MapRobot
 from widgets.map.map_viewport import SMALL
 
 __all__ = ["MapOverlay"]
@@ -47,7 +47,7 @@ __all__ = ["MapOverlay"]
 NOTHING = np.zeros((0, 2))
 
 
-class MapOverlay(MapRobot, Drawing):
+class MapOverlay(MapCandidates, Drawing):
     """The robot and its task on a map. Everything is in the `map` frame: x east, y north [m]."""
 
     accepts: ClassVar[tuple[type[Msg], ...]] = (
@@ -56,13 +56,14 @@ class MapOverlay(MapRobot, Drawing):
         IntruderArray,
         LaserScan,
         Limits,
+        PlaceCandidates,
     )
-    shown_beside: ClassVar[tuple[type[Msg], ...]] = (IntruderArray, LaserScan, Limits)
+    shown_beside: ClassVar[tuple[type[Msg], ...]] = (IntruderArray, LaserScan, Limits, PlaceCandidates)
     grid_size: ClassVar[tuple[int, int]] = (6, 6)
     drawn_from: ClassVar[tuple[str, ...]] = (
         "view", "waypoints", "selected", "home", "placed", "grip", "mode", "robot", "robot_radius", "camera_fov",
         "plan", "places", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets", "fence", "foot", "refused",
-        "footprint", "measured", "unplaced",
+        "footprint", "measured", "unplaced", "candidates", "doubt",
     )  # fmt: skip
 
     plan: ObjectProperty[Points] = ObjectProperty(NOTHING, force_dispatch=True)
@@ -147,6 +148,7 @@ class MapOverlay(MapRobot, Drawing):
     def extent(self) -> Points:
         """Everything worth seeing, shape (n, 2) [m]."""
         places = [*self.waypoints, self.home, self.robot[:2], *self.intruders, *self.places]
+        places += [(each.x, each.y) for each in self.candidates]
         corners = [corner for area in self.fence.keep_in for corner in area]
         return spread(tuple(place[:2]) for place in (*places, *corners) if len(place))
 
@@ -232,6 +234,7 @@ class MapOverlay(MapRobot, Drawing):
             for word in folded(Word(words, x, y, size, theme.text), self.free_box[2] - dp(12)):
                 ground(shapes, word, tint(theme.bg, 0.85))
                 yield word
+        yield from self._candidate_marks(shapes)
         if self.placed:
             x, y, yaw = self.placed
             pose = (x, y, yaw)

@@ -53,7 +53,7 @@ class MapViewport(MeasuringMap):
     """Of a waypoint's disc [px]."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self._touched = False
+        self._touched = self._looks = False
         self._middle = (0.0, 0.0)
         super().__init__(**kwargs)
         self.bind(pos=self._lay_out, size=self._lay_out, insets=self._lay_out)
@@ -106,10 +106,24 @@ class MapViewport(MeasuringMap):
 
     def fit(self) -> None:
         """Show everything, as large as it fits into what is free."""
-        points = self.extent()
+        self._fit(self.extent(), math.inf)
+
+    def look_at(self, points: Points, below: float) -> None:
+        """Show `points`, shape (n, 2) [m], in what is free below the height `below` [px], until `look_away`."""
+        self._looks = True
+        self._fit(points, below)
+
+    def look_away(self) -> None:
+        """Show what was seen before `look_at`, where no operator had chosen it: everything."""
+        if self._looks:
+            self._looks = False
+            self._fit_until_touched()
+
+    def _fit(self, points: Points, below: float) -> None:
         if len(points):
             self.follow = False
             x, y, wide, high = self.free_box
+            high = max(min(high, below - y), dp(40))
             edge = min(2.2 * self.mark_radius, wide / 4, high / 4)
             box = (x + edge, y + edge, wide - 2 * edge, high - 2 * edge)
             turn = self.view.turn if self.may_turn else 0.0
@@ -134,7 +148,7 @@ class MapViewport(MeasuringMap):
         self._fit_until_touched()
 
     def _fit_until_touched(self) -> None:
-        if not self._touched and self.width > dp(100):
+        if not (self._touched or self._looks) and self.width > dp(100):
             self.fit()
 
     def on_places(self, *_: object) -> None:

@@ -38,7 +38,9 @@ SENTENCES: Mapping[str, str] = {
     Code.CHECK_SENSORS_SILENT: mark("No data from: {sensors}."),
     Code.CHECK_SENSORS_GOOD: mark("All sensors are alive."),
     Code.CHECK_POSITION_UNKNOWN: mark("The robot's position is unknown; place the robot on the map."),
-    Code.CHECK_POSITION_UNSURE: mark("The laser does not match the map; place the robot on the map."),
+    Code.CHECK_POSITION_UNSURE: mark(
+        "The robot is not sure of its place: choose where it is, or place it on the map."
+    ),
     Code.CHECK_POSITION_GOOD: mark("The robot knows where it is."),
     Code.CHECK_STOP_GOOD: mark("STOP was tested."),
     Code.CHECK_STOP_UNTESTED: mark("STOP was not tested since the start; press it once."),

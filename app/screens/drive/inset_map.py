@@ -65,7 +65,7 @@ class InsetMap:
         self.map.set_view(View(complex(dp(SCALE))))
         self.map.follow = self.map.heading_up = True
         dashboard.bind(self.map, "/pose", self._show_pose)
-        for topic in ("/map", "/plan", "/intruders", "/limits"):
+        for topic in ("/map", "/plan", "/intruders", "/limits", "/localisation/candidates"):
             dashboard.bind(self.map, topic, fresh=False)
 
     @property

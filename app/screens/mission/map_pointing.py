@@ -112,6 +112,7 @@ class MapPointing:
             on_set_home=lambda _, x, y: mission.set_home(x, y),
             on_new_place=lambda _, x, y: self.places.point(x, y),
             on_open_place=lambda _, index: self.places.open_at(index),
+            on_choose_candidate=lambda _, number: self._session.command("choose_place", id=number),
             grip=self._say,
             measured=lambda *_: self.show(),
             fence=self._say,

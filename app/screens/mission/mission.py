@@ -217,6 +217,7 @@ class MissionScreen(RobotScreen):
     def clear(self, cover: Rect | None) -> None:
         """Take away what would be seen only in part behind what is said over the map."""
         self._corner.clear(cover)
+        self._maps.make_room(cover)
 
     def _rearrange(self, *_: object) -> None:
         self.arrange(self._body, self._form, self._dp)

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import math
+
+import numpy as np
+
+from app.layout.arrange import Rect
 from app.maps.ground_keeper import GroundKeeper
 from app.maps.maps import Maps
 from app.screens.mission.layers_card import LayersCard
@@ -24,6 +29,9 @@ class MissionMaps:
         """Keeps tiles or a picture beneath it."""
 
         self._maps, self._offered = maps, False
+        self._cover: Rect | None = None
+        self._asked: tuple[object, ...] = ()
+        self.shown.bind(candidates=self._show_asked, mode=self._show_asked)
         self._card: LayersCard | None = None
 
     def follow(self, pointing: MapPointing) -> None:
@@ -32,8 +40,26 @@ class MissionMaps:
         pointing.follow(one)
         bind(one, "/places", lambda msg: pointing.places.show(one, msg), fresh=False)
         bind(one, "/pose", always=True)
-        for topic in ("/plan", "/intruders", "/scan", "/limits", "/map"):
+        for topic in ("/plan", "/intruders", "/scan", "/limits", "/map", "/localisation/candidates"):
             bind(one, topic, fresh=False)
+
+    def make_room(self, cover: Rect | None) -> None:
+        """Something lies over the map: what the robot asks about is seen beneath it."""
+        self._cover = cover
+        self._show_asked()
+
+    def _show_asked(self, *_: object) -> None:
+        """Bring the places at which the robot may be into sight, once for each question and each card over the map."""
+        one, found = self.shown, self.shown.candidates
+        if not found:
+            one.look_away()
+        asked = (self._cover, *sorted(each.id for each in found)) if found else ()
+        if asked == self._asked or one.mode != "view":
+            return
+        self._asked = asked
+        if found:
+            below = math.inf if self._cover is None else self._cover.y
+            one.look_at(np.array([(each.x, each.y) for each in found]), below)
 
     @property
     def offered(self) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Protocol
 
 from app.link.channels import CAPABILITIES, EVENT, OUTCOME
@@ -14,11 +15,14 @@ from app.session.session import Session
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Event
 from widgets.core.language import tr
+from widgets.core.quantities import said
 
 __all__ = ["Announcements"]
 
 MAX_TAG_LENGTH = 40
 """Letters of a tag that are shown."""
+PLACED_LATELY = 60.0
+"""So long after a placing the robot's finding itself elsewhere overrules it [s, robot clock]."""
 
 
 class Speaker(Protocol):
@@ -88,9 +92,25 @@ class Announcements:
         news = self._session.logbook.is_news(event, self._session.link.robot_time())
         if event.level == "alarm" and news and not self._reset.on_alarm(event):
             self._speaker.say(event.text, "danger", about=event.kind)
+        elif event.code in (Code.POSITION_FOUND, Code.POSITION_UNSURE) and news:
+            # its place is what all that it does by itself goes by; by its own name, since "sure again" follows at once
+            self._speaker.say(self._found_words(event), "warn", about=event.code, stay=LONG_DURATION)
         elif event.code == Code.DRIVE_NOT_RELEASED and news and self._session.link.driving:
             # whoever only watches pushes nothing
             self._speaker.say(event.text, "warn", about="stick")
+
+    def _found_words(self, event: Event) -> str:
+        """How far off the robot found itself from where it was put here a short while ago; else its own words."""
+        at, x, y = self._session.placed
+        told = {each.key: each.value for each in event.parameters}
+        try:
+            off = math.hypot(float(told["x"]) - x, float(told["y"]) - y)
+        except (KeyError, ValueError):  # another program's robot leaves out what its code should name
+            return event.text
+        if event.code != Code.POSITION_FOUND or not abs(event.stamp.seconds - at) < PLACED_LATELY:
+            return event.text
+        distance = said(off, "height", 1).words
+        return tr("It found itself {distance} from where you put it.").format(distance=distance)
 
     def _show_tag(self, tag: str) -> None:
         """The tag before the robot's reader, said once; empty when that is gone."""

@@ -126,8 +126,8 @@ class Shell(FloatLayout):
         self._build_frame()
         self._question = TaskQuestion(self.session, self.notices)
         self.question = self._question.card
-        self._standing = StandingBanners(self.session, self.notices)
-        for widget in (*self._standing.banners, self._stop.banner, self.question, self.notices):
+        self.standing = StandingBanners(self.session, self.notices, lambda puts: _show_map(self, puts))
+        for widget in (*self.standing.banners, self._stop.banner, self.question, self.notices):
             widget.bind(height=self._place_notices)
         self._followers: list[Callable[[str, Post], None]] = []
         self.at_close: list[Callable[[], object]] = []
@@ -309,7 +309,8 @@ class Shell(FloatLayout):
         """Bring everything up to date that time changes; ten times a second."""
         if not self.session.connected:
             self.rest()
-        self._standing.tick(slow=self.app.visit.draws_slowly, tight=self.form != "wide")
+        mapped, slow = self.screen == "mission", self.app.visit.draws_slowly
+        self.standing.tick(slow=slow, tight=self.form != "wide", mapped=mapped)
         self.bar.tick(self.session)
         self.bar.show_methods(self.app.methods.standing(), self.app.methods.idle())
         self._dashboard.tick()
@@ -372,3 +373,11 @@ def _share_room(
     cards.alone = form != "wide"
     others = question.card, reset.card
     cards.yields = wishes.tight or (cards.alone and any(card.parent is not None for card in others))
+
+
+def _show_map(shell: Shell, places: bool) -> None:
+    """Show the map; a finger on it says where the robot is if it `places`."""
+    if "mission" in shell.screens:
+        shell.app.show("mission")
+        screen: Any = shell.screens["mission"]
+        screen.mode = "place_robot" if places else "view"

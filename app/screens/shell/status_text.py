@@ -6,7 +6,7 @@ import math
 
 from app.session.session import Session
 from app.session.steering import YOU, Steering, steering
-from bridge.msgs.pilothouse_msgs import TaskStatus
+from bridge.msgs.pilothouse_msgs import PlaceCandidates, TaskStatus
 from bridge.msgs.sensor_msgs import NavSatFix
 from widgets.core.language import mark, tr
 from widgets.core.quantities import said
@@ -45,11 +45,24 @@ def mode(session: Session, form: str = "wide") -> tuple[str, str, str]:
     how = steering(session)
     if how is None:
         return "—", "signal_disconnected", "muted"
-    words = tr(how.mode) if form == "tall" else _long_mode(how, form)
+    words = tr(how.mode) if form == "tall" else _long_mode(how, form, _halt(session, how.mode))
     return words, *MODES.get(how.mode, ("help", "muted"))
 
 
-def _long_mode(how: Steering, form: str) -> str:
+def _halt(session: Session, mode: str) -> str:
+    """Why it does not go though nobody holds it, as in `waiting`; empty where it goes or is held."""
+    asked: PlaceCandidates | None = session.feeds.latest("/localisation/candidates")
+    if mode in ("AUTO", "READY") and asked is not None and len(asked.candidates) > 1:
+        return tr("unsure")
+    task: TaskStatus | None = session.feeds.latest("/task/status")
+    if mode != "AUTO" or task is None or task.state != "RUNNING":
+        return ""
+    return {"waiting": tr("waiting"), "unsure": tr("unsure")}.get(task.phase, "")
+
+
+def _long_mode(how: Steering, form: str, halt: str) -> str:
+    if halt:
+        return f"{tr(how.mode)} · {halt}"
     if how.mode in ("AUTO", "PAUSED"):
         return f"{tr(how.mode)} · {how.task}" if how.task else tr(how.mode)
     if how.mode != "MANUAL":

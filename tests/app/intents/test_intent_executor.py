@@ -61,6 +61,7 @@ class Robot(Asked):
             screens={"drive": SimpleNamespace(speed=speed)},
             cards=SimpleNamespace(handover=card),
             reset=SimpleNamespace(card=card),
+            standing=SimpleNamespace(where=SimpleNamespace(parent=None)),
             question=card,
         )
         self.acting = IntentExecutor(self)

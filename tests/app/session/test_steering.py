@@ -10,7 +10,7 @@ import pytest
 from app.core.command_origin import NOBODY, Origin
 from app.screens.shell import status_text
 from app.session.steering import AUTO, MANUAL, PAUSED, READY, STOPPED, YOU, Steering, steering
-from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
+from bridge.msgs.pilothouse_msgs import ControlStatus, PlaceCandidate, PlaceCandidates, TaskStatus
 
 ME = "me"
 
@@ -135,3 +135,19 @@ def test_where_there_is_little_room_the_mode_is_short():
     one = session(ControlStatus(mode="PAUSED", **MINE), WAITS, driving=True)
     assert status_text.mode(one, "short")[0] == "MANUAL · paused"
     assert status_text.mode(one, "tall")[0] == "MANUAL"
+
+
+@pytest.mark.parametrize(("phase", "words"), [("waiting", "AUTO · waiting"), ("unsure", "AUTO · unsure")])
+def test_a_task_that_waits_for_its_way_or_its_place_does_not_read_as_going(phase, words):
+    one = session(
+        ControlStatus(mode="AUTO", **MINE), TaskStatus(task="go_home", state="RUNNING", phase=phase)
+    )
+    assert status_text.mode(one, "short")[0] == words
+
+
+def test_a_robot_that_asks_where_it_is_is_not_just_ready():
+    one = session(ControlStatus(mode="MANUAL"))
+    asked = PlaceCandidates(candidates=[PlaceCandidate(1), PlaceCandidate(2)])
+    told = one.feeds.latest
+    one.feeds.latest = lambda topic: asked if topic == "/localisation/candidates" else told(topic)
+    assert status_text.mode(one)[0] == "READY · unsure"
