@@ -102,6 +102,9 @@ SENTENCES: Mapping[str, str] = {
         "No laser: the position may drift. Place the robot on the map when it is off."
     ),
     Code.FENCE_LEFT: mark("The robot is outside its fence."),
+    Code.FENCE_HEIGHT_UNKNOWN: mark(
+        "Height unknown: the robot goes neither up nor down because of its fence."
+    ),
     Code.FENCE_NEAR: mark("The fence is {room} away: the robot goes no nearer."),
     Code.FENCE_DRIFT: mark("{robot} drifts over its fence, or goes back from it."),
     Code.FENCE_UNPLACED: mark("Position unknown: the robot cannot keep to its fence. Place it on the map."),

@@ -152,6 +152,8 @@ class Autonomy:
             "/flight": self._on_flight,
             "/fix": self.pose_estimator.on_fix,
             "/imu/data": self.pose_estimator.on_imu,
+            "/depth": self.pose_estimator.vertical.on_depth,
+            "/range/down": self.pose_estimator.vertical.on_range,
             "/battery_state": self._on_battery,
             "/bumper": self._on_bumper,
             "/tag": self._on_tag,
@@ -233,7 +235,7 @@ class Autonomy:
         self._silence.on_measurement("/odom", self._now)
         estimator = self.pose_estimator
         estimator.on_odometry(msg)
-        self.navigator.measured(msg.pose.pose.position.z)
+        self.navigator.measured(estimator.vertical.height)
         pose = estimator.pose
         if pose is None:
             return

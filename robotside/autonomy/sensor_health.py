@@ -66,10 +66,9 @@ class SensorHealth:
             self._heard[topic] = now
         if isinstance(msg, Odometry):
             x, y = _level(msg)
-            height = msg.pose.pose.position.z
             moving = PlanarVelocity(x, y, msg.twist.twist.angular.z)
-            if all(map(math.isfinite, (*moving, height))):
-                self._measured = replace(self._measured, moving=moving, height=height)
+            if all(map(math.isfinite, moving)):
+                self._measured = replace(self._measured, moving=moving)
         elif isinstance(msg, Imu) and msg.orientation_covariance[0] >= 0:
             turned = msg.orientation
             self._measured = replace(self._measured, roll=turned.roll, pitch=turned.pitch)
@@ -87,9 +86,24 @@ class SensorHealth:
         """The sensor of `topic` is switched off: its silence means nothing until it is heard again."""
         self._heard.pop(topic, None)
 
-    def measured(self, pose: Pose2 | None, *, spread: float = 0.0, sure: bool = True) -> MeasuredState:
-        """All of it, with the pose in `map` that was made of it, and how sure that is."""
-        return replace(self._measured, pose=pose, spread=spread, sure=sure)
+    def measured(
+        self,
+        pose: Pose2 | None,
+        *,
+        spread: float = 0.0,
+        sure: bool = True,
+        height: float = math.nan,
+        height_spread: float = 0.0,
+    ) -> MeasuredState:
+        """All of it, with the pose in `map` and the height that were made of it, and how sure those are."""
+        return replace(
+            self._measured,
+            pose=pose,
+            spread=spread,
+            sure=sure,
+            height=height,
+            height_spread=height_spread,
+        )
 
     def silent(self, now: float) -> list[str]:
         """The names of the sensors that are not alive."""

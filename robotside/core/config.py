@@ -96,6 +96,22 @@ class LimitSettings(_Section, frozen=True):
     """The robot stays in at least one of these; none for everywhere."""
     keep_out: tuple[Ring, ...] = ()
     """It never enters one of these; within one of `keep_in` it is a hole."""
+    floor: float | None = None
+    """Of the fence: it goes no deeper, above the map's origin, negative under water [m]. Taking off and landing pass it."""
+    ceiling: float | None = None
+    """Of the fence: it goes no higher [m]."""
+
+    @property
+    def lowest(self) -> float:
+        """At which it may be, by all that is set, above the map's origin [m]; infinite for none."""
+        deepest = -self.max_depth if self.max_depth is not None else -math.inf
+        return max(deepest, self.floor if self.floor is not None else -math.inf)
+
+    @property
+    def highest(self) -> float:
+        """Likewise; a least depth is a ceiling below the surface [m]."""
+        told = (self.max_height, self.ceiling, None if self.min_depth is None else -self.min_depth)
+        return min((end for end in told if end is not None), default=math.inf)
 
 
 class SafeStateSettings(_Section, frozen=True):
@@ -249,6 +265,9 @@ def _limits_problem(limits: LimitSettings) -> str:
     least, most = limits.min_depth, limits.max_depth
     if least is not None and most is not None and least >= most:
         return f"limits.min_depth must be less than max_depth, {most:g} m, not {least:g} m."
+    if not limits.lowest < limits.highest:
+        low, high = limits.lowest, limits.highest
+        return f"the fence's floor must be below its ceiling, {high:g} m, not at {low:g} m, depths included."
     for name, rings in (("keep_in", limits.keep_in), ("keep_out", limits.keep_out)):
         if len(rings) > MAX_AREAS:
             return f"limits.{name} has {len(rings)} areas; at most {MAX_AREAS} are allowed."

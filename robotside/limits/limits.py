@@ -1,7 +1,7 @@
 """Limits of the robot's configuration: drive commands are clamped to them, goals outside are refused.
 
-Pure: what the robot measures is passed in. Speeds are limited to what it may, height and depth so that it comes to rest
-before they are exceeded, and `robotside.limits.fence_limit` does the same for the fence.
+Pure: what the robot measures is passed in. Speeds are limited to what it may; `robotside.limits.fence_limit` keeps it within the areas of
+its fence, and `robotside.limits.height_limit` between floor and ceiling.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import msgspec
 import numpy as np
 
 from bridge.core.codes import Code
-from bridge.msgs.geometry_msgs import Point32, Polygon, Twist, Vector3
+from bridge.msgs.geometry_msgs import Point32, Polygon, Twist
 from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
 from robotside.core.config import LimitSettings, Ring
 from robotside.core.notice import Notice, Problem
@@ -26,11 +26,11 @@ from robotside.limits.clamped_twist import ClampedTwist, scaled
 from robotside.limits.fence import Fence
 from robotside.limits.fence_limit import NOT_PLACED, FenceLimit
 from robotside.limits.grip_limit import braked_by, held_in_bend
+from robotside.limits.height_limit import HeightLimit
 from robotside.mapping.occupancy_grid import Grid
-from robotside.motion.manoeuvres import VERTICAL_KINDS, Order, kept, leads_to, levelled
+from robotside.motion.manoeuvres import VERTICAL_KINDS, Order, kept, leads_to
 from robotside.motion.measured import MeasuredState
 from robotside.motion.speed_limit import slower
-from robotside.motion.stopping_path import REACTION_TIME
 
 __all__ = ["GOAL_ROOM", "NOT_PLACED", "PATH_ROOM", "ClampedTwist", "KeptOrder", "LimitKeeper", "turned_over"]
 
@@ -42,8 +42,6 @@ STEEP_SLOPE_SHARE, STEEP_SPEED_SHARE = 0.8, 0.3
 """From this part of the greatest slope on it goes slower, down to this part of the speed."""
 OVERTURNED_COSINE = 0.2
 """Cosine of the tilt from which on a robot has turned over."""
-MIN_DIVE_PITCH = 0.1
-"""From this pitch on a swimmer goes up and down as it goes ahead, and its fins cannot make up for that [rad]."""
 
 
 class KeptOrder(NamedTuple):
@@ -72,8 +70,7 @@ class LimitKeeper:
         self._handling: Handling = braked_by(
             replace(known, braking=settings.braking or known.braking), self._grip
         )
-        self._height = _highest(settings)
-        self._deepest = -settings.max_depth if settings.max_depth is not None else -math.inf
+        self._heights = HeightLimit(settings, info, self._handling)
         self._slope = math.radians(settings.max_slope_degrees or 0.0) or math.inf
         self._came: tuple[float, float] | None = None
         self._fence = Fence(settings.keep_in, settings.keep_out)
@@ -102,6 +99,8 @@ class LimitKeeper:
             max_depth=_or_nan(told.max_depth),
             max_height=_or_nan(told.max_height),
             max_slope=math.radians(_or_nan(told.max_slope_degrees)),
+            floor=_or_nan(told.floor),
+            ceiling=_or_nan(told.ceiling),
             clearance=_or_nan(told.clearance),
             keep_in=[_polygon(ring) for ring in told.keep_in],
             keep_out=[_polygon(ring) for ring in told.keep_out],
@@ -109,7 +108,7 @@ class LimitKeeper:
 
     def heights(self, own: tuple[float, float]) -> tuple[float, float]:
         """The lowest and the highest [m] at which it may be that can go from one to the other of its `own`."""
-        return max(own[0], self._deepest), min(own[1], self._height)
+        return max(own[0], self._heights.lowest), min(own[1], self._heights.highest)
 
     def fault(self, name: str, x: float, y: float) -> Problem:
         """Why the robot may not be sent to a place [m, in `map`], as one sentence that calls it `name`; empty when it may."""
@@ -152,9 +151,8 @@ class LimitKeeper:
         """`order` as it may be done now, of any kind; as a twist where the robot does not know the kind."""
         if isinstance(order, Twist):
             return KeptOrder(*self.clamp(order, measured))
-        own, asked = self._own, order.height
-        order = levelled(order, self._deepest, self._height, measured.height)
-        cut = _level_cut(asked, order.height)
+        own = self._own
+        order, cut = self._heights.levelled(order, measured)
         if order.kind == "tilt" and (roll := self._fence_limit.rolled(order.roll, measured)) != order.roll:
             order = msgspec.structs.replace(order, roll=roll)
         leads = leads_to(order, own, measured)
@@ -181,37 +179,10 @@ class LimitKeeper:
             return ClampedTwist(Twist(), Notice(Code.ROBOT_OVERTURNED, said, robot=name))
         slowed = slower(twist, self.info.max_speed, self.info.max_yaw_rate)
         slowed = held_in_bend(slowed, self._handling, self._grip)
-        fitted = self._upright(slowed, measured)
+        fitted = self._heights.clamp(slowed, measured)
         level = self._level(fitted.twist, measured)
         fenced = self._fence_limit.clamp(level.twist, measured)
         return ClampedTwist(fenced.twist, fitted.why or level.why or fenced.why)
-
-    def _upright(self, twist: Twist, measured: MeasuredState) -> ClampedTwist:
-        """Slower up and down, so that height and depth are kept when it brakes."""
-        z = measured.height
-        if math.isnan(z) or not (self._height < math.inf or self._deepest > -math.inf):
-            return ClampedTwist(twist)
-        v, nose = twist.linear, 0.0 if self._handling.sideways else measured.pitch
-        rise = v.z * math.cos(nose) - v.x * math.sin(nose)
-        allowed = max(-self._speed_within(z - self._deepest), min(rise, self._speed_within(self._height - z)))
-        if abs(nose) < MIN_DIVE_PITCH:
-            fitted = Vector3(v.x, v.y, (allowed + v.x * math.sin(nose)) / math.cos(nose))
-        else:
-            part = allowed / rise if rise else 1.0
-            fitted = Vector3(part * v.x, v.y, part * v.z)
-        why: Problem = ""
-        if abs(allowed) < abs(rise) / 2:
-            limit = self._height if rise > 0 else self._deepest
-            why = _no_farther(limit, up=rise > 0)
-        return ClampedTwist(Twist(fitted, twist.angular), why)
-
-    def _speed_within(self, room: float) -> float:
-        """The speed from which it comes to rest within `room` [m], reaction included [m/s]; 0 beyond it."""
-        if room <= 0:
-            return 0.0
-        braking = self._handling.levelling
-        lag = braking * REACTION_TIME
-        return math.sqrt(lag * lag + 2 * braking * room) - lag
 
     def _level(self, twist: Twist, measured: MeasuredState) -> ClampedTwist:
         """Slower where it is steep; too steep, only back to where it came from."""
@@ -240,28 +211,6 @@ def _direction(measured: MeasuredState) -> tuple[float, float]:
         x, y = -math.sin(measured.pitch), math.sin(measured.roll)
     far = max(math.hypot(x, y), 1e-9)
     return x / far, y / far
-
-
-def _highest(settings: LimitSettings) -> float:
-    """[m] above the map's origin; a least depth is one below it."""
-    shallowest = -settings.min_depth if settings.min_depth is not None else math.inf
-    return min(settings.max_height if settings.max_height is not None else math.inf, shallowest)
-
-
-def _level_cut(asked: float, allowed: float) -> Problem:
-    """The sentence about a height that is not the one asked for; empty where both are the same."""
-    if math.isnan(asked) or asked == allowed:
-        return ""
-    return _no_farther(allowed, up=asked > allowed)
-
-
-def _no_farther(limit: float, *, up: bool) -> Notice:
-    said = f"The robot goes no {'higher' if up else 'deeper'} than {_level_words(limit)}."
-    return Notice(Code.DRIVE_LEVEL, said, height=limit)
-
-
-def _level_words(height: float) -> str:
-    return f"{height:g} m" if height >= 0 else f"{-height:g} m of depth"
 
 
 def _or_nan(value: float | None) -> float:

@@ -14,6 +14,7 @@ from robotside.core.refusal import Refusal
 from robotside.records import NotRecorded
 from robotside.services.task_services import TaskOrders
 from robotside.station.station import Station
+from robotside.tasks.order_heights import given_height
 
 __all__ = ["listener"]
 
@@ -28,10 +29,10 @@ def listener(station: Station) -> Callable[[Operator, str, Msg, float | None], P
     def on_message(client: Operator, topic: str, msg: Msg, stamp: float | None) -> Problem:
         refused: Problem = ""
         if isinstance(msg, PoseStamped):
-            pose = Pose2.from_msg(msg.pose)
+            pose, height = Pose2.from_msg(msg.pose), given_height(msg.pose.position.z, station.info)
             before = station.controls.settled(station.clock())
             try:
-                orders.go_to(client, Waypoint(pose.x, pose.y, pose.yaw))
+                orders.go_to(client, Waypoint(pose.x, pose.y, pose.yaw, height=height))
             except (Refusal, NotRecorded) as problem:
                 station.controls.give_back(client, before)
                 refused = problem.notice

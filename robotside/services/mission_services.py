@@ -81,14 +81,11 @@ class _MissionOrders:
     def _store(self, mission: Mission) -> None:
         _check_words(mission)
         mission = _named(mission)
-        places = [(f"Point {number}", point) for number, point in enumerate(mission.waypoints, 1)]
-        for name, place in (*places, *(("Home", home) for home in mission.home[:1])):
+        if mission.waypoints or mission.home:
             self._permits.has_map()
-            problem = self._station.fault(name, place.x, place.y)
-            if problem:
-                raise Refusal(problem)
+        self._station.autonomy.task_factory.check_mission(mission)
         stamp = Time.at(self._station.clock())
-        self._station.missions.store(msgspec.structs.replace(mission, stamp=stamp, home=mission.home[:1]))
+        self._station.missions.store(msgspec.structs.replace(mission, stamp=stamp))
 
     def mission(self, _: Operator, __: GetMissionRequest) -> GetMissionResponse:
         """Give the stored mission."""

@@ -310,7 +310,10 @@ class Station:
 
     def _measured(self) -> MeasuredState:
         where = self.autonomy.pose_estimator
-        return self.readiness.sensor_health.measured(where.pose, spread=where.spread, sure=where.sure)
+        up = where.vertical
+        return self.readiness.sensor_health.measured(
+            where.pose, spread=where.spread, sure=where.sure, height=up.height, height_spread=up.spread
+        )
 
     def _hold_queue(self, why: str) -> None:
         self.agenda.hold(why)  # which is made later

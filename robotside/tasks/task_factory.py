@@ -29,6 +29,7 @@ from robotside.tasks.behaviours.lead import lead
 from robotside.tasks.behaviours.patrol import at_place, patrol, patrol_course, single, way
 from robotside.tasks.behaviours.situation import Situation
 from robotside.tasks.engine import Task
+from robotside.tasks.order_heights import OrderHeights
 from robotside.tasks.task_places import TaskPlaces
 
 __all__ = ["TaskFactory", "tasks_of", "words_for"]
@@ -44,9 +45,6 @@ MAX_NAME = 64
 
 MAX_DURATION = 24 * 3600.0
 """To hold or to follow a heading, where a time is given [s]."""
-
-MIN_HEIGHT = 0.3
-"""A robot that flies is sent no lower [m]."""
 
 _WORDS = {
     "patrol": "a patrol",
@@ -95,10 +93,10 @@ class TaskFactory:
 
         `heights` are the lowest and the highest at which it can and may be, above the map's origin [m].
         """
-        self._heights = heights
+        self._heights = OrderHeights(info, heights)
         self._navigator, self._situation, self._info = navigator, situation, info
         self._say, self._rng, self._records, self._fault = say, rng, records, fault
-        self._places = TaskPlaces(records, fault)
+        self._places = TaskPlaces(records, fault, self._heights)
         self._makers: dict[str, Callable[[TaskOrder], Task]] = {
             "patrol": self._patrol,
             "deliver": self._deliver,
@@ -124,7 +122,7 @@ class TaskFactory:
             said = f"{self._info.name} does not know {words_for(order.task)}; it knows {', '.join(known)}."
             raise Refusal(Notice(Code.TASK_UNABLE, said, robot=self._info.name, task=order.task))
         order = _tidy(order)
-        self._check_height(order.height)
+        self._heights.check(order.height)
         if self._situation.flight == "turned_over":
             said = f"{self._info.name} has turned over; put it upright first."
             raise Refusal(Notice(Code.ROBOT_OVERTURNED, said, robot=self._info.name))
@@ -193,8 +191,11 @@ class TaskFactory:
             else [f"Goal {n} of {len(goals)}" for n in range(1, len(goals) + 1)]
         )
         for name, goal in zip(names, goals, strict=True):
-            self._places.check(name, goal.x, goal.y)
-        points = [Goal(name, goal.x, goal.y, goal.yaw) for name, goal in zip(names, goals, strict=True)]
+            self._places.check(name, goal.x, goal.y, goal.height)
+        points = [
+            Goal(name, goal.x, goal.y, goal.yaw, height=goal.height)
+            for name, goal in zip(names, goals, strict=True)
+        ]
         course = Course(points)
         tree = way(course, self._navigator, self._situation, self._say if len(goals) > 1 else None)
         return Task("go_to", "Way to the goal", tree, course, done=lambda: "Way to the goal done.")
@@ -203,7 +204,7 @@ class TaskFactory:
         home = self._places.home()
         if home is None:
             raise Refusal(Notice(Code.HOME_UNSET, "Home is not set; set it on the map first."))
-        self._places.check("Home", home.x, home.y)
+        self._places.check("Home", home.x, home.y, home.height)
         course, tree = single("Home", home, self._navigator, self._situation)
         if "land" in tasks_of(self._info):
             down = Land(self._navigator, self._situation)
@@ -250,24 +251,6 @@ class TaskFactory:
         """Of a task that visits nothing and takes as long as it takes."""
         return Span(math.nan, lambda: self._situation.worked)
 
-    def _check_height(self, height: float) -> None:
-        """Refuse a height at which a robot of this kind cannot be."""
-        if math.isnan(height):
-            return
-        name, kind = self._info.name, kind_of(self._info.kind)
-        if not (kind.flies or kind.dives):
-            raise Refusal(Notice(Code.HEIGHT_UNUSED, f"{name} keeps no height; leave it out.", robot=name))
-        lowest, highest = self._heights
-        lowest, highest = (max(MIN_HEIGHT, lowest), highest) if kind.flies else (lowest, min(0.0, highest))
-        lowest = math.ceil(10 * lowest) / 10 if lowest > -math.inf else lowest
-        highest = math.floor(10 * highest) / 10 if highest < math.inf else highest
-        if math.isinf(height) or not lowest <= height <= highest:
-            allowed = _span_words(lowest, highest, "" if kind.flies else ", 0 being the surface")
-            where = f" in {self._info.world}" if self._info.world else ""
-            said = f"The height of {name}{where} must be {allowed}, not {height:g} m."
-            code = Code.HEIGHT_INVALID
-            raise Refusal(Notice(code, said, height=height, lowest=lowest, highest=highest))
-
     def _dock(self, order: TaskOrder) -> Task:
         dock = self._places.dock(order)
         if math.isnan(dock.yaw):
@@ -287,15 +270,6 @@ class TaskFactory:
             said = f"The duration must be {allowed}, not {order.duration:g} s."
             raise Refusal(Notice(Code.DURATION_INVALID, said, duration=order.duration, max=MAX_DURATION))
         return Span(order.duration, lambda: self._situation.worked)
-
-
-def _span_words(lowest: float, highest: float, more: str) -> str:
-    """The allowed range, as in `from 0.3 to 30 m`."""
-    if math.isinf(highest):
-        return f"at least {lowest:g} m{more}"
-    if math.isinf(lowest):
-        return f"at most {highest:g} m{more}"
-    return f"from {lowest:g} to {highest:g} m{more}"
 
 
 def _tidy(order: TaskOrder) -> TaskOrder:

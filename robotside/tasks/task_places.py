@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 from bridge.core.codes import Code
@@ -9,6 +10,7 @@ from bridge.msgs.pilothouse_msgs import Mission, Place, TaskOrder, Waypoint
 from robotside.core.notice import Notice, Problem
 from robotside.core.refusal import Refusal
 from robotside.records import Records
+from robotside.tasks.order_heights import OrderHeights
 
 __all__ = ["TaskPlaces"]
 
@@ -19,9 +21,11 @@ MAX_NAMED = 8
 class TaskPlaces:
     """Looks up places for tasks. Every method raises Refusal with one sentence for a place that cannot be used."""
 
-    def __init__(self, records: Records, fault: Callable[[str, float, float], Problem]) -> None:
+    def __init__(
+        self, records: Records, fault: Callable[[str, float, float], Problem], heights: OrderHeights
+    ) -> None:
         """`fault` gives the reason why the robot cannot or may not stand at a place of that name; empty when it can."""
-        self._records, self._fault = records, fault
+        self._records, self._fault, self._heights = records, fault, heights
 
     def home(self) -> Waypoint | None:
         """Where the robot returns to: the mission's home, else the first place that is one; None when it is not set."""
@@ -32,9 +36,11 @@ class TaskPlaces:
         return Waypoint(place.x, place.y, place.yaw) if place else None
 
     def check_mission(self, mission: Mission) -> None:
-        """Look whether the robot can stand at every point of `mission`."""
+        """Look whether the robot can be at every point of `mission`, and at home, also at the height that they name."""
         for number, point in enumerate(mission.waypoints, 1):
-            self.check(f"Point {number}", point.x, point.y)
+            self.check(f"Point {number}", point.x, point.y, point.height)
+        for home in mission.home:
+            self.check("Home", home.x, home.y, home.height)
 
     def named(
         self, order: TaskOrder, least: int, most: int, rule: str, *, stands: bool = True
@@ -71,8 +77,9 @@ class TaskPlaces:
         which = f"there are {there}" if known else "no place has a name yet"
         raise Refusal(Notice(Code.PLACE_UNKNOWN, f"There is no place {name!r}; {which}.", place=name))
 
-    def check(self, name: str, x: float, y: float) -> None:
-        """Refuse a place [m, in `map`] called `name` where the robot cannot or may not stand."""
+    def check(self, name: str, x: float, y: float, height: float = math.nan) -> None:
+        """Refuse a place [m, in `map`] called `name`, at a `height` or NaN for any, where the robot cannot or may not be."""
         problem = self._fault(name, x, y)
         if problem:
             raise Refusal(problem)
+        self._heights.check_point(height, name)

@@ -10,7 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from bridge.msgs.pilothouse_msgs import CommandRequest, Waypoint
+from bridge.core.codes import Code
+from bridge.msgs.geometry_msgs import Point, Pose, PoseStamped, Quaternion
+from bridge.msgs.pilothouse_msgs import CommandRequest, Mission, Waypoint
+from robotside.services.command_messages import listener
+from robotside.tasks.behaviours.course import Course
+from robotside.tasks.behaviours.patrol import patrol_route
 from sim.robot import make
 from tests.robotside.sim_run import Run
 
@@ -97,6 +102,30 @@ def test_it_follows_a_heading_in_the_air(run: Run) -> None:
     assert height(run) > 1.5
 
 
+def test_it_visits_points_at_their_heights_also_one_above_the_other(run: Run) -> None:
+    x, y = -17.5, -7.0
+    points = [Waypoint(x, y, height=1.5), Waypoint(x, y, height=4.0), Waypoint(x, y + 2.0)]
+    run.patrol(points, home=[HOME])
+    reached = list[float]()
+    while run.station.autonomy.engine.running:
+        run.wait(0.1)
+        if run.task.visited > len(reached):
+            reached.append(height(run))
+    assert run.task.reason == "Patrol done: 3 points visited."
+    assert reached == pytest.approx([1.5, 4.0, 4.0], abs=0.3)
+    with pytest.raises(AssertionError, match=r"at point 2 must be from 0.3 to 30 m, not 31 m"):
+        run.patrol([Waypoint(x, y), Waypoint(x, y, height=31.0)], home=[HOME])
+
+
+def test_a_published_goal_has_its_height_and_one_of_a_flat_map_keeps_it(run: Run) -> None:
+    for z, kept in ((3.0, 3.0), (0.0, 3.0)):
+        goal = PoseStamped(pose=Pose(Point(-17.5, -9.0 + z, z), Quaternion.from_yaw(0.0)))
+        assert not listener(run.station)(run.anna, "/goal_pose", goal, None)
+        run.finish()
+        assert run.task.reason == "Way to the goal done."
+        assert height(run) == pytest.approx(kept, abs=0.3)
+
+
 def test_a_height_that_it_does_not_reach_is_refused(run: Run) -> None:
     said = "The height of Ardrone-1 in parking_lot must be from 0.3 to 30 m, not"
     for task, height in itertools.product(("take_off", "hold", "follow_heading"), (0.0, 30.2, 1e9, math.inf)):
@@ -118,3 +147,23 @@ def test_on_its_back_it_takes_no_task_and_no_stick_moves_it_and_that_is_said(run
     run.order("take_off", height=1.5)
     run.finish()
     assert run.task.reason == "In the air."
+
+
+def test_a_height_beyond_reach_in_its_course_ends_the_patrol_where_it_hovers(run: Run) -> None:
+    run.patrol([Waypoint(-17.5, -9.0, height=2.0), Waypoint(-17.5, -7.0)], laps=0)
+    run.until(lambda: run.task.visited == 1, 60.0)
+    task = run.station.autonomy.engine.task
+    assert task is not None
+    assert isinstance(task.course, Course)
+    # as if it had got past every check before
+    task.course.edit(patrol_route(Mission(waypoints=[Waypoint(-17.5, -7.0, height=1e308)])))
+    heights = []
+    while run.station.autonomy.engine.running:
+        run.wait(0.1)
+        heights.append(height(run))
+    assert run.task.state == "FAILED"
+    assert run.task.code == Code.HEIGHT_INVALID
+    run.wait(5.0)
+    assert max(*heights, height(run)) < 2.5
+    assert height(run) == pytest.approx(2.0, abs=0.3)
+    assert not any("fault" in event.text for event in run.station.events.since(0, ""))

@@ -138,6 +138,7 @@ class Pose:
     yaw: Annotated[float | None, About("[rad], 0 east, anticlockwise")]
     stamp: Annotated[float, About("when, the robot's time [s]")]
     sure: Annotated[bool, About("it is certain of it")]
+    height: Annotated[float | None, About("above the map's origin [m], negative under water")] = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,6 +205,7 @@ class Waypoint:
     x: Annotated[float, About("east of the map's origin [m]", -1e5, 1e5)]
     y: Annotated[float, About("north of the map's origin [m]", -1e5, 1e5)]
     yaw: _Angle = None
+    height: Annotated[float | None, About("to be at there, above the map's origin [m]", -1e4, 1e4)] = None
 
 
 @dataclass(frozen=True, slots=True)

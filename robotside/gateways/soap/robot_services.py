@@ -130,16 +130,13 @@ class RobotServices:
         )
         return _done(await _answered(visitor.call(STOP, raw)))
 
-    async def _order(self, call: Call, service: str, request: CommandRequest) -> Done:
-        return _done(await _answered(call.visitor.call(service, to_json(request))))
-
     async def _plain(self, service: str, call: Call) -> Done:
-        return await self._order(call, service, CommandRequest(**call.command))
+        return await _ordered(call, service, CommandRequest(**call.command))
 
     async def _start(self, call: Call, order: TaskOrder) -> Done:
         instead = bool(call.request.instead)
         request = msgs.StartTaskRequest(order=order, instead=instead, **call.command)
-        return await self._order(call, "/task/start", request)
+        return await _ordered(call, "/task/start", request)
 
     async def _deliver(self, call: Call) -> Done:
         asked: messages.Deliver = call.request
@@ -162,7 +159,7 @@ class RobotServices:
         order = TaskOrder(
             task=asked.task,
             places=list(asked.place),
-            goals=[msgs.Waypoint(each.x, each.y, _number(each.yaw)) for each in asked.goal],
+            goals=[_waypoint(each) for each in asked.goal],
             message=asked.message or "",
             heading=_number(asked.heading),
             speed=_number(asked.speed),
@@ -179,7 +176,7 @@ class RobotServices:
             increments=Float64Array(asked.increment),
             gripper=_number(asked.gripper),
         )
-        return await self._order(call, "/arm/move", msgs.MoveArmRequest(order=order, **call.command))
+        return await _ordered(call, "/arm/move", msgs.MoveArmRequest(order=order, **call.command))
 
     async def _call_service(self, call: Call) -> messages.Answer:
         asked: messages.CallService = call.request
@@ -247,8 +244,9 @@ class RobotServices:
         told = _last(self._door, "/pose", PoseWithCovarianceStamped)
         if told is None:
             raise Refused("The robot has not said yet where it is.")
-        pose, stamp = Pose2.from_msg(told.pose.pose), told.header.stamp
-        return messages.Pose(pose.x, pose.y, pose.yaw, stamp.seconds, self._door.health.position_sure)
+        x, y, yaw = Pose2.from_msg(told.pose.pose)
+        sure, height = self._door.health.position_sure, told.pose.pose.position.z
+        return messages.Pose(x, y, yaw, told.header.stamp.seconds, sure, height)
 
     async def _time(self, call: Call) -> messages.Time:
         answer = await _answered(call.visitor.call(TIME, b""))
@@ -354,6 +352,14 @@ def _done(answer: bytes) -> Done:
     if not found.success:
         raise Refused(Notice.of(found.message, found))
     return Done(found.message)
+
+
+async def _ordered(call: Call, service: str, request: CommandRequest) -> Done:
+    return _done(await _answered(call.visitor.call(service, to_json(request))))
+
+
+def _waypoint(goal: messages.Waypoint) -> msgs.Waypoint:
+    return msgs.Waypoint(goal.x, goal.y, _number(goal.yaw), height=_number(goal.height))
 
 
 def _number(value: float | None) -> float:

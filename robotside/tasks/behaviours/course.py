@@ -295,4 +295,5 @@ class Span:
 
 
 def _apart(a: Goal, b: Goal) -> float:
-    return math.hypot(a.x - b.x, a.y - b.y)
+    up = 0.0 if math.isnan(a.height + b.height) else a.height - b.height
+    return math.hypot(a.x - b.x, a.y - b.y, up)

@@ -10,6 +10,7 @@ from py_trees.common import Status
 
 from robotside.navigation.navigator import Goal, LegState, Navigator
 from robotside.tasks.behaviours.course import Course
+from robotside.tasks.behaviours.reach_height import ReachHeight
 from robotside.tasks.behaviours.situation import Situation
 
 __all__ = ["LEG_STATUS", "DriveTo"]
@@ -41,10 +42,12 @@ class DriveTo(Behaviour):
         super().__init__("drive to point")
         self._course, self._navigator, self._situation, self._words = course, navigator, situation, words
         self._was, self._since = situation.pose, situation.worked
+        self._level = ReachHeight(navigator, situation)
 
     def initialise(self) -> None:
         """Set out for the course's point."""
         self._navigator.head_for(self._course.goal)
+        self._level.begin(self._course.goal)
         self._was, self._since = self._situation.pose, self._situation.worked
 
     def update(self) -> Status:
@@ -68,6 +71,10 @@ class DriveTo(Behaviour):
         if self._navigator.planning:
             now.report("planning", f"Looking for a way to {goal.spoken}.", place=goal.place)
             return LEG_STATUS[leg]
+        if leg is LegState.ARRIVED and (level := self._level.update(goal)) is not Status.SUCCESS:
+            self._was, self._since = now.pose, now.worked
+            self.feedback_message = self._navigator.reason
+            return level
         said = f"Makes no way to {goal.spoken}; it goes on trying." if self._stands() else self._words(goal)
         now.report("turning" if self._navigator.turning else "driving", said, place=goal.place)
         return LEG_STATUS[leg]

@@ -143,4 +143,5 @@ def _dwell(mission: Mission) -> float:
 
 def _goal(name: str, place: Waypoint) -> Goal:
     called = place.name or ("Home" if name == "Home" else "")
-    return Goal(f"{name}, {place.name}," if place.name else name, place.x, place.y, place.yaw, called)
+    spoken = f"{name}, {place.name}," if place.name else name
+    return Goal(spoken, place.x, place.y, place.yaw, called, place.height)

@@ -24,13 +24,15 @@ MOVING = Twist(Vector3(0.3, 0.1), Vector3(0.0, 0.0, 0.2))
 ODOM = Odometry(pose=PoseWithCovariance(Pose(Point(0.0, 0.0, -2.0))), twist=TwistWithCovariance(MOVING))
 
 
-def test_odometry_tells_speed_and_height_and_the_imu_how_it_is_tilted() -> None:
+def test_odometry_tells_the_speed_and_the_imu_how_it_is_tilted_and_the_height_is_what_was_made_of_both() -> (
+    None
+):
     sensor_health = SensorHealth()
     assert math.isnan(sensor_health.measured(None).height)
     sensor_health.on_message("/odom", ODOM, 1.0)
     sensor_health.on_message("/imu/data", Imu(orientation=Quaternion.from_rpy(0.1, -0.2, 3.0)), 1.0)
-    found = sensor_health.measured(Pose2(1.0, 2.0, 3.0))
-    assert (found.moving, found.height) == (PlanarVelocity(0.3, 0.1, 0.2), -2.0)
+    found = sensor_health.measured(Pose2(1.0, 2.0, 3.0), height=-2.0, height_spread=0.1)
+    assert (found.moving, found.height, found.height_spread) == (PlanarVelocity(0.3, 0.1, 0.2), -2.0, 0.1)
     assert math.isclose(found.roll, 0.1)
     assert math.isclose(found.pitch, -0.2)
     assert found.pose == (1.0, 2.0, 3.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
@@ -130,6 +131,33 @@ def test_a_fence_has_a_bounded_number_of_areas() -> None:
 def test_a_least_depth_below_the_greatest_is_said() -> None:
     with pytest.raises(BadConfig, match=r"limits.min_depth must be less than max_depth, 2 m, not 3 m\."):
         parse("[limits]\nmin_depth = 3\nmax_depth = 2")
+
+
+def test_the_tightest_of_height_depth_floor_and_ceiling_counts() -> None:
+    told = parse("[limits]\nmin_depth = 1\nmax_depth = 9\nfloor = -6.5\nceiling = -0.5").limits
+    assert (told.lowest, told.highest) == (-6.5, -1.0)
+    told = parse("[limits]\nmax_height = 12\nfloor = 1.5\nceiling = 20").limits
+    assert (told.lowest, told.highest) == (1.5, 12.0)
+    told = parse("").limits
+    assert (told.lowest, told.highest) == (-math.inf, math.inf)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (
+            "floor = 3\nceiling = 2",
+            "the fence's floor must be below its ceiling, 2 m, not at 3 m, depths included.",
+        ),
+        ("floor = 3\nmax_height = 3", "the fence's floor must be below its ceiling, 3 m, not at 3 m"),
+        ("ceiling = -5\nmax_depth = 4", "the fence's floor must be below its ceiling, -5 m, not at -4 m"),
+        ("floor = nan", "limits.floor must be a number, not nan."),
+        ("ceiling = -inf", "limits.ceiling must be a number, not -inf."),
+    ],
+)
+def test_a_fence_without_room_between_floor_and_ceiling_is_said(words: str, said: str) -> None:
+    with pytest.raises(BadConfig, match=said):
+        parse(f"[limits]\n{words}")
 
 
 def test_a_file_that_cannot_be_read_is_said(tmp_path: Path) -> None:

@@ -177,10 +177,6 @@ def test_far_from_both_ends_a_command_is_left_as_it_is() -> None:
     assert keeper.clamp(wanted, at(-10.0, pitch=0.3)).twist == wanted
 
 
-def test_without_a_height_that_is_measured_nothing_is_known_to_be_kept() -> None:
-    assert LimitKeeper(LimitSettings(max_height=10.0), DRONE).clamp(twist(z=1.0), HOME).twist.linear.z == 1.0
-
-
 @given(st.floats(0.0, 10.0), st.lists(st.floats(-2.0, 2.0), min_size=1, max_size=60))
 def test_whatever_is_commanded_the_height_is_kept(start: float, rates: list[float]) -> None:
     keeper, z, speed = LimitKeeper(LimitSettings(max_height=10.0), DRONE), start, 0.0
@@ -247,9 +243,11 @@ def test_started_on_a_slope_it_goes_only_down() -> None:
 
 
 def test_the_message_tells_all_and_nan_is_no_limit() -> None:
-    settings = LimitSettings(max_speed=0.5, max_slope_degrees=90.0, keep_in=(SQUARE,), keep_out=(POST,))
+    settings = LimitSettings(
+        max_speed=0.5, max_slope_degrees=90.0, clearance=0.1, keep_in=(SQUARE,), keep_out=(POST,)
+    )
     told = from_json(to_json(LimitKeeper(settings, WHEELS).message), Limits)
-    assert told.max_speed == 0.5
+    assert (told.max_speed, told.clearance) == (0.5, 0.1)
     assert told.max_slope == pytest.approx(math.pi / 2)
     assert math.isnan(told.max_depth)
     assert told.keep_out[0].points[1] == Point32(2.0, 1.0)

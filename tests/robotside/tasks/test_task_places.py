@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
-from bridge.msgs.pilothouse_msgs import Mission, Place, TaskOrder, Waypoint
+from bridge.msgs.pilothouse_msgs import Mission, Place, RobotInfo, TaskOrder, Waypoint
 from robotside.core.refusal import Refusal
 from robotside.records import Records
+from robotside.tasks.order_heights import OrderHeights
 from robotside.tasks.task_places import MAX_NAMED, TaskPlaces
 
 
@@ -23,7 +26,7 @@ def records() -> Records:
 def places(records: Records) -> TaskPlaces:
     records.places.set(Place(name="Lab", x=2.0))
     records.places.set(Place(name="Pier", x=12.0))
-    return TaskPlaces(records, east_is_barred)
+    return TaskPlaces(records, east_is_barred, OrderHeights(RobotInfo(), (-math.inf, math.inf)))
 
 
 def test_a_name_is_found_and_a_place_where_it_cannot_stand_is_refused(places: TaskPlaces) -> None:
