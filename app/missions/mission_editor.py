@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -37,20 +37,37 @@ class Draft:
     """`stop`, `report` or `circle` when one is found."""
     name: str = ""
     """What the robot keeps the mission as; empty for none."""
+    intruder_classes: tuple[str, ...] = ()
+    """What counts as an intruder; empty for what the robot thinks usual."""
+    heights: tuple[float | None, ...] = ()
+    """Of the points, above the map's origin [m]; None, and where there are fewer, for the one that the robot has."""
 
     @classmethod
     def of(cls, mission: Mission) -> Draft:
         """The draft that a robot's mission was sent as; what this app does not know about how it moves is as usual."""
         home = (mission.home[0].x, mission.home[0].y) if mission.home else None
         points = tuple((point.x, point.y) for point in mission.waypoints)
+        heights = tuple(_height(point.height) for point in mission.waypoints)
         reaction = "stop" if mission.stop_on_intruder else mission.on_intruder or "report"
         reaction = reaction if reaction in REACTIONS else "report"
         motion = mission.motion if mission.motion in MOTIONS else "loop"
-        return cls(points, home, motion, mission.dwell, mission.laps, reaction, mission.name)
+        given = heights if any(height is not None for height in heights) else ()
+        return cls(
+            points,
+            home,
+            motion,
+            mission.dwell,
+            mission.laps,
+            reaction,
+            mission.name,
+            tuple(mission.intruder_classes),
+            given,
+        )
 
     def message(self) -> Mission:
         """The same for the robot."""
-        points = [Waypoint(x, y) for x, y in self.points]
+        levels = zip(self.points, self.levels, strict=True)
+        points = [Waypoint(x, y, height=math.nan if up is None else up) for (x, y), up in levels]
         home = [Waypoint(*self.home, name="home")] if self.home else []
         return Mission(
             waypoints=points,
@@ -61,11 +78,30 @@ class Draft:
             stop_on_intruder=self.on_intruder == "stop",
             on_intruder=self.on_intruder,
             name=self.name,
+            intruder_classes=list(self.intruder_classes),
         )
+
+    @property
+    def levels(self) -> tuple[float | None, ...]:
+        """The height of each point."""
+        count = len(self.points)
+        return (*self.heights[:count], *[None] * (count - len(self.heights)))
+
+    def levelled(self, height: float | None, index: int = -1) -> Draft:
+        """The same with the point at `index`, or every one for -1, at a `height` [m]; None for the one that the robot has."""
+        levels = list(self.levels)
+        for number in range(len(levels)) if index < 0 else (index,):
+            levels[number] = height
+        return self.routed(self.points, levels)
+
+    def routed(self, points: Sequence[tuple[float, float]], levels: Sequence[float | None]) -> Draft:
+        """The same along other points at these heights."""
+        given = tuple(levels) if any(level is not None for level in levels) else ()
+        return replace(self, points=tuple(points), heights=given)
 
     def same_as(self, other: Draft) -> bool:
         """Whether both ask the same of the robot."""
-        mine, theirs = replace(self, points=(), home=None), replace(other, points=(), home=None)
+        mine, theirs = (replace(one, points=(), heights=(), home=None) for one in (self, other))
         if (
             mine != theirs
             or len(self.points) != len(other.points)
@@ -75,7 +111,11 @@ class Draft:
         places = [*zip(self.points, other.points, strict=True)]
         if self.home is not None and other.home is not None:
             places.append((self.home, other.home))
-        return all(math.dist(one, two) <= NEAR for one, two in places)
+        levels = zip(self.levels, other.levels, strict=True)
+        return all(math.dist(one, two) <= NEAR for one, two in places) and all(
+            one is two or (one is not None and two is not None and abs(one - two) <= NEAR)
+            for one, two in levels
+        )
 
 
 @dataclass
@@ -155,20 +195,29 @@ class MissionEditor:
 
     def remove(self, index: int) -> None:
         """Take out the point at `index`, from 0; IndexError when there is none."""
-        points = list(self.draft.points)
-        del points[self._checked(index)]
-        self._edit(replace(self.draft, points=tuple(points)))
+        points, levels = list(self.draft.points), list(self.draft.levels)
+        del points[self._checked(index)], levels[index]
+        self._edit(self.draft.routed(points, levels))
 
     def reorder(self, index: int, target: int) -> None:
         """Move the point at `index` to the place `target` in the order, both from 0; IndexError when there is none."""
-        points = list(self.draft.points)
-        point = points.pop(self._checked(index))
+        points, levels = list(self.draft.points), list(self.draft.levels)
+        point, level = points.pop(self._checked(index)), levels.pop(index)
         points.insert(self._checked(target), point)
-        self._edit(replace(self.draft, points=tuple(points)))
+        levels.insert(target, level)
+        self._edit(self.draft.routed(points, levels))
 
     def clear(self) -> None:
         """Take out all points; home and motion stay."""
-        self._edit(replace(self.draft, points=()))
+        self._edit(replace(self.draft, points=(), heights=()))
+
+    def set_height(self, height: float | None, index: int = -1) -> None:
+        """Have the point at `index`, from 0, or every one for -1, at a `height` in `map` [m]; None for the one that the robot has."""
+        if height is not None and not math.isfinite(height):
+            raise ValueError(tr("A height needs a number, not {height}.").format(height=height))
+        if index >= 0:
+            self._checked(index)
+        self._edit(self.draft.levelled(height, index), merge=f"height {index}")
 
     def set_home(self, x: float, y: float) -> None:
         """Set the place to return to, in `map` [m]."""
@@ -297,6 +346,7 @@ class MissionEditor:
             return False
         places = [*draft.points, *([draft.home] if draft.home is not None else [])]
         numbers = [value for place in places for value in place]
+        numbers += [height for height in draft.heights if height is not None]
         known = draft.motion in MOTIONS and draft.on_intruder in REACTIONS
         if not known or not all(map(math.isfinite, [*numbers, draft.dwell])):
             return False
@@ -305,6 +355,11 @@ class MissionEditor:
         self._redo.clear()
         self.on_change()
         return True
+
+
+def _height(told: float) -> float | None:
+    """Of a point as a robot tells it: 0 and what is no number are none."""
+    return told if told and math.isfinite(told) else None
 
 
 def _check_place(x: float, y: float) -> None:

@@ -13,6 +13,7 @@ from bridge.msgs.nav_msgs import OccupancyGrid
 from bridge.msgs.pilothouse_msgs import Limits, Place, PlaceArray, RobotInfo, TaskOrder
 from widgets.core.language import tr, trn
 from widgets.map.fence import Fence
+from widgets.map.map_heights import between_words
 
 __all__ = ["Refusals", "summary"]
 
@@ -61,6 +62,13 @@ class Refusals:
         ground = self.ground
         return ground.fault(name, x, y, self._robot) if ground is not None else None
 
+    def _height_fault(self, name: str, height: float | None) -> Fault | None:
+        """Why it would not go to a point at a `height` [m]; None for no height, and when it would."""
+        said = self.fence.height_fault(name, height) if height is not None else ""
+        if not said:
+            return None
+        return Fault(said, between_words(self.fence.floor, self.fence.ceiling))
+
     @property
     def _robot(self) -> tuple[float, float] | None:
         """Where the robot is in `map` [m]; None while that is not known, or old."""
@@ -77,12 +85,12 @@ class Refusals:
 
     def faults(self, draft: Draft) -> dict[str, Fault]:
         """Name, as the robot would call it, of each point and of home that it would refuse, to why."""
-        places = [
-            (tr("Point {number}").format(number=number), point)
-            for number, point in enumerate(draft.points, 1)
-        ]
+        names = [tr("Point {number}").format(number=number) for number in range(1, len(draft.points) + 1)]
+        places = [*zip(names, draft.points, strict=True)]
         places += [(tr("Home"), draft.home)] if draft.home is not None else []
         found = {name: self.fault(name, *place) for name, place in places}
+        for name, height in zip(names, draft.levels, strict=True):
+            found[name] = found[name] or self._height_fault(name, height)
         return {name: fault for name, fault in found.items() if fault is not None}
 
     def draft(self, draft: Draft) -> dict[str, str]:

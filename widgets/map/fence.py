@@ -29,8 +29,18 @@ MAX_JUDGED = 1000
 class Fence(FenceGeometry):
     """The areas of one robot in `map` [m]; areas of one kind that touch are one."""
 
-    def __init__(self, keep_in: Sequence[Points] = (), keep_out: Sequence[Points] = ()) -> None:
-        """Corners of each area, shape (n, 2) [m]; a ring that is no area, or not finite, is left out."""
+    def __init__(
+        self,
+        keep_in: Sequence[Points] = (),
+        keep_out: Sequence[Points] = (),
+        floor: float = -math.inf,
+        ceiling: float = math.inf,
+    ) -> None:
+        """Corners of each area, shape (n, 2) [m]; a ring that is no area, or not finite, is left out.
+
+        `floor` and `ceiling` are above the map's origin [m], infinite for none.
+        """
+        self.floor, self.ceiling = floor, ceiling
         areas = _areas(keep_in), _areas(keep_out)
         self.too_large = sum(map(len, (*areas[0], *areas[1]))) > MAX_CORNERS
         """It has so many corners that nothing of it is drawn or looked at."""
@@ -44,7 +54,10 @@ class Fence(FenceGeometry):
             [np.array([[corner.x, corner.y] for corner in area.points], dtype=np.float64) for area in areas]
             for areas in (limits.keep_in, limits.keep_out)
         )
-        return cls(keep_in, keep_out)
+        low = [value for value in (limits.floor, -limits.max_depth) if math.isfinite(value)]
+        tops = (limits.ceiling, limits.max_height, -limits.min_depth)
+        high = [value for value in tops if math.isfinite(value)]
+        return cls(keep_in, keep_out, max(low, default=-math.inf), min(high, default=math.inf))
 
     def forbids(self, x: float, y: float, radius: float) -> bool:
         """Whether a robot of `radius` [m] would not go to (x, y) [m]; asked again of the same place it costs nothing."""
@@ -72,6 +85,12 @@ class Fence(FenceGeometry):
             free, wanted = said(room, "height", 2).words, said(need, "height", 2).words
             return words.format(where=where, room=free, need=wanted)
         return ""
+
+    def height_fault(self, name: str, height: float) -> str:
+        """Why the robot would not go to a `height` [m] at a place that is called `name`, as one sentence; empty for none, and where it would."""
+        if not math.isfinite(height) or self.floor <= height <= self.ceiling:
+            return ""
+        return tr("{name} is not between floor and ceiling of the robot's fence.").format(name=name)
 
 
 def _areas(rings: Sequence[Points]) -> list[Points]:

@@ -19,6 +19,7 @@ from widgets.core.language import mark, tr
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.map.fence import Border, Fence
+from widgets.map.map_heights import between_words
 
 __all__ = ["LEGEND_ROW", "fence_lines", "hatching", "legend", "legend_width", "refused_mark", "teeth"]
 
@@ -124,7 +125,7 @@ def legend(shapes: Shapes, fence: Fence, left: float, bottom: float, room: float
         )
         ground(shapes, word, tint(theme.bg, 0.85))
         yield word
-    names = [name for name, areas in ((NEVER, fence.keep_out), (STAYS, fence.keep_in)) if areas]
+    names = _names(fence)
     beside = room >= legend_width(fence)
     x, y = left, bottom + dp(LEGEND_ROW) / 2
     for name in reversed(names) if beside else names:
@@ -134,8 +135,15 @@ def legend(shapes: Shapes, fence: Fence, left: float, bottom: float, room: float
 
 def legend_width(fence: Fence) -> float:
     """Of the legend where all of it stands side by side [px]; 0 without one."""
-    areas = ((NEVER, fence.keep_out), (STAYS, fence.keep_in))
-    return sum(_entry_width(name) for name, found in areas if found)
+    return sum(map(_entry_width, _names(fence)))
+
+
+def _names(fence: Fence) -> list[str]:
+    """What the legend says, its last entry first: of the areas, and between which floor and ceiling it stays."""
+    levels = between_words(fence.floor, fence.ceiling)
+    return [
+        name for name, found in ((levels, levels), (NEVER, fence.keep_out), (STAYS, fence.keep_in)) if found
+    ]
 
 
 def _entry_width(name: str) -> float:
@@ -153,6 +161,11 @@ def _entry(shapes: Shapes, name: str, left: float, y: float) -> Word:
         starts, ends = hatching(corners, (left, y), (left, y - high, wide, 2 * high))
         shapes.segments(starts, ends, dp(1.7), theme.warn)
         shapes.line(np.concatenate([corners, corners[:1]]), dp(1.6), theme.warn)
+    elif name != STAYS:
+        bars = np.array([[left, y - dp(5)], [left, y + dp(5)]])
+        shapes.segments(bars, bars + np.array([wide, 0.0]), dp(2.4), theme.warn)
+        post = np.array([[left + wide / 2, y - dp(5)]])
+        shapes.segments(post, post + np.array([0.0, dp(10)]), dp(1.6), theme.warn)
     else:
         line = Border(np.array([[left, y + dp(3)]]), np.array([[left + wide, y + dp(3)]]))
         shapes.segments(line.starts, line.ends, dp(2.4), theme.warn)

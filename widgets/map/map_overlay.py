@@ -39,6 +39,7 @@ from widgets.map import fence_marks
 from widgets.map import map_marks as marks
 from widgets.map.fence import Fence
 from widgets.map.map_candidates import MapCandidates
+from widgets.map.map_heights import height_marks
 from widgets.map.map_measure import measure_marks
 from widgets.map.map_viewport import SMALL
 
@@ -63,7 +64,7 @@ class MapOverlay(MapCandidates, Drawing):
     drawn_from: ClassVar[tuple[str, ...]] = (
         "view", "waypoints", "selected", "home", "placed", "grip", "mode", "robot", "robot_radius", "camera_fov",
         "plan", "places", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets", "fence", "foot", "refused",
-        "footprint", "measured", "unplaced", "candidates", "doubt",
+        "footprint", "measured", "unplaced", "candidates", "doubt", "height_words", "heights",
     )  # fmt: skip
 
     plan: ObjectProperty[Points] = ObjectProperty(NOTHING, force_dispatch=True)
@@ -200,6 +201,8 @@ class MapOverlay(MapCandidates, Drawing):
             visited=self.visited, coming=self.coming, selected=self.selected,
             refused={place for place in places if self._would_refuse(*place)},
         )  # fmt: skip
+        if min(self.size) >= dp(SMALL):
+            yield from height_marks(shapes, view, places, self.heights, self.mark_radius)
         yield from self._refused(shapes, places, home)
 
     def _refused(
@@ -226,7 +229,9 @@ class MapOverlay(MapCandidates, Drawing):
         yield from self._alarms(shapes)
         if self.located:
             x, y, yaw = self.robot
-            self._robot_shapes(shapes, (x, y, yaw), faded=self.state == "stale", alarm=self.state == "alarm")
+            stale, alarm = self.state == "stale", self.state == "alarm"
+            self._robot_shapes(shapes, (x, y, yaw), faded=stale, alarm=alarm)
+            yield from self._robot_words(shapes, (x, y, yaw), faded=stale)
         else:
             x, y = self._free_middle()
             words = self.unplaced or tr("Its place on this map is not known yet")

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 from kivy.metrics import dp
-from kivy.properties import BooleanProperty, ListProperty, NumericProperty
+from kivy.properties import BooleanProperty, ListProperty, NumericProperty, StringProperty
 
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.pilothouse_msgs import RobotInfo
+from widgets.core.canvas_ink import Word
 from widgets.core.geometry import Points, Trail, View
 from widgets.core.shapes import Shapes
 from widgets.map import map_marks as marks
+from widgets.map.map_heights import pose_words, robot_height
 from widgets.map.map_viewport import MapViewport
 
 __all__ = ["MapRobot", "corners", "turned"]
@@ -38,6 +40,10 @@ class MapRobot(MapViewport):
     """Corners of its outline in `base_link`, (x ahead, y left) [m]; empty draws a disc."""
     camera_fov = NumericProperty(math.nan)
     """Horizontal field of view of its camera [rad]; NaN draws none."""
+    height_words = StringProperty("")
+    """How high or deep it is, beside its sign; empty on the ground and at the surface, and where that is not known."""
+    heights: ListProperty[float | None] = ListProperty()
+    """Of the waypoints, in their order, above the map's origin [m]; None, and where there are fewer, for none of its own."""
     heading_up = BooleanProperty(False)
     """While the robot is followed, the way it looks is up; else the map stays turned as it is."""
 
@@ -97,6 +103,7 @@ class MapRobot(MapViewport):
 
     def _show_pose(self, msg: PoseWithCovarianceStamped) -> None:
         pose, first = msg.pose.pose, not self.located
+        self.height_words = pose_words(msg)
         place = [pose.position.x, pose.position.y, pose.orientation.yaw]
         if not (self.located and self._looks_alike(place)):
             self.robot = place
@@ -135,6 +142,16 @@ class MapRobot(MapViewport):
             marks.outline_mark(shapes, outline, faded=faded, alarm=alarm)
             disc = min(disc, self.mark_radius * 1.1, float(np.ptp(outline, axis=0).min()) * 0.4)
         marks.robot_mark(shapes, self.view, pose, disc, fov=fov, faded=faded, alarm=alarm)
+
+    def _robot_words(
+        self, shapes: Shapes, pose: tuple[float, float, float], *, faded: bool
+    ) -> Iterator[Word]:
+        """What stands beside its sign: how high or deep it is."""
+        outline, low = self._outline(pose), self._robot_disc()
+        if outline is not None:
+            low = max(low, float(np.ptp(outline, axis=0).max()) / 2)
+        at = self.view.to_screen(*pose[:2])
+        yield from robot_height(shapes, at, self.height_words, low, faded=faded)
 
 
 def corners(info: RobotInfo) -> list[tuple[float, float]]:

@@ -135,7 +135,7 @@ class InsetMap:
             self.map.robot_radius, self.map.camera_fov = info.radius or self.map.robot_radius, info.camera_fov
             self.map.footprint = corners(info)
         self.map.waypoints, self.map.home = list(draft.points), list(draft.home or ())
-        self.map.motion_name = draft.motion
+        self.map.motion_name, self.map.heights = draft.motion, list(draft.levels)
         self._place_centre()
 
     def rest(self) -> None:

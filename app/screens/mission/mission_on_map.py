@@ -32,11 +32,12 @@ class MissionOnMap:
         self._judged = -math.inf
         self._ran = False
         """A task ran when the robot last told of it."""
+        maps.shown.bind(selected=lambda *_: self.show_heights())
 
     def show_draft(self) -> None:
         """Bring the draft up to date, on the map and in the panel."""
         draft, area = self._session.mission.draft, self._maps.shown
-        area.waypoints = list(draft.points)
+        area.waypoints, area.heights = list(draft.points), list(draft.levels)
         area.home = list(draft.home or ())
         if area.selected >= len(draft.points):
             area.selected = -1
@@ -44,6 +45,12 @@ class MissionOnMap:
         self._panel.refused = summary(self._session.refusals.draft(draft).values())
         self._panel.show_draft()
         self._pointing.show()
+        self.show_heights()
+
+    def show_heights(self) -> None:
+        """Bring the control of heights up to date: of the point that is selected, else of all."""
+        area, robot = self._maps.shown, self._session.robot
+        self._panel.heights.show(self._session.mission.draft.levels, int(area.selected), robot.info)
 
     def tick(self) -> None:
         """Bring up to date what time changes: where ways lead to depends on where the robot is."""

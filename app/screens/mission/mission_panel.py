@@ -22,6 +22,7 @@ from widgets.instruments.readout import ReadoutGrid
 from widgets.parts.column import Column
 from widgets.parts.kit import Card
 from widgets.status.event_log import ago, appearance
+from widgets.tasks.height_row import HeightRow
 from widgets.tasks.task_card import figures_words, is_lap_only
 
 __all__ = ["MissionPanel"]
@@ -202,6 +203,7 @@ class MissionPanel(BoxLayout):
         self._session = session
         self._send, self._progress, self._latest = SendRow(), ProgressRow(), LatestEvent()
         self.motion, self.tasks, self.events = MotionSelector(), TaskButtons(), EventLog(size_hint_y=1)
+        self.heights = HeightRow(session.mission.set_height)
         self.speed = Readout(name=tr("Speed"), unit="m/s", decimals=2, path="twist.twist.linear.x")
         self.next = Readout(name=tr("Next point"), unit="m", decimals=1)
         self.next.brief_name = tr("Next", context="point")
@@ -225,7 +227,7 @@ class MissionPanel(BoxLayout):
         self._fold_soon = Clock.create_trigger(self._fold, -1)
         self.ids.scroll.bind(height=self._fold_soon)
         self.bind(sheet_open=self._fold_soon)
-        for widget in (self._send, self._progress, self.tasks, self.figures, self.motion):
+        for widget in (self._send, self._progress, self.tasks, self.figures, self.motion, self.heights):
             widget.bind(height=self._fold_soon)
 
     def _bind(self, dashboard: Dashboard) -> None:
@@ -261,15 +263,16 @@ class MissionPanel(BoxLayout):
         """What is in sight at rest, and what a phone has to be scrolled or its sheet drawn up for."""
         if self._session.robot.lacks_tasks:
             return [self.lacking, *([self.plain] if self.form == "short" else []), self._rest], []
+        route: list[Widget] = [self.motion, self.heights] if self.heights.levels else [self.motion]
         if self.form == "wide":
-            return [self._send, self.motion, self.tasks, self._progress, self.events], []
+            return [self._send, *route, self.tasks, self._progress, self.events], []
         first = [] if self.form == "tall" else [self.tasks]
         if not self._session.running:
-            return [*first, self._send], [self.motion, self.events]
+            return [*first, self._send], [*route, self.events]
         if self._session.mission.state in ("draft", "sent"):
-            return [*first, self._send, self.figures], [self._progress, self.motion, self.events]
+            return [*first, self._send, self.figures], [self._progress, *route, self.events]
         latest = [self._latest] if self.form == "tall" else []
-        return [*first, self._progress, self.figures, *latest], [self._send, self.motion, self.events]
+        return [*first, self._progress, self.figures, *latest], [self._send, *route, self.events]
 
     def _reorder(self) -> None:
         above, below = self._order()

@@ -260,3 +260,54 @@ def test_every_change_is_told() -> None:
 def test_a_robots_mission_that_moves_in_a_way_nobody_knows_moves_as_usual() -> None:
     draft = Draft.of(Mission(motion="[b]sideways", on_intruder="dance"))
     assert (draft.motion, draft.on_intruder) == ("loop", "report")
+
+
+def test_heights_stay_with_their_points_and_can_be_undone(editor: MissionEditor) -> None:
+    editor.set_height(4.0, 1)
+    assert editor.draft.levels == (None, 4.0, None)
+    editor.reorder(1, 0)
+    assert editor.draft.levels == (4.0, None, None)
+    editor.move(0, 9.0, 9.0)
+    editor.add(7.0, 0.0)
+    assert editor.draft.levels == (4.0, None, None, None)
+    editor.remove(1)
+    assert editor.draft.levels == (4.0, None, None)
+    editor.set_height(-1.5)
+    assert editor.draft.levels == (-1.5, -1.5, -1.5)
+    editor.undo()
+    assert editor.draft.levels == (4.0, None, None)
+    editor.set_height(None)
+    assert editor.draft.heights == ()
+    editor.clear()
+    editor.add(1.0, 1.0)
+    assert editor.draft.levels == (None,)
+
+
+def test_heights_go_to_the_robot_and_come_back_and_a_mission_without_them_is_as_before(
+    editor: MissionEditor,
+) -> None:
+    editor.set_height(4.0, 1)
+    sent = editor.sending()
+    assert [point.height for point in sent.waypoints][1] == 4.0
+    assert math.isnan(sent.waypoints[0].height)
+    assert Draft.of(sent).same_as(editor.draft)
+    editor.robot_has(sent)
+    assert editor.state == "stored"
+    editor.set_height(4.5, 1)
+    assert editor.state == "draft"
+    assert Draft.of(Mission(waypoints=[Waypoint(1.0, 2.0, height=0.0)])).heights == ()
+    other = MissionEditor()
+    assert other.load(editor.save())
+    assert other.draft == editor.draft
+    old = {key: value for key, value in editor.save().items() if key != "heights"}
+    assert other.load(old)
+    assert other.draft.levels == (None, None, None)
+
+
+@pytest.mark.parametrize("height", [math.nan, math.inf])
+def test_a_height_that_is_no_number_is_refused(editor: MissionEditor, height: float) -> None:
+    with pytest.raises(ValueError, match="A height needs a number"):
+        editor.set_height(height, 0)
+    with pytest.raises(IndexError):
+        editor.set_height(1.0, 3)
+    assert not editor.load({"points": [[0.0, 0.0]], "heights": [height]})

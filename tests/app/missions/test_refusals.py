@@ -151,3 +151,12 @@ def test_what_steers_like_a_car_is_judged_by_its_width():
             "/robot/info", Post(RobotInfo(radius=1.6, footprint=outline, min_radius=min_radius), 0.0, 1)
         )
         assert len(refusals.draft(draft)) == sentences
+
+
+def test_a_point_beyond_floor_or_ceiling_is_said_with_what_is_allowed(feeds, refusals):
+    feeds.put("/limits", Post(Limits(floor=1.0, ceiling=14.0), 0.0, 2))
+    draft = Draft(points=((5.0, 5.0), (6.0, 5.0), (7.0, 5.0)), heights=(20.0, None, 3.0))
+    found = refusals.faults(draft)
+    assert list(found) == ["Point 1"]
+    assert found["Point 1"].sentence == "Point 1 is not between floor and ceiling of the robot's fence."
+    assert found["Point 1"].brief.replace("\u00a0", " ") == "Height 1.0 m to 14.0 m"
