@@ -119,6 +119,8 @@ SENTENCES: Mapping[str, str] = {
     Code.TASK_RESUMED: mark("{task} resumed."),
     Code.TASK_DONE: mark("{task} is done."),
     Code.TASK_FAILED: mark("{task} failed."),
+    Code.TASK_PLACE_UNSURE: mark("There, unsure of its place. Place the robot on the map, then start again."),
+    Code.TASK_PLACE_ASKED: mark("Unsure of its place: several fit. Choose the right one on the map."),
     Code.TASK_REPLACED: mark("{task} ended: {instead} was requested instead."),
     Code.TASK_INTERRUPTED: mark("A restart cut {task} short."),
     Code.TASK_STOPPED: mark("Stopped by {name}."),

@@ -239,7 +239,8 @@ class Autonomy:
         pose = estimator.pose
         if pose is None:
             return
-        self.navigator.sure = estimator.sure
+        self.navigator.sure = self.situation.sure = estimator.sure
+        self.situation.place_asked = len(estimator.candidates) > 1
         if estimator.pushes and self.engine.running and self.engine.status.phase != "docking":
             said = "Paused: the wheels turn, but something holds the robot."
             self.engine.pause(Notice(Code.TASK_HELD_FAST, said), "alarm")

@@ -101,5 +101,5 @@ def _over(status: TaskStatus, task_id: int) -> bool:
 
 def _result(status: TaskStatus) -> RunTaskResult:
     if status.state != "SUCCEEDED":
-        raise Refused(status.reason)
+        raise Refused(Notice.of(status.reason, status))
     return RunTaskResult(status.task_id, status.state, status.reason, status.visited)

@@ -62,8 +62,8 @@ class Agenda:
         self.manual = ManualHold(records, say)
         """Whether anything may start by itself at all."""
         self._next = -math.inf
-        self._settled = 0
-        """The task that does not hold the queue, however it ended."""
+        self._settled = self._excused = 0
+        """The task that does not hold the queue, however it ended; and the one that does not though it ended unsure of its place."""
         self._held_under = 0
         """The task that was under way when the queue was parked; 0 for none."""
         self.held = "the robot's computer was restarted" if records.queue.current.orders else ""
@@ -121,6 +121,8 @@ class Agenda:
         """Have the queue go on; False when it did not wait."""
         was, self.held = bool(self.held), ""
         self._settled = self._engine.status.task_id
+        if not self._engine.active:
+            self._excused = self._settled
         if was:
             self._show_queue()
         return was and bool(self._records.queue.current.orders)
@@ -194,6 +196,8 @@ class Agenda:
             return ""
         if status.state == "CANCELED" and status.task_id != self._settled and not fresh:
             return "the task before it was canceled"
+        if status.code == Code.TASK_PLACE_UNSURE and status.task_id != self._excused and not fresh:
+            return "the robot is unsure of its place"
         barred = self._barred(_drains(orders[0]))
         return _tail(barred)
 

@@ -20,6 +20,8 @@ from robotside.navigation.navigator import Navigator
 from robotside.records.events import Say
 from robotside.tasks.behaviours.course import Noted, Outline
 from robotside.tasks.behaviours.situation import Situation
+from robotside.tasks.place_trust import objection
+from robotside.tasks.task_wait import TaskWait
 
 __all__ = ["TO_CHARGE", "Engine", "Task"]
 
@@ -76,6 +78,7 @@ class Engine:
         self._navigator, self._situation = navigator, situation
         self._show, self._progress, self._say = show, progress, say
         self._clock, self._cruise = clock, cruise
+        self._wait = TaskWait(navigator, situation)
         self.task: Task | None = None
         """The task that has not ended."""
         self._begun_at = self._odometer = 0.0
@@ -147,6 +150,7 @@ class Engine:
         self._next_progress = self._ticked = now
         self._situation.begin()
         self._situation.now = now
+        self._wait.begin()
         self._navigator.keep_height(task.order.height)
         course = task.course
         code, verb = (Code.TASK_GOES_ON, "goes on") if task_id else (Code.TASK_STARTED, "started")
@@ -156,12 +160,7 @@ class Engine:
             task=task.name,
             state="RUNNING",
             **_reason(begun),
-            motion=course.motion,
-            waypoints=course.count,
-            visited=course.visited,
-            lap=course.lap,
-            laps=course.laps,
-            places=course.places,
+            **_counts(course),
             stamp=Time.at(self._clock()),
         )
         self._show(self.status)
@@ -215,6 +214,11 @@ class Engine:
         if not self.running or self.task is None:
             return
         task = self.task
+        if self._wait.waits(task.name):
+            self._halted = True  # its timers stand still
+            self._publish_status("RUNNING", here.doing.text)
+            self._report(task.course, now)
+            return
         if halted:
             here.idle += max(0.0, now - self._ticked)
         self._ticked = now
@@ -225,10 +229,17 @@ class Engine:
             self._publish_status("RUNNING", here.doing.text)
             self._report(task.course, now)
         elif task.root.status is Status.SUCCESS:
-            self._end("SUCCEEDED", Notice(Code.TASK_DONE, task.done(), task=task.name), "ok")
+            self._succeed(task)
         else:
             failed = Notice(Code.TASK_FAILED, f"{task.title} failed.", task=task.name)
             self._end("FAILED", self._navigator.reason or failed, "alarm")
+
+    def _succeed(self, task: Task) -> None:
+        """End a task that came to its end: it is done only where the robot is sure of its place."""
+        if unsure := objection(task.name, self._situation):
+            self._end("FAILED", unsure, "warn")
+            return
+        self._end("SUCCEEDED", Notice(Code.TASK_DONE, task.done(), task=task.name), "ok")
 
     def _end(self, state: str, reason: Notice, level: str) -> None:
         task, self.task = self.task, None
@@ -253,17 +264,8 @@ class Engine:
             phase=doing.phase if running else "",
             asks=doing.asks if running else "",
             place=doing.place,
+            **(_counts(course) if course else {}),
         )
-        if course:
-            fresh = msgspec.structs.replace(
-                fresh,
-                motion=course.motion,
-                waypoints=course.count,
-                visited=course.visited,
-                lap=course.lap,
-                laps=course.laps,
-                places=course.places,
-            )
         if fresh != self.status:
             self.status = msgspec.structs.replace(fresh, stamp=Time.at(self._clock()))
             self._show(self.status)
@@ -289,3 +291,15 @@ class Engine:
 def _reason(text: str) -> dict[str, Any]:
     """The fields of a status that give the reason `text`, with its code where it has one."""
     return {"reason": str(text), **coded(text)}
+
+
+def _counts(course: Outline) -> dict[str, Any]:
+    """The fields of a status that tell of the course."""
+    return {
+        "motion": course.motion,
+        "waypoints": course.count,
+        "visited": course.visited,
+        "lap": course.lap,
+        "laps": course.laps,
+        "places": course.places,
+    }

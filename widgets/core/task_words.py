@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Mission, RobotInfo, ScheduledTask, TaskOrder
 from widgets.core.language import mark, tr, trn
 from widgets.core.quantities import quantities, said
@@ -23,6 +24,7 @@ __all__ = [
     "heading_of",
     "known",
     "lacking",
+    "outcome_words",
     "rhythm",
     "span_words",
     "title",
@@ -123,6 +125,9 @@ STATES: dict[str, tuple[str, str, str]] = {
 }
 """State of a task to icon, role and word."""
 
+UNSURE_THERE = ("help", "warn", mark("there, unsure"))
+"""The same of a task that ended where the robot is unsure of its place: neither done nor failed on the way."""
+
 NEEDS = {
     "deliver": ((2, mark("Choose where to fetch it.")), (1, mark("Choose where to bring it."))),
     "guide": ((1, mark("Choose at least one place to lead to.")),),
@@ -145,6 +150,13 @@ REACTS = {
     "report": mark("Reports intruders and goes on."),
     "circle": mark("Goes once round each intruder, then on."),
 }
+
+
+def outcome_words(state: str, code: str) -> tuple[str, str, str]:
+    """Icon, role and word, in English, of a task or run in `state` whose reason has the `code`."""
+    if state == "FAILED" and code == Code.TASK_PLACE_UNSURE:
+        return UNSURE_THERE
+    return STATES.get(state, STATES["IDLE"])
 
 
 def title(order: TaskOrder) -> str:

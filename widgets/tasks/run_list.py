@@ -17,7 +17,7 @@ from kivy.uix.widget import Widget
 from bridge.msgs.pilothouse_msgs import GetHistoryResponse, TaskOrder, TaskRun
 from bridge.msgs.std_msgs import Time
 from widgets.core.language import mark, tr
-from widgets.core.task_words import STATES, distance_words, span_words, title
+from widgets.core.task_words import distance_words, outcome_words, span_words, title
 from widgets.parts.buttons import QuietButton
 from widgets.parts.listing import Listing
 from widgets.parts.rows import ListRow
@@ -32,7 +32,7 @@ MAX_RUNS = 300
 def run_words(run: TaskRun, now: float = math.nan) -> str:
     """How it ended, how far and how long it went and who asked for it, as in `done · 340 m · 12 min · tablet-B`."""
     over = run.ended.seconds if run.ended.seconds > 0 else now
-    parts = [tr(STATES.get(run.state, STATES["IDLE"])[2]), distance_words(run.distance)]
+    parts = [tr(outcome_words(run.state, run.code)[2]), distance_words(run.distance)]
     if math.isfinite(over) and run.started.seconds > 0:
         parts.append(span_words(max(0.0, over - run.started.seconds)))
     parts.append(run.by or tr("by itself"))
@@ -74,7 +74,7 @@ class RunList(Listing):
             self.ids.column.add_widget(button)
 
     def _row(self, run: TaskRun) -> ListRow:
-        icon, role, _ = STATES.get(run.state, STATES["IDLE"])
+        icon, role, _ = outcome_words(run.state, run.code)
         row = ListRow(
             icon=icon, role=role, title=title(run.order), aside=when_words(run.started.seconds, self.now)
         )

@@ -21,7 +21,7 @@ from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskStatus
 from widgets.core.base import RobotWidget
 from widgets.core.language import figure, tr
 from widgets.core.surfaces import Outlined
-from widgets.core.task_words import STATES, TASKS, distance_words, span_words, title
+from widgets.core.task_words import TASKS, distance_words, outcome_words, span_words, title
 from widgets.parts.column import Column
 
 __all__ = ["TaskCard", "figures_words", "is_lap_only"]
@@ -143,7 +143,7 @@ class TaskCard(Outlined, RobotWidget, Column):
     icon = AliasProperty(_icon, bind=["status"], cache=True)
 
     def _appearance(self) -> tuple[str, str, str]:
-        return STATES.get(self.status.state, STATES["IDLE"])
+        return outcome_words(self.status.state, self.status.code)
 
     def _state_icon(self) -> str:
         return self._appearance()[0]

@@ -50,6 +50,12 @@ class Situation:
     """How long the task was paused up to now [s]."""
     pose: Pose2 = ORIGIN
     """Of the robot in `map`."""
+    sure: bool = True
+    """That pose may be believed."""
+    place_asked: bool = False
+    """Several places of the map fit, and it is not known which of them it is at."""
+    late: bool = False
+    """The robot's computer lags too much for it to move by itself."""
     points: Points = field(default_factory=lambda: np.empty((0, 2)))
     """Points of the laser, in `base_link`."""
     confirmed_by: str = ""

@@ -1,7 +1,9 @@
 from __future__ import annotations
 
 import pytest
+from msgspec.structs import replace
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import GetHistoryResponse, TaskOrder, TaskRun
 from bridge.msgs.std_msgs import Time
 from widgets.parts.buttons import QuietButton
@@ -30,6 +32,14 @@ def test_outcome_distance_time_and_who_are_said(history):
         "failed · 1.2 km · 17 min · by itself",
     ]
     assert [row.role for row in rows(history)] == ["accent", "ok", "danger"]
+
+
+def test_a_run_that_ended_unsure_of_its_place_has_a_word_of_its_own(history):
+    history.show(
+        GetHistoryResponse(runs=[replace(SOME[1], code=Code.TASK_PLACE_UNSURE.value, state="FAILED")])
+    )
+    row = rows(history)[1]
+    assert (row.detail, row.role) == ("there, unsure · 342 m · 12 min · tablet-B", "warn")
 
 
 def test_a_tap_tells_the_reason_whole(stage, history):

@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import TaskProgress, TaskStatus
 from widgets.tasks.task_card import TaskCard, figures_words
 
@@ -65,6 +66,11 @@ def test_the_progress_of_another_task_does_not_count(card):
 def test_the_state_is_a_word_with_an_icon_of_its_own(card, state, words, role):
     card.show(TaskStatus(task="patrol", state=state))
     assert (card.phase_words, card.state_role) == (words, role)
+
+
+def test_a_task_that_ended_unsure_of_its_place_is_neither_done_nor_failed(card):
+    card.show(TaskStatus(task="go_to", state="FAILED", code=Code.TASK_PLACE_UNSURE.value))
+    assert (card.phase_words, card.state_icon, card.state_role) == ("there, unsure", "help", "warn")
 
 
 def test_no_task_is_said(card):

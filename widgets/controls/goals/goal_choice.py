@@ -53,6 +53,7 @@ OUTCOMES = {
     "waiting": (mark("Waiting"), "hourglass_top"),
     "paused": (mark("Paused"), "pause"),
     "there": (mark("There"), "check"),
+    "unsure": (mark("Unsure"), "help"),
     "canceled": (mark("Canceled"), "cancel"),
     "failed": (mark("Failed"), "block"),
     "interrupted": (mark("Cut off"), "pause"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import TaskStatus
 
 __all__ = ["GoalStatus"]
@@ -58,7 +59,7 @@ class GoalStatus:
         return True
 
     def on_status(self, status: TaskStatus) -> str | None:
-        """How the goal stands: a value of `OUTCOMES`, `waiting`, or empty when the robot does something else by now.
+        """How the goal stands: a value of `OUTCOMES`, `waiting`, `unsure` where it may be another place, or empty when the robot does something else by now.
 
         None: this tells nothing of the goal.
         """
@@ -74,4 +75,6 @@ class GoalStatus:
             return None
         if status.state == "RUNNING" and status.phase == "waiting":
             return "waiting"
+        if status.code == Code.TASK_PLACE_UNSURE and status.state == "FAILED":
+            return "unsure"
         return OUTCOMES.get(status.state, "")

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import pytest
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets.controls.goals.goal_status import GoalStatus
 
@@ -31,6 +32,13 @@ def test_its_run_tells_how_the_goal_stands(goal, state, outcome):
     goal.on_sent()
     goal.on_status(run(1))
     assert goal.on_status(run(1, state)) == outcome
+
+
+def test_a_robot_that_is_unsure_of_its_place_is_not_there(goal):
+    goal.on_sent()
+    goal.on_status(run(1))
+    ended = TaskStatus(task_id=1, task="go_to", state="FAILED", code=Code.TASK_PLACE_UNSURE.value)
+    assert goal.on_status(ended) == "unsure"
 
 
 def test_a_run_that_waits_does_not_go(goal):
