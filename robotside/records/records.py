@@ -16,6 +16,7 @@ from contextlib import AbstractContextManager
 
 from robotside.records.answers import Answers
 from robotside.records.audit import Audit
+from robotside.records.crops import Crops
 from robotside.records.database.audit_rows import Audited
 from robotside.records.database.jobs import Job
 from robotside.records.database.rows import Content, Put, empty
@@ -57,6 +58,8 @@ class Records:
         """What was done, and what is under way."""
         self.events = EventLog(self._ledger)
         """What happened."""
+        self.crops = Crops(self._ledger)
+        """Pictures of intruders."""
         self.answers = Answers(self._ledger)
         """What was answered to commands."""
         self.audit = Audit(self._ledger, audit)
@@ -135,9 +138,10 @@ class Records:
             self._ledger.fact("facts", "stopped by", by, after)
 
     def erase(self, name: str) -> Job:
-        """Erase a person's name in all that happened; the job has the outcome. See `robotside.records.erasure`."""
+        """Erase a person's name in all that happened, and the pictures of intruders, who may be anybody; the job has the outcome. See `robotside.records.erasure`."""
         with self._ledger.together() as job:
             erase(self._ledger, name)
+            self.crops.erase()
             self.audit.erase(name)
         return job
 

@@ -25,6 +25,7 @@ __all__ = ["READ_ONLY", "AuditTrail"]
 READ_ONLY = frozenset(
     {
         "call /events/get",
+        "call /events/picture",
         "call /history/get",
         "call /mission/get",
         "call /missions/get",

@@ -17,11 +17,14 @@ from bridge.msgs.pilothouse_msgs import (
     GetEventsResponse,
     GetHistoryRequest,
     GetHistoryResponse,
+    GetIntruderPictureRequest,
+    GetIntruderPictureResponse,
     GetMissionsRequest,
     GetMissionsResponse,
     SetPlaceRequest,
     SetPlaceResponse,
 )
+from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.std_msgs import Time
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
@@ -52,6 +55,13 @@ def records_services(station: Station, answering: CommandService) -> Iterable[Se
         "AcknowledgeEvents",
         AcknowledgeEventsRequest,
         AcknowledgeEventsResponse,
+    )
+    yield service(
+        "/events/picture",
+        kept.picture,
+        "GetIntruderPicture",
+        GetIntruderPictureRequest,
+        GetIntruderPictureResponse,
     )
     yield Service(
         "/events/get", "pilothouse_msgs/GetEvents", GetEventsRequest, GetEventsResponse, kept.events
@@ -115,6 +125,15 @@ class _RecordsOrders:
         )
         events = "event" if len(fresh) == 1 else "events"
         return f"{len(fresh)} {events} acknowledged." if fresh else "Already acknowledged."
+
+    def picture(self, _: Operator, asked: GetIntruderPictureRequest) -> GetIntruderPictureResponse:
+        """Give the picture of the intruder that an event reports."""
+        ours = asked.boot in ("", self._records.events.identity)
+        picture = self._records.crops.of(asked.event) if ours else b""
+        if not picture:
+            said = f"There is no picture with the event {asked.event}."
+            raise Refusal(Notice(Code.PICTURE_MISSING, said, id=asked.event))
+        return GetIntruderPictureResponse(True, picture=CompressedImage(format="jpeg", data=picture))
 
     def events(self, _: Operator, asked: GetEventsRequest) -> GetEventsResponse:
         """Give the events that a client missed."""

@@ -32,6 +32,7 @@ _WATCH = (
     f"rosapi {ANY}",
     f"page {ANY}",
     "call /events/get",
+    "call /events/picture",
     "call /history/get",
     "call /mission/get",
     "call /missions/get",

@@ -43,6 +43,7 @@ PAYLOADS: tuple[Payload, ...] = (
             _call("/mode/set", "MANUAL pauses the task, AUTO resumes it", '{"mode": "MANUAL"}'),
             _call("/settings/set", "switches a setting", '{"name": "follow_link", "value": "on"}'),
             _call("/events/get", "the events after a number", '{"since": 0, "most": 20}'),
+            _call("/events/picture", "the picture of the intruder that an event reports", '{"event": 1}'),
             _call("/events/acknowledge", "acknowledges events", '{"ids": [1]}'),
             Exchange("/gateways"),
             Exchange("/payloads"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from base64 import b64decode
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias
@@ -22,6 +23,7 @@ from robotside.records.database.soundness import Unsound, check_columns, check_c
 from robotside.records.database.tables import (
     AnswerRow,
     Base,
+    CropRow,
     EventRow,
     FactRow,
     MissionRow,
@@ -274,6 +276,11 @@ def _scheduled(row: ScheduleRow) -> ScheduledTask:
     return msgspec.structs.replace(from_json(row.content, ScheduledTask), id=row.id)
 
 
+def _crop(row: CropRow) -> str:
+    b64decode(row.picture, validate=True)  # a ValueError leaves out what is damaged
+    return row.picture
+
+
 TABLES: dict[str, _Table] = {
     "places": _Table(PlaceRow, _place_row, _place),
     "missions": _Table(
@@ -292,6 +299,7 @@ TABLES: dict[str, _Table] = {
     ),
     "runs": _Table(RunRow, _run_row, _run),
     "events": _Table(EventRow, _event_row, _event),
+    "crops": _Table(CropRow, lambda text: {"picture": _text(text)}, _crop),
     "answers": _Table(
         AnswerRow,
         lambda answered: {name: _text(text) for name, text in answered._asdict().items()},

@@ -9,6 +9,7 @@ __all__ = [
     "AnswerRow",
     "AuditRow",
     "Base",
+    "CropRow",
     "EventRow",
     "FactRow",
     "MissionRow",
@@ -113,6 +114,14 @@ class EventRow(Base):
     code: Mapped[str | None] = mapped_column(Text)
     actor_id: Mapped[str | None] = mapped_column(Text)
     parameters: Mapped[str | None] = mapped_column(Text)
+
+
+class CropRow(Base):
+    """The picture of an intruder, by the number of the event that reported it: a JPEG file in Base64."""
+
+    __tablename__ = "crops"
+    id: Mapped[int] = mapped_column(Integer, primary_key=True, autoincrement=False)
+    picture: Mapped[str] = mapped_column(Text)
 
 
 class AnswerRow(Base):
