@@ -31,7 +31,7 @@ from robotside.autonomy.map_intake import MapIntake
 from robotside.autonomy.plan_publisher import PlanPublisher
 from robotside.autonomy.sensor_silence import SensorSilence
 from robotside.autonomy.surroundings import Surroundings
-from robotside.core.bus import Bus
+from robotside.core.bus import Bus, Publish
 from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Pose2
 from robotside.core.robot import Robot
@@ -108,10 +108,8 @@ class Autonomy:
             heights=heights,
         )
         """Makes tasks of orders."""
-        response = IntruderResponse(self.engine, self.situation, records, say)
-        self.watch = IntruderWatch(
-            self.pose_estimator.track, info.camera_fov, bus.publish, response.on_intruder, worker=looker
-        )
+        response = IntruderResponse(self.engine, self.situation, records, events)
+        self.watch = _watch(self.pose_estimator, info, bus.publish, response, looker)
         self._surroundings = Surroundings(info, self.pose_estimator, self.navigator, self.watch)
         self._battery = BatteryWatch(self.engine, self.task_factory, self.situation, say)
         self._contacts = ContactWatch(self.engine, self.pose_estimator, self.situation, say)
@@ -227,7 +225,7 @@ class Autonomy:
             self.navigator.rest()
         self.navigator.obstacles.forget()
         self._surroundings.forget()
-        self.watch.intruders.forget()
+        self.watch.forget()
 
     def _on_odometry(self, msg: Odometry) -> None:
         if not math.isfinite(sum(Pose2.from_msg(msg.pose.pose))):
@@ -280,3 +278,20 @@ class Autonomy:
     def _show_status(self, status: TaskStatus) -> None:
         self._demand.set(CAMERA, "task", status.state == "RUNNING")
         self.status_publisher.show(status)
+
+
+def _watch(
+    estimator: PoseEstimator,
+    info: RobotInfo,
+    publish: Publish,
+    response: IntruderResponse,
+    looker: Worker | None,
+) -> IntruderWatch:
+    return IntruderWatch(
+        estimator.track,
+        info.camera_fov,
+        publish,
+        response.on_intruder,
+        worker=looker,
+        counts=response.counted,
+    )

@@ -1,10 +1,9 @@
-"""The detector of traffic cones in a camera picture: orange above and below white, tall and narrow."""
+"""The rule of colours for traffic cones in a camera picture: orange above and below white, tall and narrow."""
 
 from __future__ import annotations
 
 import io
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,8 +12,9 @@ from PIL import Image, UnidentifiedImageError
 from bridge.core.camera_frames import picture_size
 from bridge.core.errors import ProtocolError
 from robotside.mapping.connected_components import boxes
+from robotside.perception.sighting import Sighting
 
-__all__ = ["Sighting", "find_cones"]
+__all__ = ["cones_in", "find_cones"]
 
 SEARCH_WIDTH = 320
 """Columns of the picture that is searched; larger ones are made smaller first."""
@@ -45,33 +45,6 @@ Pixels = NDArray[np.int16]
 Box = tuple[slice, slice]
 
 
-@dataclass(frozen=True, slots=True)
-class Sighting:
-    """A cone in a picture. Lengths are parts of the picture: 0 is its left or upper edge, 1 the right or lower."""
-
-    left: float
-    top: float
-    right: float
-    bottom: float
-    score: float
-    """0 to 1."""
-
-    @property
-    def centre(self) -> float:
-        """Across the picture."""
-        return (self.left + self.right) / 2
-
-    @property
-    def width(self) -> float:
-        """Part of the picture's width."""
-        return self.right - self.left
-
-    @property
-    def height(self) -> float:
-        """Part of the picture's height."""
-        return self.bottom - self.top
-
-
 def find_cones(jpeg: bytes) -> list[Sighting]:
     """The cones in a picture, best first; a picture that cannot be read shows none."""
     try:
@@ -81,6 +54,11 @@ def find_cones(jpeg: bytes) -> list[Sighting]:
             rgb = np.asarray(image.convert("RGB"))
     except (ProtocolError, UnidentifiedImageError, OSError, ValueError):
         return []
+    return cones_in(rgb)
+
+
+def cones_in(rgb: NDArray[np.uint8]) -> list[Sighting]:
+    """The cones in a picture of red, green and blue, best first."""
     step = max(1, round(rgb.shape[1] / SEARCH_WIDTH))
     return _search(rgb[::step, ::step].astype(np.int16))
 

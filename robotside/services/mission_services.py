@@ -9,6 +9,7 @@ import msgspec
 
 from bridge.core.codes import Code
 from bridge.core.robot_catalogue import Operator, Service
+from bridge.msgs.additions import DETECTED_CLASSES
 from bridge.msgs.pilothouse_msgs import (
     MAX_DWELL,
     MAX_LAPS,
@@ -95,13 +96,14 @@ class _MissionOrders:
 
 
 def _named(mission: Mission) -> Mission:
-    """The same mission with each point's name cut to a readable line."""
+    """The same mission with each point's name cut to a readable line, one home, and each class of intruders once."""
     replace = msgspec.structs.replace
     points, home = (
         [replace(point, name=plain(point.name, MAX_NAME_LENGTH)) for point in places]
         for places in (mission.waypoints, mission.home[:1])
     )
-    return replace(mission, waypoints=points, home=home)
+    classes = list(dict.fromkeys(mission.intruder_classes))
+    return replace(mission, waypoints=points, home=home, intruder_classes=classes)
 
 
 def _check_words(mission: Mission) -> None:
@@ -112,6 +114,10 @@ def _check_words(mission: Mission) -> None:
         reaction = mission.on_intruder
         said = f"There is no reaction {reaction!r} to an intruder; there are {', '.join(REACTIONS)}."
         raise Refusal(Notice(Code.REACTION_UNKNOWN, said, reaction=reaction[:20]))
+    strange = next((kind for kind in mission.intruder_classes if kind not in DETECTED_CLASSES), None)
+    if strange is not None:
+        said = f"There is no class {strange[:20]!r} of intruders; there are {', '.join(DETECTED_CLASSES)}."
+        raise Refusal(Notice(Code.CLASS_UNKNOWN, said, kind=strange[:20]))
     if not (math.isfinite(mission.dwell) and 0 <= mission.dwell <= MAX_DWELL):
         said = f"The dwell must be 0 to {MAX_DWELL:.0f} s, not {mission.dwell} s."
         raise Refusal(Notice(Code.DWELL_INVALID, said, dwell=mission.dwell, max=MAX_DWELL))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -15,13 +16,17 @@ from bridge.msgs.geometry_msgs import (
     Quaternion,
 )
 from bridge.msgs.pilothouse_msgs import (
+    Event,
+    GetIntruderPictureRequest,
     IntruderArray,
+    Mission,
+    SetMissionRequest,
     Waypoint,
 )
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.std_msgs import Header, Time
 from tests.fakes import Box, FakeRobot, Pillar
-from tests.robotside.perception.test_cone_detector import cone, jpeg, picture
+from tests.robotside.perception.drawn import cone_ahead, person_ahead
 from tests.robotside.scene import SQUARE, Scene
 
 
@@ -82,13 +87,11 @@ def test_the_camera_is_wanted_only_while_a_task_runs(scene: Scene) -> None:
     assert not scene.robot.wanted["/camera/image/compressed"]
 
 
-def show_cone(scene: Scene) -> None:
-    """Five pictures of a cone 3 m ahead."""
-    image, draw = picture()
-    focal = 320 / math.tan(0.6)
-    cone(draw, 320, 240 + focal * 0.36 / 3.0, 0.6 * focal / 3.0)
+def show_cone(scene: Scene, picture: bytes = b"") -> None:
+    """Five pictures of a cone 3 m ahead, or of something else."""
     for n in range(5):
-        shot = CompressedImage(Header(Time.at(scene.now - 0.5 + 0.21 * n), "camera"), "jpeg", jpeg(image))
+        data = bytes(bytearray(picture or cone_ahead()))
+        shot = CompressedImage(Header(Time.at(scene.now - 0.5 + 0.21 * n), "camera"), "jpeg", data)
         scene.station.autonomy.on_message("/camera/image/compressed", shot, scene.now)
 
 
@@ -100,6 +103,46 @@ def test_who_drives_by_hand_and_looks_at_the_camera_is_told_of_an_intruder(scene
     assert isinstance(known, IntruderArray)
     assert [intruder.id for intruder in known.intruders] == [1]
     assert len(scene.events("intruder")) == 1
+
+
+def test_the_event_of_an_intruder_has_its_picture(scene: Scene) -> None:
+    scene.run(0.5)
+    show_cone(scene)
+    (event,) = [msg for msg in scene.of("/events") if isinstance(msg, Event) and msg.kind == "intruder"]
+    answer: Any = scene.ask("/events/picture", GetIntruderPictureRequest(stamp=math.nan, event=event.id))
+    assert answer.picture.data.startswith(b"\xff\xd8")
+    assert scene.refused("/events/picture", GetIntruderPictureRequest(event=999)).startswith("There is no")
+
+
+def test_a_class_that_no_camera_tells_apart_is_refused(scene: Scene) -> None:
+    mission = Mission(waypoints=[Waypoint(1.0, 0.0)], intruder_classes=["ghost"])
+    said = scene.refused("/mission/set", SetMissionRequest(mission=mission))
+    assert said == "There is no class 'ghost' of intruders; there are cone, person, car, box."
+
+
+@pytest.mark.parametrize(
+    ("classes", "said"), [((), ["a person"]), (("cone",), []), (("person", "car"), ["a person"])]
+)
+def test_on_a_patrol_the_mission_says_what_counts_and_the_event_has_its_class_and_its_picture(
+    scene: Scene, classes: tuple[str, ...], said: list[str]
+) -> None:
+    scene.set(Waypoint(6.0, -4.0), intruder_classes=list(classes))
+    scene.start()
+    scene.run(0.1)
+    show_cone(scene, person_ahead())
+    events = [msg for msg in scene.of("/events") if isinstance(msg, Event) and msg.kind == "intruder"]
+    assert [any(words in event.text for words in said) for event in events] == [True] * len(said)
+    for event in events:
+        asked = GetIntruderPictureRequest(stamp=math.nan, event=event.id)
+        answer: Any = scene.ask("/events/picture", asked)
+        assert answer.picture.data.startswith(b"\xff\xd8")
+    assert scene.refused("/events/picture", GetIntruderPictureRequest(event=999)).startswith("There is no")
+
+
+def test_who_drives_by_hand_among_people_is_not_told_of_each_of_them(scene: Scene) -> None:
+    scene.run(0.5)
+    show_cone(scene, person_ahead())
+    assert scene.events("intruder") == []
 
 
 def test_an_intruder_found_while_a_patrol_rests_leaves_what_is_said_of_the_patrol(scene: Scene) -> None:

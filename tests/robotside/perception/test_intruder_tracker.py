@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import math
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import Intruder
@@ -14,12 +16,12 @@ from bridge.msgs.std_msgs import Header, Time
 from bridge.msgs.vision_msgs import Detection2DArray
 from robotside.core.pose2 import Pose2
 from robotside.core.worker import Worker
-from robotside.localisation.pose_estimator import OdometryTrack
+from robotside.localisation.odometry_track import OdometryTrack
 from robotside.perception import intruder_watch
 from robotside.perception.intruder_tracker import MIN_SIGHTINGS, IntruderTracker
 from robotside.perception.intruder_watch import IntruderWatch, jpeg_size
 from tests.robotside.held_worker import HeldWorker
-from tests.robotside.perception.test_cone_detector import cone, jpeg, picture
+from tests.robotside.perception.drawn import cone_ahead, jpeg, person_ahead
 
 FOV = 1.2
 
@@ -77,19 +79,27 @@ class Scene:
     def __init__(self, worker: Worker | None = None) -> None:
         self.said: list[tuple[str, Msg]] = []
         self.found: list[Intruder] = []
+        self.crops: list[bytes] = []
         track = OdometryTrack()
         for n in range(40):
             track.add(n * 0.05, Pose2(1.0, 2.0, math.pi / 2))
         self.watch = IntruderWatch(
-            track, FOV, lambda topic, msg: self.said.append((topic, msg)), self.found.append, worker=worker
+            track,
+            FOV,
+            lambda topic, msg: self.said.append((topic, msg)),
+            self._report,
+            worker=worker,
+            counts=lambda: self.counted,
         )
-        image, draw = picture()
-        focal = 320 / math.tan(FOV / 2)
-        cone(draw, 320 - focal * 0.5 / 2.92, 240 + focal * 0.36 / 2.92, 0.6 * focal / 2.92)
-        self._jpeg = jpeg(image)
+        self.counted = ("cone", "person")
+        self.jpeg = cone_ahead(2.92, 0.5)
+
+    def _report(self, intruder: Intruder, crop: bytes) -> None:
+        self.found.append(intruder)
+        self.crops.append(crop)
 
     def look(self, stamp: float, *, placing: bool = True) -> None:
-        data = bytes(bytearray(self._jpeg))  # a file of its own
+        data = bytes(bytearray(self.jpeg))  # a file of its own
         self.watch.on_image(CompressedImage(Header(Time.at(stamp), "camera"), "jpeg", data), placing=placing)
 
     def detections(self) -> list[Detection2DArray]:
@@ -116,6 +126,42 @@ def test_pictures_are_searched_five_times_a_second_and_each_search_is_told() -> 
     detection = scene.detections()[0].detections[0]
     assert detection.results[0].hypothesis.class_id == "cone"
     assert detection.bbox.center.position.x == pytest.approx(320 - 80, abs=8)
+    assert {each.detections[0].id for each in scene.detections()} == {"1"}, "one thing, one number"
+
+
+def test_a_person_is_an_intruder_of_that_class_with_a_picture_where_people_count() -> None:
+    scene = Scene()
+    scene.jpeg = person_ahead(3.0, 0.5)
+    for n in range(MIN_SIGHTINGS):
+        scene.look(0.2 * n)
+    assert [intruder.class_id for intruder in scene.found] == ["person"]
+    wide, high = Image.open(io.BytesIO(scene.crops[0])).size
+    assert high > wide, "somebody who stands"
+    scene = Scene()
+    scene.jpeg, scene.counted = person_ahead(3.0, 0.5), ("cone",)
+    for n in range(MIN_SIGHTINGS):
+        scene.look(0.2 * n)
+    assert scene.detections()[-1].detections[0].results[0].hypothesis.class_id == "person"
+    assert scene.found == []
+
+
+def test_who_walks_about_is_one_intruder_and_a_person_beside_a_cone_is_another() -> None:
+    intruders = IntruderTracker()
+    for n in range(20):
+        intruders.update(0.3 * n, 0.0, 4.0, 0.2 * n, kind="person", track=1)
+        intruders.update(2.0, 0.5, 4.0, 0.2 * n, kind="cone", track=2)
+    assert [(one.id, one.class_id) for one in intruders.known] == [(1, "person"), (2, "cone")]
+    assert intruders.known[0].position.x > 4.0
+
+
+def test_an_intruder_that_has_moved_on_is_told_again() -> None:
+    scene = Scene()
+    for n in range(8):
+        scene.jpeg = person_ahead(2.5 + 0.5 * (n // 2), 0.0)
+        scene.look(0.2 * n)
+    told = [msg for topic, msg in scene.said if topic == "/intruders"]
+    assert len(scene.found) == 1
+    assert len(told) >= 2
 
 
 def test_with_an_unsure_position_a_cone_is_shown_but_not_placed() -> None:
@@ -127,7 +173,7 @@ def test_with_an_unsure_position_a_cone_is_shown_but_not_placed() -> None:
 
 
 def test_the_size_of_a_picture_is_read_from_its_header() -> None:
-    assert jpeg_size(jpeg(picture(320, 240)[0])) == (320, 240)
+    assert jpeg_size(jpeg(np.zeros((240, 320, 3), np.uint8))) == (320, 240)
     assert jpeg_size(b"") == (640, 480)
 
 
@@ -197,7 +243,7 @@ def test_a_search_that_fails_is_raised_once_and_the_next_picture_is_searched(
 ) -> None:
     scene = Scene(worker)
     with monkeypatch.context() as patched:
-        patched.setattr(intruder_watch, "find_cones", lambda _: 1 // 0)
+        patched.setattr(intruder_watch, "find_things", lambda _: 1 // 0)
         scene.look(0.0)
         with pytest.raises(ZeroDivisionError):
             finish(worker, scene)
@@ -208,7 +254,8 @@ def test_a_search_that_fails_is_raised_once_and_the_next_picture_is_searched(
 
 
 def test_a_picture_that_came_out_the_same_is_searched_once_and_told_each_time(worker: HeldWorker) -> None:
-    scene, same = Scene(worker), jpeg(picture()[0])
+    scene = Scene(worker)
+    same = scene.jpeg
     for n in range(5):
         image = CompressedImage(Header(Time.at(0.2 * n), "camera"), "jpeg", same)
         scene.watch.on_image(image, placing=True)
