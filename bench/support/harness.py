@@ -33,6 +33,7 @@ COUNTS: Mapping[str, tuple[float, str]] = {
     "cuts": (5_000, "link_cuts: links to cut"),
     "kills": (200, "database: kills of the robot side"),
     "flips": (600, "flips: databases to damage"),
+    "scenes": (500, "detector: scenes to judge"),
     "hours": (8, "soak: how long"),
 }
 """By name of the option, how much a bench does unless told otherwise, and what that is."""
