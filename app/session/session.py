@@ -13,6 +13,7 @@ from app.link.channels import CAPABILITIES, EVENT, KNOWN, LINK, MISSED, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Feeds, Post
 from app.link.link import Link
+from app.missions.intruder_pictures import IntruderPictures
 from app.missions.mission_drafts import MissionDrafts
 from app.missions.mission_editor import Draft
 from app.missions.refusals import Refusals
@@ -77,6 +78,9 @@ class Session:
         self.refusals = Refusals(feeds)
         self.missions = StoredMissions(self)
         self.logbook = Logbook(settings, self.command)
+        self.pictures = IntruderPictures(self, now)
+        """Of intruders."""
+        self.listeners.append(self.pictures.on_post)
         self.events = EventIntake(self, self.own_id, self.logbook, lambda post: self._publish(EVENT, post))
         self.link_state: LinkState = link.state
         self.ever_connected = False

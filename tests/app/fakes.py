@@ -38,6 +38,8 @@ from bridge.msgs.pilothouse_msgs import (
     GetEventsResponse,
     GetHistoryRequest,
     GetHistoryResponse,
+    GetIntruderPictureRequest,
+    GetIntruderPictureResponse,
     GetMissionsRequest,
     GetMissionsResponse,
     KeptMission,
@@ -69,6 +71,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskQueue,
     TaskRun,
 )
+from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.std_msgs import Time
 from bridge.server.server import BridgeServer
 from robotside.door.door import Door
@@ -163,6 +166,8 @@ class FakeRobot:
         self.objection: Callable[[str, Any], str | None] = lambda name, _: self.refusals.get(name)
         """What it has against a service and its request; None for nothing."""
         self.events: list[Event] = []
+        self.pictures: dict[int, bytes] = {}
+        """JPEG files by the event that they are kept with."""
         self.places: list[Place] = []
         self.missions: dict[str, Mission] = {}
         """Those that have a name."""
@@ -191,6 +196,15 @@ class FakeRobot:
             for name, kind in REQUESTS.items()
         ]
         services.append(Service("/events/get", "x/z", GetEventsRequest, GetEventsResponse, self._tell_events))
+        services.append(
+            Service(
+                "/events/picture",
+                "x/w",
+                GetIntruderPictureRequest,
+                GetIntruderPictureResponse,
+                self._show_picture,
+            )
+        )
         door = Door(services=services, on_message=self._hear, now=self._now, gate=KnowsAll())
         self._server = BridgeServer(door, now=self._now)
         self.network.start(self._server.start("127.0.0.1", self.port)).result(5)
@@ -379,6 +393,13 @@ class FakeRobot:
         self._server.publish("/places", PlaceArray(places=self.places))
         self._server.publish("/task/queue", self.queue)
         self._server.publish("/schedule", Schedule(tasks=self.schedule))
+
+    def _show_picture(
+        self, session: Operator, request: GetIntruderPictureRequest
+    ) -> GetIntruderPictureResponse:
+        self.asked.append(("/events/picture", request))
+        file = self.pictures.get(request.event, b"")
+        return GetIntruderPictureResponse(bool(file), picture=CompressedImage(format="jpeg", data=file))
 
     def _tell_events(self, session: Operator, request: GetEventsRequest) -> GetEventsResponse:
         same = any(event.boot == request.boot for event in self.events)

@@ -56,6 +56,8 @@ class IntruderBadge(Drawing):
     ago = NumericProperty(math.nan)
     """Since the last one was found [s], by the robot's clock; NaN when not known."""
     to_right = BooleanProperty(False)
+    bar_left = NumericProperty(math.nan)
+    """Left edge of what is drawn [px]; NaN before anything is."""
 
     def _fresh(self) -> bool:
         return (
@@ -175,6 +177,7 @@ class IntruderBadge(Drawing):
     def _ground(self, shapes: Shapes, width: float, height: float, role: str) -> float:
         """Fill a rounded bar of that size; gives its left edge [px]."""
         left = self.right - width if self.to_right else self.center_x - width / 2
+        self.bar_left = left
         round_ = min(float(dp(11)), height / 2)
         y = self.top - height / 2
         fill = theme.danger if role == "danger" else theme.glass

@@ -14,9 +14,17 @@ from functools import partial
 from typing import Any, ClassVar
 
 from kivy.clock import Clock
+from kivy.graphics.texture import Texture
 from kivy.lang import Builder
 from kivy.metrics import dp
-from kivy.properties import AliasProperty, BooleanProperty, ListProperty, NumericProperty, StringProperty
+from kivy.properties import (
+    AliasProperty,
+    BooleanProperty,
+    DictProperty,
+    ListProperty,
+    NumericProperty,
+    StringProperty,
+)
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.recycleview import RecycleView
 from kivy.uix.widget import Widget
@@ -93,6 +101,8 @@ class EventLog(RobotWidget, FloatLayout):
     """Run and number of those whose acknowledgement is being sent to the robot."""
     missed: ListProperty[tuple[str, int]] = ListProperty()
     """Run and number of those that happened while this handheld was not connected."""
+    pictures: DictProperty[tuple[str, int], Texture] = DictProperty({})
+    """By run and number, the picture of what an event tells."""
     head = StringProperty("")
     """Words above the newest of those; empty for none."""
 
@@ -127,7 +137,7 @@ class EventLog(RobotWidget, FloatLayout):
         self._soon = Clock.create_trigger(self._write, -1)
         super().__init__(**kwargs)
         self.bind(now=self._write_times)
-        for name in ("width", "margin", "acts", "asked", "missed", "head"):
+        for name in ("width", "margin", "acts", "asked", "missed", "head", "pictures"):
             self.fbind(name, self._soon)
 
     def show(self, msg: Event) -> None:
@@ -170,7 +180,10 @@ class EventLog(RobotWidget, FloatLayout):
         key, open = (event.boot, event.id), is_open(event)
         name, role = appearance(event)
         says, acts = note(event, asked=key in asked), self.acts and open and key not in asked
-        high = row_height(event, self.width - 2 * self.margin, says=says, acts=acts)
+        picture = self.pictures.get(key)
+        high = row_height(
+            event, self.width - 2 * self.margin, says=says, acts=acts, pictured=picture is not None
+        )
         return {
             "viewclass": "EventRow",
             "icon": name,
@@ -180,6 +193,7 @@ class EventLog(RobotWidget, FloatLayout):
             "stamp": event.stamp.seconds,
             "open": open,
             "missed": key in missed,
+            "texture": picture,
             "act": partial(self.dispatch, "on_command", event) if acts else None,
             "row_size": (None, high),
         }

@@ -9,6 +9,7 @@ from functools import lru_cache
 from typing import Any
 
 from kivy.core.text import Label as CoreLabel
+from kivy.graphics.texture import Texture
 from kivy.lang import Builder
 from kivy.metrics import dp, sp
 from kivy.properties import BooleanProperty, NumericProperty, ObjectProperty, StringProperty
@@ -81,6 +82,8 @@ LEVELS = {"warn": "warn", "alarm": "danger"}
 
 BUTTON = 78
 """Width of the button of a row that needs an acknowledgement [dp]."""
+PICTURE = 60
+"""Width of a picture and its margin [dp]."""
 BESIDE = 81
 """Of a row beside its sentence, its icon and its button [dp]."""
 
@@ -99,6 +102,13 @@ Builder.load_string("""
         name: root.icon
         role: root.role
         font_size: sp(20)
+        pos_hint: {'center_y': .5}
+    Image:
+        texture: root.texture
+        size_hint: None, None
+        size: (dp(52), dp(46)) if root.texture else (0, 0)
+        opacity: 1 if root.texture else 0
+        fit_mode: 'contain'
         pos_hint: {'center_y': .5}
     Column:
         pos_hint: {'center_y': .5}
@@ -226,12 +236,15 @@ def text_height(text: str, width: float, font_size: float, bold: bool) -> float:
     return float(label.texture.height)
 
 
-def row_height(event: Event, width: float, *, says: str = "", acts: bool = False) -> float:
+def row_height(
+    event: Event, width: float, *, says: str = "", acts: bool = False, pictured: bool = False
+) -> float:
     """Height of an event's row in a list of `width`; `says` is its second line, `acts` has a button. All in pixels."""
     open = is_open(event)
-    room = max(dp(60), width - sp(20) - dp(BESIDE) - (dp(BUTTON) if acts else dp(8)))
+    beside = dp(BUTTON) if acts else dp(8)
+    room = max(dp(60), width - sp(20) - dp(BESIDE) - beside - (dp(PICTURE) if pictured else 0))
     high = text_height(event.text, room, sp(14.5), open) + (sp(18) if says else 0) + dp(8)
-    return float(max(dp(30), high, theme.target + dp(4) if acts else 0))
+    return float(max(dp(54 if pictured else 30), high, theme.target + dp(4) if acts else 0))
 
 
 class EventRow(RecycleDataViewBehavior, BoxLayout):
@@ -250,6 +263,8 @@ class EventRow(RecycleDataViewBehavior, BoxLayout):
     """Somebody has to see to it."""
     missed = BooleanProperty(False)
     """It happened while this handheld was not connected."""
+    texture: ObjectProperty[Texture | None] = ObjectProperty(None, allownone=True)
+    """Picture of what it tells; None without one."""
     act: ObjectProperty[Callable[[], object] | None] = ObjectProperty(None, allownone=True)
     """Called when a finger acknowledges it; None where that is not possible."""
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 
+from kivy.metrics import dp
 from kivy.properties import BooleanProperty
+from kivy.uix.image import Image
 
 from app.layout.arrange import Rect
 from app.link.capabilities import POSE
@@ -33,6 +35,9 @@ class IntruderOverlay(IntruderBadge):
         super().__init__(state="live", opacity=0)
         self._session, self._video = session, video
         self._place = Rect(0, 0, 1, 1)
+        self.picture = Image(size_hint=(None, None), size=(0, 0), fit_mode="contain", opacity=0)
+        """The last intruder, beside the bar, where the robot keeps a picture of it and there is room."""
+        self.add_widget(self.picture)
         dashboard.bind(self, FOUND, fresh=False)
         dashboard.bind(self, POSE, self.show_pose, fresh=False)
 
@@ -46,6 +51,7 @@ class IntruderOverlay(IntruderBadge):
         feeds: Feeds = self._session.feeds
         self.told = feeds.latest(FOUND) is not None
         self._show()
+        self._show_picture()
         seen = [kind_word(label, score) for label, score, *_ in self._video.boxes]
         if seen != self.seen:
             self.seen = seen
@@ -55,6 +61,19 @@ class IntruderOverlay(IntruderBadge):
         marks = [(f"{self.number} · {away_text(self.away)}", self.angle)] if placed else []
         if marks != self._video.marks:
             self._video.marks = marks
+
+    def _show_picture(self) -> None:
+        pictures = self._session.pictures
+        event = pictures.found(self.number) if self.told and self.count > 0 and self.fresh else None
+        texture = pictures.of(event) if event is not None else None
+        high = self.height
+        broad = min(high, high * texture.width / texture.height) if texture is not None else 0.0
+        left = self.bar_left - broad - dp(4)
+        shown = texture is not None and left >= self.x
+        self.picture.texture = texture if shown else None
+        self.picture.opacity = 1 if shown else 0
+        if shown:
+            self.picture.size, self.picture.pos = (broad, high), (left, self.y)
 
     def _show(self, *_: object) -> None:
         self.opacity = 1 if self.told and not self.covered else 0

@@ -10,6 +10,7 @@ from kivy.graphics.texture import Texture
 from kivy.lang import Builder
 from kivy.properties import ObjectProperty, StringProperty
 
+from app.core.robot_sentences import sentence
 from app.link.camera_decoder import Picture
 from app.session.dashboard import Dashboard
 from app.session.session import Session
@@ -43,14 +44,16 @@ Builder.load_string("""
     spacing: dp(8)
     BoxLayout:
         size_hint_y: None
-        height: max(words.height, dp(72) if root.texture else dp(40))
+        height: max(words.height, picture.height, dp(40))
         spacing: dp(10)
         Image:
+            id: picture
             texture: root.texture
             size_hint: None, None
-            size: (dp(84), dp(72)) if root.texture else (0, 0)
+            height: 0 if not root.texture else dp(88) if self.image_ratio < .8 else dp(72)
+            width: min(dp(96), self.height * self.image_ratio)
             opacity: 1 if root.texture else 0
-            fit_mode: 'cover'
+            fit_mode: 'contain'
             pos_hint: {'center_y': .5}
         Column:
             id: words
@@ -109,6 +112,8 @@ class IntruderCard(Card):
         self._waiting: list[Intruder] = []
         self._picture: Picture | None = None
         self._pictures: dict[int, Texture | None] = {}
+        self._robots: set[int] = set()
+        """Those whose picture is the robot's own."""
         super().__init__(**kwargs)
         self.words_show, self.words_seen = tr("Show"), tr("Seen")
         dashboard.bind(self, "/intruders", self._take, fresh=False)
@@ -130,6 +135,7 @@ class IntruderCard(Card):
         fresh = [one for one in msg.intruders if one.id not in self._known]
         news = [one for one in fresh if not now - one.first_seen.seconds > NEWS_DURATION]
         self._known = known
+        self._robots &= known
         for one in news:
             self._pictures[one.id] = self._cut(one)
         self._waiting = [one for one in self._waiting if one.id in known] + news
@@ -140,17 +146,32 @@ class IntruderCard(Card):
         self._pictures = {one.id: self._pictures.get(one.id) for one in self._waiting}
         self.texture = self._pictures.get(shown.id) if shown is not None else None
         self.intruder = shown
+        self._look_up()
         self.tick()
 
+    def _look_up(self) -> None:
+        """Take the picture that the robot keeps, where it has come: it is of the moment when the robot saw it."""
+        one, pictures = self.intruder, self._session.pictures
+        if one is None or one.id in self._robots:
+            return
+        event = pictures.found(one.id)
+        texture = pictures.of(event) if event is not None else None
+        if texture is not None:
+            self._robots.add(one.id)
+            self.texture = self._pictures[one.id] = texture
+
     def tick(self) -> None:
-        """Bring up to date how far it is and where: the robot moves."""
+        """Bring up to date how far it is and where, for the robot moves, and its picture, which may come later."""
         one = self.intruder
         if one is None:
             return
+        self._look_up()
         more = len(self._waiting) - 1
         title = tr("Intruder {id} · {kind}").format(id=one.id, kind=kind_word(one.class_id))
         self.title = tr("{title}, {count} more").format(title=title, count=more) if more else title
-        self.detail = self._where(one)
+        circled = self._session.pictures.circled(one.id)
+        sides = [sentence(circled.code, circled.parameters, circled.text)] if circled is not None else []
+        self.detail = "\n".join([self._where(one), *sides])
 
     def _where(self, one: Intruder) -> str:
         pose: PoseWithCovarianceStamped | None = self._session.feeds.latest("/pose")

@@ -12,6 +12,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from app.layout.rects import Rect
+from app.missions.pictured_log import PicturedLog
 from app.screens.mission.no_mission_panel import Figures, NoMissionPanel
 from app.session.dashboard import Dashboard
 from app.session.session import Session
@@ -202,7 +203,7 @@ class MissionPanel(BoxLayout):
         super().__init__(**kwargs)
         self._session = session
         self._send, self._progress, self._latest = SendRow(), ProgressRow(), LatestEvent()
-        self.motion, self.tasks, self.events = MotionSelector(), TaskButtons(), EventLog(size_hint_y=1)
+        self.motion, self.tasks, self.events = MotionSelector(), TaskButtons(), PicturedLog(session.pictures)
         self.heights = HeightRow(session.mission.set_height)
         self.speed = Readout(name=tr("Speed"), unit="m/s", decimals=2, path="twist.twist.linear.x")
         self.next = Readout(name=tr("Next point"), unit="m", decimals=1)

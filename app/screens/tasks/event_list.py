@@ -27,6 +27,7 @@ class EventList(BoxLayout):
         self._stale, self._shown = True, False
         self._looked: set[tuple[str, int]] = set()
         self._book.listeners.append(self._changed)
+        session.pictures.listeners.append(self._changed)
 
     def _changed(self) -> None:
         self._stale = True
@@ -75,3 +76,4 @@ class EventList(BoxLayout):
             log.missed = [(one.boot, one.id) for one in self._book.missed]
             log.asked = [(one.boot, one.id) for one in events if self._book.is_asked(one)]
             log.head = self._book.words
+            log.pictures = session.pictures.newest()

@@ -107,6 +107,24 @@ def test_show_brings_it_into_the_middle_of_the_map(driving: Glass, robot: FakeRo
     assert mission.intruder.parent is not None
 
 
+def test_the_sides_from_which_it_was_not_seen_stay_on_its_card(
+    driving: Glass, robot: FakeRobot, mission: Any
+) -> None:
+    find(driving, robot, 1, 2)
+    card = mission.intruder
+    driving.until(lambda: card.title == "Intruder 2 · cone, 1 more", card.title)
+    for number, (intruder, sides) in enumerate((("2", "west"), ("2", "west, north-west"), ("1", "east")), 50):
+        values = {"id": intruder, "sides": "4", "count": "6", "missing": sides}
+        event = Event(
+            id=number, boot="b", kind="intruder", text=f"Intruder {intruder}; not: {sides}.", code="intruder_circled",
+            parameters=[KeyValue(key, value) for key, value in values.items()],
+        )  # fmt: skip
+        driving.app.session.logbook.add(event)
+    driving.until(lambda: card.detail.endswith("\nIntruder 2; not: west, north-west."), card.detail)
+    driving.tap(card.ids.seen)
+    assert card.detail.endswith("\nIntruder 1; not: east.")
+
+
 def test_seen_tells_the_robot_s_log_and_the_one_before_it_comes_up(
     driving: Glass, robot: FakeRobot, mission: Any
 ) -> None:
