@@ -158,7 +158,7 @@ SENTENCES: Mapping[str, str] = {
     Code.CARD_UNKNOWN: mark("No tag can answer at {place}."),
     Code.CARD_WRONG: mark("This tag is not the one for {place}."),
     Code.INTRUDER_FOUND: mark("Intruder {id} found: {kind}."),
-    Code.INTRUDER_CIRCLED: mark("Went round intruder {id}."),
+    Code.INTRUDER_CIRCLED: mark("Intruder {id} was seen from {sides} of {count} sides; not seen: {missing}."),
     Code.BATTERY_LOW: mark("Battery low: {charge}."),
     Code.BATTERY_GOING_HOME: mark("Battery low: {charge}. Going home."),
     Code.BUMPER_TOUCHED: mark("The bumper touched something."),
@@ -257,11 +257,29 @@ def _task(name: str) -> str:
     return TASKS[name].name if name in TASKS else name
 
 
+_SIDES: Mapping[str, str] = {
+    "east": mark("east"),
+    "north-east": mark("north-east"),
+    "north-west": mark("north-west"),
+    "west": mark("west"),
+    "south-west": mark("south-west"),
+    "south-east": mark("south-east"),
+}
+
+
+def _sides(names: str) -> str:
+    """Sides of something, as the robot names them, each in the language of the glass."""
+    if not names:
+        return tr("no side")
+    return ", ".join(tr(_SIDES.get(name, name)) for name in names.split(", "))
+
+
 _WORDS: Mapping[str, Callable[[str], str]] = {
     "task": _task,
     "instead": _task,
     "payload": payload_title,
     "state": lambda word: tr({"on": mark("on"), "off": mark("off")}.get(word, word)),
     "kind": kind_word,
+    "missing": _sides,
 }
 """Key of a parameter that is a word of the robot's, to that word in the language of the glass."""

@@ -138,6 +138,7 @@ def test_progress_counts_the_points_and_the_part_of_the_leg() -> None:
     assert course.progress(4.0) == pytest.approx(1 / 8)
     assert course.progress(math.nan) == pytest.approx(1 / 8), "it has come no less far where it has no way"
     course.reached()
+    assert course.time_left(math.nan, 0.5) == course.time_left(0.0, 0.5), "it stands at the point"
     course.advance()
     assert course.progress(math.nan) == pytest.approx(1 / 4)
     assert course.time_left(10.0, 0.5) == pytest.approx((10.0 + 20.0) / 0.4)
@@ -208,7 +209,7 @@ def test_an_intruder_is_gone_round_once_from_every_side_and_the_patrol_goes_on()
             assert stage.situation.doing.text == "Going round intruder 3 and looking at it."
     assert nearest > 1.0
     assert len(sides) >= 6
-    assert stage.said == ["Intruder 3 was gone round; going on.", "Point 1 of 1 reached."]
+    assert stage.said == ["Intruder 3 was seen from all 6 sides; going on.", "Point 1 of 1 reached."]
     assert course.visited == 1
 
 
@@ -217,7 +218,7 @@ def test_sides_of_an_intruder_that_cannot_be_reached_are_left_out_and_counted() 
     _, tree = stage.patrol(Mission(waypoints=[Waypoint(6.0, 4.0)], laps=1))
     stage.situation.intruders.append(Seen(1, 4.0, 5.4))
     assert stage.tick(tree, 200.0) is Status.SUCCESS
-    assert stage.said[0] == "Intruder 1 was looked at from 4 of 6 sides; going on."
+    assert stage.said[0] == "Intruder 1 was seen from 4 of 6 sides; not: north-east, north-west."
 
 
 def test_there_may_be_no_room_to_go_round_an_intruder() -> None:
