@@ -19,7 +19,7 @@ from bridge.msgs.pilothouse_msgs import Bumper, RobotInfo
 from bridge.msgs.sensor_msgs import BatteryState, LaserScan
 from bridge.msgs.std_msgs import Header, Time
 
-__all__ = ["Box", "FakeClient", "FakeRobot", "Pillar"]
+__all__ = ["Box", "FakeClient", "FakeDock", "FakeRobot", "Pillar"]
 
 STEP = 0.05
 """Between two moves [s]; odometry comes with each, the laser with every other, the battery once a second."""
@@ -52,6 +52,41 @@ class Pillar:
     radius: float = 0.12
 
 
+@dataclass
+class FakeDock:
+    """A charger of which the robot's laser sees a face of 0.44 m, with two reflecting strips unless it has none."""
+
+    x: float
+    """Middle of its face [m]."""
+    y: float
+    yaw: float
+    """Of a robot that stands in it [rad]."""
+    strips: tuple[float, ...] = (-0.15, 0.15)
+    """Middles of the strips, to the left of the dock's [m]."""
+    gives: int = BatteryState.POWER_SUPPLY_STATUS_CHARGING
+    """What a battery reports with the contacts met."""
+    aside: float = 0.03
+    """The contacts meet within this off the middle [m] and 0.2 rad."""
+
+    def line(self, start: float, end: float, nearer: float = 0.0) -> tuple[float, float, float, float]:
+        """The part of its face between two distances to the left [m]."""
+        c, s = math.cos(self.yaw), math.sin(self.yaw)
+        return (
+            self.x - s * start - c * nearer,
+            self.y + c * start - s * nearer,
+            self.x - s * end - c * nearer,
+            self.y + c * end - s * nearer,
+        )
+
+    def meets(self, pose: tuple[float, float, float], front: float) -> bool:
+        """A robot at `pose` touches its contacts."""
+        c, s = math.cos(self.yaw), math.sin(self.yaw)
+        ahead = c * (self.x - pose[0]) + s * (self.y - pose[1])
+        aside = -s * (self.x - pose[0]) + c * (self.y - pose[1])
+        straight = abs(math.remainder(pose[2] - self.yaw, math.tau)) < 0.2
+        return straight and abs(aside) <= self.aside and ahead - front < 0.005
+
+
 MANAGER = Identity("", "", Role.MANAGE)
 
 
@@ -77,8 +112,10 @@ class FakeRobot:
         pillars: Sequence[Pillar] = (),
         drift: float = 0.0,
         beams: int = 180,
+        dock: FakeDock | None = None,
     ) -> None:
         """`drift` is how much farther the wheels believe to have gone, as a part of the way."""
+        self.dock = dock
         self.info = RobotInfo("Fake-1", "wheels", "fake", "Differential drive", "hall", 0.7, 1.9, 0.18)
         self.pose = start
         self.hall, self.boxes, self.pillars = hall, list(boxes), list(pillars)
@@ -101,6 +138,7 @@ class FakeRobot:
         self._steps = 0
         self._seen_from: object = None
         self._seen: NDArray[np.float64] = np.empty(0)
+        self._shine: NDArray[np.float64] = np.empty(0)
 
     @property
     def at_rest(self) -> bool:
@@ -166,6 +204,9 @@ class FakeRobot:
             yield "/bumper", Bumper(Header(stamp, "base_link"), self.room() < 0.0)
         if self._steps % 20 == 0:
             status = BatteryState.POWER_SUPPLY_STATUS_CHARGING if self.charging else 0
+            if self.dock is not None:
+                docked = self.dock.meets(self.pose, self.info.radius)
+                status = self.dock.gives if docked else BatteryState.POWER_SUPPLY_STATUS_DISCHARGING
             yield (
                 "/battery_state",
                 BatteryState(Header(stamp), percentage=self.battery, power_supply_status=status),
@@ -177,7 +218,8 @@ class FakeRobot:
         ranges[ranges > 12.0] = math.inf
         values = Float32Array(ranges.astype(np.float32).tobytes())
         first, last = float(self._angles[0]), float(self._angles[-1])
-        return LaserScan(Header(stamp, "laser"), first, last, step, 0.0, 0.1, 0.05, 12.0, values)
+        shine = Float32Array(self._shine.astype(np.float32).tobytes()) if self.dock else Float32Array()
+        return LaserScan(Header(stamp, "laser"), first, last, step, 0.0, 0.1, 0.05, 12.0, values, shine)
 
     def _ranges(self) -> NDArray[np.float64]:
         seen_from = (self.pose, len(self.boxes), len(self.pillars))
@@ -194,6 +236,13 @@ class FakeRobot:
                 nearest = np.minimum(nearest, _to_line(x, y, dx, dy, side))
         for pillar in self.pillars:
             nearest = np.minimum(nearest, _to_circle(x - pillar.x, y - pillar.y, dx, dy, pillar.radius))
+        if self.dock is not None:
+            nearest = np.minimum(nearest, _to_line(x, y, dx, dy, self.dock.line(-0.22, 0.22)))
+            self._shine = np.full(len(dx), 40.0)
+            for strip in self.dock.strips:
+                away = _to_line(x, y, dx, dy, self.dock.line(strip - 0.025, strip + 0.025, 0.001))
+                self._shine[away < nearest] = 230.0
+                nearest = np.minimum(nearest, away)
         return nearest
 
     def _move(self) -> None:

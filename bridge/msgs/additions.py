@@ -52,6 +52,7 @@ TASKS = (
     "hold",
     "follow_heading",
     "dock",
+    "undock",
     "take_off",
     "land",
     "surface",

@@ -26,6 +26,7 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, LaserScan
 from robotside.autonomy.battery_watch import BatteryWatch
 from robotside.autonomy.contact_watch import ContactWatch
+from robotside.autonomy.ground_sight import GroundSight
 from robotside.autonomy.intruder_response import IntruderResponse
 from robotside.autonomy.map_intake import MapIntake
 from robotside.autonomy.plan_publisher import PlanPublisher
@@ -37,6 +38,7 @@ from robotside.core.pose2 import Pose2
 from robotside.core.robot import Robot
 from robotside.core.topic_demand import Demand
 from robotside.core.worker import InLoopWorker, Worker
+from robotside.localisation.odometry_track import OdometryTrack
 from robotside.localisation.pose_estimator import PoseEstimator
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.navigator import Navigator
@@ -92,6 +94,8 @@ class Autonomy:
         self.navigator.heights = heights
         self._maps = self._map_intake(fit, worker, chart)
         self.situation = Situation()
+        self._wheels = OdometryTrack()
+        self._ground = GroundSight(info.cameras, self.situation, self._wheels, demand)
         self.status_publisher = TaskStatusPublisher(
             records, lambda status: bus.publish("/task/status", status), clock
         )
@@ -164,10 +168,12 @@ class Autonomy:
         self._now = now
         if topic in self._handlers:
             self._handlers[topic](msg)
+        self._ground.on_message(topic, msg)
 
     def update(self, now: float) -> None:
         """Pause the running task when a sensor is silent, take a new map between two tasks, and what pictures showed; call it each tick."""
         self.watch.update(placing=self.pose_estimator.sure)
+        self._ground.update()
         if not self.engine.active:
             self._maps.update()
         if not self.engine.running:
@@ -233,13 +239,15 @@ class Autonomy:
         self._silence.on_measurement("/odom", self._now)
         estimator = self.pose_estimator
         estimator.on_odometry(msg)
+        self.situation.odom = Pose2.from_msg(msg.pose.pose)
+        self._wheels.add(msg.header.stamp.seconds, self.situation.odom)
         self.navigator.measured(estimator.vertical.height)
         pose = estimator.pose
         if pose is None:
             return
         self.navigator.sure = self.situation.sure = estimator.sure
         self.situation.place_asked = len(estimator.candidates) > 1
-        if estimator.pushes and self.engine.running and self.engine.status.phase != "docking":
+        if estimator.pushes and self.engine.running and not self.situation.touches:
             said = "Paused: the wheels turn, but something holds the robot."
             self.engine.pause(Notice(Code.TASK_HELD_FAST, said), "alarm")
         points = self._surroundings.points(pose, moved=self.engine.running)
@@ -247,6 +255,8 @@ class Autonomy:
 
     def _on_scan(self, scan: LaserScan) -> None:
         self._silence.on_measurement("/scan", self._now)
+        self.situation.swept = self._wheels.at(scan.header.stamp.seconds) or self.situation.odom
+        self.situation.scan = scan
         self._surroundings.on_scan(scan, self._now, mapping=self.engine.active)
 
     def _on_sonar(self, ring: SonarRing) -> None:
@@ -256,6 +266,8 @@ class Autonomy:
 
     def _on_image(self, image: CompressedImage) -> None:
         """Pictures come while a task runs and while a client wants them: who drives by hand sees detections too."""
+        self.situation.picture, self.situation.picture_stamp = image.data, image.header.stamp.seconds
+        self.situation.pictured = self._wheels.at(image.header.stamp.seconds) or self.situation.odom
         self.watch.on_image(image, placing=self.pose_estimator.sure)
 
     def _on_battery(self, msg: BatteryState) -> None:

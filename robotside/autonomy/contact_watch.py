@@ -35,7 +35,7 @@ class ContactWatch:
         self._pose_estimator.on_bumper(msg)
         if was and not msg.pressed:
             self._released_at = now
-        if not msg.pressed or was or self._engine.status.phase == "docking":
+        if not msg.pressed or was or (self._engine.running and self._situation.touches):
             return
         self._engine.pause(Notice(Code.TASK_BUMPED, "Paused: the bumper touched something."), "alarm")
         if now - self._released_at < CONTACT_TIME:

@@ -6,4 +6,4 @@ from robotside.kinds.vehicle_kind import VehicleKind
 
 __all__ = ["KIND"]
 
-KIND = VehicleKind(name="wheels", description="Differential drive", on_the_ground=True, docks=True)
+KIND = VehicleKind(name="wheels", description="Differential drive", on_the_ground=True, docks="front")

@@ -24,6 +24,7 @@ KIND = VehicleKind(
     ),
     handling=Handling(braking=1.0, turning=2.0, sideways=True, levelling=0.5),
     safe_state=SafeStateDefaults("hover", hold_for=10.0, then="land"),
+    docks="pad",
     flies=True,
     at_rest=(0.08, 0.08),
 )

@@ -24,7 +24,7 @@ KINDS: dict[str, VehicleKind] = {
 }
 """One line per kind."""
 
-GENERIC = replace(differential.KIND, name="", description="", docks=False)
+GENERIC = replace(differential.KIND, name="", description="", docks="")
 """For a robot of an unknown kind: as if on wheels, but without chargers, and with no words of its own."""
 
 

@@ -29,12 +29,15 @@ from bridge.msgs.std_msgs import Time
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
+from robotside.kinds.registry import kind_of
 from robotside.records.places import MAX_TEXTS
 from robotside.records.runs import MAX_PAGE
 from robotside.services.command_service import CommandService
 from robotside.services.preconditions import Preconditions
 from robotside.station.station import Station
-from robotside.tasks.behaviours.dock import before
+from robotside.tasks.behaviours.approach import Approach
+from robotside.tasks.behaviours.dock import start
+from robotside.tasks.berthing.pad_landing import first_goal
 
 __all__ = ["records_services"]
 
@@ -82,9 +85,14 @@ class _RecordsOrders:
         station, name = self._station, plain(place.name, MAX_TEXTS["name"]) or "The place"
         judge = station.fault if station.autonomy.has_map else station.keeper.fault
         x, y = place.x, place.y
-        if place.kind == "dock" and math.isfinite(place.yaw):
-            start = before(place)  # at the dock itself it may well touch a wall
-            name, x, y = f"The place before {name}", start.x, start.y
+        if place.kind == "dock" and kind_of(station.robot.info.kind).docks == "pad":
+            # on a platform it is a thing on the map itself
+            first = first_goal(place, judge)
+            x, y = first.x, first.y
+        elif place.kind == "dock" and math.isfinite(place.yaw):
+            # at the dock itself it may well touch a wall
+            first = start(place, Approach.of(station.robot.info).standoffs, judge)
+            name, x, y = f"The place before {name}", first.x, first.y
         problem = judge(name, x, y)
         if problem:
             raise Refusal(problem)

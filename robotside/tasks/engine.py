@@ -28,8 +28,8 @@ __all__ = ["TO_CHARGE", "Engine", "Task"]
 PROGRESS_PERIOD = 0.5
 """Between two progress messages [s]."""
 
-TO_CHARGE = ("go_home", "dock")
-"""Tasks that bring it to where it can be charged, even with a low battery."""
+TO_CHARGE = ("go_home", "dock", "undock")
+"""Tasks that may start with a low battery: they bring it to where it can be charged, or but a step away from there."""
 
 ON_THE_WAY = ("driving", "turning")
 """Phases in which the way that is left is known."""

@@ -8,10 +8,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import msgspec
+from py_trees.behaviour import Behaviour
 from py_trees.composites import Sequence as Chain
 
 from bridge.core.codes import Code
-from bridge.msgs.pilothouse_msgs import TASKS, Mission, RobotInfo, TaskOrder, Waypoint
+from bridge.msgs.pilothouse_msgs import TASKS, Mission, Place, RobotInfo, TaskOrder, Waypoint
 from robotside.core.notice import Notice, Problem
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
@@ -21,13 +22,13 @@ from robotside.records import Records
 from robotside.records.events import Say
 from robotside.tasks.behaviours.course import Course, Span
 from robotside.tasks.behaviours.deliver import deliver
-from robotside.tasks.behaviours.dock import Dock, before
 from robotside.tasks.behaviours.fly import Land, Surface, TakeOff
 from robotside.tasks.behaviours.follow_heading import FollowHeading
 from robotside.tasks.behaviours.hold import Hold
 from robotside.tasks.behaviours.lead import lead
 from robotside.tasks.behaviours.patrol import at_place, patrol, patrol_course, single, way
 from robotside.tasks.behaviours.situation import Situation
+from robotside.tasks.dock_tasks import DockTasks, docks
 from robotside.tasks.engine import Task
 from robotside.tasks.order_heights import OrderHeights
 from robotside.tasks.task_places import TaskPlaces
@@ -55,6 +56,7 @@ _WORDS = {
     "hold": "holding",
     "follow_heading": "following a heading",
     "dock": "docking",
+    "undock": "leaving the dock",
     "take_off": "taking off",
     "land": "landing",
     "surface": "surfacing",
@@ -69,8 +71,10 @@ def words_for(task: str) -> str:
 def tasks_of(info: RobotInfo) -> list[str]:
     """The tasks that a robot knows, which depend on its kind and its manoeuvres."""
     unknown = {task for task in ("take_off", "land", "surface") if task not in info.manoeuvres}
-    if not kind_of(info.kind).docks:
-        unknown.add("dock")
+    if not docks(info):
+        unknown |= {"dock", "undock"}
+    elif kind_of(info.kind).flies:
+        unknown.add("undock")  # it takes off
     return [task for task in TASKS if task not in unknown]
 
 
@@ -97,6 +101,7 @@ class TaskFactory:
         self._navigator, self._situation, self._info = navigator, situation, info
         self._say, self._rng, self._records, self._fault = say, rng, records, fault
         self._places = TaskPlaces(records, fault, self._heights)
+        self._docks = DockTasks(self._places, navigator, situation, info, say=say, fault=fault)
         self._makers: dict[str, Callable[[TaskOrder], Task]] = {
             "patrol": self._patrol,
             "deliver": self._deliver,
@@ -105,7 +110,8 @@ class TaskFactory:
             "go_home": self._go_home,
             "hold": self._hold,
             "follow_heading": self._follow_heading,
-            "dock": self._dock,
+            "dock": self._docks.dock,
+            "undock": self._docks.undock,
             "take_off": self._take_off,
             "land": self._land,
             "surface": self._surface,
@@ -126,7 +132,10 @@ class TaskFactory:
         if self._situation.flight == "turned_over":
             said = f"{self._info.name} has turned over; put it upright first."
             raise Refusal(Notice(Code.ROBOT_OVERTURNED, said, robot=self._info.name))
-        return replace(make(order), order=order, by=by)
+        task = make(order)
+        if task.moves and task.name not in ("dock", "undock", "take_off") and docks(self._info):
+            task = replace(task, root=self._docks.out_first(task.root))
+        return replace(task, order=order, by=by)
 
     def home(self) -> Waypoint | None:
         """Where the robot returns to; None when it is not set."""
@@ -251,18 +260,13 @@ class TaskFactory:
         """Of a task that visits nothing and takes as long as it takes."""
         return Span(math.nan, lambda: self._situation.worked)
 
-    def _dock(self, order: TaskOrder) -> Task:
-        dock = self._places.dock(order)
-        if math.isnan(dock.yaw):
-            said = f"{dock.name} has no direction; docking needs the one to stand in there."
-            raise Refusal(Notice(Code.DOCK_UNDIRECTED, said, place=dock.name))
-        start = before(dock)
-        self._places.check(f"The place before {dock.name}", start.x, start.y)
-        course = Course([start])
-        course.index = 0
-        tree = Dock(dock, course, self._navigator, self._situation)
-        done = f"Docked at {dock.name}: the battery takes charge."
-        return Task("dock", "Docking", tree, course, done=lambda: done)
+    def dock_place(self) -> Place | None:
+        """The dock that it goes to by itself; None when it knows none, or cannot dock."""
+        return next(iter(self._places.docks()), None) if "dock" in tasks_of(self._info) else None
+
+    def charge_break(self, until: float) -> Behaviour:
+        """What the running task is interrupted by to charge up to a share, 0 to 1."""
+        return self._docks.charge_break(until)
 
     def _span(self, order: TaskOrder) -> Span:
         if not (math.isnan(order.duration) or 0 < order.duration <= MAX_DURATION):

@@ -54,15 +54,19 @@ class TaskPlaces:
             self.check(place.name, place.x, place.y)
         return places
 
+    def docks(self) -> list[Place]:
+        """The places of docks."""
+        return [place for place in self._records.places.all() if place.kind == "dock"]
+
     def dock(self, order: TaskOrder) -> Place:
         """The dock that an order names, else the first place that is one."""
         if order.places:
             return self.named(order, 1, 1, "Docking needs one place", stands=False)[0]
-        dock = next((place for place in self._records.places.all() if place.kind == "dock"), None)
-        if dock is None:
+        docks = self.docks()
+        if not docks:
             said = "There is no place of the kind dock; make one first."
             raise Refusal(Notice(Code.DOCK_MISSING, said))
-        return dock
+        return docks[0]
 
     def _place(self, name: str) -> Place:
         place, home = self._records.places.named(name), self.home()

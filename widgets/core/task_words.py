@@ -93,7 +93,14 @@ TASKS: dict[str, TaskWords] = {
         mark("Straight in one direction"),
     ),
     "dock": TaskWords(
-        mark("Dock", "task"), "battery_charging_full", mark("docking"), ("dock",), mark("Onto the charger")
+        mark("Dock", "task"),
+        "battery_charging_full",
+        mark("docking"),
+        ("dock", "charge"),
+        mark("Onto the charger"),
+    ),
+    "undock": TaskWords(
+        mark("Undock"), "undo", mark("leaving the dock"), (), mark("Back out of the charger")
     ),
     "take_off": TaskWords(
         mark("Take off"), "arrow_upward", mark("taking off"), ("height",), mark("Up into the air")
@@ -133,8 +140,8 @@ NEEDS = {
     "guide": ((1, mark("Choose at least one place to lead to.")),),
     "go_to": ((1, mark("Choose where to go.")),),
 }
-PECULIAR = ("take_off", "land", "surface")
-"""Tasks of robots that fly or dive."""
+PECULIAR = ("undock", "take_off", "land", "surface")
+"""Tasks of robots that fly or dive, or that say that they know them."""
 MOVES, HOLDS = mark("Drives"), mark("Stands still where it is")
 """Words for a robot that gives none of its own: how it moves, and how it keeps its place."""
 FIGURES = ("speed", "throttle", "height")
@@ -232,6 +239,7 @@ def will(
         "deliver": lambda: _delivers(order),
         "guide": lambda: _guides(order, follows),
         "dock": lambda: _docks(order),
+        "undock": lambda: tr("Backs out of its dock and stands before it."),
     }
     says |= {
         "hold": lambda: _holds(order, robot),
@@ -340,9 +348,11 @@ def _guides(order: TaskOrder, follows: bool) -> str:
 
 
 def _docks(order: TaskOrder) -> str:
-    return tr("Drives onto {places} and charges.").format(
-        places=order.places[0] if order.places else tr("its dock")
-    )
+    dock = order.places[0] if order.places else tr("its dock")
+    if math.isfinite(order.charge_to):
+        words = tr("Drives onto {places} and charges there until {share:.0f} %.")
+        return words.format(places=dock, share=order.charge_to * 100)
+    return tr("Drives onto {places} and charges.").format(places=dock)
 
 
 def _listed(names: Sequence[str]) -> str:

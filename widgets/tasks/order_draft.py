@@ -42,6 +42,8 @@ class OrderDraft(Control):
     """[m], below water negative; NaN for the usual or the present one."""
     duration = NumericProperty(math.nan)
     """[s]; NaN until stopped."""
+    charge_to = NumericProperty(math.nan)
+    """Charge to stay in the dock for, 0 to 1; NaN to be done as soon as it charges."""
     robot: ObjectProperty[RobotInfo] = ObjectProperty(RobotInfo())
     """Who it is for: what it can do decides what is asked for, and how fast and how high."""
     mission: ObjectProperty[Mission] = ObjectProperty(Mission())
@@ -64,13 +66,14 @@ class OrderDraft(Control):
             throttle=self.throttle,
             height=self.at_height,
             duration=self.duration,
+            charge_to=self.charge_to,
         )
 
     order = AliasProperty(
         _order,
         bind=[
             *("task", "places", "message", "recipient_tag"),
-            *("heading", "speed", "throttle", "at_height", "duration"),
+            *("heading", "speed", "throttle", "at_height", "duration", "charge_to"),
         ],
     )
     """What is asked for so far."""
@@ -96,7 +99,7 @@ class OrderDraft(Control):
         self._id, self.task, self.places = order.id, order.task, list(order.places)
         self.message, self.recipient_tag = order.message, order.recipient_tag
         self.heading, self.speed, self.duration = order.heading, order.speed, order.duration
-        self.throttle, self.at_height = order.throttle, order.height
+        self.throttle, self.at_height, self.charge_to = order.throttle, order.height, order.charge_to
 
     def set(self, **changes: Any) -> None:
         """Change properties of the order as a finger would."""

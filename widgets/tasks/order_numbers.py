@@ -81,10 +81,18 @@ def _duration(draft: OrderDraft) -> FormRow:
     return _row(tr("For how long"), span)
 
 
+def _charge(draft: OrderDraft) -> FormRow:
+    share = 0 if math.isnan(draft.charge_to) else round(draft.charge_to * 100)
+    charge = Stepper(value=share, step=20, maximum=100, unit="%", zero=tr("as soon as it charges"))
+    charge.bind(on_change=lambda _, value: draft.set(charge_to=value / 100 if value else math.nan))
+    return _row(tr("Done at"), charge)
+
+
 NUMBERS: dict[str, Callable[[OrderDraft], FormRow]] = {
     "speed": _speed,
     "throttle": _throttle,
     "height": _height,
     "duration": _duration,
+    "charge": _charge,
 }
 """Field of a task to what makes its row, which a finger changes the draft by."""

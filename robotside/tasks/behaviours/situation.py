@@ -8,7 +8,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from bridge.msgs.sensor_msgs import LaserScan
 from robotside.core.pose2 import ORIGIN, Points, Pose2
+from robotside.perception.pad_finder import NOTHING_BELOW, GroundView
 
 __all__ = ["Doing", "Seen", "Situation"]
 
@@ -21,7 +23,8 @@ class Doing:
     """The present action of a task."""
 
     phase: str = ""
-    """driving, waiting, dwelling, holding, turning, docking, circling, taking off, landing or surfacing; empty when it does none of them."""
+    """driving, waiting, dwelling, holding, turning, docking, undocking, charging, circling, taking off, landing, surfacing or unsure;
+    empty when it does none of them."""
     text: str = ""
     """One sentence for the operator: what it does and why; empty leaves it to the task."""
     place: str = ""
@@ -70,10 +73,36 @@ class Situation:
     """landed, taking_off, flying or landing; empty for what does not fly."""
     charging: bool = False
     """The battery takes charge, or is full at the charger."""
+    power: int = 0
+    """As `power_supply_status` of `sensor_msgs/BatteryState`; 0 while unknown."""
+    battery_heard: float = -math.inf
+    """When the battery was last heard [s], robot clock."""
+    charge: float = math.nan
+    """0 empty to 1 full; NaN while unknown."""
+    scan: LaserScan | None = None
+    """The newest sweep of the laser; None without one."""
+    swept: Pose2 = ORIGIN
+    """Where the wheels were at that sweep, in the frame of the odometry."""
+    picture: bytes = b""
+    """The newest picture of the first camera, a JPEG file; empty without one."""
+    picture_stamp: float = -math.inf
+    """When it was taken [s]; a picture of what does not move may come again, with a stamp of its own."""
+    pictured: Pose2 = ORIGIN
+    """Where the wheels were at that picture, in the frame of the odometry."""
+    looks_down: bool = False
+    """What it does now wants pictures of what is below."""
+    ground: GroundView = NOTHING_BELOW
+    """The newest of those; without a picture before the first."""
+    below: float = math.nan
+    """To the ground straight below [m]; no finite number where that is out of reach or not measured."""
+    odom: Pose2 = ORIGIN
+    """Where the wheels are now, in the frame of the odometry."""
     touched: bool = False
     """The bumper touches something."""
     intruders: deque[Seen] = field(default_factory=lambda: deque(maxlen=MAX_INTRUDERS))
     """Found, and not gone round yet."""
+    touches: bool = False
+    """What it does now may touch something: that is no accident."""
     doing: Doing = Doing()
     """The action that the last behaviour reported."""
     still: float = 0.0
@@ -85,14 +114,22 @@ class Situation:
         return self.now - self.idle
 
     def report(
-        self, phase: str, text: str = "", *, place: str = "", asks: str = "", still: float = 0.0
+        self,
+        phase: str,
+        text: str = "",
+        *,
+        place: str = "",
+        asks: str = "",
+        still: float = 0.0,
+        touches: bool = False,
     ) -> None:
-        """Say what is done; `still` is how long it takes beside the way [s]."""
-        self.doing, self.still = Doing(phase, text, place, asks), still
+        """Say what is done; `still` is how long it takes beside the way [s], and `touches` says that it may touch something."""
+        self.doing, self.still, self.touches = Doing(phase, text, place, asks), still, touches
 
     def begin(self) -> None:
         """Forget what belonged to the task before."""
-        self.doing, self.still, self.idle = Doing(), 0.0, 0.0
+        self.doing, self.still, self.idle, self.touches = Doing(), 0.0, 0.0, False
+        self.looks_down = False
         self.intruders.clear()
         self.forget_confirmation()
 

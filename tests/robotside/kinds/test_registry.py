@@ -70,10 +70,12 @@ def test_which_tasks_there_are_depends_on_kind_and_manoeuvres() -> None:
     def known(kind: str, *manoeuvres: str) -> list[str]:
         return tasks_of(RobotInfo(kind=kind, manoeuvres=list(manoeuvres)))
 
-    assert known("wheels", "twist") == [*EVERYWHERE, "dock"]
+    assert known("wheels", "twist") == [*EVERYWHERE, "dock", "undock"]
     assert known("ackermann", "twist", "steer") == EVERYWHERE
     assert known("hexapod", "course", "surface") == [*EVERYWHERE, "surface"]
     assert known("quadrotor", "hover", "take_off", "land") == [*EVERYWHERE, "take_off", "land"]
+    sees = RobotInfo(kind="quadrotor", manoeuvres=["take_off", "land"], cameras=["front", "down"])
+    assert tasks_of(sees) == [*EVERYWHERE, "dock", "take_off", "land"]
 
 
 def test_the_tasks_are_told_with_the_robots_information(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ import pytest
 from bridge.msgs.pilothouse_msgs import (
     Bumper,
     CommandRequest,
+    DeletePlaceRequest,
     Following,
     GetHistoryRequest,
     Mission,
@@ -144,7 +145,7 @@ def test_following_a_heading_up_to_the_wall(house: Scene) -> None:
 def test_docking_until_the_charge_is_seen(house: Scene) -> None:
     begin(house, "dock")
     until(house, lambda status: status.phase == "docking")
-    assert house.robot.pose[0] == pytest.approx(-3.2, abs=0.25)
+    assert house.robot.pose[0] == pytest.approx(-2.0, abs=0.25)
     house.run(5.0)
     house.robot.charging = True
     assert house.run_task().reason == "Docked at Dock: the battery takes charge."
@@ -158,8 +159,7 @@ def test_a_dock_may_stand_at_a_wall_and_is_left_again(house: Scene) -> None:
     said = house.refused("/places/set", SetPlaceRequest(place=behind))
     assert said.startswith("The place before Behind at (-10.5, 0.0) is in a wall")
     begin(house, "dock", "Wall")
-    until(house, lambda status: status.phase == "docking")
-    house.run(11.0)
+    house.until(lambda: house.robot.pose[0] < -9.6, 90.0)
     house.robot.charging = True
     assert house.run_task().state == "SUCCEEDED"
     assert house.robot.pose[0] == pytest.approx(-9.7, abs=0.15)
@@ -170,7 +170,7 @@ def test_a_dock_may_stand_at_a_wall_and_is_left_again(house: Scene) -> None:
 
 def test_touching_the_dock_is_no_accident(house: Scene) -> None:
     begin(house, "dock")
-    until(house, lambda status: status.phase == "docking")
+    house.until(lambda: house.robot.pose[0] < -3.7, 60.0)
     house.robot.silent.add("/bumper")
     house.robot.more.append(("/bumper", Bumper(pressed=True)))
     house.run(0.3)
@@ -228,8 +228,16 @@ def test_every_task_pauses_at_rest_wherever_it_is_and_goes_on(house: Scene, task
         assert house.task.state == "RUNNING"
 
 
+def without_dock(house: Scene) -> None:
+    dock = next(place for place in house.station.records.places.all() if place.kind == "dock")
+    assert house.ask("/places/delete", DeletePlaceRequest(id=dock.id)).success
+
+
 @pytest.mark.parametrize("task", ["deliver", "guide", "go_to", "follow_heading", "patrol"])
-def test_a_low_battery_ends_every_task_that_moves_and_sends_it_home(house: Scene, task: str) -> None:
+def test_without_a_dock_a_low_battery_ends_every_task_that_moves_and_sends_it_home(
+    house: Scene, task: str
+) -> None:
+    without_dock(house)
     names = {"deliver": ["Office 12", "Lab"], "guide": ["Lab"], "go_to": ["Lab"]}
     house.set(*SQUARE, home=[Waypoint(-2.0, -2.0)])
     begin(house, task, *names.get(task, []), heading=0.0)
@@ -253,7 +261,8 @@ def test_a_low_battery_lets_it_hold_dock_and_go_home(house: Scene) -> None:
     assert (house.task.task, house.task.state) == ("dock", "RUNNING")
 
 
-def test_a_low_battery_with_no_home_ends_the_task_and_says_why(house: Scene) -> None:
+def test_a_low_battery_with_no_dock_and_no_home_ends_the_task_and_says_why(house: Scene) -> None:
+    without_dock(house)
     begin(house, "go_to", "Lab")
     house.robot.battery = 0.09
     house.run(1.1)

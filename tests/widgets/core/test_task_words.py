@@ -17,7 +17,7 @@ def test_a_robot_is_offered_what_it_says_that_it_knows():
 
 
 def test_one_that_does_not_say_is_not_asked_to_fly_or_to_dive():
-    assert set(TASKS) - set(known(RobotInfo())) == {"take_off", "land", "surface"}
+    assert set(TASKS) - set(known(RobotInfo())) == {"undock", "take_off", "land", "surface"}
 
 
 @pytest.mark.parametrize(

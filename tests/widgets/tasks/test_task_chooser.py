@@ -34,7 +34,7 @@ def test_showing_an_order_marks_its_task_and_says_nothing(chooser):
 
 
 def test_on_a_wide_screen_they_stand_in_one_row(stage, chooser):
-    chooser.width = 760
+    chooser.width = 860
     stage.frames(4)
     assert len({tile.y for tile in tiles(chooser)}) == 1
 

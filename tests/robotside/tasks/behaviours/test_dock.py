@@ -1,4 +1,4 @@
-"""Docking, ticked by hand."""
+"""Docking, ticked by hand, against where the dock really stands."""
 
 from __future__ import annotations
 
@@ -7,90 +7,289 @@ import math
 import pytest
 from py_trees.common import Status
 
+from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Place
+from bridge.msgs.sensor_msgs import BatteryState
+from robotside.core.pose2 import ORIGIN, Pose2
+from robotside.perception.dock_finder import DockFinder
+from robotside.perception.dock_track import DockTrack
+from robotside.tasks.behaviours.approach import Approach
 from robotside.tasks.behaviours.course import Course
-from robotside.tasks.behaviours.dock import CHARGE_TIMEOUT, MAX_BEYOND, Dock, before
-from tests.fakes import Box
+from robotside.tasks.behaviours.dock import APPROACH_TIMEOUT, MAX_TRIES, Dock, before
+from tests.fakes import Box, FakeDock, FakeRobot, Pillar
 from tests.robotside.tasks.behaviours.stage import Stage
 
-DOCK = Place(1, "Dock", "dock", x=3.0, y=1.0, yaw=math.pi / 2)
+RADIUS = 0.18
+DOCK = Place(1, "Dock", "dock", x=4.0, y=1.0, yaw=0.0)
+"""Where the robot stands docked, as the map has it."""
+
+MAP_ERROR = Pose2(0.2, 0.22, math.radians(10))
+"""Of 0.3 m and 10 degrees."""
 
 
-def make(stage: Stage) -> Dock:
-    return Dock(DOCK, Course([before(DOCK)]), stage.navigator, stage.situation)
+def stage(off: Pose2 = ORIGIN, *, pillars: tuple[Pillar, ...] = (), **words: object) -> Stage:
+    dock = FakeDock(DOCK.x + RADIUS, DOCK.y, DOCK.yaw, **words)  # type: ignore[arg-type]
+    made = Stage(robot=FakeRobot(beams=360, dock=dock, pillars=pillars))
+    made.off = off
+    return made
 
 
-def until(stage: Stage, tree: Dock, phase: str) -> None:
-    end = stage.situation.now + 60.0
-    while stage.phase != phase and stage.situation.now < end:
-        assert stage.tick(tree) is Status.RUNNING
-    assert stage.phase == phase
+def make(on: Stage, distance: float = 2.0) -> Dock:
+    course = Course([before(DOCK, distance)])
+    course.index = 0
+    track = DockTrack(DockFinder())
+    return Dock(DOCK, course, on.navigator, on.situation, Approach.of(on.robot.info), track)
 
 
-def test_it_drives_before_the_dock_turns_to_it_and_creeps_until_the_charge_is_seen() -> None:
-    stage = Stage()
-    tree = make(stage)
-    until(stage, tree, "driving")
-    until(stage, tree, "turning")
-    assert stage.robot.pose[:2] == pytest.approx((3.0, 0.2), abs=0.25)
-    until(stage, tree, "docking")
-    assert stage.robot.pose[2] == pytest.approx(math.pi / 2, abs=0.1)
-    stage.tick(tree, 5.0)
-    assert stage.robot.twist.linear.x == pytest.approx(0.08)
-    stage.situation.charging = True
-    assert stage.tick(tree) is Status.SUCCESS
-    assert stage.robot.at_rest
+def until(on: Stage, tree: Dock, phase: str, limit: float = 60.0) -> None:
+    end = on.situation.now + limit
+    while on.phase != phase and on.situation.now < end:
+        assert on.tick(tree) is Status.RUNNING
+    assert on.phase == phase
 
 
-def test_without_a_charge_in_time_it_stands_and_says_so() -> None:
-    stage = Stage()
-    tree = make(stage)
-    until(stage, tree, "docking")
-    began = stage.situation.now
-    assert stage.tick(tree, 60.0) is Status.FAILURE
-    assert stage.situation.now - began == pytest.approx(CHARGE_TIMEOUT, abs=0.2)
-    assert stage.navigator.reason == "No charge at Dock within 20 s; the robot stands there."
-    assert stage.robot.at_rest
-    assert stage.robot.pose[1] < DOCK.y + MAX_BEYOND + 0.05
+def finish(on: Stage, tree: Dock, limit: float = 400.0) -> Status:
+    status = on.tick(tree, limit)
+    assert status is not Status.RUNNING, on.situation.doing
+    assert on.robot.at_rest
+    return status
 
 
-def test_what_it_touches_while_it_creeps_is_the_dock_and_it_pushes_no_further() -> None:
-    stage = Stage()
-    tree = make(stage)
-    until(stage, tree, "docking")
-    stage.tick(tree, 2.0)
-    stage.situation.touched = True
-    stage.tick(tree, 0.1)
-    assert stage.robot.at_rest
-    assert stage.situation.doing.text == "Waiting for the charge at Dock."
+def test_it_drives_two_metres_before_the_dock_and_goes_up_to_it_until_it_charges() -> None:
+    on = stage()
+    tree = make(on)
+    until(on, tree, "driving")
+    until(on, tree, "docking")
+    assert on.robot.pose[:2] == pytest.approx((2.0, 1.0), abs=0.25)
+    assert finish(on, tree) is Status.SUCCESS
+    assert on.robot.pose[:2] == pytest.approx((4.0, 1.0), abs=0.03)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_it_docks_though_the_map_is_off_by_thirty_centimetres_and_ten_degrees(side: int) -> None:
+    on = stage(Pose2(MAP_ERROR.x, side * MAP_ERROR.y, side * MAP_ERROR.yaw))
+    assert finish(on, make(on)) is Status.SUCCESS
+    assert on.robot.pose[:2] == pytest.approx((4.0, 1.0), abs=0.03)
+
+
+def test_by_the_map_only_it_docks_where_the_map_is_right_and_says_that_it_goes_by_it() -> None:
+    on = stage(strips=(), aside=0.05)
+    on.blind = True
+    tree = make(on)
+    until(on, tree, "docking")
+    on.tick(tree, 1.0)
+    assert on.situation.doing.text == "Going up to Dock, by the map only."
+    assert finish(on, tree) is Status.SUCCESS
+
+
+def test_what_is_not_seen_is_not_driven_at_and_said_after_three_looks() -> None:
+    on = stage(strips=())
+    assert finish(on, make(on)) is Status.FAILURE
+    assert on.navigator.reason == (
+        "Dock is not seen: no two reflecting strips 0.30 m apart are where it should be; "
+        "after 3 tries the robot stands before it."
+    )
+    assert on.robot.contacts == 0
+    assert on.robot.pose[0] < 2.5
+
+
+def test_a_dock_with_another_robot_in_it_is_told_to_be_taken() -> None:
+    on = stage(pillars=(Pillar(DOCK.x, DOCK.y, 0.2),))
+    assert finish(on, make(on)) is Status.FAILURE
+    assert on.navigator.reason.startswith("Dock is taken: something stands in it")
+    assert on.robot.contacts == 0
+
+
+def test_contacts_that_do_not_meet_are_tried_three_times_from_two_metres() -> None:
+    on = stage(aside=-1.0)
+    tree, far, tries = make(on), False, 0
+    for _ in range(20 * 600):
+        if on.tick(tree) is not Status.RUNNING:
+            break
+        away = DOCK.x - on.robot.pose[0]
+        tries += far and away < 0.1
+        far = away > 1.5 or (far and away >= 0.1)
+    assert tries == MAX_TRIES
+    assert tree.status is Status.FAILURE
+    assert on.robot.at_rest
+    assert on.navigator.reason == (
+        "Dock was reached by its reflectors, but its contacts did not meet; "
+        "after 3 tries the robot stands before it."
+    )
+
+
+def test_a_dead_charger_is_told_at_the_first_contact() -> None:
+    on = stage(gives=BatteryState.POWER_SUPPLY_STATUS_NOT_CHARGING)
+    assert finish(on, make(on)) is Status.FAILURE
+    assert on.navigator.reason == (
+        "Dock gives no charge: the contacts meet, but no current flows; the robot stands there."
+    )
+
+
+def test_a_silent_battery_in_contact_is_told_as_that_and_not_tried_again() -> None:
+    on = stage()
+    on.mute = True
+    assert finish(on, make(on), 120.0) is Status.FAILURE
+    assert on.navigator.reason == (
+        "Dock was reached, but the battery says nothing, so nobody knows whether it charges; the robot stands there."
+    )
+    assert on.robot.pose[:2] == pytest.approx((4.0, 1.0), abs=0.05)
+
+
+def test_a_full_battery_at_the_dock_is_docked() -> None:
+    on = stage(gives=BatteryState.POWER_SUPPLY_STATUS_FULL)
+    assert finish(on, make(on)) is Status.SUCCESS
+
+
+def test_it_waits_for_who_stands_in_the_way_and_goes_on_when_they_are_gone() -> None:
+    on = stage()
+    tree = make(on)
+    until(on, tree, "docking")
+    on.tick(tree, 1.0)
+    on.robot.pillars.append(Pillar(3.2, 1.0, 0.1))
+    on.tick(tree, 5.0)
+    assert on.situation.doing.text == "Waiting: something stands before Dock."
+    assert on.robot.at_rest
+    assert not on.situation.touches
+    assert on.robot.room() > 0.1
+    on.robot.pillars.clear()
+    assert finish(on, tree) is Status.SUCCESS
+
+
+def test_who_never_leaves_the_way_is_never_touched() -> None:
+    on = stage()
+    tree = make(on)
+    until(on, tree, "docking")
+    on.tick(tree, 1.0)
+    on.robot.pillars.append(Pillar(3.2, 1.0, 0.1))
+    assert finish(on, tree) is Status.FAILURE
+    assert "something stands" in on.navigator.reason
+    assert on.robot.contacts == 0
+
+
+def test_only_near_the_dock_a_touch_is_no_accident() -> None:
+    on = stage()
+    tree, touching = make(on), []
+    while on.tick(tree) is Status.RUNNING:
+        if on.situation.touches:
+            touching.append(DOCK.x - on.robot.pose[0])
+    assert 0.2 < max(touching) < 0.35
+
+
+def test_pushed_aside_on_the_way_it_still_comes_in() -> None:
+    on = stage(MAP_ERROR)
+    tree = make(on)
+    until(on, tree, "docking")
+    on.tick(tree, 3.0)
+    x, y, yaw = on.robot.pose
+    on.robot.pose = (x, y + 0.06, yaw - 0.05)
+    assert finish(on, tree) is Status.SUCCESS
 
 
 def test_who_was_moved_away_while_it_was_paused_begins_anew() -> None:
-    stage = Stage()
-    tree = make(stage)
-    until(stage, tree, "docking")
-    stage.pause(30.0)
-    stage.robot.pose = (0.0, 0.0, 0.0)
-    until(stage, tree, "driving")
-    until(stage, tree, "docking")
+    on = stage()
+    tree = make(on)
+    until(on, tree, "docking")
+    on.tick(tree, 3.0)
+    on.pause(30.0)
+    on.robot.pose = (-1.0, 0.0, 0.0)
+    until(on, tree, "driving")
+    assert finish(on, tree) is Status.SUCCESS
 
 
-def test_a_pause_does_not_count_as_waiting_for_the_charge() -> None:
-    stage = Stage()
-    tree = make(stage)
-    until(stage, tree, "docking")
-    stage.pause(CHARGE_TIMEOUT + 5.0)
-    assert stage.tick(tree, 1.0) is Status.RUNNING
+def test_a_pause_in_contact_does_not_count_as_waiting_for_the_charge() -> None:
+    on = stage(gives=0)
+    tree = make(on)
+    while on.situation.doing.text != "Waiting for the charge at Dock.":
+        assert on.tick(tree) is Status.RUNNING
+    on.pause(60.0)
+    assert on.tick(tree, 1.0) is Status.RUNNING
+    assert on.situation.doing.text == "Waiting for the charge at Dock."
 
 
 def test_who_is_charging_at_the_dock_stays_there() -> None:
-    stage = Stage()
-    stage.robot.pose = (DOCK.x, DOCK.y, DOCK.yaw)
-    stage.situation.charging = True
-    assert stage.tick(make(stage)) is Status.SUCCESS
+    on = stage()
+    on.robot.pose = (DOCK.x, DOCK.y, DOCK.yaw)
+    on.situation.charging = True
+    assert on.tick(make(on)) is Status.SUCCESS
 
 
 def test_a_dock_without_a_way_to_it_fails() -> None:
-    stage = Stage(Box(1.0, -6.0, 1.3, 6.0))
-    assert stage.tick(make(stage), 5.0) is Status.FAILURE
-    assert stage.navigator.reason.startswith("There is no way to Dock at (3.0, 0.2)")
+    on = Stage(Box(1.0, -6.0, 1.3, 6.0))
+    assert on.tick(make(on), 5.0) is Status.FAILURE
+    assert on.navigator.reason.startswith("There is no way to Dock at (2.0, 1.0)")
+
+
+def going_up(on: Stage, tree: Dock, x: float) -> None:
+    """Up to the `x` [m] of the map on its approach."""
+    until(on, tree, "docking")
+    while on.robot.pose[0] < x:
+        assert on.tick(tree) is Status.RUNNING
+    assert on.situation.doing.text.startswith("Going up to Dock")
+
+
+def test_going_back_it_does_not_back_into_who_stands_there() -> None:
+    on = stage(aside=-1.0)
+    tree = make(on)
+    while not on.situation.doing.text.startswith("Going back"):
+        assert on.tick(tree) is Status.RUNNING
+    on.tick(tree, 1.0)
+    x, y, _ = on.robot.pose
+    on.robot.pillars.append(Pillar(x - RADIUS - 0.12 - 0.2, y, 0.12))
+    before_it = on.robot.contacts
+    on.tick(tree, 4.0)
+    assert on.robot.contacts == before_it
+    assert not on.situation.doing.text.startswith("Going back")
+
+
+def test_charge_that_it_takes_elsewhere_is_not_that_of_the_dock() -> None:
+    on = stage()
+    on.mute = on.situation.charging = True
+    assert on.tick(make(on), 0.5) is Status.RUNNING
+
+
+def test_what_it_touches_far_from_the_dock_is_not_the_dock() -> None:
+    on = stage()
+    tree = make(on)
+    going_up(on, tree, 2.8)
+    on.situation.touched = True
+    on.tick(tree, 0.15)
+    assert on.situation.doing.text.startswith("Going up to Dock")
+
+
+def test_off_its_line_close_to_the_dock_it_goes_back_before_it_touches_it() -> None:
+    on = stage()
+    tree = make(on)
+    going_up(on, tree, 3.72)
+    x, y, yaw = on.robot.pose
+    on.robot.pose = (x, y + 0.08, yaw)
+    while on.situation.doing.text.startswith("Going up"):
+        assert on.tick(tree) is Status.RUNNING
+    assert on.situation.doing.text.startswith("Going back")
+    assert on.robot.pose[0] < 3.95
+
+
+def test_an_approach_that_takes_too_long_is_tried_again() -> None:
+    on = stage()
+    tree = make(on)
+    going_up(on, tree, 2.8)
+    on.robot.stop()
+    on.situation.now += APPROACH_TIMEOUT
+    on.tick(tree, 0.1)
+    assert on.situation.doing.text.startswith("Going back")
+
+
+def test_it_stands_while_it_looks_and_when_it_is_ended() -> None:
+    on = stage(strips=())
+    tree = make(on)
+    while on.situation.doing.text != "Looking for Dock.":
+        assert on.tick(tree) is Status.RUNNING
+    on.robot.drive(Twist.planar(0.2, 0.0))
+    on.tick(tree)
+    assert on.robot.at_rest
+    on = stage()
+    tree = make(on)
+    going_up(on, tree, 2.8)
+    assert not on.robot.at_rest
+    tree.stop(Status.INVALID)
+    assert on.robot.at_rest

@@ -1,0 +1,132 @@
+"""The tasks of docks: onto one, out of it, and the break of another task to charge there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from py_trees.behaviour import Behaviour
+from py_trees.composites import Sequence as Chain
+
+from bridge.core.codes import Code
+from bridge.msgs.pilothouse_msgs import Place, RobotInfo, TaskOrder
+from robotside.core.notice import Notice, Problem
+from robotside.core.pose2 import Pose2
+from robotside.core.refusal import Refusal
+from robotside.kinds.registry import kind_of
+from robotside.navigation.navigator import Navigator
+from robotside.perception.dock_finder import DockFinder
+from robotside.perception.dock_track import DockTrack
+from robotside.perception.pad_finder import DOWN, PadFinder
+from robotside.perception.tag_finder import TagFinder
+from robotside.records.events import Say
+from robotside.tasks.behaviours.approach import Approach
+from robotside.tasks.behaviours.charge import MIN_CHARGE, Charge
+from robotside.tasks.behaviours.course import Course, Span
+from robotside.tasks.behaviours.dock import Dock, start
+from robotside.tasks.behaviours.situation import Situation
+from robotside.tasks.behaviours.undock import Undock
+from robotside.tasks.berthing.pad_landing import PadLanding, first_goal
+from robotside.tasks.engine import Task
+from robotside.tasks.task_places import TaskPlaces
+
+__all__ = ["DockTasks", "docks"]
+
+
+def docks(info: RobotInfo) -> bool:
+    """The robot can come to a charger of its kind; down onto a pad only with a camera that looks there."""
+    how = kind_of(info.kind).docks
+    return bool(how) and (how != "pad" or (DOWN in info.cameras and "land" in info.manoeuvres))
+
+
+class DockTasks:
+    """Makes them for one robot. Every method raises Refusal with one sentence when it cannot be done."""
+
+    def __init__(
+        self,
+        places: TaskPlaces,
+        navigator: Navigator,
+        situation: Situation,
+        info: RobotInfo,
+        *,
+        say: Say,
+        fault: Callable[[str, float, float], Problem],
+    ) -> None:
+        """`fault` gives the reason why the robot cannot or may not stand at a place of that name; empty when it can."""
+        self._places, self._navigator, self._situation, self._info = places, navigator, situation, info
+        self._say, self._fault = say, fault
+        self._approach = Approach.of(info)
+        self._flies = kind_of(info.kind).docks == "pad"
+
+    def dock(self, order: TaskOrder) -> Task:
+        """Onto a dock, and to stay there until the battery has what the order says."""
+        dock, until = self._places.dock(order), order.charge_to
+        if not (math.isnan(until) or MIN_CHARGE <= until <= 1):
+            allowed = f"from {MIN_CHARGE:.0%} to 100%, or left out"
+            said = f"The charge to stay for must be {allowed}, not {until:.0%}."
+            raise Refusal(Notice(Code.CHARGE_INVALID, said, charge=until, least=MIN_CHARGE))
+        tree, course = self._onto(dock)
+        if math.isnan(until):
+            done = f"Docked at {dock.name}: the battery takes charge."
+            return Task("dock", "Docking", tree, course, done=lambda: done)
+        charge = Charge(until, dock.name, self._navigator, self._situation, self._say)
+        chain = Chain("dock and charge", memory=True, children=[tree, charge])
+
+        def charged() -> str:
+            return f"Charged to {self._situation.charge:.0%} at {dock.name}."
+
+        return Task("dock", "Charging", chain, course, done=charged)
+
+    def undock(self, _: TaskOrder) -> Task:
+        """Out of the dock that it is in."""
+        leave, here = self._leave(), self._situation
+
+        def done() -> str:
+            return f"Out of {leave.dock}." if leave.dock else "The robot stands in no dock."
+
+        span = Span(math.nan, lambda: here.worked)
+        return Task("undock", "Undocking", leave, span, done=done)
+
+    def out_first(self, tree: Behaviour) -> Behaviour:
+        """`tree` for a robot that may be in a dock: it leaves it first."""
+        if self._flies:
+            return tree  # it takes off, wherever it stands
+        return Chain("out of the dock first", memory=True, children=[self._leave(), tree])
+
+    def charge_break(self, until: float) -> Behaviour:
+        """What a task is interrupted by to charge up to a share, 0 to 1; the task goes on outside of the dock."""
+        dock = self._places.dock(TaskOrder(task="dock"))
+        tree, _ = self._onto(dock)
+        charge = Charge(until, dock.name, self._navigator, self._situation, self._say)
+        children = [tree, charge] if self._flies else [tree, charge, self._leave()]
+        return Chain("charge first", memory=True, children=children)
+
+    def _leave(self) -> Undock:
+        return Undock(self._places.docks, self._navigator, self._situation, self._approach)
+
+    def _onto(self, dock: Place) -> tuple[Behaviour, Course]:
+        return self._down_onto(dock) if self._flies else self._up_to(dock)
+
+    def _down_onto(self, pad: Place) -> tuple[Behaviour, Course]:
+        finder = PadFinder()
+        if not finder.able:
+            said = "Pads cannot be found: the library that reads their tags is not installed."
+            raise Refusal(Notice(Code.DOCK_UNSEEN, said, place=pad.name))
+        first = first_goal(pad, self._fault)
+        self._places.check(pad.name, first.x, first.y)
+        course = Course([first])
+        course.index = 0
+        tree = PadLanding(pad, course, self._navigator, self._situation, finder.find, self._fault)
+        return tree, course
+
+    def _up_to(self, dock: Place) -> tuple[Behaviour, Course]:
+        if math.isnan(dock.yaw):
+            said = f"{dock.name} has no direction; docking needs the one to stand in there."
+            raise Refusal(Notice(Code.DOCK_UNDIRECTED, said, place=dock.name))
+        first = start(dock, self._approach.standoffs, self._fault)
+        self._places.check(f"The place before {dock.name}", first.x, first.y)
+        course = Course([first])
+        course.index = 0
+        tags = TagFinder(self._info.camera_fov) if self._info.cameras else None
+        track = DockTrack(DockFinder(Pose2(self._info.laser_x, 0.0, 0.0)), tags)
+        return Dock(dock, course, self._navigator, self._situation, self._approach, track), course

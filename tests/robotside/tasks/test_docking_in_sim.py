@@ -1,0 +1,128 @@
+"""Docking on the simulated robots, measured against where they and their docks really are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from bridge.msgs.pilothouse_msgs import Place, SetPlaceRequest, Waypoint
+from robotside.core.pose2 import ORIGIN, Pose2
+from sim.robot import make
+from tests.robotside.sim_run import Run
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture
+def start(tmp_path: Path) -> Iterator[Callable[..., Run]]:
+    runs: list[Run] = []
+
+    def begin(name: str, world: str, off: Pose2 = ORIGIN, *, camera: bool = False) -> Run:
+        """With the place of the dock wrong by `off`, in the frame of the dock."""
+        run = Run(make(name, world, seed=7, camera=camera), tmp_path)
+        runs.append(run)
+        dock = next(place for place in run.robot.places if place.kind == "dock")
+        x, y, yaw = Pose2(dock.x, dock.y, dock.yaw).then(off)
+        run.ask("/places/set", SetPlaceRequest(place=Place(name="Charger", kind="dock", x=x, y=y, yaw=yaw)))
+        return run
+
+    yield begin
+    for run in runs:
+        run.station.close()
+
+
+def docked(run: Run) -> bool:
+    """By the simulation itself: its contacts meet the dock's."""
+    return run.robot.simulation.vehicle.dock is not None
+
+
+@pytest.mark.parametrize(("aside", "turned"), [(0.0, 0), (0.25, 10), (-0.25, -10)])
+def test_by_its_reflectors_the_patrol_docks_though_the_map_has_the_dock_elsewhere(
+    start: Callable[..., Run], aside: float, turned: int
+) -> None:
+    run = start("patrol", "parking_lot", Pose2(-0.17 if aside else 0.0, aside, math.radians(turned)))
+    run.order("dock", "Charger")
+    run.until(lambda: run.task.phase == "docking", 120.0)
+    run.finish()
+    assert run.task.reason == "Docked at Charger: the battery takes charge."
+    assert docked(run)
+    run.order("undock")
+    run.finish()
+    assert run.task.reason == "Out of Charger."
+    assert not docked(run)
+
+
+def test_by_its_tag_the_scout_docks_though_the_map_has_the_dock_elsewhere(start: Callable[..., Run]) -> None:
+    run = start("scout", "office", Pose2(-0.15, 0.25, math.radians(10)), camera=True)
+    run.order("dock", "Charger")
+    run.until(lambda: run.task.reason.startswith("Going up"), 120.0)
+    assert run.task.reason == "Going up to Charger, by its tag."
+    run.finish()
+    assert run.task.reason == "Docked at Charger: the battery takes charge."
+    assert docked(run)
+
+
+def test_without_a_camera_the_scout_docks_by_the_map_and_says_so(start: Callable[..., Run]) -> None:
+    run = start("scout", "office")
+    run.order("dock", "Charger")
+    run.until(lambda: run.task.reason.startswith("Going up"), 120.0)
+    assert run.task.reason == "Going up to Charger, by the map only."
+    run.finish()
+    assert docked(run)
+
+
+def test_a_low_battery_on_patrol_charges_and_goes_on(start: Callable[..., Run]) -> None:
+    run = start("patrol", "parking_lot")
+    battery = run.robot.simulation.vehicle.battery
+    run.patrol([Waypoint(-17.5, -5.0), Waypoint(-17.5, 2.0), Waypoint(-17.5, -5.0)])
+    run.until(lambda: run.task.visited == 1, 60.0)
+    battery.charge = 0.14
+    run.until(lambda: run.task.phase == "charging", 200.0)
+    assert docked(run)
+    assert (run.task.task, run.task.visited) == ("patrol", 1)
+    before = battery.charge
+    run.wait(30.0)
+    assert battery.charge > before
+    battery.charge = 0.79
+    run.until(lambda: run.task.phase == "driving", 400.0)
+    assert battery.charge > 0.79
+    assert not docked(run)
+    run.finish()
+    assert (run.task.state, run.task.visited) == ("SUCCEEDED", 3)
+
+
+@pytest.mark.parametrize(("world", "off"), [("office", (-0.8, -0.9)), ("lake", (0.3, 0.6))])
+def test_by_the_tag_below_the_drone_lands_on_its_pad_though_the_map_has_it_elsewhere(
+    start: Callable[..., Run], world: str, off: tuple[float, float]
+) -> None:
+    run = start("ardrone", world, Pose2(*off, 0.0), camera=True)
+    run.order("dock", "Charger")
+    run.finish(150.0)
+    assert run.task.reason == "Docked at Charger: the battery takes charge."
+    assert docked(run)
+    charge = run.robot.simulation.vehicle.battery.charge
+    run.wait(5.0)
+    assert run.robot.simulation.vehicle.battery.charge > charge
+    assert run.robot.simulation.contacts == 0
+
+
+def test_a_low_battery_has_a_drone_charge_on_its_pad_and_go_on_with_its_patrol(
+    start: Callable[..., Run],
+) -> None:
+    run = start("ardrone", "office", Pose2(0.2, 0.3, 0.0), camera=True)
+    battery = run.robot.simulation.vehicle.battery
+    run.patrol([Waypoint(-10.0, -1.2), Waypoint(-11.0, -3.0)], home=[Waypoint(-11.6, -1.2)])
+    run.until(lambda: run.task.phase == "driving", 10.0)
+    battery.charge = 0.14
+    run.until(lambda: run.task.phase == "charging", 120.0)
+    assert docked(run)
+    assert run.task.task == "patrol"
+    battery.charge = 0.795
+    run.until(lambda: run.task.phase == "taking off", 60.0)
+    assert battery.charge >= 0.8
+    run.finish(120.0)
+    assert (run.task.state, run.task.visited) == ("SUCCEEDED", 2)
+    assert not docked(run)
