@@ -171,6 +171,7 @@ SENTENCES: Mapping[str, str] = {
     Code.INTRUDER_FOUND: mark("Intruder {id} found: {kind}."),
     Code.INTRUDER_CIRCLED: mark("Intruder {id} was seen from {sides} of {count} sides; not seen: {missing}."),
     Code.BATTERY_LOW: mark("Battery low: {charge}."),
+    Code.BATTERY_GOING_TO_DOCK: mark("Battery low: {charge}. Going to {place} to charge."),
     Code.BATTERY_GOING_HOME: mark("Battery low: {charge}. Going home."),
     Code.BUMPER_TOUCHED: mark("The bumper touched something."),
     Code.QUEUE_HELD: mark("{count} tasks wait until somebody resumes the queue."),

@@ -33,6 +33,7 @@ from robotside.autonomy.plan_publisher import PlanPublisher
 from robotside.autonomy.sensor_silence import SensorSilence
 from robotside.autonomy.surroundings import Surroundings
 from robotside.core.bus import Bus, Publish
+from robotside.core.config import DEFAULT_CONFIG, ChargingSettings
 from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Pose2
 from robotside.core.robot import Robot
@@ -72,6 +73,7 @@ class Autonomy:
         fault: Callable[[str, float, float], Problem],
         fit: Callable[[Grid], Grid] = lambda grid: grid,
         heights: tuple[float, float] = (-math.inf, math.inf),
+        charging: ChargingSettings = DEFAULT_CONFIG.charging,
         clearance: float | None = None,
         worker: Worker | None = None,
         looker: Worker | None = None,
@@ -115,7 +117,10 @@ class Autonomy:
         response = IntruderResponse(self.engine, self.situation, records, events)
         self.watch = _watch(self.pose_estimator, info, bus.publish, response, looker)
         self._surroundings = Surroundings(info, self.pose_estimator, self.navigator, self.watch)
-        self._battery = BatteryWatch(self.engine, self.task_factory, self.situation, say)
+        self.battery_watch = BatteryWatch(
+            self.engine, self.task_factory, self.situation, say, settings=charging, odometer=self._driven
+        )
+        """Watches the charge."""
         self._contacts = ContactWatch(self.engine, self.pose_estimator, self.situation, say)
         plan.show(np.empty((0, 2)))
         self._handlers = self._make_handlers()
@@ -132,6 +137,9 @@ class Autonomy:
         if chart is not None:
             made.use(chart)
         return made
+
+    def _driven(self) -> float:
+        return self.pose_estimator.odometer
 
     def _engine(self, clock: Callable[[], float]) -> Engine:
         return Engine(
@@ -190,12 +198,12 @@ class Autonomy:
     @property
     def battery(self) -> float:
         """Charge, 0 empty to 1 full; NaN while unknown."""
-        return self._battery.charge
+        return self.battery_watch.charge
 
     @property
     def low(self) -> bool:
         """There is charge only for the way to where there is more."""
-        return self._battery.is_low
+        return self.battery_watch.is_low
 
     def silence(self, now: float) -> str:
         """The needed sensor that is silent, as in `the laser has been silent for 0.6 s`; empty when none is."""
@@ -271,7 +279,7 @@ class Autonomy:
         self.watch.on_image(image, placing=self.pose_estimator.sure)
 
     def _on_battery(self, msg: BatteryState) -> None:
-        self._battery.on_battery(msg, self._now)
+        self.battery_watch.on_battery(msg, self._now)
 
     def _on_bumper(self, msg: Bumper) -> None:
         self._contacts.on_bumper(msg, self._now)

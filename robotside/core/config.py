@@ -17,6 +17,7 @@ from bridge.core.toml_files import MAX_BYTES, FileFault, fault, read
 
 __all__ = [
     "BadConfig",
+    "ChargingSettings",
     "Config",
     "DEFAULT_CONFIG",
     "ControlSettings",
@@ -136,6 +137,15 @@ class ControlSettings(_Section, frozen=True):
     """Share of the full speed at most for a driver over a link whose round trip is not known; operators cannot change it."""
 
 
+class ChargingSettings(_Section, frozen=True):
+    """`[charging]`: when the robot charges by itself."""
+
+    by_itself: bool = True
+    """With a low battery a task goes to a dock first, where there is one, and then goes on."""
+    until: Annotated[float, msgspec.Meta(ge=0.2, le=1.0)] = 0.8
+    """It goes on with this share of a full battery."""
+
+
 class DatabaseSettings(_Section, frozen=True):
     """`[database]`: where places, missions, history and settings are kept."""
 
@@ -202,6 +212,7 @@ class Config(_Section, frozen=True):
     limits: LimitSettings = LimitSettings()
     safe_state: SafeStateSettings = SafeStateSettings()
     control: ControlSettings = ControlSettings()
+    charging: ChargingSettings = ChargingSettings()
     database: DatabaseSettings = DatabaseSettings()
     trust: TrustSettings = TrustSettings()
     serve: ServeSettings = ServeSettings()

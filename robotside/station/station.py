@@ -112,7 +112,7 @@ class Station:
         self.stop.recover()
         self.interrupted = recover_task(records, self.autonomy, self.bus, clock)
         """The task that a restart cut, if there was one."""
-        self.agenda = self._agenda(civil or clock, zone)
+        self.agenda = _agenda(self, civil or clock, zone)
         """Queue and schedule."""
         self._next_diagnostics = -math.inf
         self._ending = False
@@ -277,22 +277,10 @@ class Station:
             fault=self.fault,
             fit=self.keeper.marked,
             heights=self.keeper.heights(self.robot.heights),
+            charging=config.charging,
             clearance=config.limits.clearance,
             worker=self._worker,
             looker=self._looker,
-        )
-
-    def _agenda(self, civil: Callable[[], float], zone: tzinfo) -> Agenda:
-        return Agenda(
-            self.records,
-            self.autonomy.engine,
-            self.autonomy.task_factory,
-            publish=self.bus.publish,
-            say=self.events.say,
-            clock=self.clock,
-            civil=civil,
-            zone=zone,
-            barred=self.fitness.barred,
         )
 
     def take_in(self, messages: Iterable[tuple[str, Msg]]) -> None:
@@ -320,6 +308,21 @@ class Station:
 
     def _trouble(self) -> Problem:
         return self.robot.trouble
+
+
+def _agenda(station: Station, civil: Callable[[], float], zone: tzinfo) -> Agenda:
+    return Agenda(
+        station.records,
+        station.autonomy.engine,
+        station.autonomy.task_factory,
+        publish=station.bus.publish,
+        say=station.events.say,
+        clock=station.clock,
+        civil=civil,
+        zone=zone,
+        barred=station.fitness.barred,
+        charge=station.autonomy.battery_watch.charge_order,
+    )
 
 
 def _info(info: RobotInfo, name: str) -> RobotInfo:

@@ -51,14 +51,17 @@ class Agenda:
         civil: Callable[[], float],
         zone: dt.tzinfo,
         barred: Callable[[bool], str],
+        charge: Callable[[], TaskOrder | None] = lambda: None,
     ) -> None:
         """`clock` is the operators' [s]; `civil` is what the computer's own clock says, which may jump [s].
 
         `barred(drains)` gives the reason why no task may start now, one that drains the battery or not; empty when it may.
+        `charge` gives the order to charge before a queue that the battery holds up; None where the robot does not by itself.
         """
         self._records, self._engine, self._task_factory = records, engine, task_factory
         self._publish, self._say, self._clock = publish, say, clock
         self._civil, self._zone, self._barred = civil, zone, barred
+        self._charge = charge
         self.manual = ManualHold(records, say)
         """Whether anything may start by itself at all."""
         self._next = -math.inf
@@ -132,12 +135,7 @@ class Agenda:
 
         Refusal when one of them cannot be done, NotRecorded when the queue has changed meanwhile.
         """
-        tidy = []
-        for number, order in enumerate(orders[:MAX_QUEUED], 1):
-            try:
-                tidy.append(self._task_factory.task(order).order)
-            except Refusal as problem:
-                raise Refusal(problem.notice.reworded(f"Task {number} of the queue: {problem}")) from problem
+        tidy = _checked(orders[:MAX_QUEUED], self._task_factory)
         fresh = not (orders and self._records.queue.current.orders)
         with self._records.together() as job:
             queue = self._records.queue.set([*tidy, *orders[MAX_QUEUED:]], revision)
@@ -156,8 +154,7 @@ class Agenda:
 
     def set_scheduled(self, task: ScheduledTask) -> ScheduledTask:
         """Keep a scheduled task with the time of its next start. Refusal or NotRecorded says what is wrong with it."""
-        problem = fault(task)
-        if problem:
+        if problem := fault(task):
             raise Refusal(problem)
         order = msgspec.structs.replace(self._task_factory.task(task.order).order, id=0)
         start = following(task, self._civil(), self._zone)
@@ -176,11 +173,20 @@ class Agenda:
             return
         why = self._against(self._records.queue.current.orders)
         if why:
-            self.hold(why)
+            if not self._charges_first(now):
+                self.hold(why)
             return
         order = self._records.queue.pop()
         if order is not None:
             self._start(order, now, Code.QUEUE_LEFT_OUT, f"{_title(order)} of the queue is left out")
+
+    def _charges_first(self, now: float) -> bool:
+        """Go and charge where only the battery holds the queue up; False where that cannot be, or has just failed."""
+        tried = self._engine.status.task == "dock" and self._engine.status.state != "SUCCEEDED"
+        order = None if tried or self._against([TaskOrder(task="dock")]) else self._charge()
+        if order is not None:
+            self._start(order, now, Code.QUEUE_LEFT_OUT, "Charging before the queue is left out")
+        return order is not None
 
     def _against(self, orders: Sequence[TaskOrder], *, fresh: bool = False) -> str:
         """Why `orders` would not go on just now, as the end of a sentence; empty when they would, or after the task that runs.
@@ -266,12 +272,7 @@ class Agenda:
         return dt.datetime.fromtimestamp(instant, self._zone).strftime("%Y-%m-%d at %H:%M")
 
     def _tell_held(self) -> None:
-        count = len(self._records.queue.current.orders)
-        these, still = ("this", "waits") if count == 1 else ("these", "wait")
-        said = (
-            f"{_counted(count)} {still} in the queue, since {self.held}, until you choose Go on with {these}."
-        )
-        self._say("task", Notice(Code.QUEUE_HELD, said, count=count), "warn")
+        self._say("task", _held_notice(len(self._records.queue.current.orders), self.held), "warn")
 
     def _show_queue(self) -> None:
         stored, stamp = self._records.queue.stored, Time.at(self._clock())
@@ -285,6 +286,24 @@ class Agenda:
         )  # the computer's clock may have been set since the start, the operators' goes on evenly
         tasks = [_with_times(task, ahead) for task in self._records.schedule.stored()]
         self._publish("/schedule", Schedule(Time.at(now), tasks))
+
+
+def _checked(orders: Sequence[TaskOrder], task_factory: TaskFactory) -> list[TaskOrder]:
+    """The orders of a queue as they are kept; Refusal names the first one that cannot be done."""
+    tidy = []
+    for number, order in enumerate(orders, 1):
+        try:
+            tidy.append(task_factory.task(order).order)
+        except Refusal as problem:
+            raise Refusal(problem.notice.reworded(f"Task {number} of the queue: {problem}")) from problem
+    return tidy
+
+
+def _held_notice(count: int, why: str) -> Notice:
+    """That `count` tasks wait in the queue, and `why`, as the end of a sentence."""
+    these, still = ("this", "waits") if count == 1 else ("these", "wait")
+    said = f"{_counted(count)} {still} in the queue, since {why}, until you choose Go on with {these}."
+    return Notice(Code.QUEUE_HELD, said, count=count)
 
 
 def _with_times(task: ScheduledTask, ahead: float) -> ScheduledTask:

@@ -33,6 +33,8 @@ TO_CHARGE = ("go_home", "dock", "undock")
 
 ON_THE_WAY = ("driving", "turning")
 """Phases in which the way that is left is known."""
+NO_WAY_YET = ("waiting", "unsure", "planning", "taking off", "undocking")
+"""Phases before the point in which it is not."""
 
 
 @dataclass(frozen=True)
@@ -79,6 +81,7 @@ class Engine:
         self._show, self._progress, self._say = show, progress, say
         self._clock, self._cruise = clock, cruise
         self._wait = TaskWait(navigator, situation)
+        self._detour: Behaviour | None = None
         self.task: Task | None = None
         """The task that has not ended."""
         self._begun_at = self._odometer = 0.0
@@ -118,18 +121,7 @@ class Engine:
         """Show how the task before a restart ended; `last` is the number it had, `run` None when nothing is known of it."""
         self.status = TaskStatus(task_id=last)
         if run is not None and run.id == last and run.ended.seconds > 0:
-            self.status = TaskStatus(
-                task_id=last,
-                task=run.order.task,
-                state=run.state,
-                reason=run.reason,
-                visited=run.visited,
-                places=run.order.places,
-                stamp=run.ended,
-                code=run.code,
-                actor_id=run.actor_id,
-                parameters=run.parameters,
-            )
+            self.status = _ended(run)
         self._show(self.status)
 
     def offer(self, status: TaskStatus) -> None:
@@ -190,8 +182,8 @@ class Engine:
             self._say("task", resumed, "info")
 
     def confirm(self, by: str) -> bool:
-        """Answer what the task asks; False when it asks nothing."""
-        if not (self.running and self.status.asks):
+        """Answer what the task asks, or have it go on that charges; False when it does neither."""
+        if not (self.running and (self.status.asks or self.status.phase == "charging")):
             return False
         self._situation.confirmed_by = by
         return True
@@ -223,16 +215,38 @@ class Engine:
             here.idle += max(0.0, now - self._ticked)
         self._ticked = now
         here.now, here.pose, here.points = now, pose, points
-        task.root.tick_once()
+        root = self._detour or task.root
+        root.tick_once()
         here.forget_confirmation()
-        if task.root.status is Status.RUNNING:
+        if root.status is Status.RUNNING:
             self._publish_status("RUNNING", here.doing.text)
             self._report(task.course, now)
-        elif task.root.status is Status.SUCCESS:
+        elif root.status is Status.SUCCESS and self._detour is not None:
+            self._detour = None
+            goes_on = Notice(Code.TASK_GOES_ON, f"{task.title} goes on.", task=task.name)
+            self._publish_status("RUNNING", goes_on)
+            self._say("task", goes_on, "info")
+        elif root.status is Status.SUCCESS:
             self._succeed(task)
         else:
             failed = Notice(Code.TASK_FAILED, f"{task.title} failed.", task=task.name)
             self._end("FAILED", self._navigator.reason or failed, "alarm")
+
+    def take_detour(self, detour: Behaviour, why: Notice) -> None:
+        """Do `detour` first, then go on with the running task from where it was; the task fails with it."""
+        task = self.task
+        if task is None or not self.running or self._detour is not None:
+            return
+        task.root.stop(Status.INVALID)
+        self._navigator.finish()
+        task.course.take_up(task.course.noted())
+        self._detour = detour
+        self._publish_status("RUNNING", why)
+
+    @property
+    def detouring(self) -> bool:
+        """The task that has not ended waits for a detour."""
+        return self._detour is not None
 
     def _succeed(self, task: Task) -> None:
         """End a task that came to its end: it is done only where the robot is sure of its place."""
@@ -243,6 +257,9 @@ class Engine:
 
     def _end(self, state: str, reason: Notice, level: str) -> None:
         task, self.task = self.task, None
+        detour, self._detour = self._detour, None
+        if detour is not None:
+            detour.stop(Status.INVALID)
         if task is not None:
             task.root.stop(Status.INVALID)
             self._navigator.finish()
@@ -270,22 +287,39 @@ class Engine:
             self.status = msgspec.structs.replace(fresh, stamp=Time.at(self._clock()))
             self._show(self.status)
 
+    def _remaining(self, phase: str) -> float:
+        """Way to the task's next point [m]; NaN while it has none, or a way to somewhere else."""
+        if self.detouring or phase in NO_WAY_YET:
+            return math.nan
+        return self._navigator.remaining if phase in ON_THE_WAY else 0.0
+
     def _report(self, course: Outline, now: float) -> None:
         if now < self._next_progress:
             return
         self._next_progress = max(self._next_progress + PROGRESS_PERIOD, now - PROGRESS_PERIOD)
         here = self._situation
-        left = self._navigator.remaining if here.doing.phase in ON_THE_WAY else 0.0
-        self._progress(
-            TaskProgress(
-                Time.at(self._clock()),
-                self.status.task_id,
-                course.progress(left),
-                left,
-                course.time_left(left, self._cruise) + here.still,
-                self._odometer - self._begun_at,
-            )
-        )
+        left = self._remaining(here.doing.phase)
+        # in a break, as one to charge, what is told is how long that still takes
+        time_left = here.still if self.detouring else course.time_left(left, self._cruise) + here.still
+        stamp, driven = Time.at(self._clock()), self._odometer - self._begun_at
+        done = course.progress(left)
+        self._progress(TaskProgress(stamp, self.status.task_id, done, left, time_left, driven))
+
+
+def _ended(run: TaskRun) -> TaskStatus:
+    """How the task of `run` ended."""
+    return TaskStatus(
+        task_id=run.id,
+        task=run.order.task,
+        state=run.state,
+        reason=run.reason,
+        visited=run.visited,
+        places=run.order.places,
+        stamp=run.ended,
+        code=run.code,
+        actor_id=run.actor_id,
+        parameters=run.parameters,
+    )
 
 
 def _reason(text: str) -> dict[str, Any]:

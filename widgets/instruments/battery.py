@@ -18,7 +18,7 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.sensor_msgs import BatteryState
 from widgets.core.base import RobotWidget, age_text
-from widgets.core.language import tr
+from widgets.core.language import mark, tr
 from widgets.core.theme import theme
 from widgets.parts.labels import Chip
 
@@ -27,8 +27,10 @@ __all__ = ["Battery", "BatteryChip", "charge_role", "time_left_text"]
 LOW, EMPTY = 0.4, 0.2
 """Shares of the charge below which the colour warns, and is danger."""
 
-CHARGING = 1
-"""In BatteryState.power_supply_status."""
+CHARGING, DEAD, FULL = 1, 3, 4
+"""In BatteryState.power_supply_status: it takes charge, it is at a charger that gives none, it is full at the charger."""
+AT_CHARGER = {CHARGING: mark("charging"), DEAD: mark("at the charger, no current"), FULL: mark("full")}
+"""What that is in words."""
 
 Builder.load_string("""
 <Battery>:
@@ -133,6 +135,9 @@ class _Charge(RobotWidget):
     hours_left = NumericProperty(math.nan)
     """At the present current [h]; NaN when charging or not measured."""
     charging = BooleanProperty(False)
+    """It takes charge, or is full at the charger."""
+    power = NumericProperty(0)
+    """As BatteryState.power_supply_status has it; 0 unknown."""
 
     def _text(self) -> str:
         known = self.state != "never" and math.isfinite(self.share)
@@ -149,14 +154,16 @@ class _Charge(RobotWidget):
     def _sentence(self) -> str:
         if self.state in {"never", "stale"}:
             return tr("no data yet") if self.state == "never" else ""
-        return "charging" if self.charging else time_left_text(self.hours_left) or "battery"
+        words = AT_CHARGER.get(int(self.power), "")
+        return tr(words) if words else time_left_text(self.hours_left) or tr("battery")
 
-    sentence = AliasProperty(_sentence, bind=["state", "charging", "hours_left"], cache=True)
+    sentence = AliasProperty(_sentence, bind=["state", "power", "hours_left"], cache=True)
 
     def show(self, msg: BatteryState) -> None:
         """Take over charge, current and whether it is being charged."""
         self.share = msg.percentage
-        self.charging = msg.power_supply_status == CHARGING
+        self.power = msg.power_supply_status
+        self.charging = self.power in (CHARGING, FULL)
         draining = math.isfinite(msg.current) and msg.current < 0
         self.hours_left = msg.charge / -msg.current if draining and not self.charging else math.nan
 
@@ -215,7 +222,7 @@ class BatteryChip(_Charge, BoxLayout):
         self._chip.role = self.role
         alarming = self.role == "danger" and not self.charging
         self._chip.icon = (
-            "battery_charging_full" if self.charging else "battery_alert" if alarming else "bolt"
+            "battery_charging_full" if self.charging else "battery_alert" if alarming else "battery_full"
         )
         self.width = self._chip.width
 
@@ -247,6 +254,9 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "disabled": make(0.87, state="disabled"),
         "low": make(0.34),
         "charging": make(0.55, status=CHARGING),
+        "full": make(1.0, status=FULL),
+        "dead charger": make(0.2, status=DEAD),
+        "chip charging": make(0.55, BatteryChip, status=CHARGING),
         "chip": make(0.87, BatteryChip),
         "chip brief": make(0.87, BatteryChip, brief=True),
         "chip low": make(0.34, BatteryChip),

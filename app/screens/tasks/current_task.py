@@ -32,12 +32,18 @@ Builder.load_string("""
             id: main
             text: root.main_words
             meaning: root.main
-            icon: 'play_arrow_fill' if root.main == 'resume' else 'pause'
-            fill: 'accent' if root.main == 'resume' else 'raised'
-            border: 'accent' if root.main == 'resume' else 'line'
-            ink: 'ink_accent' if root.main == 'resume' else 'text'
+            icon: 'play_arrow_fill' if root.main in ('resume', 'confirm') else 'pause'
+            fill: 'accent' if root.main in ('resume', 'confirm') else 'raised'
+            border: 'accent' if root.main in ('resume', 'confirm') else 'line'
+            ink: 'ink_accent' if root.main in ('resume', 'confirm') else 'text'
             disabled: not root.may or not root.main or (root.held and root.main == 'resume')
             on_release: root.ask(root.main)
+        QuietButton:
+            id: stay
+            text: tr('Stay')
+            icon: 'pause'
+            disabled: not root.may
+            on_release: root.ask('pause')
         QuietButton:
             id: end
             text: tr('End task')
@@ -74,7 +80,7 @@ class CurrentTask(BoxLayout):
     active = BooleanProperty(False)
     """There is a task to end."""
     main = StringProperty("")
-    """`pause`, `resume` or nothing."""
+    """`pause`, `resume`, `confirm` to send on what charges, or nothing."""
     main_words = StringProperty("")
     may_undo = BooleanProperty(False)
     brief = BooleanProperty(False)
@@ -89,6 +95,8 @@ class CurrentTask(BoxLayout):
         self.queue.bind(on_command=lambda _, what, index, target: self._edit(what, index, target))
         editor = session.tasking.queue
         editor.on_change = self._show_queue
+        self._stay = self.ids.stay.__self__
+        self._stay.parent.remove_widget(self._stay)
         self._next, self._undo = self.ids.next.__self__, self.ids.undo.__self__
         self.bind(brief=self._lay)
         self._show_queue()
@@ -119,6 +127,13 @@ class CurrentTask(BoxLayout):
         self.may_undo = editor.can_undo
         self.queue.held = editor.told.held if editor.told is not None else ""
 
+    def _offer_stay(self, charges: bool) -> None:
+        """A robot that charges can be sent on now, or told to stay."""
+        if charges and self._stay.parent is None:
+            self.ids.does.add_widget(self._stay, index=len(self.ids.does.children) - 1)
+        elif not charges and self._stay.parent is not None:
+            self.ids.does.remove_widget(self._stay)
+
     def tick(self, may: bool) -> None:
         """Bring up to date what can be done; `may` when it can be asked for from here."""
         session = self._session
@@ -127,11 +142,14 @@ class CurrentTask(BoxLayout):
         self.active = status.state in ("RUNNING", "PAUSED", "INTERRUPTED")
         count = len(session.tasking.queue.orders)
         waiting = count > 0 and not self.active
-        self.main = {"RUNNING": "pause", "PAUSED": "resume", "INTERRUPTED": "resume"}.get(
+        charges = status.state == "RUNNING" and status.phase == "charging"
+        running = "confirm" if charges else "pause"
+        self.main = {"RUNNING": running, "PAUSED": "resume", "INTERRUPTED": "resume"}.get(
             status.state, "resume" if waiting else ""
         )
         these = tr("Go on") if self.brief else tr("Go on with this") if count == 1 else tr("Go on with these")
-        self.main_words = {"pause": tr("Pause"), "": tr("Pause")}.get(
+        self._offer_stay(charges)
+        self.main_words = {"pause": tr("Pause"), "": tr("Pause"), "confirm": tr("Go on now")}.get(
             self.main, these if waiting else tr("Resume")
         )
         self.queue.state = "live" if may else "disabled"

@@ -56,7 +56,7 @@ def test_whole_numbers_do_for_numbers() -> None:
     [
         (
             "[limit]",
-            "the file has no 'limit'; there are robot, limits, safe_state, control, database, trust, serve, gateways.",
+            "the file has no 'limit'; there are robot, limits, safe_state, control, charging, database, trust, serve, gateways.",
         ),
         ("[robot]\nnme = 'x'", "robot has no 'nme'; there are name."),
         ("limits = 3", "limits must be a table, not 3."),

@@ -10,6 +10,7 @@ import pytest
 from bridge.codec import to_json
 from bridge.core.identity import public_id
 from bridge.core.topics import TOPICS
+from bridge.msgs.diagnostic_msgs import DiagnosticArray
 from bridge.msgs.geometry_msgs import (
     Point,
     Pose,
@@ -28,6 +29,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskStatus,
     Waypoint,
 )
+from bridge.msgs.sensor_msgs import BatteryState
 from robotside.control.command_gate import STOP_SENTENCE
 from robotside.records.database.storage import NotWritten, Storage
 from tests.fakes import FakeRobot
@@ -114,6 +116,27 @@ def test_everything_that_is_published_is_in_the_table_and_can_be_sent(scene: Sce
         assert to_json(msg)
     told = {topic for topic, _ in scene.said}
     assert told >= {"/pose", "/tf", "/plan", "/mission", "/robot/info", "/diagnostics", "/intruders", "/map"}
+
+
+@pytest.mark.parametrize(
+    ("status", "charge", "level", "words"),
+    [
+        (BatteryState.POWER_SUPPLY_STATUS_DISCHARGING, 0.8, 0, "good"),
+        (BatteryState.POWER_SUPPLY_STATUS_DISCHARGING, 0.1, 1, "low"),
+        (BatteryState.POWER_SUPPLY_STATUS_CHARGING, 0.1, 1, "low, charging"),
+        (BatteryState.POWER_SUPPLY_STATUS_FULL, 1.0, 0, "good, full at the dock"),
+        (BatteryState.POWER_SUPPLY_STATUS_NOT_CHARGING, 0.8, 1, "good, at a dock that gives no charge"),
+    ],
+)
+def test_diagnostics_say_what_a_dock_does_about_the_battery(
+    scene: Scene, status: int, charge: float, level: int, words: str
+) -> None:
+    scene.robot.silent.add("/battery_state")
+    scene.robot.more.append(("/battery_state", BatteryState(percentage=charge, power_supply_status=status)))
+    scene.run(2.0)
+    told = [msg for topic, msg in scene.said if topic == "/diagnostics" and isinstance(msg, DiagnosticArray)]
+    (battery,) = (part for part in told[-1].status if part.name == "battery")
+    assert (battery.level, battery.message) == (level, words)
 
 
 def test_a_goal_in_a_wall_is_said_and_not_driven_to(scene: Scene) -> None:

@@ -62,6 +62,23 @@ def test_a_figure_out_of_range_stays_on_the_scale(share, text):
     assert battery.text == text
 
 
+@pytest.mark.parametrize(
+    ("power", "icon", "sentence"),
+    [
+        (1, "battery_charging_full", "charging"),
+        (2, "battery_full", "battery"),
+        (3, "battery_full", "at the charger, no current"),
+        (4, "battery_charging_full", "full"),
+    ],
+)
+def test_a_bolt_and_words_tell_that_it_charges_and_not_the_colour_alone(power, icon, sentence):
+    chip, card = BatteryChip(state="live"), Battery(state="live")
+    for widget in (chip, card):
+        widget.show(BatteryState(percentage=0.6, power_supply_status=power))
+    assert chip.children[0].icon == icon
+    assert card.sentence == sentence
+
+
 def test_the_chip_is_as_wide_as_its_words(stage):
     chip = stage.show(BatteryChip(state="live"))
     chip.show(BatteryState(percentage=0.08))

@@ -237,6 +237,23 @@ def test_a_queue_that_waits_goes_on_when_told(glass: Glass, robot: FakeRobot, ta
     assert robot.until(lambda: "/task/resume" in robot.services())
 
 
+def test_what_charges_can_be_sent_on_now_or_told_to_stay(glass: Glass, robot: FakeRobot, tasks: Any) -> None:
+    said = "Charging at Dock, 54%, goes on at 80% in about 12 min."
+    charging = TaskStatus(task_id=3, task="patrol", state="RUNNING", phase="charging", reason=said)
+    robot.publish("/task/status", charging)
+    now = tasks.now
+    glass.until(lambda: now.ids.main.text == "Go on now" and not now.ids.main.disabled, now.ids.main.text)
+    glass.stage.run_for(0.6)
+    assert now.card.reason == said
+    glass.tap(now.ids.main)
+    assert robot.until(lambda: "/task/confirm" in robot.services())
+    glass.tap(now.ids.stay)
+    assert robot.until(lambda: "/task/pause" in robot.services())
+    robot.publish("/task/status", replace(charging, phase="driving", reason="Heading for point 2."))
+    glass.until(lambda: now.ids.main.text == "Pause", now.ids.main.text)
+    assert now.ids.stay.parent is None
+
+
 # the schedule
 
 
