@@ -71,9 +71,10 @@ _START_TOLERANCE = 0.1
 class SimRobot:
     """Fits `robotside.core.robot.Robot`.
 
-    Nothing moves between calls: `read(now)` does all the physics up to `now`. It never skips any, so a caller in real
+    Nothing moves between calls: `read(now)` does all the physics up to `now`. It never skips any by itself, so a caller in real
     time that was held up for long gets the whole backlog computed in one call (without camera about a thirtieth of its
-    length for one robot, most of it for twenty); to bound a call, hand it a `now` that is at most a little after the last one.
+    length for one robot, most of it for twenty); to bound a call, hand it a `now` that is at most a little after the last one,
+    and tell it by `skip_to` of time that is given up.
     Robots that share a world move on together, whichever of them is read.
     Not thread-safe; calls may come from different threads, one at a time.
     """
@@ -226,6 +227,10 @@ class SimRobot:
         if self._cameras is not None:
             measured.extend(self._cameras.collect())
         return measured
+
+    def skip_to(self, now: float) -> None:
+        """Nothing happened from the last `read` to `now` [s, robot clock], in all of its world: it goes on from there."""
+        self._run.skip_to(now)
 
     def close(self) -> None:
         """Free everything, the world too when no other robot is in it; closing twice does nothing."""

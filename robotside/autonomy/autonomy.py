@@ -209,6 +209,11 @@ class Autonomy:
         """The needed sensor that is silent, as in `the laser has been silent for 0.6 s`; empty when none is."""
         return self._silence.sentence(now)
 
+    def skip(self, seconds: float) -> None:
+        """The robot's clock jumped by `seconds` [s]: that nothing was heard or done meanwhile means nothing."""
+        self._silence.skip(seconds)
+        self.engine.skip(seconds)
+
     def is_measured(self, now: float, since: float = -math.inf) -> bool:
         """The speed is known: odometry came lately, and after `since` [s]."""
         return self._silence.is_measured(now, since)

@@ -86,6 +86,10 @@ class SensorHealth:
         """The sensor of `topic` is switched off: its silence means nothing until it is heard again."""
         self._heard.pop(topic, None)
 
+    def skip(self, seconds: float) -> None:
+        """The robot's clock jumped by `seconds` [s], in which nothing could be heard."""
+        self._heard = {topic: heard + seconds for topic, heard in self._heard.items()}
+
     def measured(
         self,
         pose: Pose2 | None,

@@ -27,6 +27,10 @@ class SensorSilence:
         """A sound measurement came."""
         self._last[topic] = now
 
+    def skip(self, seconds: float) -> None:
+        """The robot's clock jumped by `seconds` [s]."""
+        self._last = {topic: heard + seconds for topic, heard in self._last.items()}
+
     def has(self, topic: str) -> bool:
         """A measurement has ever come on `topic`."""
         return topic in self._last

@@ -21,6 +21,7 @@ from robotside.core.robot import (
     Reachable,
     Resettable,
     Robot,
+    Simulated,
     Stoppable,
 )
 from robotside.motion.manoeuvres import VERTICAL_KINDS, Order
@@ -149,6 +150,16 @@ class GuardedRobot:
     def resettable(self) -> bool:
         """It can be put back to where it started."""
         return isinstance(self._robot, Resettable)
+
+    @property
+    def simulated(self) -> bool:
+        """Its time can stand still."""
+        return isinstance(self._robot, Simulated)
+
+    def skip_to(self, now: float) -> None:
+        """Nothing happened up to `now` [s, robot clock] where it is simulated; in other robots time goes on anyway."""
+        if isinstance(self._robot, Simulated):
+            self._robot.skip_to(now)
 
     def reset(self) -> Pose:
         """Put it back, at rest; where it stands now, in `map`. ValueError with one sentence when that cannot be."""

@@ -17,6 +17,7 @@ __all__ = [
     "Reachable",
     "Resettable",
     "Robot",
+    "Simulated",
     "Stoppable",
     "Switchable",
 ]
@@ -117,6 +118,14 @@ class Reachable(Protocol):
     @property
     def reached(self) -> bool:
         """It is heard; one in the hands of others is, too."""
+
+
+@runtime_checkable
+class Simulated(Protocol):
+    """A robot whose time can stand still, as only a simulated one's can."""
+
+    def skip_to(self, now: float) -> None:
+        """Nothing happened from the last `read` to `now` [s, robot clock]: it goes on from there."""
 
 
 @runtime_checkable

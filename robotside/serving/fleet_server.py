@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
 
 from robotside.core.clock import RobotClock
+from robotside.serving.pacing import Pacing
 from robotside.station.station import Station
 
 __all__ = ["RunningServer", "FleetServer"]
@@ -69,6 +70,7 @@ class FleetServer(Generic[S]):
     ) -> None:
         """`wall` is real time [s]; `wanted` is asked once a second and ends the serving when it says no."""
         self._servings, self._clock, self._wall, self._wanted = servings, clock, wall, wanted
+        self._pacing = Pacing(clock, wall)
         self._patience = math.inf
 
     async def run(self, ready: Callable[[S], None]) -> None:
@@ -101,7 +103,8 @@ class FleetServer(Generic[S]):
         loop = asyncio.get_running_loop()
         due = look = loop.time()
         while self._wall() < self._patience and not self._done():
-            for now in self._clock.steps(self._wall()):
+            self._keep_up()
+            for now in self._pacing.steps():
                 for each in self._servings:
                     each.station.step(now)
                     await asyncio.sleep(0)
@@ -111,6 +114,15 @@ class FleetServer(Generic[S]):
                     self.end()
             due = max(due + TICK_PERIOD, loop.time() - TICK_PERIOD)
             await asyncio.sleep(max(0.0, due - loop.time()))
+
+    def _keep_up(self) -> None:
+        """Give up what is too far behind, and have each robot know how its loop does."""
+        lost = self._pacing.begin()
+        timing = self._pacing.timing
+        for each in self._servings:
+            if lost:
+                each.station.loop.skip(self._clock.now, lost)
+            each.station.loop.update(timing.factor, timing.lag, self._wall())
 
     def _done(self) -> bool:
         return self._patience < math.inf and all(each.station.done for each in self._servings)

@@ -15,6 +15,7 @@ from robotside.control.teleop import LOST_LINK_STOPS_TASK, Options
 from robotside.core.bus import Publish
 from robotside.core.notice import Notice
 from robotside.records.events import Say
+from robotside.station.loop_watch import LoopWatch
 from robotside.station.rest_detector import RestDetector
 from robotside.tasks.engine import Engine
 
@@ -31,6 +32,7 @@ class ControlStatusPublisher:
         options: Options,
         rest: RestDetector,
         readiness: Readiness,
+        loop: LoopWatch,
         *,
         publish: Publish,
         say: Say,
@@ -38,7 +40,7 @@ class ControlStatusPublisher:
     ) -> None:
         """`clock` is the operators' [s], by which the message is stamped."""
         self._controls, self._engine, self._options = controls, engine, options
-        self._rest, self._readiness = rest, readiness
+        self._rest, self._readiness, self._loop = rest, readiness, loop
         self._publish, self._say, self._clock = publish, say, clock
         self._last = ControlStatus()
         publish("/control/status", self._last)
@@ -73,6 +75,9 @@ class ControlStatusPublisher:
             speed_cap=controls.pace.shown,
             follows_link=controls.follows,
             lost_link_stops_task=self._options.on(LOST_LINK_STOPS_TASK),
+            loop_cap=self._loop.share,
+            real_time_factor=self._loop.factor,
+            loop_lag=self._loop.lag,
         )
 
     def _mode(self) -> str:

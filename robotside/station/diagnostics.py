@@ -1,4 +1,4 @@
-"""The `/diagnostics` of one robot: position, battery and dropped drive commands."""
+"""The `/diagnostics` of one robot: position, battery, dropped drive commands and the timing of its loop."""
 
 from __future__ import annotations
 
@@ -9,17 +9,19 @@ from bridge.msgs.sensor_msgs import BatteryState
 from bridge.msgs.std_msgs import Header, Time
 from robotside.autonomy.autonomy import Autonomy
 from robotside.control.command_gate import CommandGate
+from robotside.station.loop_watch import LoopWatch
 
 __all__ = ["diagnostics"]
 
 
-def diagnostics(autonomy: Autonomy, controls: CommandGate, now: float) -> DiagnosticArray:
+def diagnostics(autonomy: Autonomy, controls: CommandGate, loop: LoopWatch, now: float) -> DiagnosticArray:
     """How the robot is at `now` [s, robot clock]."""
     where = autonomy.pose_estimator
     status = [
         DiagnosticStatus(0 if where.sure else 1, "position", _fit_sentence(where.fit)),
         _battery(autonomy),
         DiagnosticStatus(0, "drive commands", f"{controls.dropped} dropped since the start"),
+        loop.status(),
     ]
     return DiagnosticArray(Header(Time.at(now)), status)
 

@@ -47,6 +47,7 @@ from robotside.station.fault_guard import FaultGuard
 from robotside.station.fitness import Fitness
 from robotside.station.home_return import HomeReturn
 from robotside.station.limit_guard import LimitGuard
+from robotside.station.loop_watch import LoopWatch
 from robotside.station.mission_store import MissionStore
 from robotside.station.placing import Placing
 from robotside.station.port_watch import PortWatch
@@ -132,7 +133,7 @@ class Station:
         self.publish_control()
         if now >= self._next_diagnostics:
             self._next_diagnostics = now + DIAGNOSTICS_PERIOD
-            self.bus.publish("/diagnostics", diagnostics(self.autonomy, self.controls, now))
+            self.bus.publish("/diagnostics", diagnostics(self.autonomy, self.controls, self.loop, now))
             self.readiness.update(self.autonomy, self.robot.trouble, now)
 
     def on_message(self, client: Operator, topic: str, msg: Msg, stamp: float | None) -> Problem:
@@ -223,6 +224,8 @@ class Station:
             go_home=home.begin,
         )
         """Driving by hand, and the safe state when no one drives."""
+        self.loop = LoopWatch(self.robot, self.autonomy, self.readiness.sensor_health, self._limits, say)
+        """What follows from the timing of the loop."""
         self._guard = FaultGuard(engine, self.robot.stop, say, now)
         self._port = PortWatch(self._trouble, self.controls, engine, say)
         self._rest = RestDetector(self.info.kind, self.autonomy, self._port, now)
@@ -256,6 +259,7 @@ class Station:
             self.options,
             self._rest,
             self.readiness,
+            self.loop,
             publish=self.bus.publish,
             say=self.events.say,
             clock=self.clock,

@@ -232,6 +232,14 @@ class Engine:
             failed = Notice(Code.TASK_FAILED, f"{task.title} failed.", task=task.name)
             self._end("FAILED", self._navigator.reason or failed, "alarm")
 
+    def skip(self, seconds: float) -> None:
+        """The robot's clock jumped by `seconds` [s], in which nothing happened: timers of the task stand still."""
+        self._situation.follows_heard += seconds
+        self._situation.battery_heard += seconds
+        if not self._halted:  # else it is idle anyway
+            self._situation.idle += seconds
+        self._navigator.skip(seconds)
+
     def take_detour(self, detour: Behaviour, why: Notice) -> None:
         """Do `detour` first, then go on with the running task from where it was; the task fails with it."""
         task = self.task

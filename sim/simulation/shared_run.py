@@ -39,6 +39,11 @@ class SharedRun:
         """[s, robots' clock]"""
         return (self.origin or 0.0) + self.simulation.time
 
+    def skip_to(self, now: float) -> None:
+        """Let what is simulated stand still up to `now` [s]: it goes on from there, and measures with the time of then."""
+        if self.origin is not None:
+            self.origin = max(self.origin, now - self.simulation.time)
+
     def advance(self, now: float) -> None:
         """Simulate up to `now` [s]; the first call sets the origin and simulates nothing."""
         if self.origin is None:

@@ -7,8 +7,9 @@ from collections.abc import Callable
 
 from app.screens.shell.notices import Notices
 from app.session.session import Session
-from bridge.msgs.pilothouse_msgs import PlaceCandidates
-from widgets.core.language import mark, tr
+from bridge.msgs.pilothouse_msgs import ControlStatus, PlaceCandidates
+from widgets.core.language import figure, mark, tr
+from widgets.core.quantities import quantity_words
 from widgets.parts.kit import Banner
 from widgets.status.where_card import WhereCard
 
@@ -19,6 +20,26 @@ SLOW_DRAWING = mark(
 )
 
 
+def loop_words(status: ControlStatus) -> str:
+    """That the robot's loop or its simulation lags, as one sentence; empty while it keeps up."""
+    if not status.loop_cap < 1.0:
+        return ""
+    late, rests = quantity_words(status.loop_lag, "duration"), status.loop_cap <= 0.0
+    if status.real_time_factor < 1.0:
+        words = (
+            tr("Simulation at {factor} of real time, {late} behind: the robot rests.")
+            if rests
+            else tr("Simulation at {factor} of real time, {late} behind: the robot goes slower.")
+        )
+        return words.format(factor=figure(status.real_time_factor, 1), late=late)
+    words = (
+        tr("The robot's computer is {late} late: the robot rests.")
+        if rests
+        else tr("The robot's computer is {late} late: the robot goes slower.")
+    )
+    return words.format(late=late)
+
+
 class StandingBanners:
     """Why the robot cannot be reached and when it is tried again; that it lags; and that what is seen changes less often than usual."""
 
@@ -26,6 +47,7 @@ class StandingBanners:
         """`by_hand` leads to the map: to point at the robot's place there, or only to look."""
         self._session, self._notices = session, notices
         self.link = Banner(level="danger")
+        self.loop = Banner(level="warn")
         self.drawing = Banner(text=tr(SLOW_DRAWING), level="info", closable=True)
         """A tap takes it away until drawing becomes slow anew."""
         self.drawing.bind(on_close=self._read)
@@ -33,7 +55,7 @@ class StandingBanners:
         """The robot's question at which of several places it is."""
         self.where.bind(on_choose=lambda _, number: session.command("choose_place", id=number))
         self.where.bind(on_by_hand=lambda _: by_hand(True), on_look=lambda _: by_hand(False))
-        self.banners = self.link, self.drawing, self.where
+        self.banners = self.link, self.loop, self.drawing, self.where
         self._was_read = False
         self._asked: PlaceCandidates | None = None
 
@@ -45,6 +67,9 @@ class StandingBanners:
         self._notices.keep(self.drawing, shown=shown, first=True)
         session = self._session
         self._tick_where()
+        lags = loop_words(session.authority.status) if session.connected else ""
+        self.loop.text = lags or self.loop.text
+        self._notices.keep(self.loop, shown=bool(lags), first=True)
         if not session.connected:
             wait = session.retry_in
             again = tr(" Trying again in {wait} s.").format(wait=math.ceil(wait)) if wait > 0 else ""
