@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import asyncio
 import random
 from collections.abc import Callable
 
-from bridge.core.async_tasks import is_cancelled_from_outside
+from bridge.core.async_tasks import UntilClosed
 from bridge.core.link_state import LinkFault
 
 __all__ = ["Reconnecting"]
@@ -27,26 +26,15 @@ class Reconnecting:
         self._now = now
         self._backoff = backoff
         self._rng = random.Random() if rng is None else rng
-        self._work: asyncio.Task[None] | None = None
-        self._closed = False
+        self._work = UntilClosed(self.stay_connected)
 
     async def run(self) -> None:
         """Connect, and reconnect whenever the connection is lost, until `close()`; runs once at a time."""
-        if self._closed:
-            return
-        self._work = asyncio.create_task(self.stay_connected())
-        try:
-            await self._work
-        except asyncio.CancelledError:
-            if is_cancelled_from_outside():
-                raise
+        await self._work.run()
 
     async def close(self) -> None:
         """End the connection for good; `run` returns. Takes 0.3 s at most."""
-        self._closed = True
-        if self._work is not None and not self._work.done():
-            self._work.cancel()
-            await asyncio.wait({self._work})
+        await self._work.close()
 
     async def stay_connected(self) -> None:
         """Connect, and reconnect whenever the connection is lost; returns only when the address can never work."""

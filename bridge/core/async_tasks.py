@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Iterable
+from collections.abc import Callable, Coroutine, Iterable
 from typing import Any
 
-__all__ = ["cancel_all", "is_cancelled_from_outside", "wait"]
+__all__ = ["UntilClosed", "cancel_all", "is_cancelled_from_outside", "wait"]
 
 
 async def cancel_all(tasks: Iterable[asyncio.Future[Any]]) -> None:
@@ -32,3 +32,32 @@ def is_cancelled_from_outside() -> bool:
     """Whether the running task itself was cancelled, not only the one that it waits for."""
     task = asyncio.current_task()
     return task is not None and task.cancelling() > 0
+
+
+class UntilClosed:
+    """Work that goes on until it is closed, also when that comes before its first turn."""
+
+    def __init__(self, work: Callable[[], Coroutine[Any, Any, None]]) -> None:
+        """`work` is begun by `run`."""
+        self._begin = work
+        self._work: asyncio.Task[None] | None = None
+        self.closed = False
+        """It was closed: it does not begin any more."""
+
+    async def run(self) -> None:
+        """Work until `close()`; returns at once after that, and raises what the work raises. Runs once at a time."""
+        if self.closed:
+            return
+        self._work = asyncio.create_task(self._begin())
+        try:
+            await self._work
+        except asyncio.CancelledError:
+            if is_cancelled_from_outside():
+                raise
+
+    async def close(self) -> None:
+        """Have the work end for good, and wait for that; `run` returns."""
+        self.closed = True
+        if self._work is not None and not self._work.done():
+            self._work.cancel()
+            await asyncio.wait({self._work})

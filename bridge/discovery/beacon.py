@@ -20,7 +20,7 @@ from urllib.parse import urlsplit, urlunsplit
 import msgspec
 
 from bridge.core.address import at_port
-from bridge.core.async_tasks import is_cancelled_from_outside
+from bridge.core.async_tasks import UntilClosed
 from bridge.core.errors import BridgeError, ProtocolError
 from bridge.discovery.hello import Hello, is_loopback, read_hello, write_hello
 from bridge.discovery.interfaces import LOOPBACK, Interface, interfaces
@@ -63,22 +63,15 @@ class Beacon:
         self._host, self._port = host, port
         self._addresses, self._networks = addresses, networks
         self._period = period
-        self._work: asyncio.Task[None] | None = None
+        self._work = UntilClosed(self._repeat)
 
     async def run(self) -> None:
         """Send a hello every `period` [s] until `close()`. A network that is down now is tried again next time."""
-        self._work = asyncio.create_task(self._repeat())
-        try:
-            await self._work
-        except asyncio.CancelledError:
-            if is_cancelled_from_outside():
-                raise
+        await self._work.run()
 
     async def close(self) -> None:
-        """Stop sending; `run` returns."""
-        if self._work is not None:
-            self._work.cancel()
-            await asyncio.wait({self._work})
+        """Stop sending, also before the first; `run` returns."""
+        await self._work.close()
 
     async def _repeat(self) -> None:
         reported = False

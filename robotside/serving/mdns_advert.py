@@ -13,7 +13,7 @@ import socket
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
-from bridge.core.async_tasks import is_cancelled_from_outside
+from bridge.core.async_tasks import UntilClosed
 from bridge.discovery.beacon import EVERYWHERE
 from bridge.discovery.hello import is_loopback
 from bridge.discovery.interfaces import LOOPBACK, Interface, interfaces
@@ -46,24 +46,17 @@ class MdnsAdvert:
     ) -> None:
         """`host` is what the robot listens on; `port` of its socket is known once it listens."""
         self._name, self._host, self._port, self._networks = name, host, port, networks
-        self._work: asyncio.Task[None] | None = None
+        self._work = UntilClosed(self._announce)
         self.announced = asyncio.Event()
         """It can be found."""
 
     async def run(self) -> None:
         """Announce it until `close()`. A network on which that cannot be done is logged; the robot goes on."""
-        self._work = asyncio.create_task(self._announce())
-        try:
-            await self._work
-        except asyncio.CancelledError:
-            if is_cancelled_from_outside():
-                raise
+        await self._work.run()
 
     async def close(self) -> None:
-        """Say that it is gone; `run` returns."""
-        if self._work is not None:
-            self._work.cancel()
-            await asyncio.wait({self._work})
+        """Say that it is gone, if it was announced; `run` returns."""
+        await self._work.close()
 
     async def _announce(self) -> None:
         from zeroconf import IPVersion

@@ -6,7 +6,7 @@ import asyncio
 
 import pytest
 
-from bridge.core.async_tasks import cancel_all, is_cancelled_from_outside, wait
+from bridge.core.async_tasks import UntilClosed, cancel_all, is_cancelled_from_outside, wait
 
 
 async def test_cancelled_tasks_have_ended_whatever_they_raise():
@@ -62,3 +62,26 @@ async def test_a_task_knows_whether_it_was_cancelled_itself(outside):
     (task if outside else inner).cancel()
     await asyncio.gather(task, return_exceptions=True)
     assert found == [outside]
+
+
+@pytest.mark.parametrize("turns", [0, 1, 3])
+async def test_work_ends_when_it_is_closed_also_before_its_first_turn(turns):
+    """With no turn its task was made, and nothing of it has run."""
+    work = UntilClosed(asyncio.Event().wait)
+    running = asyncio.create_task(work.run())
+    for _ in range(turns):
+        await asyncio.sleep(0)
+    await work.close()
+    async with asyncio.timeout(5.0):
+        await running
+        await work.run()
+
+
+async def test_a_fault_of_the_work_is_raised_and_closing_is_quiet_then():
+    async def work() -> None:
+        raise ValueError("broken")
+
+    broken = UntilClosed(work)
+    with pytest.raises(ValueError, match="broken"):
+        await broken.run()
+    await broken.close()

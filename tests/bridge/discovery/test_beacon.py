@@ -98,6 +98,16 @@ async def test_what_was_never_started_closes_too():
     await Beacon(lambda: PATROL).close()
 
 
+async def test_what_was_closed_before_its_first_turn_says_nothing_and_ends():
+    asked = []
+    beacon = Beacon(lambda: asked.append(1) or PATROL, addresses=lambda: LOOPBACK)
+    running = asyncio.create_task(beacon.run())
+    await beacon.close()
+    async with asyncio.timeout(5.0):
+        await running
+    assert asked == []
+
+
 def test_loopback_is_always_among_the_addresses_and_none_is_empty():
     found = broadcast_addresses()
     assert "127.255.255.255" in found

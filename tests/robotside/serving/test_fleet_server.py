@@ -176,3 +176,23 @@ async def test_all_of_them_end_when_they_are_no_longer_wanted(tmp_path: Path) ->
         await side.together.run(side.ready.append)
     assert len(side.ready) == 2
     assert all(robot.at_rest for robot in robots)
+
+
+async def test_told_to_end_as_soon_as_it_listens_it_ends(tmp_path: Path) -> None:
+    """A SIGTERM during a slow start: what announces the robots has not had its first turn by then."""
+    side = Side([FakeRobot(), FakeRobot()], tmp_path)
+
+    def ready(serving: StationServer) -> None:
+        side.together.end()
+
+    async with asyncio.timeout(60):
+        await side.together.run(ready)
+
+
+async def test_told_to_end_before_it_listens_it_ends(tmp_path: Path) -> None:
+    robots = [FakeRobot(), FakeRobot()]
+    side = Side(robots, tmp_path)
+    side.together.end()
+    async with asyncio.timeout(60):
+        await side.together.run(side.ready.append)
+    assert all(robot.at_rest for robot in robots)

@@ -94,3 +94,12 @@ def test_on_all_interfaces_it_is_announced_to_others_and_on_this_machine_where_t
     ]
     assert MdnsAdvert("A", "0.0.0.0", lambda: 1, networks=lambda: [LOOPBACK])._addresses() == ["127.0.0.1"]
     assert MdnsAdvert("A", "localhost", lambda: 1)._addresses() == ["127.0.0.1"]
+
+
+async def test_an_advert_that_is_closed_before_its_first_turn_ends():
+    advert = MdnsAdvert(own("Early"), "127.0.0.1", own_port)
+    running = asyncio.create_task(advert.run())
+    await advert.close()
+    async with asyncio.timeout(5.0):
+        await running
+    assert not advert.announced.is_set()
