@@ -85,30 +85,34 @@ def _parser() -> argparse.ArgumentParser:
 
 
 _NAMES = {
-    "car": "cars",
-    "cone": "cones",
-    "lamp": "lamp posts",
-    "tree": "trees",
-    "fruit_tree": "fruit trees",
-    "table": "tables",
-    "door": "doors",
-    "shelf": "shelves",
-    "chair": "chairs",
-    "sofa": "sofas",
-    "person": "people",
-    "buoy": "buoys",
-    "coral": "corals",
-    "diver": "divers",
-    "block": "blocks and walls",
+    "car": ("car", "cars"),
+    "cone": ("cone", "cones"),
+    "barrel": ("barrel", "barrels"),
+    "lamp": ("lamp post", "lamp posts"),
+    "tree": ("tree", "trees"),
+    "fruit_tree": ("fruit tree", "fruit trees"),
+    "table": ("table", "tables"),
+    "door": ("door", "doors"),
+    "shelf": ("shelf", "shelves"),
+    "chair": ("chair", "chairs"),
+    "sofa": ("sofa", "sofas"),
+    "person": ("person", "people"),
+    "buoy": ("buoy", "buoys"),
+    "coral": ("coral", "corals"),
+    "diver": ("diver", "divers"),
+    "block": ("block or wall", "blocks and walls"),
+    "model": ("model", "models"),
+    "dock": ("dock", "docks"),
 }
+"""What one thing of a kind is called, and what several are."""
+_KINDS = {"loose_model": "model", "jetty": "dock", "pad": "dock", "cage": "dock"}
+"""Kinds of props that are counted together with another one."""
 
 
 def summary(world: World) -> str:
     """Things that stand in the world, in one sentence."""
-    ground, counts = world.ground, Counter(prop.kind for prop in world.props)
-    named = [f"{counts[kind]} {name}" for kind, name in _NAMES.items() if counts[kind]]
-    if world.docks:
-        named.append(f"{len(world.docks)} docks")
+    ground, counts = world.ground, Counter(_KINDS.get(prop.kind, prop.kind) for prop in world.props)
+    named = [f"{count} {names[count > 1]}" for kind, names in _NAMES.items() if (count := counts[kind])]
     things = ", ".join(named)
     water = f"{world.water.depth:g} m of water; " if world.water else ""
     return f"{world.name}: {ground.length:g} x {ground.width:g} m; {water}{things or 'empty'}."

@@ -15,11 +15,12 @@ import pytest
 from PIL import Image
 
 from bridge.core.toml_files import FileFault
-from sim.__main__ import main
+from sim.__main__ import main, summary
 from sim.core.shapes import Shape
-from sim.robot import ROBOTS
+from sim.robot import ROBOTS, WORLDS
 from sim.vehicles.model import Model
 from sim.vehicles.patrol import PARAMETERS, Patrol
+from sim.world.world_files import load
 from tests.lacking import lacking
 
 
@@ -28,6 +29,25 @@ def test_without_arguments_it_says_what_stands_in_the_world(capsys):
     assert capsys.readouterr().out == (
         "parking_lot: 40 x 30 m; 14 cars, 6 cones, 6 lamp posts, 11 trees, 2 docks.\n"
     )
+
+
+def test_it_counts_models_too_and_one_thing_is_called_one(tmp_path, capsys):
+    yard = Path(__file__).parents[2] / "examples" / "yard"
+    assert main(["--world", str(yard / "yard.toml")]) == 0
+    assert capsys.readouterr().out == "yard: 24 x 16 m; 1 cone, 3 models.\n"
+    shutil.copy(yard / "sign.urdf", tmp_path)
+    things = '[[models]]\nfile = "sign.urdf"\nx = 2.0\ny = 0.0\nloose = true\n[[people]]\nx = 0.0\ny = 2.0\n'
+    things += '[[barrels]]\nx = 1.0\ny = 2.0\n[[barrels]]\nx = 2.0\ny = 2.0\n[[docks]]\nname = "dock"\nkind = "contacts"\nx = -2.0\ny = 0.0\n'
+    (tmp_path / "empty.toml").write_text(EMPTY + things)
+    assert main(["--world", str(tmp_path / "empty.toml")]) == 0
+    assert capsys.readouterr().out == "empty: 6 x 6 m; 2 barrels, 1 person, 1 model, 1 dock.\n"
+
+
+@pytest.mark.parametrize("name", [*WORLDS, "examples/yard/yard.toml"])
+def test_nothing_that_stands_in_a_world_is_left_out(name):
+    world = load(name)
+    counted = sum(int(part.split()[0]) for part in summary(world).rpartition("; ")[2].split(", "))
+    assert counted == sum(prop.kind != "wall" for prop in world.props)
 
 
 class _Faulty(ModuleType):
