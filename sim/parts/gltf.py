@@ -10,6 +10,7 @@ import trimesh
 
 from sim.core.shapes import Colour, Shape
 from sim.parts.errors import PartError
+from sim.parts.gltf_faults import check_gltf
 from sim.parts.pieces import Triangles, boxes, check, surface
 
 __all__ = ["read_gltf", "read_triangles"]
@@ -33,6 +34,8 @@ def read_gltf(path: Path, scale: float) -> tuple[tuple[Shape, ...], tuple[Shape,
 
 def read_triangles(path: Path) -> list[tuple[Triangles, Colour]]:
     """Triangles of each piece in the file's own frame and units, (n, 3, 3), with its colour; PartError when it has none."""
+    if path.suffix.lower() in (".glb", ".gltf"):
+        check_gltf(path)
     try:
         scene: Any = trimesh.load(path, force="scene")
         found = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh)]
