@@ -7,37 +7,27 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from bridge.msgs.additions import PLACE_KINDS
-from sim.core.constants import GRAVITY
+from sim.core.constants import GRAVITY, MAX_STEP_HEIGHT, ROBOT_HEIGHT
 from sim.core.shapes import Shape, beside
 from sim.parts.errors import PartError
 from sim.parts.part import part
+from sim.world.dock_faults import MAX_NAME_LENGTH, dock_faults
 from sim.world.props import CAR_MODELS
-from sim.world.tables import Dock
 from sim.world.world import World
 
-__all__ = ["MAX_NAME_LENGTH", "faults"]
+__all__ = ["faults"]
 
 Fault = tuple[str, str]
 """Key and reason."""
 
-MAX_NAME_LENGTH = 60
-"""Characters of a place's name."""
 MAX_AREA = 20_000.0
 """Greatest ground [m2]: a larger one takes a robot too much time and memory for its map at the start."""
-ROBOT_HEIGHT = 0.3
-"""Height of the lowest robots: things that hang higher are in no robot's way [m]."""
-MAX_STEP_HEIGHT = 0.02
-"""Things that are lower can be driven over [m]."""
 SCENERY_MARGIN = 30.0
 """Distance beyond the ground within which trees may stand [m]."""
 MAX_MODELS = 100
 """Things from files of other programs."""
 MAX_STEEPNESS = 1 / 7
 """A wave in deep water that is higher than this part of its length breaks."""
-MIN_PLATFORM, MAX_PLATFORM = 0.1, 3.0
-"""Heights of a pad over water, and of any [m]."""
-CAGE_ROOM = 0.6
-"""From the middle of a cage to the surface and to the ground [m]."""
 _TOLERANCE = 1e-6
 
 
@@ -50,7 +40,6 @@ def faults(world: World) -> Iterator[Fault]:
             f"{area:g} m2 are too many, at most {MAX_AREA:g} can be: its map has a cell for each 10 cm",
         )
     yield from _places(world)
-    yield from _docks(world)
     yield from _models(world)
     for number, entry in enumerate(world.cars):
         if entry.model not in CAR_MODELS:
@@ -63,6 +52,7 @@ def faults(world: World) -> Iterator[Fault]:
         if wave.height > highest:
             said = f"must be at most {highest:.2g} m where the period is {wave.period:g} s, or it breaks, not {wave.height:g}"
             yield f"water.waves[{number}].height", said
+    yield from dock_faults(world)
     yield from _off_the_ground(world)
     yield from _start(world)
 
@@ -91,43 +81,6 @@ def _models(world: World) -> Iterator[Fault]:
             part(Path(entry.file), entry.scale)
         except PartError as fault:
             yield f"models[{number}].file", str(fault)
-
-
-def _docks(world: World) -> Iterator[Fault]:
-    names = {place.name.casefold() for place in world.places}
-    tags: set[int] = set()
-    for number, dock in enumerate(world.docks):
-        key = f"docks[{number}]"
-        if not dock.name.strip() or len(dock.name) > MAX_NAME_LENGTH:
-            yield f"{key}.name", f"must have 1 to {MAX_NAME_LENGTH} characters, not {dock.name[:80]!r}"
-        if dock.name.casefold() in names:
-            yield f"{key}.name", f"there is a place {dock.name!r} already"
-        names.add(dock.name.casefold())
-        if dock.tag in tags:
-            yield f"{key}.tag", f"another dock has {dock.tag} already: a camera would take one for the other"
-        tags.add(dock.tag)
-        yield from _dock_height(world, dock, key)
-
-
-def _dock_height(world: World, dock: Dock, key: str) -> Iterator[Fault]:
-    """Each kind is in its own element, at a height that a robot of its kind can come to."""
-    depth = world.water.depth if world.water else 0.0
-    if dock.kind == "contacts" and world.water:
-        yield (
-            f"{key}.kind",
-            "'contacts' are for wheels and need dry land; in water 'jetty', 'cage' or 'pad' can be",
-        )
-    elif dock.kind in ("jetty", "cage") and not world.water:
-        yield f"{key}.kind", f"{dock.kind!r} needs water, and there is none; 'contacts' or 'pad' can be"
-    lowest, highest = {
-        "contacts": (0.0, 0.0),
-        "jetty": (0.0, 0.0),
-        "pad": (MIN_PLATFORM if world.water else 0.0, MAX_PLATFORM),
-        "cage": (CAGE_ROOM - depth, -CAGE_ROOM),
-    }[dock.kind]
-    if not lowest <= dock.z <= highest:
-        allowed = "be left out" if lowest == highest else f"be {lowest:g} to {highest:g} here"
-        yield f"{key}.z", f"of a dock of the kind {dock.kind!r} must {allowed}, not {dock.z:g}"
 
 
 def _off_the_ground(world: World) -> Iterator[Fault]:
