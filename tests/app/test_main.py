@@ -11,7 +11,10 @@ from typing import Any
 
 import pytest
 
-from app.__main__ import end_at_once_by_signal, main
+from app.__main__ import _parse, end_at_once_by_signal, main
+from app.discovery.beacon_listener import BeaconListener
+from app.link.feeds import Mailbox
+from bridge.discovery.domain import VARIABLE
 
 ROOT = Path(__file__).parents[2]
 
@@ -50,6 +53,31 @@ def test_a_mistake_is_one_sentence(
 ) -> None:
     assert main(arguments) == 2
     assert capsys.readouterr().err == f"{sentence}\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "around", "domain"),
+    [
+        ([], "team_1", "team_1"),
+        (["--domain", "team_2"], "team_1", "team_2"),
+        (["--domain", ""], "team_1", ""),
+    ],
+)
+def test_robots_are_looked_for_in_the_domain_of_the_option_else_of_the_environment(
+    monkeypatch: pytest.MonkeyPatch, arguments: list[str], around: str, domain: str
+) -> None:
+    monkeypatch.setenv(VARIABLE, around)
+    _parse(arguments)
+    nearby = BeaconListener(Mailbox(lambda: None), None, now=lambda: 0.0)  # type: ignore[arg-type]
+    assert nearby._domain == nearby._calls._domain == domain
+
+
+def test_a_domain_of_the_environment_that_is_none_is_one_sentence(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv(VARIABLE, "a/b")
+    assert main([]) == 2
+    assert capsys.readouterr().err.startswith(f"{VARIABLE}: A discovery domain has at most 32 letters")
 
 
 @pytest.mark.parametrize("option", ["--screen", "--theme"])

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import os
 from contextlib import contextmanager
 from types import SimpleNamespace
 
 import pytest
 
 from bench import __main__ as command
+from bench.support import child
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides, measure, names
 from bench.support.noise import Noise
+from bridge.discovery.domain import VARIABLE, discovery_domain
 
 FIGURES = (
     Figure("cost", "ms", "what it costs", target=2.0, against="the old way"),
@@ -137,3 +140,13 @@ def test_an_unknown_name_is_the_users_mistake_in_one_sentence(only, capsys):
         command.main(["speed"])
     assert end.value.code == 2
     assert capsys.readouterr().err == "There is no bench 'speed'; there are x.\n"
+
+
+def test_robots_that_are_measured_are_in_a_domain_of_their_own(monkeypatch):
+    """What a bench starts inherits it: robots of others are neither measured nor stopped."""
+    monkeypatch.setenv(VARIABLE, "somebody_elses")
+    seen = []
+    monkeypatch.setattr(command, "run", lambda name, context: seen.append((name, discovery_domain())))
+    command.main(["imports", "latency"])
+    assert seen == [(name, f"bench-{os.getpid()}") for name in ("imports", "latency")]
+    assert child._environment()[VARIABLE] == f"bench-{os.getpid()}"

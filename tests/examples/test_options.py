@@ -1,10 +1,14 @@
 from __future__ import annotations
 
 import ast
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
+from bridge.discovery.domain import VARIABLE
 from examples.demo import (
     aqua,
     ardrone,
@@ -104,3 +108,17 @@ def _steps(tree):
         if isinstance(call, ast.Call) and isinstance(call.func, ast.Attribute) and call.func.attr == "step":
             name = call.args[0]
             yield from [name.value] if isinstance(name, ast.Constant) else looped[name.id]
+
+
+def test_the_demo_is_in_a_discovery_domain_of_its_own() -> None:
+    """It sets Kivy up as well, which a process does once: one of its own."""
+    code = (
+        "import os; from bridge.discovery.domain import discovery_domain; from examples.demo.__main__ import _prepare\n"
+        "_prepare('800x600', window=False); print(discovery_domain() == f'demo-{os.getpid()}')"
+    )
+    root = Path(__file__).parents[2]
+    around = {**os.environ, VARIABLE: "somebody_elses", "PYTHONPATH": str(root)}
+    ran = subprocess.run(
+        [sys.executable, "-c", code], cwd=root, env=around, capture_output=True, text=True, check=True
+    )
+    assert ran.stdout.splitlines()[-1] == "True"

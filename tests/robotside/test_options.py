@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from bridge.core.identity import Role
+from bridge.discovery.domain import VARIABLE, discovery_domain
 from robotside.__main__ import main
 from robotside.core.config import BadConfig
 from robotside.options import (
@@ -30,6 +31,30 @@ from sim.world.world_files import WORLDS
 
 def named(words: str) -> list[One]:
     return robots(read(words.split()))
+
+
+@pytest.mark.parametrize(
+    ("words", "around", "domain"),
+    [
+        ("", "", ""),
+        ("", "team_1", "team_1"),
+        ("--domain team_2", "", "team_2"),
+        ("--domain team_2", "team_1", "team_2"),
+        ("--domain=", "team_1", ""),
+    ],
+)
+def test_the_discovery_domain_is_that_of_the_option_else_of_the_environment(
+    monkeypatch: pytest.MonkeyPatch, words: str, around: str, domain: str
+) -> None:
+    monkeypatch.setenv(VARIABLE, around)
+    read(["serve", *words.split()])
+    assert discovery_domain() == domain
+
+
+def test_a_domain_of_the_environment_that_is_none_is_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(VARIABLE, "a/b")
+    with pytest.raises(UserMistake, match=f"^{VARIABLE}: A discovery domain has at most 32 letters"):
+        read(["serve"])
 
 
 def test_one_robot_is_what_is_served_when_nothing_is_said() -> None:

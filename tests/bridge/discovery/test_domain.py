@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import Any
 
 import pytest
@@ -63,3 +64,7 @@ def test_a_hello_with_a_domain_that_is_none_is_refused() -> None:
     bad = {"name": "Patrol-1", "url": f"ws://{SOURCE}:9090", "domain": "a b"}
     listener._receive(json.dumps(bad).encode(), SOURCE, 40000)
     assert (found, listener.refused) == ([], 1)
+
+
+def test_tests_are_in_a_domain_of_their_own() -> None:
+    assert re.fullmatch("test-[0-9a-f]{16}", discovery_domain())

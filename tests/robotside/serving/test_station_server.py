@@ -20,6 +20,7 @@ import pytest
 from bridge.client.client import BridgeClient, Phase
 from bridge.core.errors import BridgeError
 from bridge.core.toml_files import FileFault
+from bridge.discovery.domain import VARIABLE
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
@@ -84,6 +85,15 @@ async def test_a_client_is_told_who_the_robot_is_and_drives_it(tmp_path: Path) -
         await client.close()
         await running
     assert robot.at_rest
+
+
+@pytest.mark.parametrize("domain", ["", "team_2"])
+async def test_its_hello_names_the_discovery_domain_of_its_process(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, domain: str
+) -> None:
+    monkeypatch.setenv(VARIABLE, domain)
+    async with serving(tmp_path, FakeRobot()) as serves:
+        assert serves.hello().domain == domain
 
 
 async def test_one_that_is_no_longer_wanted_ends_by_itself(tmp_path: Path) -> None:
