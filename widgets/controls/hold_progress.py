@@ -1,4 +1,4 @@
-"""Progress of a press that has to be held, counted by the frames that were really drawn.
+"""Progress of a press that has to be held: time counts once the finger is known to have been there, however seldom the glass is drawn.
 
 class Release(Hold, QuietButton): ...
 release.bind(on_held_long=lambda _: unlatch())
@@ -6,6 +6,7 @@ release.bind(on_held_long=lambda _: unlatch())
 
 from __future__ import annotations
 
+from collections import deque
 from typing import Any
 
 from kivy.clock import Clock
@@ -17,7 +18,9 @@ __all__ = ["HOLD_DURATION", "Hold"]
 HOLD_DURATION = 1.0
 """How long the finger must stay by default [s]."""
 MAX_FRAME = 0.1
-"""A frame counts for no more of a hold [s]: a finger that left while it was drawn is only heard of after it."""
+"""A frame counts for no more of a hold at once [s]: a finger that left while it was drawn is only heard of after it."""
+LOOKS = 2
+"""Frames after one that took longer until the rest of it counts: a finger that left while it was drawn is heard of by then."""
 
 
 class Hold(EventDispatcher):
@@ -30,6 +33,8 @@ class Hold(EventDispatcher):
 
     def __init__(self, **kwargs: Any) -> None:
         self._takes = HOLD_DURATION
+        self._unread: deque[float] = deque()
+        """Of the latest frames, what does not count yet [s]."""
         self._counting = Clock.create_trigger(self._count, 0, interval=True)
         super().__init__(**kwargs)
 
@@ -41,10 +46,13 @@ class Hold(EventDispatcher):
     def rest(self) -> None:
         """Forget a hold that has begun."""
         self._counting.cancel()
+        self._unread.clear()
         self.held = 0.0
 
     def _count(self, elapsed: float) -> None:
-        self.held = min(1.0, self.held + min(elapsed, MAX_FRAME) / self._takes)
+        self._unread.append(max(0.0, elapsed - MAX_FRAME))
+        seen = self._unread.popleft() if len(self._unread) > LOOKS else 0.0
+        self.held = min(1.0, self.held + (min(elapsed, MAX_FRAME) + seen) / self._takes)
         if self.held >= 1.0 - 1e-9 and self.is_over():
             self.rest()
             self.dispatch("on_held_long")

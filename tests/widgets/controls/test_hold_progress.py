@@ -1,9 +1,11 @@
 from __future__ import annotations
 
+import math
+
 import pytest
 from kivy.uix.widget import Widget
 
-from widgets.controls.hold_progress import HOLD_DURATION, MAX_FRAME, Hold
+from widgets.controls.hold_progress import HOLD_DURATION, LOOKS, MAX_FRAME, Hold
 
 
 class Held(Hold, Widget):
@@ -38,9 +40,21 @@ def test_it_is_told_once_and_begins_anew(stage, held):
 
 def test_a_frame_that_took_long_does_not_count_for_a_finger_that_may_have_left(stage, held):
     held.hold()
-    stage.frames(3, period=2.0)
+    stage.frames(LOOKS, period=2.0)
     assert not held.heard
-    assert held.held <= 3 * MAX_FRAME / HOLD_DURATION
+    assert held.held <= LOOKS * MAX_FRAME / HOLD_DURATION
+    held.rest()  # the finger left while the first of them was drawn
+    held.hold()
+    stage.frames(LOOKS, period=2.0)
+    assert held.held <= LOOKS * MAX_FRAME / HOLD_DURATION
+    assert not held.heard
+
+
+@pytest.mark.parametrize("frame", [0.15, 0.3, 0.5, 1.0, 2.0])
+def test_a_finger_that_stays_is_not_kept_waiting_by_a_glass_that_is_drawn_seldom(stage, held, frame):
+    held.hold()
+    stage.frames(math.ceil(HOLD_DURATION / frame) + LOOKS, period=frame)
+    assert held.heard == ["held"]
 
 
 def test_it_may_take_longer(stage, held):

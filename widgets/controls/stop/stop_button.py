@@ -207,7 +207,7 @@ class StopButton(Outlined, Hold, Control, AnchorLayout):
         self._told = 0.0
         """Since the robot was told of the hold [s]."""
         self._stayed = 0.0
-        """What of that a finger was seen to stay [s]; no frame is more than half of what it takes."""
+        """What of that a finger was seen to stay [s]; no frame is more than half of what it takes, so that it was looked for in between."""
         super().__init__(**kwargs)
 
     def rest(self) -> None:

@@ -125,7 +125,7 @@ def test_a_frame_that_takes_long_is_no_hold(stage, result):
     stage.frames(3)
     finger = stage.touch(*result.ids.release.to_window(*result.ids.release.center))
     finger.touch_down()
-    stage.frames(3, 1.3)
+    stage.frames(2, 1.3)
     finger.touch_up()
     assert result.heard == []
 
