@@ -112,6 +112,8 @@ class MapCandidates(MapRobot):
         size = max(self.mark_radius * 1.15, dp(15))
         for each, letter in zip(self.candidates, candidate_letters(self.candidates), strict=True):
             x, y = self.view.to_screen(each.x, each.y)
+            if self._under_placed(x, y, size * 1.35):
+                continue
             yaw = each.yaw + self.view.turn
             tip = (x + 2.1 * size * math.cos(yaw), y + 2.1 * size * math.sin(yaw))
             shapes.line(np.array([(x, y), tip]), dp(6), tint(theme.bg, 0.7))
@@ -122,6 +124,12 @@ class MapCandidates(MapRobot):
             share = Word(share_words(each.share), x, y - size * 1.35 - dp(12), sp(14), theme.text, True)
             ground(shapes, share, tint(theme.bg, 0.85))
             yield share
+
+    def _under_placed(self, x: float, y: float, reach: float) -> bool:
+        """A sign at (x, y) of that `reach` [px] lies under the robot that is being placed, which it would be taken for."""
+        if not self.placed:
+            return False
+        return math.dist((x, y), self.view.to_screen(*self.placed[:2])) < reach + self._robot_disc()
 
     def _tap_to_look(self, touch: MotionEvent) -> None:
         seen = [self.view.to_screen(each.x, each.y) for each in self.candidates]

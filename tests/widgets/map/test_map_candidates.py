@@ -69,6 +69,19 @@ def test_each_candidate_has_a_letter_of_its_own_and_its_share_in_words(map_) -> 
     assert map_.unsure
 
 
+def test_no_candidate_lies_under_the_robot_that_is_being_placed(map_) -> None:
+    map_.show(pose(2.0, 1.0))
+    map_.show(PlaceCandidates(candidates=[HERE, THERE]))
+    map_.mode = "place_robot"
+    assert map_.placed[:2] == near(2.0, 1.0)
+    shapes = Shapes()
+    assert [word.text for word in map_._candidate_marks(shapes)] == ["B", "40\u00a0%"]
+    map_.placed = [-8.0, 4.0, 0.0]
+    assert [word.text for word in map_._candidate_marks(Shapes())] == ["A", "60\u00a0%"]
+    map_.mode = "view"
+    assert len(list(map_._candidate_marks(Shapes()))) == 4
+
+
 def test_a_tap_on_a_candidate_chooses_it_and_one_beside_it_does_not(map_, stage, chosen) -> None:
     map_.show(PlaceCandidates(candidates=[HERE, THERE]))
     stage.tap(*map_.view.to_screen(-8.0, 4.0))
