@@ -129,6 +129,7 @@ SENTENCES: Mapping[str, str] = {
     Code.TASK_INTERRUPTED: mark("A restart cut {task} short."),
     Code.TASK_STOPPED: mark("Stopped by {name}."),
     Code.TASK_PAUSED: mark("Paused by {name}."),
+    Code.TASK_STAYS: mark("{name} had it stay at {place}, charging. Resume lets it go on."),
     Code.TASK_TAKEN_OVER: mark("{name} took the stick."),
     Code.TASK_LINK_LOST: mark("Paused: the link to {name} was lost."),
     Code.TASK_OVERTURNED: mark("Paused: {robot} has turned over."),
@@ -152,6 +153,9 @@ SENTENCES: Mapping[str, str] = {
     Code.HEIGHT_UNREACHED: mark("It reached {reached} and not {height}."),
     Code.DOCK_DEAD: mark("The dock {place} gives no charge."),
     Code.DOCK_UNSEEN: mark("The dock {place} is not seen where it should be."),
+    Code.DOCK_TAGS_UNREAD: mark(
+        "{place} is found by its tag, and the robot lacks pupil-apriltags to read it."
+    ),
     Code.DOCK_TAKEN: mark("Something stands in the dock {place}."),
     Code.DOCK_BLOCKED: mark("Something stands before the dock {place}."),
     Code.UNDOCK_BLOCKED: mark("The dock {place} cannot be left."),

@@ -23,6 +23,7 @@ _EVENTS: Mapping[str, str] = {
     Code.STOP_RELEASED: mark("You released STOP."),
     Code.TASK_STOPPED: mark("STOP paused the task."),
     Code.TASK_PAUSED: mark("You paused."),
+    Code.TASK_STAYS: mark("You told it to stay at {place}, charging. Resume lets it go on."),
     Code.TASK_TAKEN_OVER: mark("You took the stick."),
     Code.TASK_CANCELED: mark("You canceled it."),
     Code.TASK_DISCARDED: mark("You discarded it."),
@@ -37,7 +38,7 @@ def own_event(event: Event, own_id: str, gave_stop: str = "") -> Event:
 
     `gave_stop` says what gave its STOP, as of `command_origin.gave_stop`; empty for a hand on a button.
     """
-    words = tr(_EVENTS.get(event.code, "")) if own_id and event.actor_id == own_id else ""
+    words = _own_words(_EVENTS, event) if own_id and event.actor_id == own_id else ""
     if not words:
         said = sentence(event.code, event.parameters, event.text)
         return event if said == event.text else replace(event, text=said)
@@ -49,6 +50,14 @@ def own_event(event: Event, own_id: str, gave_stop: str = "") -> Event:
 
 def own_reason(status: TaskStatus, own_id: str) -> TaskStatus:
     """`status` with its reason as it reads on the handheld that the robot publishes by `own_id`."""
-    words = tr(_REASONS.get(status.code, "")) if own_id and status.actor_id == own_id else ""
+    words = _own_words(_REASONS, status) if own_id and status.actor_id == own_id else ""
     words = words or sentence(status.code, status.parameters, status.reason)
     return status if words == status.reason else replace(status, reason=words)
+
+
+def _own_words(table: Mapping[str, str], told: Event | TaskStatus) -> str:
+    """What the actor reads in place of the robot's sentence; empty where it is told in the robot's."""
+    try:
+        return tr(table.get(told.code, "")).format_map({pair.key: pair.value for pair in told.parameters})
+    except KeyError:  # another program's robot leaves out what its code should name
+        return ""

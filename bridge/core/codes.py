@@ -260,6 +260,12 @@ class Code(StrEnum):
     TASK_INTERRUPTED = "task_interrupted", "A restart cut a task.", "task"
     TASK_STOPPED = "task_stopped", "The actor's STOP paused the task.", "name"
     TASK_PAUSED = "task_paused", "The actor paused the task.", "name"
+    TASK_STAYS = (
+        "task_stays",
+        "The actor had the robot stay where it charges; the task is paused.",
+        "name",
+        "place",
+    )
     TASK_TAKEN_OVER = "task_taken_over", "The actor's stick paused the task.", "name"
     TASK_LINK_LOST = "task_link_lost", "The lost link to the actor paused the task.", "name"
     TASK_OVERTURNED = "task_overturned", "The robot has turned over; the task is paused.", "robot"
@@ -284,6 +290,11 @@ class Code(StrEnum):
     HEIGHT_UNREACHED = "height_unreached", "The height is not reached.", "height", "reached"
     DOCK_DEAD = "dock_dead", "The dock gives no charge: the contacts meet, but no current flows.", "place"
     DOCK_UNSEEN = "dock_unseen", "The dock is not seen where it should be.", "place"
+    DOCK_TAGS_UNREAD = (
+        "dock_tags_unread",
+        "The dock is found by its tag alone, and the library that reads tags is not installed.",
+        "place",
+    )
     DOCK_TAKEN = "dock_taken", "Something stands in the dock.", "place"
     DOCK_BLOCKED = "dock_blocked", "Something stands before the dock.", "place"
     DOCK_MISSED = "dock_missed", "The contacts of robot and dock did not meet.", "place"

@@ -11,7 +11,8 @@ from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.station.fitness import NO_MAP
 from robotside.station.station import Station
-from robotside.tasks.engine import TO_CHARGE, Task
+from robotside.tasks.behaviours.charge import too_little
+from robotside.tasks.engine import TO_CHARGE, Task, charger
 from robotside.tasks.task_factory import words_for
 
 __all__ = ["Preconditions"]
@@ -73,6 +74,12 @@ class Preconditions:
             state = engine.status.state.lower()
             said = f"A task is {state} already; stop it first."
             raise Refusal(Notice(Code.TASK_ACTIVE, said, state=state))
+
+    def charged_enough(self) -> None:
+        """The robot may go on from where it charges, if it charges."""
+        autonomy = self._station.autonomy
+        if charger(autonomy.engine.status) and (short := too_little(autonomy.situation.charge)):
+            raise Refusal(short)
 
     def charged(self, task: Task) -> None:
         """There is charge enough for `task`."""

@@ -24,7 +24,7 @@ from robotside.core.refusal import Refusal
 from robotside.services.command_service import CommandService
 from robotside.services.preconditions import Preconditions
 from robotside.station.station import Station
-from robotside.tasks.engine import Task
+from robotside.tasks.engine import Task, charger
 from robotside.tasks.task_factory import words_for
 
 __all__ = ["TaskOrders", "task_services"]
@@ -116,6 +116,10 @@ class TaskOrders:
         if not self._engine.running:
             raise Refusal(NONE_RUNNING)
         name, who = self._station.controls.name(client), self._station.controls.id(client)
+        if place := charger(self._engine.status):
+            said = f"{name} had it stay at {place}, charging. Resume lets it go on."
+            self._engine.pause(Notice(Code.TASK_STAYS, said, actor_id=who, name=name, place=place))
+            return f"It stays at {place}."
         self._engine.pause(Notice(Code.TASK_PAUSED, f"Paused by {name}.", actor_id=who, name=name))
         return "Paused."
 
@@ -158,6 +162,7 @@ class TaskOrders:
     def confirm(self, client: Operator, _: CommandRequest) -> str:
         """Answer what the task asks."""
         self._permits.may_change(client)
+        self._permits.charged_enough()
         if not self._engine.confirm(self._station.controls.name(client)):
             raise Refusal(Notice(Code.TASK_ASKS_NOTHING, "The robot asks nothing just now."))
         return "Confirmed."

@@ -110,8 +110,8 @@ class DockTasks:
     def _down_onto(self, pad: Place) -> tuple[Behaviour, Course]:
         finder = PadFinder()
         if not finder.able:
-            said = "Pads cannot be found: the library that reads their tags is not installed."
-            raise Refusal(Notice(Code.DOCK_UNSEEN, said, place=pad.name))
+            said = f"{pad.name} cannot be found: the library that reads its tag, pupil-apriltags, is not installed."
+            raise Refusal(Notice(Code.DOCK_TAGS_UNREAD, said, place=pad.name))
         first = first_goal(pad, self._fault)
         self._places.check(pad.name, first.x, first.y)
         course = Course([first])

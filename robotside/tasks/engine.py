@@ -23,7 +23,7 @@ from robotside.tasks.behaviours.situation import Situation
 from robotside.tasks.place_trust import objection
 from robotside.tasks.task_wait import TaskWait
 
-__all__ = ["TO_CHARGE", "Engine", "Task"]
+__all__ = ["TO_CHARGE", "Engine", "Task", "charger"]
 
 PROGRESS_PERIOD = 0.5
 """Between two progress messages [s]."""
@@ -183,7 +183,7 @@ class Engine:
 
     def confirm(self, by: str) -> bool:
         """Answer what the task asks, or have it go on that charges; False when it does neither."""
-        if not (self.running and (self.status.asks or self.status.phase == "charging")):
+        if not (charger(self.status) or (self.running and self.status.asks)):
             return False
         self._situation.confirmed_by = by
         return True
@@ -312,6 +312,11 @@ class Engine:
         stamp, driven = Time.at(self._clock()), self._odometer - self._begun_at
         done = course.progress(left)
         self._progress(TaskProgress(stamp, self.status.task_id, done, left, time_left, driven))
+
+
+def charger(status: TaskStatus) -> str:
+    """Name of the charger at which a task that runs waits for charge; empty where it does not."""
+    return status.place if status.state == "RUNNING" and status.phase == "charging" else ""
 
 
 def _ended(run: TaskRun) -> TaskStatus:

@@ -16,6 +16,7 @@ from widgets.core.quantities import quantities, said
 
 __all__ = [
     "KINDS",
+    "PHASES",
     "STATES",
     "TASKS",
     "TaskWords",
@@ -25,6 +26,7 @@ __all__ = [
     "known",
     "lacking",
     "outcome_words",
+    "phase_words",
     "rhythm",
     "span_words",
     "title",
@@ -80,7 +82,7 @@ TASKS: dict[str, TaskWords] = {
     "guide": TaskWords(
         mark("Guide"), "group", mark("guiding"), ("stops", "message"), mark("Lead a person along places")
     ),
-    "go_to": TaskWords(mark("Go to"), "near_me", mark("going"), ("to",), mark("Drive to a place and stay")),
+    "go_to": TaskWords(mark("Go to"), "near_me", mark("going"), ("to",), mark("To a place, and stay there")),
     "go_home": TaskWords(mark("Go home"), "home", mark("going home"), (), mark("Return to where it lives")),
     "hold": TaskWords(
         mark("Hold"), "pause_circle", mark("holding"), ("height", "duration"), mark("Stay where it is")
@@ -132,6 +134,24 @@ STATES: dict[str, tuple[str, str, str]] = {
 }
 """State of a task to icon, role and word."""
 
+PHASES: dict[str, str] = {
+    "driving": mark("under way"),
+    "waiting": mark("waiting"),
+    "dwelling": mark("dwelling"),
+    "holding": mark("holding"),
+    "turning": mark("turning"),
+    "planning": mark("planning"),
+    "docking": mark("docking"),
+    "undocking": mark("leaving the dock"),
+    "charging": mark("charging"),
+    "circling": mark("circling"),
+    "taking off": mark("taking off"),
+    "landing": mark("landing"),
+    "surfacing": mark("surfacing"),
+    "unsure": mark("unsure"),
+}
+"""Phase of a task that runs to what it does, as in `Point 1 of 3 · waiting`."""
+
 UNSURE_THERE = ("help", "warn", mark("there, unsure"))
 """The same of a task that ended where the robot is unsure of its place: neither done nor failed on the way."""
 
@@ -144,6 +164,24 @@ PECULIAR = ("undock", "take_off", "land", "surface")
 """Tasks of robots that fly or dive, or that say that they know them."""
 MOVES, HOLDS = mark("Drives"), mark("Stands still where it is")
 """Words for a robot that gives none of its own: how it moves, and how it keeps its place."""
+WORDS_OF_KINDS = (
+    *(mark("Flies"), mark("Sails"), mark("Swims"), mark("Hovers where it is")),
+    *(mark("Keeps its place on the water"), mark("Keeps its place in the water")),
+)
+"""The same of robots that give their own, as far as they are known in other languages; others stay as the robot has them."""
+DRIVES_AND_CHARGES = (
+    mark("Drives onto {places} and charges."),
+    mark("Drives onto {places} and charges there until {share:.0f} %."),
+)
+LANDS_AND_CHARGES = (
+    mark("Flies to {places}, lands on it and charges."),
+    mark("Flies to {places}, lands on it and charges there until {share:.0f} %."),
+)
+GOES_AND_CHARGES = (
+    mark("{moves} to {places} and charges."),
+    mark("{moves} to {places} and charges there until {share:.0f} %."),
+)
+"""How a robot comes to its charger, without and with the charge that it stays for; `moves` is its own verb."""
 FIGURES = ("speed", "throttle", "height")
 """Fields of an order that only some robots take, as `RobotInfo.order_fields` names them."""
 DAYS = (mark("Mon"), mark("Tue"), mark("Wed"), mark("Thu"), mark("Fri"), mark("Sat"), mark("Sun"))
@@ -164,6 +202,11 @@ def outcome_words(state: str, code: str) -> tuple[str, str, str]:
     if state == "FAILED" and code == Code.TASK_PLACE_UNSURE:
         return UNSURE_THERE
     return STATES.get(state, STATES["IDLE"])
+
+
+def phase_words(phase: str) -> str:
+    """What a task does in that phase of `TaskStatus`, in the language of the glass; one that is not known stays as the robot has it."""
+    return tr(PHASES[phase]) if phase in PHASES else phase
 
 
 def title(order: TaskOrder) -> str:
@@ -238,7 +281,7 @@ def will(
     says |= {
         "deliver": lambda: _delivers(order),
         "guide": lambda: _guides(order, follows),
-        "dock": lambda: _docks(order),
+        "dock": lambda: _docks(order, robot),
         "undock": lambda: tr("Backs out of its dock and stands before it."),
     }
     says |= {
@@ -264,7 +307,7 @@ def _how_long(order: TaskOrder) -> str:
 
 
 def _holds(order: TaskOrder, robot: RobotInfo) -> str:
-    return f"{robot.holds or tr(HOLDS)}{_at_height(order, robot)} {_how_long(order)}."
+    return f"{tr(robot.holds or HOLDS)}{_at_height(order, robot)} {_how_long(order)}."
 
 
 def _follows(order: TaskOrder, robot: RobotInfo) -> str:
@@ -273,7 +316,7 @@ def _follows(order: TaskOrder, robot: RobotInfo) -> str:
     if math.isfinite(order.throttle):
         pace = tr(" with {throttle:.0f} % throttle").format(throttle=order.throttle * 100)
     return tr("{moves} straight towards {towards}{pace}{height} {time}.").format(
-        moves=robot.moves or tr(MOVES),
+        moves=tr(robot.moves or MOVES),
         towards=towards,
         pace=pace,
         height=_at_height(order, robot),
@@ -347,12 +390,17 @@ def _guides(order: TaskOrder, follows: bool) -> str:
     )
 
 
-def _docks(order: TaskOrder) -> str:
+def _docks(order: TaskOrder, robot: RobotInfo) -> str:
     dock = order.places[0] if order.places else tr("its dock")
-    if math.isfinite(order.charge_to):
-        words = tr("Drives onto {places} and charges there until {share:.0f} %.")
-        return words.format(places=dock, share=order.charge_to * 100)
-    return tr("Drives onto {places} and charges.").format(places=dock)
+    limited = math.isfinite(order.charge_to)
+    if robot.flies:
+        words = LANDS_AND_CHARGES
+    elif (robot.moves or MOVES) == MOVES:
+        words = DRIVES_AND_CHARGES
+    else:
+        words = GOES_AND_CHARGES
+    verb, share = tr(robot.moves or MOVES), order.charge_to * 100
+    return tr(words[limited]).format(moves=verb, places=dock, share=share)
 
 
 def _listed(names: Sequence[str]) -> str:

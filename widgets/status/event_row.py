@@ -45,6 +45,7 @@ KINDS = {
 
 _PAUSES = (
     Code.TASK_PAUSED,
+    Code.TASK_STAYS,
     Code.TASK_TAKEN_OVER,
     Code.TASK_LINK_LOST,
     Code.TASK_OVERTURNED,

@@ -27,10 +27,12 @@ OWN_WORDS: Mapping[str, str] = {
     Code.TASK_TAKEN_OVER: mark("You took the stick."),
     Code.TASK_STOPPED: mark("You pressed STOP."),
     Code.TASK_PAUSED: mark("You paused."),
+    Code.TASK_STAYS: mark("You told it to stay. Resume lets it go on."),
 }
 """Codes of what this handheld did, to what the card says."""
 WORDS: Mapping[str, str] = {
     Code.TASK_TAKEN_OVER: mark("{name} took the stick."),
+    Code.TASK_STAYS: mark("{name} told it to stay. Resume lets it go on."),
     Code.TASK_LINK_LOST: mark("The link to {name} was lost."),
     Code.TASK_BUMPED: mark("The bumper touched something."),
     Code.TASK_HELD_FAST: mark("The wheels turn, but something holds the robot."),
@@ -64,9 +66,10 @@ class PausedCard(NoticeCard):
         self.open = msg.state == "PAUSED"
         if not self.open:
             return
-        self.headline = tr("{title} is paused").format(
-            title=title(TaskOrder(task=msg.task, places=list(msg.places)))
-        )
+        order = TaskOrder(task=msg.task, places=list(msg.places))
+        self.headline = tr("{title} is paused").format(title=title(order))
+        if msg.code == Code.TASK_STAYS and msg.place:
+            self.headline = tr("Stays at {place}, charging").format(place=msg.place)
         self.said = self._words(msg)
         self.resume.meaning = self.headline
 
@@ -86,7 +89,7 @@ class PausedCard(NoticeCard):
 
 
 def samples() -> dict[str, Callable[[], Widget]]:
-    """Paused by us, with the stick still pushed, and by another."""
+    """Paused by us, with the stick still pushed, by another, and told to stay where it charges."""
     paused = TaskStatus(
         task="patrol",
         state="PAUSED",
@@ -96,10 +99,14 @@ def samples() -> dict[str, Callable[[], Widget]]:
         parameters=[KeyValue("name", "tablet-A")],
     )
 
-    def make(**kwargs: Any) -> Callable[[], Widget]:
+    staying = TaskStatus(
+        task="patrol", state="PAUSED", code=Code.TASK_STAYS.value, actor_id="a", place="Charging dock"
+    )
+
+    def make(status: TaskStatus = paused, **kwargs: Any) -> Callable[[], Widget]:
         def build() -> Widget:
             card = PausedCard(size_hint_x=None, width="420dp", **kwargs)
-            card.show(paused)
+            card.show(status)
             return card
 
         return build
@@ -108,4 +115,5 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "by us": make(client_id="a"),
         "stick pushed": make(client_id="a", held=True),
         "by another": make(blocked=True),
+        "stays and charges": make(staying, client_id="a"),
     }

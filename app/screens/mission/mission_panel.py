@@ -19,6 +19,7 @@ from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskStatus
 from widgets import EventLog, MotionSelector, Readout, TaskButtons
 from widgets.core.language import figure, mark, tr, trn
+from widgets.core.task_words import phase_words
 from widgets.instruments.readout import ReadoutGrid
 from widgets.parts.column import Column
 from widgets.parts.kit import Card
@@ -394,7 +395,7 @@ class MissionPanel(BoxLayout):
         of_lap = self._progress.of_lap = is_lap_only(status) and self._session.running
         self.left.name = tr("Lap ends in") if of_lap else tr("Time left")
         # the robot's own sentence stands under the buttons
-        going = [figures_words(status, None), status.phase if self._session.running else ""]
+        going = [figures_words(status, None), phase_words(status.phase) if self._session.running else ""]
         self._progress.where = " · ".join(filter(None, going)) or status.reason or tr("No task runs.")
 
     def _show_progress(self, progress: TaskProgress) -> None:

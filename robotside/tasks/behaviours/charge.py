@@ -14,7 +14,7 @@ from robotside.navigation.navigator import Navigator
 from robotside.records.events import Say
 from robotside.tasks.behaviours.situation import Situation
 
-__all__ = ["MIN_CHARGE", "Charge"]
+__all__ = ["MIN_CHARGE", "Charge", "too_little"]
 
 MIN_CHARGE = 0.2
 """With less than this it does not go on, whoever asks for it, 0 to 1: it would come back at once."""
@@ -27,6 +27,14 @@ QUIET_TIME, SILENCE_TIMEOUT = 10.0, 30.0
 
 MIN_GAIN = 0.005
 """From so much more charge on it is known how long the rest takes, 0 to 1."""
+
+
+def too_little(charge: float) -> Notice | None:
+    """Why a robot with that charge, 0 to 1, does not go on; None where it does, NaN included: nobody knows better than who asks."""
+    if not charge < MIN_CHARGE:
+        return None
+    said = f"Charging goes on: {charge:.0%} is too little to go on with; {MIN_CHARGE:.0%} is needed."
+    return Notice(Code.CHARGE_NEEDED, said, charge=charge, needed=MIN_CHARGE)
 
 
 class Charge(Behaviour):
@@ -99,13 +107,8 @@ class Charge(Behaviour):
         now = self._situation
         if not now.confirmed_by:
             return False
-        if now.charge < MIN_CHARGE:
-            said = (
-                f"Charging goes on: {now.charge:.0%} is too little to go on with; {MIN_CHARGE:.0%} is needed."
-            )
-            self._say(
-                "battery", Notice(Code.CHARGE_NEEDED, said, charge=now.charge, needed=MIN_CHARGE), "warn"
-            )
+        if short := too_little(now.charge):
+            self._say("battery", short, "warn")
             return False
         said = f"{now.confirmed_by} had it go on at {now.charge:.0%}."
         self._say("battery", Notice(Code.CHARGE_CUT, said, name=now.confirmed_by, charge=now.charge), "info")

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from msgspec.structs import replace
 
 from app.core.command_origin import Origin, gave_stop
 from app.session.event_words import own_event, own_reason
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.pilothouse_msgs import Event, TaskStatus
 
 ME, OTHER = "t1", "t2"
@@ -63,3 +65,12 @@ def test_why_the_task_is_paused_is_told_of_you_as_well() -> None:
     assert own_reason(paused, ME).reason == "You paused."
     assert own_reason(stopped, ME).reason == "You pressed STOP."
     assert own_reason(paused, OTHER) is paused, "that is another"
+
+
+def test_of_one_that_was_told_to_stay_where_it_charges_the_place_is_named() -> None:
+    told = [KeyValue("name", "vm"), KeyValue("place", "Pad")]
+    stays = TaskStatus(
+        state="PAUSED", reason="vm had it stay.", code="task_stays", actor_id=ME, parameters=told
+    )
+    assert own_reason(stays, ME).reason == "You told it to stay at Pad, charging. Resume lets it go on."
+    assert own_reason(replace(stays, parameters=[]), ME).reason == "vm had it stay.", "it names no place"

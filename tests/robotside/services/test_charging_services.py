@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import (
     Bumper,
     CommandRequest,
@@ -99,6 +100,38 @@ def test_an_operator_has_it_go_on_now_or_stay(house: Scene) -> None:
     assert house.ask("/task/confirm").success
     house.until(lambda: house.task.phase == "undocking", 5.0)
     assert house.run_task().visited == 3
+
+
+def test_an_operator_who_has_it_stay_is_told_that_it_stays_at_its_dock_and_how_it_goes_on(
+    house: Scene,
+) -> None:
+    house.set(*SQUARE, laps=1)
+    house.start()
+    low(house)
+    charging(house)
+    assert house.ask("/task/pause").message == "It stays at Dock."
+    assert (house.task.state, house.task.code) == ("PAUSED", Code.TASK_STAYS)
+    assert {each.key: each.value for each in house.task.parameters}["place"] == "Dock"
+    assert house.task.reason.endswith(" had it stay at Dock, charging. Resume lets it go on.")
+    assert house.ask("/task/resume").success
+    house.run(1.0)
+    assert house.task.phase == "charging"
+
+
+def test_sent_on_with_too_little_charge_is_refused_with_the_figures(house: Scene) -> None:
+    house.set(*SQUARE, laps=1)
+    house.start()
+    low(house)
+    charging(house)
+    said = "Charging goes on: 14% is too little to go on with; 20% is needed."
+    answer = house.ask("/task/confirm")
+    assert (answer.success, answer.message, answer.code) == (False, said, Code.CHARGE_NEEDED)
+    house.run(1.0)
+    assert house.task.phase == "charging"
+    house.robot.battery = 0.21
+    house.run(1.1)
+    assert house.ask("/task/confirm").success
+    house.until(lambda: house.task.phase == "undocking", 5.0)
 
 
 def test_a_patrol_that_is_canceled_while_it_charges_rests_in_the_dock(house: Scene) -> None:

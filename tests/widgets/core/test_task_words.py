@@ -1,13 +1,29 @@
 from __future__ import annotations
 
 import math
+import re
+from pathlib import Path
 
 import pytest
 
 from bridge.msgs.pilothouse_msgs import PLACE_KINDS, Mission, RobotInfo, ScheduledTask, TaskOrder, Waypoint
 from bridge.msgs.pilothouse_msgs import TASKS as KNOWN
+from robotside.kinds.registry import KINDS as KINDS_OF_ROBOTS
 from robotside.kinds.registry import described
-from widgets.core.task_words import KINDS, TASKS, heading_of, known, lacking, rhythm, span_words, title, will
+from widgets.core.language import language
+from widgets.core.task_words import (
+    KINDS,
+    PHASES,
+    TASKS,
+    heading_of,
+    known,
+    lacking,
+    phase_words,
+    rhythm,
+    span_words,
+    title,
+    will,
+)
 
 SIX = Mission(waypoints=[Waypoint(float(x), 0.0) for x in range(6)], on_intruder="circle")
 
@@ -35,10 +51,47 @@ def test_one_that_does_not_say_is_not_asked_to_fly_or_to_dive():
             "Sails straight towards 090° with 60 % throttle until you stop it.",
         ),
         ("quadrotor", TaskOrder(task="take_off", height=2.0), "Takes off to 2 m and hovers there."),
+        ("wheels", TaskOrder(task="dock"), "Drives onto its dock and charges."),
+        (
+            "quadrotor",
+            TaskOrder(task="dock", places=["Pad"], charge_to=0.8),
+            "Flies to Pad, lands on it and charges there until 80 %.",
+        ),
+        ("quadrotor", TaskOrder(task="dock"), "Flies to its dock, lands on it and charges."),
+        ("hexapod", TaskOrder(task="dock", places=["Cage"]), "Swims to Cage and charges."),
+        ("boat", TaskOrder(task="dock", charge_to=0.5), "Sails to its dock and charges there until 50 %."),
     ],
 )
 def test_each_kind_has_its_own_verb(kind, order, sentence):
     assert will(order, robot=described(RobotInfo(kind=kind))) == sentence
+
+
+@pytest.mark.parametrize("kind", [*KINDS_OF_ROBOTS])
+def test_the_verbs_of_each_kind_are_said_in_the_language_of_the_glass(monkeypatch, kind):
+    robot = described(RobotInfo(kind=kind))
+    monkeypatch.setattr(language, "name", "en_XA")
+    for order in (TaskOrder(task="hold"), TaskOrder(task="follow_heading")):
+        said = will(order, robot=robot)
+        assert robot.moves not in said, said
+        assert robot.holds not in said, said
+
+
+def test_a_verb_that_is_not_known_stays_as_the_robot_has_it(monkeypatch):
+    monkeypatch.setattr(language, "name", "de")
+    said = will(TaskOrder(task="follow_heading"), robot=RobotInfo(moves="Crawls"))
+    assert said.startswith("Crawls ")
+
+
+def test_there_are_words_for_every_phase_that_a_robot_tells(monkeypatch):
+    comment = (
+        Path("pilothouse_msgs/msg/TaskStatus.msg").read_text().partition("string phase")[2].splitlines()[0]
+    )
+    told = re.sub(r"\([^)]*\)", "", comment.partition("#")[2].partition(";")[0]).replace(" or ", ", ")
+    phases = [phase.strip() for phase in told.split(",")]
+    assert set(phases) == set(PHASES)
+    monkeypatch.setattr(language, "name", "de")
+    assert all(phase_words(phase) != PHASES[phase] for phase in phases)
+    assert phase_words("dancing") == "dancing", "of another program"
 
 
 def test_there_are_words_for_every_task_and_kind_of_place():

@@ -3,6 +3,7 @@ from __future__ import annotations
 import re
 
 import pytest
+from msgspec.structs import replace
 
 from bridge.core.codes import Code
 from bridge.msgs.diagnostic_msgs import KeyValue
@@ -53,6 +54,19 @@ def test_it_says_what_is_paused_and_who_did_it(card, reason, code, actor, said):
     assert card.open
     assert card.headline.endswith(" is paused")
     assert card.said == said
+
+
+@pytest.mark.parametrize(
+    ("actor", "said"),
+    [
+        ("a", "You told it to stay. Resume lets it go on."),
+        ("b", "Bob told it to stay. Resume lets it go on."),
+    ],
+)
+def test_of_one_that_stays_where_it_charges_it_says_where_and_how_it_goes_on(card, actor, said):
+    told = paused("Bob had it stay at Pad, charging.", "task_stays", actor, name="Bob", place="Pad")
+    card.show(replace(told, place="Pad"))
+    assert (card.headline, card.said) == ("Stays at Pad, charging", said)
 
 
 def test_a_code_without_the_names_that_belong_to_it_leaves_the_robots_own_words(card):
