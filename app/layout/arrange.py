@@ -217,6 +217,10 @@ def _above(panel: Rect, stop: Rect, gap: float) -> Rect:
     return Rect(panel.x + gap, low, panel.width - 2 * gap, panel.top - gap - low)
 
 
+SENTENCE = 62
+"""Height of a sentence over a screen; over lists it stands on the floor of its room, and takes no more of them [dp]."""
+
+
 @handed
 def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     """Of the topics screen: `list` and `detail`, side by side or in the same place on a phone, `strip` and `stop`.
@@ -228,7 +232,7 @@ def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
         stop, strip = stop_tall(body, dp)
         low = stop.head + 10 * dp
         whole = Rect(body.x + gap, low, body.width - 2 * gap, body.top - gap - low)
-        notice = Rect(whole.x, low, whole.width, 120 * dp)
+        notice = Rect(whole.x, low, whole.width, SENTENCE * dp)
         return {"list": whole, "detail": whole, "strip": strip, "stop": stop, "notice": notice}
     wide = shape == "wide"
     stop = _stop_of_lists(body, shape, dp)
@@ -237,7 +241,7 @@ def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     x, low = listed.right + gap, stop.top + gap
     detail = Rect(x, low, body.right - gap - x, body.top - gap - low)
     strip = Rect(x, stop.y, stop.left - gap - x, stop.height)
-    notice = Rect(detail.x, low, detail.width, 110 * dp)
+    notice = Rect(detail.x, low, detail.width, SENTENCE * dp)
     return {"list": listed, "detail": detail, "strip": strip, "stop": stop, "notice": notice}
 
 

@@ -8,7 +8,7 @@ from kivy.uix.widget import Widget
 
 from app.layout.arrange import Rect
 
-__all__ = ["AWAY_X", "Area", "above", "put"]
+__all__ = ["AWAY_X", "MIN_READABLE_HEIGHT", "Area", "above", "put"]
 
 AWAY_X = -1e4
 """x of what is off the glass [px]."""
@@ -38,14 +38,14 @@ def off(place: Rect) -> Rect:
     return Rect(AWAY_X, place.y, place.width, place.height)
 
 
-def above(place: Rect, cover: Rect | None, dp: float) -> Rect:
+def above(place: Rect, cover: Rect | None, dp: float, least: float = MIN_READABLE_HEIGHT) -> Rect:
     """What is left of a place above what covers its lower part; all of it where nothing does.
 
-    Where next to nothing would be left it is off the glass: what can be read only in part is better not seen.
+    Where less than `least` [dp] would be left it is off the glass: what can be read only in part is better not seen.
     """
     if cover is None or not place.overlaps(cover):
         return place
     low = cover.top + 8 * dp
-    if place.top - low < MIN_READABLE_HEIGHT * dp:
+    if place.top - low < least * dp:
         return Rect(AWAY_X, place.y, place.width, place.height)
     return Rect(place.x, low, place.width, place.top - low)

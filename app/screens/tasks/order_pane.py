@@ -6,6 +6,7 @@ from typing import Any
 
 import msgspec
 from kivy.lang import Builder
+from kivy.metrics import dp
 from kivy.properties import AliasProperty, BooleanProperty, ObjectProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
@@ -19,6 +20,8 @@ from widgets.parts.kit import IconButton, ListRow, Roll, Segmented
 
 __all__ = ["OrderPane", "why_not_now"]
 
+MIN_WORDED_HEIGHT = 136
+"""Lower than this it has room for a row of tiles alone [dp]."""
 EVENING = ScheduledTask(at="22:00")
 """What a new scheduled task begins with."""
 UNSENT = mark(" The points on the map are sent to the robot first.")
@@ -44,7 +47,8 @@ Builder.load_string("""
         spacing: dp(10)
     BoxLayout:
         size_hint_y: None
-        height: max(dp(34), said.height + dp(8))
+        height: max(dp(34), said.height + dp(8)) if root.worded else 0
+        opacity: 1 if root.worded else 0
         spacing: dp(10)
         Icon:
             name: 'block' if root.refused else 'hourglass_top' if root.held_up else 'info' if root.complete else 'help'
@@ -89,6 +93,18 @@ class OrderPane(BoxLayout):
     """Once a task is chosen the others are away, and what and when are on two pages."""
     closable = BooleanProperty(False)
     """Has an arrow that goes back to the lists."""
+
+    @property
+    def chooses(self) -> bool:
+        """No task is chosen yet: its tiles are shown."""
+        return not self.form.task
+
+    def _worded(self) -> bool:
+        return bool(self.height >= dp(MIN_WORDED_HEIGHT) or not self.chooses)
+
+    worded = AliasProperty(_worded, bind=["height", "sentence"], cache=True)
+    """Says below what will happen; where it is that low it is the tiles that are needed."""
+
     titled = BooleanProperty(True)
     """Has its title over it."""
     scheduled = ObjectProperty(None, allownone=True)
@@ -116,7 +132,7 @@ class OrderPane(BoxLayout):
         self._shown: Draft | None = None
         self.chooser, self.form, self.when = TaskChooser(), OrderForm(), WhenPicker()
         self._chosen = ListRow(aside=tr("Change"))
-        self._roll = Roll()
+        self._roll, self._tiles = Roll(), Roll()
         self._pages = Segmented(options=[("what", tr("What")), ("when", tr("When"))], value="what")
         self._back = IconButton(icon="arrow_back", bare=True, pos_hint={"center_y": 0.5})
         super().__init__(**kwargs)
@@ -241,9 +257,12 @@ class OrderPane(BoxLayout):
             return [self.form]
         if not self.compact:
             self._roll.clear_widgets()
+            self._tiles.clear_widgets()
             return [self.chooser, self.form, *([self.when] if two else [])]
-        if not words:
-            return [self.chooser, self.form]
+        if not words:  # what is said over the screen may leave room for a row of them alone
+            if self.chooser.parent is not self._tiles:
+                self._tiles.add_widget(self.chooser)
+            return [self._tiles]
         if not two:
             return [self._chosen, self.form]
         self._pages.value = self.page

@@ -9,7 +9,7 @@ from kivy.uix.widget import Widget
 
 from app.layout import arrange
 from app.layout.arrange import Rect
-from app.screens.parts.placing import above, put
+from app.screens.parts.placing import MIN_READABLE_HEIGHT, above, put
 from app.screens.tasks.task_actions import TaskActions
 from app.screens.tasks.task_lists import TaskLists
 from app.screens.tasks.task_panes import TaskPanes
@@ -26,6 +26,10 @@ DETAILS = {
     "missions": "mission",
 }
 """What is beside each list where there is room for both."""
+
+
+MIN_TILES_HEIGHT = 66.0
+"""Tiles to choose a task by can be scrolled through in no more than this [dp]."""
 
 
 class TasksParts(Protocol):
@@ -65,8 +69,17 @@ class TaskLayout:
     def clear(self, cover: Rect | None) -> None:
         """Make room for what is said over the screen."""
         self._cover = cover
-        for name, place in (("listed", "list"), ("detail", "detail")):
-            put(self._screen.ids[name], above(self._places[place], cover, self._dp))
+        tiles = self._screen.panes.order.chooses and self._shown_detail() in ("order", "schedule")
+        for name, place, least in (
+            ("listed", "list", MIN_READABLE_HEIGHT),
+            ("detail", "detail", MIN_TILES_HEIGHT if tiles else MIN_READABLE_HEIGHT),
+        ):
+            put(self._screen.ids[name], above(self._places[place], cover, self._dp, least))
+
+    def refresh(self) -> None:
+        """Another task, or none, was chosen: what is shown of it may need more room, or less."""
+        if self._places:
+            self.clear(self._cover)
 
     def _shown_detail(self) -> str:
         """What is beside the list, or on a phone over it; empty for the list alone."""

@@ -187,6 +187,7 @@ class TasksScreen(RobotScreen):
 
     def _task_changed(self, *_: object) -> None:
         """The map is beside the form where the task goes to places."""
+        self.layout.refresh()
         takes = self.pane.form.takes_places
         if takes != self._takes_places:
             self._takes_places = takes

@@ -14,6 +14,7 @@ from bridge.msgs.pilothouse_msgs import (
     Following,
     Mission,
     Place,
+    RobotInfo,
     ScheduledTask,
     TaskOrder,
     TaskRun,
@@ -23,6 +24,7 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.std_msgs import Time
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
+from widgets.core.task_words import TASKS
 from widgets.parts.rows import ListRow
 from widgets.tasks.place_list import SOME
 
@@ -408,6 +410,45 @@ def test_turning_the_device_keeps_what_was_chosen_and_covers_nothing_with_stop(
             button = tasks.ids[name]
             assert button.to_window(button.right, button.y)[0] <= stop.x, (size, name)
             assert button.height >= 40, (size, name)
+
+
+def test_on_a_phone_the_tasks_can_be_chosen_whatever_is_said_over_them(
+    glass: Glass, robot: FakeRobot, tasks: Any
+) -> None:
+    robot.publish("/robot/info", RobotInfo(name="Fake-1", kind="wheels", tasks=list(TASKS), max_climb=1.0))
+    glass.until(lambda: len(tasks.pane.chooser.tasks) == len(TASKS), "not all tasks are offered")
+    shell, tiles = glass.app.shell, tasks.pane.chooser._tiles
+    for size in [(892, 412), (412, 892)]:
+        shell.size = glass.app.root.size = size
+        tasks.open("order")
+        tasks.begin("")
+        for said in ("sentence", "card"):
+            if said == "sentence":
+                glass.app.say(
+                    "Point 2 cannot be reached; the patrol goes on without it, and says so.", "warn"
+                )
+            else:
+                asks = TaskStatus(task="deliver", state="RUNNING", asks="Is it loaded at Lab?", place="Lab")
+                robot.publish("/task/status", asks)
+                glass.until(lambda: shell.question.parent is not None, "no card")
+            shell.tick()
+            glass.stage.frames(6)
+            for name in ("patrol", "land"):
+                tasks.pane._tiles.scroll_to(tiles[name], padding=0, animate=False)
+                glass.stage.frames(4)
+                tile = Rect(*tiles[name].to_window(*tiles[name].pos), *tiles[name].size)
+                room = Rect(*tasks.pane._tiles.to_window(*tasks.pane._tiles.pos), *tasks.pane._tiles.size)
+                middle = Rect(tile.x + tile.width / 2 - 2, tile.y + tile.height / 2 - 2, 4, 4)
+                assert room.holds(middle), (size, said, name, tile, room)
+                notices = shell.notices
+                assert not Rect(*notices.pos, *notices.size).overlaps(room), (size, said)
+                glass.tap(tiles[name])
+                assert tasks.pane.form.task == name, (size, said)
+                tasks.begin("")
+                glass.stage.frames(2)
+        shell.notices.hush()
+        robot.publish("/task/status", TaskStatus())
+        glass.until(lambda: shell.question.parent is None, "still asked")
 
 
 def test_back_goes_from_the_list_of_places_to_the_form_to_the_lists(glass: Glass, tasks: Any) -> None:
