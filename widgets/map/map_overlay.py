@@ -212,12 +212,12 @@ class MapOverlay(MapCandidates, Drawing):
         sizes = [(place, self.mark_radius) for place in waypoints]
         sizes += [((home[0], home[1]), self.mark_radius * 0.9)] if home else []
         sizes += [(place[:2], self.mark_radius * 0.8) for place in self.places if place[3] != "dock"]
-        bad = [(place, size) for place, size in sizes if self._would_refuse(*place)]
+        bad = {place: size for place, size in reversed(sizes) if self._would_refuse(*place)}  # once each
         taken = [self.view.to_screen(*place) for place, _ in sizes]
-        for place, size in bad:
+        for place, size in bad.items():
             yield fence_marks.refused_mark(shapes, self.view, *place, size)
         why = {(x, y): words for x, y, words in self.refused}
-        said = [(*place, why[place], size) for place, size in bad if place in why]
+        said = [(*place, why[place], size) for place, size in bad.items() if place in why]
         yield from marks.reasons(shapes, self.view, said, box=self.free_box, taken=taken)
 
     def _would_refuse(self, x: float, y: float) -> bool:

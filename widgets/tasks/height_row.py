@@ -28,9 +28,6 @@ Builder.load_string("""
     spacing: dp(8)
     Text:
         text: root.title
-        shorten: True
-        shorten_from: 'right'
-        max_lines: 1
         pos_hint: {'center_y': .5}
 """)
 

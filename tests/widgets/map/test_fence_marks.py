@@ -110,6 +110,14 @@ def test_points_home_and_places_that_the_robot_would_refuse_are_marked(map_, sta
     assert signs(map_, stage) == 0
 
 
+def test_a_point_at_a_place_that_the_robot_would_refuse_is_marked_and_said_once(map_, stage):
+    map_.waypoints, map_.places = [(12.0, 5.0)], [(12.0, 5.0, "Lab", "office")]
+    map_.refused = [(12.0, 5.0, "Height 0.5 m to 6.0 m")]
+    assert signs(map_, stage) == 1
+    said = [word.text for word in map_._refused(Shapes(), map_._places(), [])]
+    assert said.count("Height 0.5 m to 6.0 m") == 1
+
+
 def test_a_point_is_marked_while_a_finger_still_holds_it(map_, stage):
     map_.mode, map_.waypoints = "points", [(5.0, 5.0)]
     touch = stage.touch(200, 150)

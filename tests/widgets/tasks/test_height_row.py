@@ -55,6 +55,15 @@ def test_without_a_selection_it_sets_all_points_and_else_the_selected_one(
     assert editor.draft.levels == (2.5, None, 2.5)
 
 
+def test_whose_height_it_is_can_be_read_beside_whatever_it_is(row: HeightRow, stage: Stage) -> None:
+    row.show((1.0, 2.0), -1, DRONE)
+    stage.frames(4)
+    label = row.children[-1]
+    assert label.text == "Height · all points"
+    assert not label.is_shortened
+    assert label.height <= row.height
+
+
 def test_one_that_dives_is_asked_for_a_depth(row: HeightRow, editor: MissionEditor) -> None:
     row.show(editor.draft.levels, 0, AQUA)
     assert row.title == "Depth · Point 1"
