@@ -35,6 +35,9 @@ FALLS, RISES = 0.2, 0.006
 """How quickly the noise floor follows what is more quiet and what is louder, of the difference, each hop."""
 NOISE_TIME = 4.0
 """What goes on for longer than this without a pause is noise [s]."""
+STEADY_TIME, STEADY_SPREAD = 1.2, 4.5
+"""What is so long [s] as even as that, from its softer to its louder tenth [dB], is no voice: a motor, a fan, rain."""
+TENTH = 0.1
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +66,7 @@ class Endpointer:
         self._began = self._last = math.nan
         self._overlong = False
         self._spoken = 0
+        self._levels: deque[float] = deque(maxlen=int(STEADY_TIME * RATE / HOP_SAMPLES))
         self.floor = math.nan
         """The noise [dB over full scale]; NaN before anything was heard."""
 
@@ -96,12 +100,15 @@ class Endpointer:
         self._overlong = False
         self._before.clear()
         self._loud.clear()
+        self._levels.clear()
         self._rest = np.zeros(0, np.float32)
         return segment
 
     def _hop(self, hop: NDArray[np.float32], end: float) -> Segment | None:
         level = max(-90.0, decibels(hop))
         over = level - self._learn(level)
+        if self._steady() and self.speaking:
+            return self._before_noise(end)
         if not self.speaking:
             self._before.append(hop)
             self._loud.append(over > START_LEVEL and level > MIN_LEVEL)
@@ -122,6 +129,28 @@ class Endpointer:
             return segment
         return None
 
+    def _steady(self) -> bool:
+        """What is heard now is an even noise, and louder than the floor knew: now it knows."""
+        if len(self._levels) < (self._levels.maxlen or 0) or self._levels[-1] < self.floor + END_LEVEL:
+            return False
+        levels = np.array(self._levels)
+        soft, middle, loud = np.quantile(levels, (TENTH, 0.5, 1 - TENTH))
+        if max(loud, float(levels[-MIN_LOUD_HOPS:].mean())) - soft > STEADY_SPREAD:
+            return False
+        self.floor = float(middle)
+        return True
+
+    def _before_noise(self, end: float) -> Segment | None:
+        """What was said before the even noise that is heard until `end` [s]; nobody speaks now."""
+        kept, self._kept, self._overlong = self._kept, [], False
+        self._before.clear()
+        self._loud.clear()
+        noise = STEADY_TIME * (1 - TENTH)
+        words = np.concatenate(kept)[: -int(noise * RATE)] if kept else np.zeros(0, np.float32)
+        if len(words) / RATE < LEAD_TIME + 2 * MIN_WORDS:
+            return None
+        return Segment(words, self._began, end - noise)
+
     def _over(self) -> Segment | None:
         kept, self._kept, self._overlong = self._kept, [], False
         self._before.clear()
@@ -132,6 +161,7 @@ class Endpointer:
 
     def _learn(self, level: float) -> float:
         """The floor follows quickly down and slowly up; what goes on for seconds is noise, however loud."""
+        self._levels.append(level)
         if math.isnan(self.floor):
             self.floor = min(level, -40.0)
         lasting = self._overlong and self._spoken * HOP_SAMPLES / RATE > NOISE_TIME

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from app.inputs.voice.interfaces.speech_recognizer import Level
 
-__all__ = ["CLEAR", "RATE", "TOO_LOUD", "USUAL_LEVEL", "NoiseMeter", "decibels"]
+__all__ = ["CLEAR", "RATE", "TOO_LOUD", "NoiseMeter", "decibels"]
 
 RATE = 16000
 """Samples a second of everything that is heard [Hz]."""
@@ -20,8 +20,6 @@ TOO_LOUD, CLEAR = 6.0, 9.0
 """Voice goes off below this ratio of speech to noise and comes back above that one [dB]."""
 SWITCH_TIME = 1.5
 """Noise must be too loud, or quiet again, for so long before anything is switched [s]."""
-USUAL_LEVEL = -26.0
-"""How loud a voice is that nobody has heard yet: one that speaks at arm's length of a microphone [dB over full scale]."""
 MIN_LEVEL = -90.0
 """Nothing is taken to be more quiet than this [dB over full scale]."""
 CLIPPING_LEVEL = 0.985
@@ -50,9 +48,7 @@ class NoiseMeter:
         self._voice = math.nan
         self._since = math.nan
         self.too_loud = False
-        """Nobody can be understood here; with hysteresis in ratio and in time."""
-        self.outdated = False
-        """That was found before the ears were closed last, and what is heard now does not say so."""
+        """The voice that was heard last cannot be understood here; with hysteresis in ratio and in time. Louder words may be."""
 
     def feed(self, samples: NDArray[np.float32], at: float, *, speaking: bool = False) -> None:
         """The next samples, -1 to 1, the last one heard at `at` [s]; `speaking` when somebody is thought to talk."""
@@ -70,10 +66,9 @@ class NoiseMeter:
         self._frames.clear()
         self._rest = np.zeros(0, np.float32)
         self._since = math.nan
-        self.outdated = True
 
     def heard(self, samples: NDArray[np.float32]) -> float:
-        """Words were said: remembers how loud, and gives their ratio to the noise [dB]; NaN where no noise is known yet."""
+        """Words were said: remembers how loud, louder ones at once, and gives their ratio to the noise [dB]; NaN where no noise is known yet."""
         if len(samples) < FRAME_SAMPLES:
             return math.nan
         frames = samples[: len(samples) // FRAME_SAMPLES * FRAME_SAMPLES].reshape(-1, FRAME_SAMPLES)
@@ -82,7 +77,7 @@ class NoiseMeter:
         noise = self.noise
         clean = loud - (10 ** (noise / 10) if not math.isnan(noise) else 0.0)
         level = max(MIN_LEVEL, 10 * math.log10(max(clean, 1e-12)))
-        self._voice = level if math.isnan(self._voice) else 0.7 * self._voice + 0.3 * level
+        self._voice = level if not level <= self._voice else 0.7 * self._voice + 0.3 * level
         return level - noise
 
     @property
@@ -94,8 +89,8 @@ class NoiseMeter:
 
     @property
     def snr(self) -> float:
-        """How far a voice stands over the noise here [dB]: that of the last words, a usual one before any; NaN unknown."""
-        return (USUAL_LEVEL if math.isnan(self._voice) else max(self._voice, USUAL_LEVEL)) - self.noise
+        """How far the voice that was heard last would stand over the noise here [dB]; NaN before any was heard: people speak up in noise."""
+        return self._voice - self.noise
 
     def level(self, *, speaking: bool = False) -> Level:
         """What a meter shows now."""
@@ -110,8 +105,8 @@ class NoiseMeter:
             return
         changes = snr >= CLEAR if self.too_loud else snr < TOO_LOUD
         if not changes:
-            self._since, self.outdated = math.nan, False
+            self._since = math.nan
         elif math.isnan(self._since):
             self._since = at
         elif at - self._since >= SWITCH_TIME:
-            self.too_loud, self._since, self.outdated = not self.too_loud, math.nan, False
+            self.too_loud, self._since = not self.too_loud, math.nan

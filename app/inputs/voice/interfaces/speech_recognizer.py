@@ -106,7 +106,7 @@ class Level:
     noise: float
     """Of what is no speech [dB over full scale]; NaN unknown."""
     snr: float
-    """What the last words stood over that noise, or what usual speech would [dB]; NaN unknown."""
+    """What a voice as loud as the last words would stand over that noise [dB]; NaN before any were heard."""
     speaking: bool = False
     clipped: bool = False
     """The microphone is overdriven."""

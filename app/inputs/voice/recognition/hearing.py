@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.inputs.voice.audio.endpoint import Endpointer, Segment
-from app.inputs.voice.audio.noise import CLEAR, NoiseMeter
+from app.inputs.voice.audio.noise import TOO_LOUD, NoiseMeter
 from app.inputs.voice.interfaces.speech_recognizer import Grammar, Hear, Level, Rejected, Result, State
 from app.inputs.voice.recognition.ctc import Acoustics, Found, Scorer
 from app.inputs.voice.recognition.rechecks import looks
@@ -162,10 +162,6 @@ class SpeechPipeline:
         else:
             self._tell(self._verdict(found, segment, snr))
 
-    def _too_loud(self, snr: float) -> bool:
-        """For words of that ratio to the noise [dB]: they tell themselves where it was loud when the ears were open last, and may be no more."""
-        return self._meter.too_loud and not (self._meter.outdated and snr >= CLEAR)
-
     def _verdict(self, found: Found, segment: Segment, snr: float) -> Result | Rejected:
         if not found.accepted:
             reason = tr("That was no command.")
@@ -176,7 +172,7 @@ class SpeechPipeline:
                 if asked
                 else (tr("“{phrase}” does not count now.").format(phrase=found.phrase))
             )
-        elif self._too_loud(snr) and found.command not in self._grammar.urgent:
+        elif snr < TOO_LOUD and found.command not in self._grammar.urgent:
             reason = tr("It is too loud here to be sure.")
         else:
             detail = {"explains": round(found.explains, 2), "rival": found.rival}

@@ -64,3 +64,25 @@ def test_noise_that_began_is_silence_after_a_while():
     points = Endpointer()
     words(np.concatenate((quiet(1.0), quiet(14.0, 0.05))), points)
     assert not points.speaking
+
+
+def test_a_motor_that_starts_is_known_for_one_and_a_word_over_it_is_found():
+    points = Endpointer()
+    sound = np.concatenate((quiet(1.0), quiet(6.0, 0.05)))
+    sound[5 * 16000 : 5 * 16000 + 8000] += voice(0.5, 0.4)
+    found = words(sound, points)
+    assert [(s.began, s.ended, s.whole) for s in found] == [
+        (pytest.approx(5.0, abs=0.15), pytest.approx(5.5, abs=0.1), True)
+    ]
+
+
+def test_a_motor_that_runs_when_the_ears_open_is_known_for_one_too():
+    sound = quiet(4.0, 0.05)
+    sound[2 * 16000 : 2 * 16000 + 8000] += voice(0.5, 0.4)
+    assert [s.began for s in words(sound)] == [pytest.approx(2.0, abs=0.15)]
+
+
+def test_words_before_a_noise_that_starts_are_not_lost_in_it():
+    (said,) = words(np.concatenate((quiet(1.0), voice(0.6), quiet(3.0, 0.05))))
+    assert (said.began, said.ended) == (pytest.approx(1.0, abs=0.1), pytest.approx(1.6, abs=0.1))
+    assert len(said.samples) / 16000 < 1.2

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from app.inputs.voice.audio.noise import SWITCH_TIME, NoiseMeter, decibels
+from app.inputs.voice.audio.noise import SWITCH_TIME, TOO_LOUD, NoiseMeter, decibels
 from app.inputs.voice.audio.sound_files import chunks
 from tests.app.inputs.voice.sounds import quiet, voice
 
@@ -36,26 +36,46 @@ def test_words_stand_over_the_noise_by_their_ratio():
     assert meter.heard(voice(0.5, 0.3) + quiet(0.5, 0.01)) == pytest.approx(27.0, abs=3.0)
 
 
+def known(*parts):
+    """A meter that has heard a voice of -17 dB in quiet, and then these."""
+    meter = heard(quiet(1.0))
+    meter.heard(voice(0.5, 0.3))
+    for part, at in chunks(np.concatenate(parts), 1.0):
+        meter.feed(part, at)
+    return meter
+
+
+def test_before_any_voice_was_heard_no_noise_is_too_loud_for_it():
+    assert math.isnan(heard(quiet(9.0, 0.2)).snr)
+    assert not heard(quiet(9.0, 0.2)).too_loud
+
+
 def test_loud_noise_that_lasts_is_too_loud_and_quiet_that_lasts_is_not():
-    assert not heard(quiet(1.0)).too_loud
-    assert not heard(quiet(2.0), quiet(SWITCH_TIME - 0.5, 0.2)).too_loud
-    assert heard(quiet(9.0, 0.2)).too_loud
-    assert not heard(quiet(9.0, 0.2), quiet(9.0)).too_loud
+    assert not known(quiet(1.0)).too_loud
+    assert not known(quiet(2.0), quiet(SWITCH_TIME - 0.5, 0.2)).too_loud
+    assert known(quiet(9.0, 0.2)).too_loud
+    assert not known(quiet(9.0, 0.2), quiet(9.0)).too_loud
 
 
-def test_what_was_found_before_the_ears_were_closed_counts_again_once_it_is_heard_anew():
-    still_loud, quiet_now = heard(quiet(9.0, 0.2)), heard(quiet(9.0, 0.2))
-    for meter, noise, loud in ((still_loud, 0.2, True), (quiet_now, 1e-3, False)):
+def test_who_speaks_up_is_known_to_be_louder_at_once():
+    meter = known(quiet(9.0, 0.2))
+    meter.heard(voice(0.5, 0.9) + quiet(0.5, 0.2))
+    assert meter.snr > TOO_LOUD
+
+
+def test_what_was_found_before_the_ears_were_closed_holds_until_it_is_heard_anew():
+    for noise, loud in ((0.2, True), (1e-3, False)):
+        meter = known(quiet(9.0, 0.2))
         meter.rest()
-        assert (meter.too_loud, meter.outdated) == (True, True)
+        assert meter.too_loud
         for part, at in chunks(quiet(SWITCH_TIME + 0.2, noise), 20.0):
             meter.feed(part, at)
-        assert (meter.too_loud, meter.outdated) == (loud, False)
+        assert meter.too_loud == loud
 
 
 def test_it_is_not_switched_while_somebody_speaks():
-    meter = NoiseMeter()
-    for part, at in chunks(quiet(9.0, 0.2)):
+    meter = known(quiet(1.0))
+    for part, at in chunks(quiet(9.0, 0.2), 2.0):
         meter.feed(part, at, speaking=True)
     assert not meter.too_loud
 
