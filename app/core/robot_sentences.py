@@ -97,6 +97,9 @@ SENTENCES: Mapping[str, str] = {
     Code.POSITION_UNSURE: mark(
         "Position unsure: other places fit as well, or what the robot senses does not match the map. Place it on the map."
     ),
+    Code.POSITION_UNSEEN: mark(
+        "Position unsure: the laser meets too little to tell it. Drive to where it meets more, or place the robot on the map."
+    ),
     Code.POSITION_SURE: mark("Position sure again."),
     Code.POSITION_BY_WHEELS: mark(
         "No laser: the position may drift. Place the robot on the map when it is off."

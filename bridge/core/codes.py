@@ -223,6 +223,7 @@ class Code(StrEnum):
         "No fix or compass: the robot assumes the map's origin.",
     )
     POSITION_UNSURE = "position_unsure", "The robot is not sure where it is."
+    POSITION_UNSEEN = "position_unseen", "The laser meets too little to tell where the robot is."
     POSITION_SURE = "position_sure", "The robot is sure again where it is."
     POSITION_BY_WHEELS = "position_by_wheels", "The robot has no laser and reckons by its wheels."
     FENCE_LEFT = "fence_left", "The robot is outside its fence.", "x", "y"

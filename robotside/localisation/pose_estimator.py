@@ -61,6 +61,11 @@ _UNFITTING = Notice(
     "Position unsure: the laser does not match the map. Place the robot on the map.",
 )
 
+_UNSEEN = Notice(
+    Code.POSITION_UNSEEN,
+    "Position unsure: the laser meets too little to tell it. Drive to where it meets more, or place the robot on the map.",
+)
+
 _ELSEWHERE = Notice(
     Code.POSITION_UNSURE,
     "Position unsure: another place on the map fits as well. Drive on slowly, or say where the robot is.",
@@ -275,6 +280,8 @@ class PoseEstimator:
         if not localiser.sure:
             where.doubt()
             reason = _UNFITTING
+        if not look.tells and reason is not _CONTRADICTED:
+            reason = _UNSEEN
         where.on_sweep(
             localiser, points, look, odom, stamp, lambda pose: self._beacons.log_likelihood(pose, stamp)
         )

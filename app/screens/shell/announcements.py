@@ -92,7 +92,7 @@ class Announcements:
         news = self._session.logbook.is_news(event, self._session.link.robot_time())
         if event.level == "alarm" and news and not self._reset.on_alarm(event):
             self._speaker.say(event.text, "danger", about=event.kind)
-        elif event.code in (Code.POSITION_FOUND, Code.POSITION_UNSURE) and news:
+        elif event.code in (Code.POSITION_FOUND, Code.POSITION_UNSURE, Code.POSITION_UNSEEN) and news:
             # its place is what all that it does by itself goes by; by its own name, since "sure again" follows at once
             self._speaker.say(self._found_words(event), "warn", about=event.code, stay=LONG_DURATION)
         elif event.code == Code.DRIVE_NOT_RELEASED and news and self._session.link.driving:

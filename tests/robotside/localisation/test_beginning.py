@@ -40,7 +40,8 @@ def test_by_a_handful_of_ends_no_place_is_taken_and_the_told_uncertainty_says_so
     assert ride.estimator.pose == Pose2(0.0, 0.0, 0.0)  # where it supposed to be
     assert ride.estimator.spread > ride.error / 3.0
     assert not ride.estimator.sure
-    assert "position_unsure" in ride.codes
+    assert "position_unseen" in ride.codes
+    assert "position_unsure" not in ride.codes  # no other place fits as well: none can be told
     ride.estimator.place(Pose2(*start))
     ride.robot.drive(Twist.planar(0.3, 0.0))
     ride.run(4.0)

@@ -125,6 +125,14 @@ def test_who_put_the_robot_reads_that_it_found_itself_elsewhere(driving: Glass, 
     )
 
 
+def test_that_the_laser_meets_too_little_to_tell_the_place_is_said(driving: Glass, robot: FakeRobot) -> None:
+    driving.until(lambda: math.isfinite(driving.app.session.link.robot_time()), "no clock")
+    code, at = Code.POSITION_UNSEEN.value, Time.at(time.time())
+    words = "Position unsure: the laser meets too little to tell it."
+    robot.happen(Event(id=78, stamp=at, kind="localisation", level="warn", text=words, code=code))
+    driving.until(lambda: words in [*driving.banners(), *toasts(driving)], "not said")
+
+
 def toasts(glass: Glass) -> list[str]:
     return [child.text for child in glass.app.shell.notices.children if isinstance(child, Toast)]
 
