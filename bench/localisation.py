@@ -1,8 +1,10 @@
 """Whether a robot knows how well it knows its place, and whether it ever believes a wrong one.
 
 A simulated patrol robot is put at a random place of the office or of the car park, is told a pose that is off by some decimetres, and stands for two
-seconds or drives for six. At the end its error is compared with the covariance that it tells: the normalised square of the error (NEES) of x, y
+seconds or drives for six. At the end its error is compared with the covariance that it tells on `/pose`: the normalised square of the error (NEES) of x, y
 and yaw is 3 on average over all runs if that is true, and with 100 runs between 2.5 and 3.5 in 95 of 100 cases; above, it is too sure of itself.
+Each run has a map whose cells lie otherwise: what a map draws wrong is the same in all runs on it, and would be one case and not a hundred.
+A scout, which has sonars and no laser, does the same in the office, for eight seconds and for twenty.
 The peer is a plain Kalman filter over the same sweeps of the same runs, which takes the errors of each sweep for its own.
 
 Then it is made to err, by laser alone, without satellites and compass: it is placed one door off, carried while it stands and while it drives,
@@ -18,7 +20,7 @@ import math
 import random
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -34,15 +36,18 @@ from bench.support.plain_filter import PlainFilter
 from bridge.core.units import wrap
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
+from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.pilothouse_msgs import SonarRing
 from bridge.msgs.sensor_msgs import LaserScan
 from robotside.core.pose2 import Points, Pose2
 from robotside.localisation.field import Field
+from robotside.localisation.odometry_track import OdometryTrack
 from robotside.localisation.pose_estimator import PoseEstimator
-from robotside.localisation.scan_matching import Localiser
 from robotside.mapping.laser_points import LaserProjection
 from robotside.mapping.occupancy_grid import Grid
+from robotside.mapping.sonar_points import SonarProjection
 from sim.robot import SimRobot, make_several
+from sim.world.occupancy import occupancy
 from sim.world.tables import Start
 
 PLAIN = "plain Kalman filter"
@@ -55,8 +60,21 @@ TROUBLES = {
     "rooms": "placed one room off among equal rooms",
 }
 FIGURES = (
-    Figure("nees_standing", "", "mean NEES of x, y, yaw after standing; 3 is true", against=PLAIN),
-    Figure("nees_driving", "", "mean NEES after driving; 3 is true", against=PLAIN),
+    Figure(
+        "nees_standing", "", "mean NEES of x, y, yaw after standing; 3 is true", target=3.5, against=PLAIN
+    ),
+    Figure("nees_standing_off", "", "how far from 3 it is; 0.5 is the band of 95 %", target=0.5),
+    Figure("nees_driving", "", "mean NEES after driving; 3 is true", target=3.5, against=PLAIN),
+    Figure("nees_driving_off", "", "how far from 3 it is; 0.5 is the band of 95 %", target=0.5),
+    *(
+        each
+        for kind in ("standing", "driving")
+        for each in (
+            Figure(f"sonar_nees_{kind}", "", f"by sonars: mean NEES after {kind}", target=3.5),
+            Figure(f"sonar_error_{kind}", "mm", f"by sonars: error of the place, {kind}, rms"),
+            Figure(f"sonar_told_{kind}", "mm", f"by sonars: error that it tells, {kind}, rms"),
+        )
+    ),
     Figure("error_standing", "mm", "error of the place, standing, rms", against=PLAIN),
     Figure("told_standing", "mm", "error that it tells, standing, rms", against=PLAIN),
     Figure("error_driving", "mm", "error of the place, driving, rms", against=PLAIN),
@@ -82,7 +100,12 @@ RUNS, EACH = 100, 8
 """Runs for the consistency, standing and driving, and of each trouble."""
 TICK = 0.05
 ROBOT = "patrol"
-STANDING, DRIVING = 2.0, 6.0
+DURATION = {
+    ("patrol", "standing"): 2.0,
+    ("patrol", "driving"): 6.0,
+    ("scout", "standing"): 8.0,
+    ("scout", "driving"): 20.0,
+}
 """How long they last [s]."""
 TROUBLE_TIME, GRACE, WRONG = 20.0, 3.0, 0.5
 """How long a run with trouble lasts [s], how long it may take to be noticed [s], and what is a wrong place [m]."""
@@ -97,7 +120,9 @@ def prepare(_: Context) -> Iterator[Sides]:
 
     def both() -> tuple[dict[str, float], dict[str, float]]:
         if not measured:
-            ours, plain = consistency(RUNS)
+            ours, plain = consistency(ROBOT, ("office", "parking_lot"), RUNS)
+            by_sonars, _ = consistency("scout", ("office",), RUNS)
+            ours |= {f"sonar_{name}": value for name, value in by_sonars.items()}
             with tempfile.TemporaryDirectory() as folder:
                 worlds = {"cars": without_cars(Path(folder)), "rooms": equal_rooms(Path(folder))}
                 for name in TROUBLES:
@@ -114,9 +139,11 @@ class Ridden:
     """A robot, and what looks at its sweeps."""
 
     robot: SimRobot
-    ours: Localiser | PoseEstimator
+    ours: PoseEstimator
     plain: PlainFilter
     laser: LaserProjection
+    sonars: SonarProjection = field(default_factory=SonarProjection)
+    track: OdometryTrack = field(default_factory=OdometryTrack)
     now: float = 0.0
     crowd: bool = False
     spent: list[float] = field(default_factory=list)
@@ -139,25 +166,27 @@ class Ridden:
         if topic == "/odom" and isinstance(msg, Odometry):
             pose = Pose2.from_msg(msg.pose.pose)
             self.plain.predict(pose)
-            if isinstance(self.ours, Localiser):
-                self.ours.predict(pose)
-            else:
-                self.ours.on_odometry(msg)
+            self.track.add(msg.header.stamp.seconds, pose, Pose2(msg.twist.twist.linear.x, 0.0, 0.0))
+            self.ours.on_odometry(msg)
         elif isinstance(msg, LaserScan):
-            points = self.laser.points(msg)
+            self._sweep(self.laser.points(msg), msg.header.stamp.seconds, drives)
+        elif isinstance(msg, SonarRing):
             if drives:
-                self.robot.drive(wander(points))
-            if self.crowd:
-                points = hidden(points)
-            begun = time.thread_time()
-            if isinstance(self.ours, Localiser):
-                self.ours.correct(points)
-            else:
-                self.ours.on_scan(points, msg.header.stamp.seconds)
-            middle = time.thread_time()
-            self.plain.correct(points)
-            self.spent.append(middle - begun)
-            self.spent_plain.append(time.thread_time() - middle)
+                self.robot.drive(wander(self.sonars.points(msg)))
+            self.ours.on_sonar(self.sonars.arcs(msg))
+
+    def _sweep(self, points: Points, stamp: float, drives: bool) -> None:
+        if drives:
+            self.robot.drive(wander(points))
+        if self.crowd:
+            points = hidden(points)
+        begun = time.thread_time()
+        self.ours.on_scan(points, stamp)
+        middle = time.thread_time()
+        then, now = self.track.at(stamp), self.track.at(self.now)
+        self.plain.correct(points if then is None or now is None else then.since(now).apply(points))
+        self.spent.append(middle - begun)
+        self.spent_plain.append(time.thread_time() - middle)
 
 
 def wander(points: Points) -> Twist:
@@ -175,28 +204,23 @@ def hidden(points: Points) -> Points:
     return np.asarray(points * np.where(behind & (reach > 1.0), 1.0 / reach, 1.0)[:, None])
 
 
-def grid_of(world: str) -> Grid:
-    """The map of a world."""
+def grid_of(world: str, shift: tuple[float, float] = (0.0, 0.0)) -> Grid:
+    """The map of a world, with its cells moved by `shift` [m]."""
     with closing(make_several([ROBOT], world, camera=False)[0]) as robot:
-        return Grid.from_msg(next(msg for _, msg in robot.read(0.0) if isinstance(msg, OccupancyGrid)))
+        return Grid.from_msg(occupancy(robot.simulation.world, 0.0, shift))
 
 
-def start(world: str, known: Field, place: Pose2, believed: Pose2, seed: int, *, whole: bool) -> Ridden:
-    """A robot at `place` of `world` that is told to be at `believed`; a `whole` estimator, or the filter of it alone."""
+def start(world: str, known: Field, place: Pose2, believed: Pose2, seed: int, model: str = ROBOT) -> Ridden:
+    """A robot at `place` of `world` that is told to be at `believed`."""
     at = Start(place.x, place.y, math.degrees(place.yaw))
-    robot = make_several([(ROBOT, at)], world, seed=seed, camera=False)[0]
+    robot = make_several([(model, at)], world, seed=seed, camera=False)[0]
     info = replace(robot.info, latitude=math.nan, longitude=math.nan)
-    ours: Localiser | PoseEstimator = Localiser(known)
-    if whole:
-        ours = PoseEstimator(info, _nobody, _nobody)
-        ours.set_map(known)
+    ours = PoseEstimator(info, _nobody, _nobody)
+    ours.set_map(known)
     ridden = Ridden(robot, ours, PlainFilter(known), LaserProjection(Pose2(info.laser_x, 0.0, 0.0)))
     ridden.run(0.3, drives=False)
     ridden.plain.place(believed, spread=0.3, turn=0.2)
-    if isinstance(ours, Localiser):
-        ours.place(believed, spread=0.3, turn=0.2)
-    else:
-        ours.place(believed)
+    ours.place(believed)
     return ridden
 
 
@@ -244,46 +268,62 @@ def nees(pose: Pose2, covariance: NDArray[np.float64], truth: Pose2) -> float:
     return float(off @ np.linalg.solve(covariance, off))
 
 
-def consistency(runs: int) -> tuple[dict[str, float], dict[str, float]]:
-    """Figures of the filter of the robot, and of the plain one."""
-    grids = {world: grid_of(world) for world in ("office", "parking_lot")}
+Squares = tuple[float, float, float]
+"""NEES, the error's square and the one that is told [m2]."""
+
+
+def consistency(model: str, worlds: Sequence[str], runs: int) -> tuple[dict[str, float], dict[str, float]]:
+    """Figures of what the robot tells, and of the plain filter, over so many `runs` in all `worlds` together."""
     found: tuple[dict[str, float], dict[str, float]] = {}, {}
     spent: tuple[list[float], list[float]] = [], []
-    for kind, seconds in (("standing", STANDING), ("driving", DRIVING)):
-        squares: tuple[list[tuple[float, float, float]], ...] = [], []
-        for n, (world, grid) in enumerate(grids.items()):
-            known = Field(grid)
-            for seed, place in enumerate(places(grid, 2 * runs, n + 1)):
-                if len(squares[0]) >= (n + 1) * runs // 2:
-                    break
-                rng = random.Random(seed)
-                believed = place.then(Pose2(rng.gauss(0, 0.1), rng.gauss(0, 0.1), rng.gauss(0, 0.05)))
-                try:
-                    ridden = start(world, known, place, believed, seed, whole=False)
-                except ValueError:
-                    continue  # something that is not on the map stands there
-                with closing(ridden.robot):
-                    ridden.run(seconds, drives=kind == "driving")
-                    for side, each in enumerate((ridden.ours, ridden.plain)):
-                        squares[side].append(_squares(each, ridden.truth))
+    for kind in ("standing", "driving"):
+        squares: tuple[list[Squares], list[Squares]] = [], []
+        for n, world in enumerate(worlds):
+            for ridden in _rides(model, world, runs // len(worlds), n + 1, kind):
+                squares[0].append(squares_of(ridden.ours.pose, ridden.ours.covariance, ridden.truth))
+                squares[1].append(squares_of(ridden.plain.pose, ridden.plain.covariance, ridden.truth))
                 spent[0].extend(ridden.spent)
                 spent[1].extend(ridden.spent_plain)
         for side in (0, 1):
             mean = np.array(squares[side]).mean(axis=0).tolist()
             found[side][f"nees_{kind}"] = mean[0]
+            found[side][f"nees_{kind}_off"] = abs(mean[0] - 3.0)
             found[side][f"error_{kind}"] = 1e3 * math.sqrt(mean[1])
             found[side][f"told_{kind}"] = 1e3 * math.sqrt(mean[2])
     for side in (0, 1):
-        found[side]["sweep"] = 1e3 * float(np.mean(spent[side]))
+        if spent[side]:
+            found[side]["sweep"] = 1e3 * float(np.mean(spent[side]))
     return found
 
 
-def _squares(filter_: Localiser | PoseEstimator, truth: Pose2) -> tuple[float, float, float]:
-    """NEES, the error's square and the one that is told [m2]."""
-    if not isinstance(filter_, Localiser) or filter_.pose is None:
-        raise RuntimeError("A filter that was placed has no pose.")
-    error = filter_.pose.distance(truth.x, truth.y)
-    return nees(filter_.pose, filter_.covariance, truth), error**2, float(filter_.covariance[:2, :2].trace())
+def _rides(model: str, world: str, runs: int, seed: int, kind: str) -> Iterator[Ridden]:
+    """So many rides from random places of `world`, at their end, each on a map whose cells lie otherwise."""
+    with closing(make_several([ROBOT], world, camera=False)[0]) as robot:
+        drawn = robot.simulation.world
+    made = 0
+    for each, place in enumerate(places(Grid.from_msg(occupancy(drawn, 0.0)), 2 * runs, seed)):
+        if made == runs:
+            break
+        rng = random.Random(each)
+        believed = place.then(Pose2(rng.gauss(0, 0.1), rng.gauss(0, 0.1), rng.gauss(0, 0.05)))
+        shift = rng.uniform(-0.05, 0.05), rng.uniform(-0.05, 0.05)
+        known = Field(Grid.from_msg(occupancy(drawn, 0.0, shift)))
+        try:
+            ridden = start(world, known, place, believed, each, model)
+        except ValueError:
+            continue  # something that is not on the map stands there
+        made += 1
+        with closing(ridden.robot):
+            ridden.run(DURATION[model, kind], drives=kind == "driving")
+            yield ridden
+
+
+def squares_of(pose: Pose2 | None, covariance: NDArray[np.float64], truth: Pose2) -> Squares:
+    """How far off a told pose is."""
+    if pose is None:
+        raise RuntimeError("A robot that was placed has no pose.")
+    error = pose.distance(truth.x, truth.y)
+    return nees(pose, covariance, truth), error**2, float(covariance[:2, :2].trace())
 
 
 def without_cars(folder: Path) -> str:
@@ -369,9 +409,8 @@ def trouble(name: str, known: Field, world: str, place: Pose2, other: Pose2, see
     if name in WHERE:
         off = DOOR if name == "door" else ROOM
         believed = Pose2(place.x + (off if place.x < 0 else -off), place.y, place.yaw)
-    ridden, shows = start(world, known, place, believed, seed, whole=True), Trouble()
+    ridden, shows = start(world, known, place, believed, seed), Trouble()
     estimator = ridden.ours
-    assert isinstance(estimator, PoseEstimator)
     with closing(ridden.robot):
         if name in ("stood", "drove"):
             ridden.run(3.0, drives=name == "drove")

@@ -142,6 +142,13 @@ class PoseEstimator:
             return math.nan
         return math.hypot(self._localiser.spread, math.sqrt(self._uncertainty.variance))
 
+    @property
+    def covariance(self) -> NDArray[np.float64]:
+        """Of x, y [m] and yaw [rad] in `map`, 3 x 3, as it is told on `/pose`; NaN while it has no idea."""
+        if self._localiser is None or self._localiser.pose is None:
+            return np.full((3, 3), math.nan)
+        return self._localiser.covariance + np.diag([self._uncertainty.variance] * 2 + [0.0])
+
     def set_map(self, field: Field) -> None:
         """Localise on the map of `field` from now on: from the pose that it has, if any."""
         known = self.pose
@@ -314,12 +321,10 @@ class PoseEstimator:
 
     def _publish_pose(self, stamp: Time, pose: Pose2, odom: Pose2, localiser: Localiser) -> None:
         covariance = zeros36()
-        spread = localiser.covariance
+        spread = self.covariance
         for row, i in enumerate((0, 1, 5)):
             for column, j in enumerate((0, 1, 5)):
                 covariance[6 * i + j] = float(spread[row, column])
-        covariance[0] += self._uncertainty.variance
-        covariance[7] += self._uncertainty.variance
         said = self.vertical.posed(pose, covariance)
         self._publish("/pose", PoseWithCovarianceStamped(Header(stamp, "map"), said))
         self._publish("/tf", TFMessage(self.vertical.edges(stamp, localiser.map_to_odom(), odom)))

@@ -16,12 +16,15 @@ from numpy.typing import NDArray
 from bridge.core.units import wrap
 from robotside.core.pose2 import Points, Pose2
 from robotside.localisation.field import Field
-from robotside.localisation.shared_errors import freshness, fused
+from robotside.localisation.shared_errors import freshness, fused, pooled
 
 __all__ = ["Localiser", "Match"]
 
-HIT_SPREAD = 0.06
-"""Of a sweep's end points about the map's surfaces [m]; the grid's own coarseness is most of it."""
+HIT_SPREAD, ECHO_SPREAD = 0.015, 0.06
+"""Of a laser's end points and of a sonar's echoes about a surface as the map has it [m]."""
+
+FACE_SHARE = 1.0 / math.sqrt(12.0)
+"""Of a cell: by how much the surfaces that face one way are drawn off together, one standard deviation; any part of a cell is as likely."""
 
 MAX_FIT_DISTANCE = 0.15
 """End points within this of a surface agree with the map [m]."""
@@ -44,17 +47,21 @@ TURN_DISTANCE = 0.2
 MAX_BEAMS = 120
 """End points used of a sweep."""
 
-SLIP_SPREAD = 0.1
-"""Odometry's error of place from sweep to sweep [m/m], one standard deviation."""
+SLIP_SPREAD = 0.015
+"""Odometry's error of place after a metre [m]; it grows with the root of the way."""
 
-YAW_SPREAD = (0.03, 0.03)
-"""Odometry's error of yaw per metre [rad/m] and per turned radian [rad/rad]: wheels that are not quite equal."""
+YAW_SPREAD = (0.01, 0.02)
+"""Odometry's error of yaw after a metre and after a turned radian [rad]: wheels that are not quite equal, and a wheel base that is not quite known. They
+err the same way for metres, which is more than steps that err each for itself would add up to."""
 
 LOSS_DISTANCE = 0.25
 """End points count less the farther they are from a surface; at this distance a quarter [m]."""
 
 MAX_ECHO_DISTANCE, MAX_ECHOES = 0.5, 12
 """An echo counts within this of a surface [m], and so many of them are laid on the map."""
+
+ECHO_ROUNDS = 3
+"""So often it is asked anew where echoes came from, each time from the place that they told before."""
 
 MIN_FIT = 0.5
 """Part of the end points that must lie on surfaces for the position to be trusted."""
@@ -161,17 +168,28 @@ class Localiser:
         """
         if self.pose is None or not len(ends):
             return
-        off = self._off(self.pose, ends)
-        nearest = off.argmin(axis=1)
-        points = ends[np.arange(len(ends)), nearest][off.min(axis=1) < MAX_ECHO_DISTANCE]
         if len(ends) >= MAX_ECHOES:
-            self._judge_echoes(off.min(axis=1))
-        if len(points) < MAX_ECHOES:
-            return
-        match = self._fit(self.pose, points)
+            self._judge_echoes(self._off(self.pose, ends).min(axis=1))
+        start = at = self.pose
+        for _ in range(ECHO_ROUNDS):
+            points, held = self._sources(at, ends)
+            if len(points) < MAX_ECHOES:
+                return
+            match, told, skin = self._fit_sweep(start, points, ECHO_SPREAD, held)
+            at = match.pose
         if match.fit >= MIN_FIT:
-            self.pose = match.pose
-            self.covariance = np.asarray(np.linalg.inv(match.information), dtype=np.float64)
+            self._fuse(start, match, told, skin)
+
+    def _sources(self, pose: Pose2, ends: NDArray[np.float64]) -> tuple[Points, NDArray[np.float64]]:
+        """Where echoes came from, were the robot at `pose`, in `base_link`, and 1 for each of them that turns with the robot.
+
+        One from within its arc comes from there too when the robot has turned a little: it tells nothing of the yaw, and has 0.
+        """
+        off = self._off(pose, ends)
+        nearest = off.argmin(axis=1)
+        near = off.min(axis=1) < MAX_ECHO_DISTANCE
+        held = (nearest == 0) | (nearest == ends.shape[1] - 1)
+        return ends[np.arange(len(ends)), nearest][near], held[near].astype(np.float64)
 
     def _off(self, pose: Pose2, ends: NDArray[np.float64]) -> NDArray[np.float64]:
         """How far each place on each arc is from a surface of the map [m]."""
@@ -203,8 +221,8 @@ class Localiser:
         self.pose = self.pose.then(step)
         travelled, turned = math.hypot(step.x, step.y), abs(step.yaw)
         doubt = 2.0 * into * math.sqrt(float(self.covariance[:2, :2].trace())) + into**2
-        spread = (SLIP_SPREAD * travelled) ** 2 + doubt + 1e-9
-        turn = (YAW_SPREAD[0] * travelled + YAW_SPREAD[1] * turned) ** 2 + 1e-9
+        spread = SLIP_SPREAD**2 * travelled + doubt + 1e-9
+        turn = YAW_SPREAD[0] ** 2 * travelled + YAW_SPREAD[1] ** 2 * turned + 1e-9
         self.covariance += np.diag([spread, spread, turn])
         self._travelled += travelled + TURN_DISTANCE * turned
         self._skin_variance = min(SKIN_SPREAD**2, self._skin_variance + SKIN_DRIFT**2 * travelled)
@@ -220,7 +238,7 @@ class Localiser:
             self._bad += self.pose is not None
             return
         start = self.pose
-        match, sweep, skin = self._fit_sweep(start, points[:: max(1, len(points) // MAX_BEAMS)])
+        match, sweep, skin = self._fit_sweep(start, points[:: max(1, len(points) // MAX_BEAMS)], HIT_SPREAD)
         self.fit = match.fit
         if match.fit < MIN_FIT:
             self._bad += 1
@@ -275,14 +293,19 @@ class Localiser:
                 best = Pose2(guess.x + float(dx[top]), guess.y + float(dy[top]), wrap(float(yaw)))
         return best
 
-    def _fit_sweep(self, start: Pose2, points: Points) -> tuple[Match, NDArray[np.float64], float]:
-        """The pose that fits best, what the sweep alone tells (4 x 4, of x, y, yaw and skin), and the walls' skin there [m]."""
+    def _fit_sweep(
+        self, start: Pose2, points: Points, spread: float, held: NDArray[np.float64] | float = 1.0
+    ) -> tuple[Match, NDArray[np.float64], float]:
+        """The pose that fits best, what the sweep alone tells (4 x 4, of x, y, yaw and skin), and the walls' skin there [m].
+
+        `spread` is that of its points about a surface [m]; `held` is 1 for those that turn with the robot, 0 for others.
+        """
         prior = np.zeros((4, 4))
         prior[:3, :3] = np.linalg.inv(self.covariance)
         prior[3, 3] = 1.0 / self._skin_variance
         pose, skin = start, self._skin
         for _ in range(6):
-            gradient, information, fit = self._slope(pose, points, skin)
+            gradient, information, fit = self._slope(pose, points, skin, spread, held)
             off = np.array(
                 [pose.x - start.x, pose.y - start.y, wrap(pose.yaw - start.yaw), skin - self._skin]
             )
@@ -293,32 +316,20 @@ class Localiser:
                 break
         return Match(pose, total[:3, :3], fit), information, skin
 
-    def _fit(self, start: Pose2, points: Points) -> Match:
-        prior = np.linalg.inv(self.covariance)
-        pose = start
-        for _ in range(6):
-            slope, whole, fit = self._slope(pose, points, 0.0)
-            off = np.array([pose.x - start.x, pose.y - start.y, wrap(pose.yaw - start.yaw)])
-            gradient, total = slope[:3], whole[:3, :3] + prior
-            step = np.linalg.solve(total, -(gradient + prior @ off)).tolist()
-            pose = Pose2(pose.x + step[0], pose.y + step[1], wrap(pose.yaw + step[2]))
-            if abs(step[0]) + abs(step[1]) < 1e-3 and abs(step[2]) < 5e-4:
-                break
-        return Match(pose, total, fit)
-
     def _slope(
-        self, pose: Pose2, points: Points, skin: float
+        self, pose: Pose2, points: Points, skin: float, spread: float, held: NDArray[np.float64] | float
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
         """Gradient and Gauss-Newton information of the misfit at `pose` in x, y, yaw and skin, and how many points fit."""
         placed = pose.apply(points)
         found = self._field.read(placed)
         off, gx, gy = found[:, 0] - skin, found[:, 1], found[:, 2]
-        turn = gy * (placed[:, 0] - pose.x) - gx * (placed[:, 1] - pose.y)
+        turn = held * (gy * (placed[:, 0] - pose.x) - gx * (placed[:, 1] - pose.y))
         jacobian = np.column_stack([gx, gy, turn, np.full(len(off), -1.0)])
         weight = 1.0 / (1.0 + (off / LOSS_DISTANCE) ** 2) ** 2
-        weight *= INDEPENDENT_SHARE / HIT_SPREAD**2
-        weighted = jacobian * weight[:, None]
-        return weighted.T @ off, weighted.T @ jacobian, float((np.abs(off) < MAX_FIT_DISTANCE).mean())
+        weight *= INDEPENDENT_SHARE / spread**2
+        drawn = FACE_SHARE * self._field.grid.resolution
+        gradient, information = pooled(jacobian, off, weight, np.arctan2(gy, gx), drawn)
+        return gradient, information, float((np.abs(off) < MAX_FIT_DISTANCE).mean())
 
 
 def _worst(covariance: NDArray[np.float64]) -> float:

@@ -30,14 +30,14 @@ CLEARANCE = 0.45
 """Things that hang higher than this are no obstacle for a ground robot [m]."""
 
 
-def occupancy(world: World, stamp: float) -> OccupancyGrid:
+def occupancy(world: World, stamp: float, shift: tuple[float, float] = (0.0, 0.0)) -> OccupancyGrid:
     """The map of `world` in the frame `map`, loaded at `stamp` [s, robot clock].
 
-    A cell is full when an obstacle covers its middle or comes within half a cell of it; off the ground is unknown.
+    `shift` moves the borders of its cells along x and y [m], and nothing of what they show. A cell is full when an obstacle covers its middle or comes within half a cell of it; off the ground is unknown.
     """
     length, width = world.ground.length, world.ground.width
     columns, rows = (round((extent + 2 * MARGIN) / RESOLUTION) for extent in (length, width))
-    west, south = -length / 2 - MARGIN, -width / 2 - MARGIN
+    west, south = shift[0] - length / 2 - MARGIN, shift[1] - width / 2 - MARGIN
     x = west + (np.arange(columns) + 0.5) * RESOLUTION
     y = south + (np.arange(rows) + 0.5) * RESOLUTION
     cells = np.full((rows, columns), -1, dtype=np.int8)

@@ -9,7 +9,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench.localisation import FIGURES, equal_rooms, grid_of, hidden, nees, places, wander, without_cars
+from bench.localisation import (
+    FIGURES,
+    consistency,
+    equal_rooms,
+    grid_of,
+    hidden,
+    nees,
+    places,
+    wander,
+    without_cars,
+)
 from robotside.core.pose2 import Pose2
 from robotside.mapping.occupancy_grid import Grid
 
@@ -59,3 +69,25 @@ def test_a_floor_of_equal_rooms_looks_the_same_after_half_a_turn_and_its_rooms_f
 
 def test_no_wrong_place_may_be_believed() -> None:
     assert {each.target for each in FIGURES if each.name.endswith("_wrong")} == {0.0}
+
+
+def test_the_told_uncertainty_has_its_band_for_lasers_and_a_limit_for_sonars() -> None:
+    targets = {each.name: each.target for each in FIGURES if "nees" in each.name}
+    assert targets == {
+        "nees_standing": 3.5,
+        "nees_standing_off": 0.5,
+        "nees_driving": 3.5,
+        "nees_driving_off": 0.5,
+        "sonar_nees_standing": 3.5,
+        "sonar_nees_driving": 3.5,
+    }
+
+
+@pytest.mark.slow
+def test_what_robots_tell_of_their_place_is_true_by_laser_and_by_sonars() -> None:
+    laser, _ = consistency("patrol", ("office", "parking_lot"), 12)
+    sonars, _ = consistency("scout", ("office",), 8)
+    assert laser["nees_driving"] < 4.6
+    assert laser["error_driving"] < 60.0
+    assert sonars["nees_driving"] < 5.0
+    assert sonars["nees_standing"] < 6.0

@@ -161,6 +161,36 @@ def test_echoes_put_it_right_by_the_place_on_each_arc_that_meets_a_surface() -> 
     assert localiser.pose.yaw == pytest.approx(true.yaw, abs=0.03)
 
 
+def test_echoes_from_within_their_cones_tell_nothing_of_the_yaw() -> None:
+    localiser = Localiser(Field(HALL))
+    localiser.place(Pose2(0.0, 0.0, 0.05), spread=0.3, turn=0.1)
+    straight = arcs(Pose2(0.0, 0.0, 0.0))
+    reach = np.hypot(straight[:, 0, 0], straight[:, 0, 1])
+    facing = straight[(reach < NORTH + 0.02) | (np.abs(reach - EAST) < 0.02)]  # each wall lies across a cone
+    localiser.correct_by_echoes(np.concatenate([facing] * 3))
+    assert localiser.spread < 0.1
+    assert math.sqrt(localiser.covariance[2, 2]) > 0.08
+
+
+def test_where_echoes_came_from_is_asked_anew_from_the_place_that_they_tell() -> None:
+    localiser, true = Localiser(Field(HALL)), Pose2(1.0, -0.5, 0.0)
+    localiser.place(Pose2(1.2, -0.7, 0.12), spread=0.3, turn=0.1)
+    localiser.correct_by_echoes(arcs(true))
+    assert off(localiser, true)[0] < 0.05
+
+
+def test_what_the_wheels_are_off_by_does_not_go_by_how_often_they_tell() -> None:
+    grown = []
+    for steps in (10, 1000):
+        localiser = Localiser(Field(HALL))
+        localiser.place(Pose2(0.0, 0.0, 0.0), spread=0.0, turn=0.0)
+        for n in range(steps + 1):
+            localiser.predict(Pose2(2.0 * n / steps, 0.0, 1.5 * n / steps))
+        grown.append(np.sqrt(np.diag(localiser.covariance)))
+    assert grown[0] == pytest.approx(grown[1], rel=0.05)
+    assert 0.01 < grown[0][2] < 0.05
+
+
 def test_echoes_of_what_the_map_does_not_know_and_too_few_change_nothing() -> None:
     localiser, start = Localiser(Field(HALL)), Pose2(0.0, 0.0, 0.0)
     localiser.place(start, spread=0.3, turn=0.1)

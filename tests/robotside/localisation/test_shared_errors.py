@@ -11,7 +11,7 @@ from bridge.msgs.sensor_msgs import LaserScan
 from robotside.core.pose2 import Pose2
 from robotside.localisation.field import Field
 from robotside.localisation.scan_matching import Localiser
-from robotside.localisation.shared_errors import freshness, fused
+from robotside.localisation.shared_errors import freshness, fused, pooled
 from robotside.mapping.laser_points import LaserProjection
 from robotside.mapping.occupancy_grid import Grid
 from tests.fakes import Box, FakeRobot
@@ -76,3 +76,20 @@ def test_a_robot_that_stands_is_no_surer_after_a_hundred_sweeps_than_its_map_is_
     assert math.sqrt(localiser.covariance[0, 0]) > 0.01
     assert off @ np.linalg.solve(localiser.covariance, off) < 11.3  # chi square of 3, 99 %
     assert np.hypot(off[0], off[1]) < 0.03  # though all walls are drawn half a cell behind where they are
+
+
+def test_a_hundred_points_of_one_wall_tell_no_better_than_the_wall_is_drawn() -> None:
+    jacobian = np.column_stack([np.ones(100), np.zeros((100, 2)), -np.ones(100)])
+    _, information = pooled(jacobian, np.full(100, 0.02), np.full(100, 1e4), np.zeros(100), 0.03)
+    assert information[0, 0] ** -0.5 == pytest.approx(0.03, rel=0.01)
+
+
+def test_opposite_walls_are_drawn_off_each_for_itself_and_their_points_still_tell_the_yaw() -> None:
+    lever = np.linspace(-2.0, 2.0, 100)
+    facing = np.repeat([0.0, math.pi], 50)
+    side = np.cos(facing)
+    jacobian = np.column_stack([side, np.zeros(100), side * lever, -np.ones(100)])
+    gradient, information = pooled(jacobian, 0.02 * side, np.full(100, 1e4), facing, 0.03)
+    assert information[0, 0] ** -0.5 == pytest.approx(0.03 / math.sqrt(2.0), rel=0.01)
+    assert information[2, 2] ** -0.5 < 0.005
+    assert gradient[0] > 0.0

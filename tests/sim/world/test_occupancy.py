@@ -54,6 +54,15 @@ def test_a_turned_cars_outline_is_as_large_as_the_car(grid):
     assert near.any(axis=0).sum() * 0.1 == pytest.approx(1.72, abs=0.2)
 
 
+def test_cells_that_are_moved_show_the_same_world(grid):
+    moved = occupancy(load("parking_lot"), 0.0, (0.04, -0.03))
+    origin, known = moved.info.origin.position, grid.info.origin.position
+    assert (origin.x - known.x, origin.y - known.y) == (pytest.approx(0.04), pytest.approx(-0.03))
+    assert cell(moved, -13.75, 12.6) == 100
+    assert cell(moved, 0.0, 7.5) == 0
+    assert moved.data != grid.data
+
+
 def test_both_walls_of_a_corridor_are_drawn_as_far_from_its_middle():
     grid = occupancy(load("office"), 0.0)
     info = grid.info
