@@ -259,6 +259,7 @@ class Autonomy:
         if pose is None:
             return
         self.navigator.sure = self.situation.sure = estimator.sure
+        self.situation.by_word = estimator.by_word
         self.situation.place_asked = len(estimator.candidates) > 1
         if estimator.pushes and self.engine.running and not self.situation.touches:
             said = "Paused: the wheels turn, but something holds the robot."

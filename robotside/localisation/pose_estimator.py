@@ -121,6 +121,11 @@ class PoseEstimator:
         return not self._swept or (self._whereabouts.proven and self._localiser.spread < MAX_SPREAD)
 
     @property
+    def by_word(self) -> bool:
+        """It is where an operator has said, and nothing that its laser has seen since tells that from all other places."""
+        return self._swept and self._whereabouts.by_word
+
+    @property
     def candidates(self) -> tuple[PlaceCandidate, ...]:
         """Where the robot may be, the likeliest first, while it asks which of them it is; empty otherwise."""
         return self._candidates.all

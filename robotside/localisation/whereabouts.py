@@ -190,14 +190,16 @@ class Whereabouts:
         against = (ANSWERED if self.by_word else CONTINUITY) if self.proven else 0.0
         others = [each for each in found if differ(each.pose, was)]
         back = (self._placed_at or then).since(then)
-        weights = [own.evidence + self._prior(was.then(back)) + evidence(was)]
+        seen = [own.evidence + evidence(was)]
+        seen += [each.sight.evidence + evidence(each.pose) for each in others]
+        weights = [seen[0] + self._prior(was.then(back))]
         weights += [
-            each.sight.evidence + self._prior(each.pose.then(back)) + evidence(each.pose) - against
-            for each in others
+            weight + self._prior(each.pose.then(back)) - against
+            for each, weight in zip(others, seen[1:], strict=True)
         ]
+        if self.by_word:
+            self.by_word = shares(seen)[0] < SURE_SHARE
         if self.proven and self.by_word:
-            alone = shares([weights[0], *(weight + against for weight in weights[1:])])[0]
-            self.by_word = alone < SURE_SHARE
             share = shares([weights[0], *sorted(weights[1:])[-1:]])[0]
         else:
             share = shares(weights)[0]

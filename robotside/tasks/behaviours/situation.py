@@ -55,6 +55,8 @@ class Situation:
     """Of the robot in `map`."""
     sure: bool = True
     """That pose may be believed."""
+    by_word: bool = False
+    """It is sure by what an operator has said alone: no look has told the place from one that looks alike."""
     place_asked: bool = False
     """Several places of the map fit, and it is not known which of them it is at."""
     late: bool = False

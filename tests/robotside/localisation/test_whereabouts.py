@@ -204,3 +204,12 @@ def test_an_answer_that_nothing_contradicts_stays() -> None:
     ride.run(20.0)
     assert ride.codes == []
     assert ride.estimator.sure
+    assert ride.estimator.by_word, "all rooms are equal"
+
+
+def test_an_answer_is_no_mere_word_once_a_look_tells_it_from_all_other_places() -> None:
+    end = Box(6.5, -1.2, 8.0, 1.2)  # of the corridor, seen from where it stands
+    ride = Ride(standing(-2.0, end), Pose2(-2.0, 0.0, 0.0), certain=True)
+    ride.run(2.0)
+    assert ride.estimator.sure
+    assert not ride.estimator.by_word

@@ -21,7 +21,7 @@ from robotside.core.pose2 import ORIGIN
 from robotside.localisation.pose_estimator import PoseEstimator
 from robotside.tasks.behaviours.course import Span
 from robotside.tasks.engine import Engine, Task
-from robotside.tasks.place_trust import ENDS_AT_PLACE
+from robotside.tasks.place_trust import BY_WORD_THERE, ENDS_AT_PLACE
 from tests.robotside.scene import Scene
 from tests.robotside.tasks.test_engine_alone import Run
 
@@ -118,6 +118,26 @@ def test_the_engine_itself_calls_no_such_task_done(name: str) -> None:
     assert ended(run, name) == ("FAILED", Code.TASK_PLACE_UNSURE.value)
     run.situation.sure = True
     assert ended(run, name)[0] == "SUCCEEDED"
+
+
+@pytest.mark.parametrize("name", ENDS_AT_PLACE)
+def test_what_is_sure_by_an_operators_word_alone_is_no_more_done(name: str) -> None:
+    run = Run()
+    run.situation.by_word = True
+    assert ended(run, name) == ("FAILED", Code.TASK_PLACE_UNSURE.value)
+    assert run.engine.status.reason == BY_WORD_THERE
+    run.situation.by_word = False
+    assert ended(run, name)[0] == "SUCCEEDED"
+
+
+def test_a_robot_whose_place_is_by_word_alone_comes_to_its_goal_and_is_not_done(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(PoseEstimator, "by_word", property(lambda _: True))
+    begin(scene, ORDERS["go_to"])
+    status = scene.run_task()
+    assert (status.state, status.code) == ("FAILED", Code.TASK_PLACE_UNSURE.value)
+    assert status.reason == BY_WORD_THERE
 
 
 @pytest.mark.parametrize("name", ["hold", "follow_heading", "land", "surface"])
