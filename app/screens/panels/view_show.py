@@ -24,8 +24,12 @@ from app.session.session import Session
 from widgets import Video
 from widgets.controls.sticks.stick import Stick
 from widgets.core.language import tr
+from widgets.map.map_overlay import MapOverlay
 
 __all__ = ["ViewShow"]
+
+PLACES_ASKED = "/localisation/candidates"
+"""Where the robot may be while it is unsure: every map shows it, whatever else its panel does."""
 
 
 class ViewShow:
@@ -141,6 +145,8 @@ class ViewShow:
                 return
         for number, topic in enumerate(panel.topics):
             self._feeds.bind(widget, topic, seen, fresh=number == 0)
+        if isinstance(widget, MapOverlay) and PLACES_ASKED not in panel.topics:
+            self._feeds.bind(widget, PLACES_ASKED, seen, fresh=False)
 
     def _place(self) -> None:
         """Put the cards where the view has them in a window of this form."""

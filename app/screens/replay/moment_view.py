@@ -41,7 +41,7 @@ AHEAD = 0.3
 NOWHERE = np.zeros((0, 2))
 MAX_EVENTS = 200
 """So many lie in the list."""
-MAP_TOPICS = ("/plan", "/intruders", "/limits", "/map")
+MAP_TOPICS = ("/plan", "/intruders", "/limits", "/map", "/localisation/candidates")
 
 
 class MomentView(FloatLayout):

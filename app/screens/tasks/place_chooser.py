@@ -51,6 +51,7 @@ class PlaceChooser(BoxLayout):
             "/map": self.map.show,
             "/limits": self.map.show,
             "/pose": self.map.show,
+            "/localisation/candidates": self.map.show,
             "/places": self._show_places,
         }
         for topic, show in shows.items():

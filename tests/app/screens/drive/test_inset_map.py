@@ -18,7 +18,7 @@ from bridge.msgs.geometry_msgs import (
     PoseWithCovarianceStamped,
     Quaternion,
 )
-from bridge.msgs.pilothouse_msgs import RobotInfo
+from bridge.msgs.pilothouse_msgs import PlaceCandidate, PlaceCandidates, RobotInfo
 from tests.app.glass import Glass
 
 SIZES = {(412, 774): "tall", (824, 364): "short", (1204, 744): "wide", (1844, 1144): "wide"}
@@ -132,6 +132,17 @@ def test_a_robots_outline_is_on_its_map(screen, robot, driving):
     corners = [(2.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (2.0, -1.0)]
     robot.publish("/robot/info", RobotInfo(name="Fake-1", footprint=[Point32(x, y) for x, y in corners]))
     driving.until(lambda: driving.app.screens["drive"].inset.map.footprint == corners, "no outline")
+
+
+@pytest.mark.parametrize("large", [False, True])
+def test_the_map_draws_a_robot_that_may_be_at_two_places_as_unsure(screen, robot, driving, large: bool):
+    if large:
+        swap(screen)
+    asked = PlaceCandidates(
+        candidates=[PlaceCandidate(1, 0.0, 0.0, 0.0, 0.6, 0.1), PlaceCandidate(2, 4.0, 0.0, 0.0, 0.4, 0.1)]
+    )
+    robot.publish("/localisation/candidates", asked)
+    driving.until(lambda: screen.inset.map.unsure, "it was drawn as sure")
 
 
 def test_the_map_shows_the_points_that_the_operator_drew(screen, driving):

@@ -14,6 +14,7 @@ from app.layout.panel_grid import Place
 from app.layout.views import Panel, View
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.pilothouse_msgs import PlaceCandidate, PlaceCandidates
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass, running
 from tests.headless import Stage
@@ -180,6 +181,25 @@ def test_a_panel_of_a_camera_shows_no_other_cameras_pictures(
         assert other.problem == f"Another camera is chosen: {chosen}image/compressed."
         assert other.ids.place.opacity == 0, "nor an old picture"
         session.cameras.choose_next()
+
+
+def test_a_map_draws_a_robot_that_may_be_at_two_places_as_unsure(
+    driving: Glass, robot: FakeRobot, panels: Any
+) -> None:
+    session, profiles = driving.app.session, driving.app.profiles
+    info = session.robot.info
+    view = View("Map", (Panel("GridMap", "/map", ("/pose",)),))
+    profiles.save(info, replace(profiles.of(info), views=(view,)))
+    panels.reload()
+    shown = panels.shows.card_of(0).widget
+    assert not shown.unsure
+    asked = PlaceCandidates(
+        candidates=[PlaceCandidate(1, 0.0, 0.0, 0.0, 0.6, 0.1), PlaceCandidate(2, 4.0, 0.0, 0.0, 0.4, 0.1)]
+    )
+    robot.publish("/localisation/candidates", asked)
+    driving.until(lambda: shown.unsure, "it was drawn as sure")
+    robot.publish("/localisation/candidates", PlaceCandidates())
+    driving.until(lambda: not shown.unsure, "it was drawn as unsure")
 
 
 def test_a_second_stick_for_the_same_is_refused_in_a_sentence(driving: Glass, panels: Any) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from app.screens.tasks.place_chooser import PlaceChooser
+from bridge.msgs.pilothouse_msgs import PlaceCandidate, PlaceCandidates
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 from widgets.tasks.place_list import SOME
@@ -61,6 +62,19 @@ def test_places_are_chosen_by_taps_on_the_map_beside_the_form(
     ]
     tap_place(driving, chooser.map, "Office 12")
     assert tasks.pane.order.places == ["Office 12", "Office 12"], "the last one is changed"
+
+
+def test_a_robot_that_may_be_at_two_places_is_unsure_on_this_map_too(
+    driving: Glass, robot: FakeRobot, tasks: Any
+) -> None:
+    turned(driving, (1280, 800))
+    tasks.begin("deliver")
+    shown = chooser_of(tasks).map
+    asked = PlaceCandidates(
+        candidates=[PlaceCandidate(1, 0.0, 0.0, 0.0, 0.6, 0.1), PlaceCandidate(2, 4.0, 0.0, 0.0, 0.4, 0.1)]
+    )
+    robot.publish("/localisation/candidates", asked)
+    driving.until(lambda: shown.unsure, "it was drawn as sure")
 
 
 def test_a_task_without_places_has_no_map_beside_it_and_the_list_is_back(driving: Glass, tasks: Any) -> None:
