@@ -325,11 +325,15 @@ class PoseEstimator:
             self._say("localisation", unsure, "alarm" if self.pushes else "warn")
 
     def _publish_pose(self, stamp: Time, pose: Pose2, odom: Pose2, localiser: Localiser) -> None:
-        covariance = zeros36()
-        spread = self.covariance
-        for row, i in enumerate((0, 1, 5)):
-            for column, j in enumerate((0, 1, 5)):
-                covariance[6 * i + j] = float(spread[row, column])
-        said = self.vertical.posed(pose, covariance)
+        said = self.vertical.posed(pose, _in_space(self.covariance))
         self._publish("/pose", PoseWithCovarianceStamped(Header(stamp, "map"), said))
         self._publish("/tf", TFMessage(self.vertical.edges(stamp, localiser.map_to_odom(), odom)))
+
+
+def _in_space(plane: NDArray[np.float64]) -> list[float]:
+    """The covariance of a pose in space, 6 x 6 row by row, whose x, y and yaw have that of the `plane`; 0 elsewhere."""
+    covariance = zeros36()
+    for row, i in enumerate((0, 1, 5)):
+        for column, j in enumerate((0, 1, 5)):
+            covariance[6 * i + j] = float(plane[row, column])
+    return covariance
