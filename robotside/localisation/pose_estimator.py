@@ -91,8 +91,7 @@ class PoseEstimator:
         self._odom: Pose2 | None = None
         self._was_sure = True
         self._swept = False
-        self._stamp = 0.0
-        self._faced = -math.inf
+        self._stamp, self._faced = 0.0, -math.inf
         self._rings = SonarRings()
         self.vertical = HeightAndAttitude(info)
         """Height, roll and pitch."""
