@@ -55,7 +55,9 @@ def test_without_a_selection_it_sets_all_points_and_else_the_selected_one(
     assert editor.draft.levels == (2.5, None, 2.5)
 
 
-def test_whose_height_it_is_can_be_read_beside_whatever_it_is(row: HeightRow, stage: Stage) -> None:
+def test_whose_height_it_is_can_be_read_beside_whatever_it_is(editor: MissionEditor, stage: Stage) -> None:
+    row = HeightRow(editor.set_height)
+    stage.show(row, size=(230, 60))
     row.show((1.0, 2.0), -1, DRONE)
     stage.frames(4)
     label = row.children[-1]
