@@ -12,7 +12,7 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.core.pose2 import Points, Pose2
 
-__all__ = ["CREEP_SPEED", "RETREAT_SPEED", "Approach"]
+__all__ = ["CREEP_SPEED", "DOCK_NEAR", "RETREAT_SPEED", "Approach"]
 
 CREEP_SPEED = 0.08
 """On the last bit [m/s]."""
@@ -28,6 +28,9 @@ MAX_TURN = 0.4
 
 MAX_BEARING = 0.6
 """Off its line by more than this, a robot that turns on the spot turns first [rad]."""
+
+DOCK_NEAR = 1.5
+"""With contact no farther than this from the place of a dock it stands in that dock [m]."""
 
 SIDE_ROOM = 0.05
 """What is no nearer than this beside its way is not in the way [m]."""

@@ -17,12 +17,12 @@ from robotside.core.notice import Notice
 from robotside.core.pose2 import Pose2
 from robotside.navigation.navigator import Goal, Navigator
 from robotside.perception.dock_track import DockTrack
-from robotside.tasks.behaviours.approach import CREEP_SPEED, RETREAT_SPEED, Approach
+from robotside.tasks.behaviours.approach import CREEP_SPEED, DOCK_NEAR, RETREAT_SPEED, Approach
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.drive_to import LEG_STATUS
 from robotside.tasks.behaviours.situation import Situation
 
-__all__ = ["CONTACT_TIMEOUT", "MAX_TRIES", "Dock", "before", "start"]
+__all__ = ["CONTACT_TIMEOUT", "MAX_OUTS", "MAX_TRIES", "Dock", "before", "start"]
 
 MAX_TRIES = 3
 """Approaches before it gives up."""
@@ -63,8 +63,8 @@ PICTURE_PERIOD = 0.25
 TAG_LEAVES = 1.1
 """Nearer than this the tag leaves the picture: the last bit goes by the wheels [m]."""
 
-CHARGING_NEAR = 1.0
-"""Charging no farther than this from the dock's place, it stands in the dock already [m]."""
+MAX_OUTS = 3
+"""In one try it sets out anew no more often than this because it is too far from the line."""
 
 _SEEN = {
     "reflectors": "by its reflectors",
@@ -120,7 +120,7 @@ class Dock(Behaviour):
         """Of the dock as the map has it."""
         self._distance = math.hypot(course.goal.x - dock.x, course.goal.y - dock.y)
         self._stage, self._since = _Stage.DRIVE, 0.0
-        self._tries = 0
+        self._tries = self._outs = 0
         self._by = ""
         self._scan: LaserScan | None = None
         self._picture_stamp = self._next_picture = -math.inf
@@ -137,13 +137,13 @@ class Dock(Behaviour):
 
     def initialise(self) -> None:
         """Set out."""
-        self._tries = 0
+        self._tries = self._outs = 0
         self._set_out()
 
     def update(self) -> Status:
         """Go on."""
         now = self._situation
-        near = now.pose.distance(self._dock.x, self._dock.y) < CHARGING_NEAR
+        near = now.pose.distance(self._dock.x, self._dock.y) <= DOCK_NEAR
         if now.charging and (near or self._stage is not _Stage.DRIVE):
             self._course.reached()
             return Status.SUCCESS
@@ -239,7 +239,10 @@ class Dock(Behaviour):
         robot = dock.inverse()
         gap = -robot.x - self._way.front
         if gap > self._distance + 0.5 or abs(robot.y) > 0.5 * self._distance:
-            self._set_out()  # it was moved meanwhile
+            self._outs += 1  # it was moved meanwhile, or the map is worse than it may be
+            if self._outs > MAX_OUTS:
+                return self._again(self._missed(robot))
+            self._set_out()
             return Status.RUNNING
         if self._spent > APPROACH_TIMEOUT:
             said = f"{self._dock.name} was not reached within {APPROACH_TIMEOUT:.0f} s."
@@ -252,8 +255,7 @@ class Dock(Behaviour):
             return self._wait_for_room()
         self._blocked = math.inf
         if self._by and 0.5 * ALIGN_GAP < gap < ALIGN_GAP and self._off(robot):
-            said = f"the line to {name} was missed by {abs(self._aside(robot)) * 100:.0f} cm"
-            return self._again(Notice(Code.DOCK_MISSED, f"No charge: {said}.", place=name))
+            return self._again(self._missed(robot))
         touches = gap < (ALIGN_GAP if self._by else MAP_GAP)
         arrived = gap < -(MAX_BEYOND if self._by else MAP_BEYOND) or self._meets
         if arrived or (now.touched and touches):
@@ -272,6 +274,11 @@ class Dock(Behaviour):
             return self._again(Notice(Code.DOCK_BLOCKED, said, place=name))
         self._tell(f"Waiting: something stands before {name}.")
         return Status.RUNNING
+
+    def _missed(self, robot: Pose2) -> Notice:
+        name = self._dock.name
+        said = f"No charge: the line to {name} was missed by {abs(self._aside(robot)) * 100:.0f} cm."
+        return Notice(Code.DOCK_MISSED, said, place=name)
 
     def _off(self, robot: Pose2) -> bool:
         """What is to touch the dock is too far off its line, or the robot too askew, to go on."""
@@ -319,6 +326,7 @@ class Dock(Behaviour):
             tried = why.reworded(f"{str(why)[:-1]}; after {MAX_TRIES} tries the robot stands before it.")
             self._navigator.reason = tried
             return Status.FAILURE
+        self._outs = 0
         self._enter(_Stage.RETREAT)
         return Status.RUNNING
 

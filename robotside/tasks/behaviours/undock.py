@@ -14,13 +14,10 @@ from bridge.msgs.sensor_msgs import BatteryState
 from robotside.core.notice import Notice
 from robotside.core.pose2 import ORIGIN
 from robotside.navigation.navigator import Navigator
-from robotside.tasks.behaviours.approach import RETREAT_SPEED, Approach
+from robotside.tasks.behaviours.approach import DOCK_NEAR, RETREAT_SPEED, Approach
 from robotside.tasks.behaviours.situation import Situation
 
-__all__ = ["DOCK_NEAR", "Undock"]
-
-DOCK_NEAR = 1.5
-"""With contact no farther than this from the place of a dock it stands in that dock [m]."""
+__all__ = ["Undock"]
 
 MIN_ROOM = 0.15
 """Behind it there is at least so much [m]; for less it waits."""

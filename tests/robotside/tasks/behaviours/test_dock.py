@@ -15,7 +15,7 @@ from robotside.perception.dock_finder import DockFinder
 from robotside.perception.dock_track import DockTrack
 from robotside.tasks.behaviours.approach import Approach
 from robotside.tasks.behaviours.course import Course
-from robotside.tasks.behaviours.dock import APPROACH_TIMEOUT, MAX_TRIES, Dock, before
+from robotside.tasks.behaviours.dock import APPROACH_TIMEOUT, MAX_OUTS, MAX_TRIES, Dock, before
 from tests.fakes import Box, FakeDock, FakeRobot, Pillar
 from tests.robotside.tasks.behaviours.stage import Stage
 
@@ -293,3 +293,31 @@ def test_it_stands_while_it_looks_and_when_it_is_ended() -> None:
     assert not on.robot.at_rest
     tree.stop(Status.INVALID)
     assert on.robot.at_rest
+
+
+def test_too_far_beside_the_line_it_sets_out_anew_and_docks() -> None:
+    on = stage()
+    tree = make(on)
+    going_up(on, tree, 2.8)
+    x, y, yaw = on.robot.pose
+    on.robot.pose = (x, y + 1.1, yaw)
+    until(on, tree, "driving", 20.0)
+    assert finish(on, tree) is Status.SUCCESS
+    assert on.robot.pose[:2] == pytest.approx((4.0, 1.0), abs=0.03)
+
+
+def test_who_is_pushed_beside_the_line_again_and_again_gives_up_before_the_dock() -> None:
+    on = stage()
+    tree, outs, pushed = make(on), 0, False
+    for _ in range(20 * 1500):
+        if on.tick(tree) is not Status.RUNNING:
+            break
+        x, y, yaw = on.robot.pose
+        if on.phase == "driving" or on.situation.doing.text.startswith("Going back"):
+            pushed = False
+        elif on.situation.doing.text.startswith("Going up") and x > 2.3 and not pushed:
+            on.robot.pose, outs, pushed = (x, y + 1.1, yaw), outs + 1, True
+    assert tree.status is Status.FAILURE
+    assert on.navigator.reason.startswith("No charge: the line to Dock was missed by 1")
+    assert outs == MAX_TRIES * (MAX_OUTS + 1)
+    assert on.robot.contacts == 0
