@@ -31,12 +31,7 @@ CLASSES = DETECTED_CLASSES
 SEARCHED = (320, 240)
 """Columns and rows that are searched; larger pictures are made smaller first."""
 
-SEARCHED_FOR_SMALL = (448, 336)
-"""The same for `SMALL`, of which more are found so; of the other classes fewer are."""
-
-SMALL = frozenset({"cone"})
-
-SURE_OUTPUTS = (0.50, 0.45, 0.40, 0.50)
+SURE_OUTPUTS = (0.46, 0.45, 0.41, 0.53)
 """By class, the network's output at which a thing is as sure as `SURE_SCORE`: by day 95 % of what is told is right, on scenes that are not judged by."""
 
 LEAST_SCORE = 0.5
@@ -57,8 +52,6 @@ MAX_REACH = 5.0
 WEIGHTS = Path(__file__).with_name("detector.npz")
 
 Picture = NDArray[np.uint8]
-Size = tuple[int, int]
-"""Columns and rows."""
 
 
 def find_things(jpeg: bytes) -> list[Sighting]:
@@ -66,17 +59,15 @@ def find_things(jpeg: bytes) -> list[Sighting]:
     picture = decoded(jpeg)
     if picture is None:
         return []
-    larger = decoded(jpeg, SEARCHED_FOR_SMALL)
-    seen = [one for one in _seen(picture, SEARCHED) if one.kind not in SMALL]
-    if larger is not None:
-        seen += [one for one in _seen(larger, SEARCHED_FOR_SMALL) if one.kind in SMALL]
-    return sorted(_witnessed(seen, cones_in(picture)), key=lambda one: -one.score)[:MAX_THINGS]
+    found = _witnessed(_seen(picture), cones_in(picture))
+    return sorted(found, key=lambda one: -one.score)[:MAX_THINGS]
 
 
-def _seen(picture: Picture, size: Size) -> list[Sighting]:
-    """What the network sees in a picture that has this size or less."""
-    framed, wide, high = _framed(picture, size)
-    return [_within(one, size[0] / wide, size[1] / high) for one in _sightings(run(framed, _layers()))]
+def _seen(picture: Picture) -> list[Sighting]:
+    """What the network sees in a picture that has the size that is searched or less."""
+    framed, wide, high = _framed(picture)
+    across, down = SEARCHED[0] / wide, SEARCHED[1] / high
+    return [_within(one, across, down) for one in _sightings(run(framed, _layers()))]
 
 
 def _witnessed(seen: list[Sighting], orange: list[Sighting]) -> list[Sighting]:
@@ -96,28 +87,28 @@ def _part_within(inner: Sighting, outer: Sighting) -> float:
     return max(0.0, wide) * max(0.0, high) / max(inner.width * inner.height, 1e-9)
 
 
-def decoded(jpeg: bytes, size: Size = SEARCHED) -> Picture | None:
-    """A picture as it is searched, at most so many columns and rows large; None where it cannot be read."""
+def decoded(jpeg: bytes) -> Picture | None:
+    """A picture as it is searched; None where it cannot be read."""
     try:
         picture_size(jpeg)
         with Image.open(io.BytesIO(jpeg), formats=("JPEG",)) as image:
-            image.draft("RGB", size)
+            image.draft("RGB", SEARCHED)
             small = image.convert("RGB")
     except (ProtocolError, UnidentifiedImageError, OSError, ValueError):
         return None
-    scale = min(size[0] / small.width, size[1] / small.height)
+    scale = min(SEARCHED[0] / small.width, SEARCHED[1] / small.height)
     fitting = max(1, round(small.width * scale)), max(1, round(small.height * scale))
     if fitting != small.size:
         small = small.resize(fitting, Image.Resampling.BILINEAR)
     return np.asarray(small)
 
 
-def _framed(picture: Picture, size: Size) -> tuple[Picture, int, int]:
+def _framed(picture: Picture) -> tuple[Picture, int, int]:
     """The picture in the upper left of a grey one of the size that is searched, and its own width and height."""
     high, wide = picture.shape[:2]
-    if (wide, high) == size:
+    if (wide, high) == SEARCHED:
         return picture, wide, high
-    framed = np.full((size[1], size[0], 3), int(picture.mean()), dtype=np.uint8)
+    framed = np.full((SEARCHED[1], SEARCHED[0], 3), int(picture.mean()), dtype=np.uint8)
     framed[:high, :wide] = picture
     return framed, wide, high
 
