@@ -48,15 +48,19 @@ EYES_OFF = ("voice", "shake")
 """Methods that are answered aloud: whoever uses them may not look at the glass."""
 MAX_LETTERS = 200
 """Letters of a sentence that are spoken."""
-HALT = {"stop": "halt", "stops": "halts", "stopped": "halted", "stopping": "halting"}
-"""It never says STOP, which the microphone would take for the operator's."""
-_STOPS = re.compile(r"\bstop(s|ped|ping)?\b", re.IGNORECASE)
+BRAKE = {
+    "stop": "brake", "stops": "brakes", "stopped": "braked", "stopping": "braking",
+    "halt": "brake", "halts": "brakes", "halted": "braked", "halting": "braking",
+    "abort": "end", "aborts": "ends", "aborted": "ended", "aborting": "ending", "freeze": "rest", "freezes": "rests",
+}  # fmt: skip
+"""It never says STOP in any of its words, which the microphone would take for the operator's."""
+_STOPS = re.compile(rf"\b({'|'.join(BRAKE)})\b", re.IGNORECASE)
 
 
 def aloud(words: str) -> str:
     """The words as they are spoken: no quotation marks, no line breaks, and never STOP."""
     plain = re.sub(r"[“”\"…·\s\u00a0]+", " ", words).strip()[:MAX_LETTERS]
-    return _STOPS.sub(lambda found: HALT[found[0].lower()], plain)
+    return _STOPS.sub(lambda found: BRAKE[found[0].lower()], plain)
 
 
 @dataclass(frozen=True, slots=True)

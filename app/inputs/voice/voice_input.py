@@ -281,8 +281,15 @@ class VoiceInput(VoiceOptions):
             log.tracks.unheard(self.name, rejected.reason, noise=self.level.noise)
         if asked_for:
             self._say(rejected.reason)
+            self._say_aloud(rejected)
         if not self._button.is_held and self._button.is_tapped:
             self.rest()
+
+    def _say_aloud(self, rejected: Rejected) -> None:
+        """A command that was heard and is not done: whoever speaks may not look at the glass."""
+        talk = getattr(self._app, "talk", None)
+        if rejected.command and talk is not None and talk.on:
+            talk.say(rejected.reason, "answer")
 
     def _say(self, sentence: str, level: str = "warn") -> None:
         if sentence:

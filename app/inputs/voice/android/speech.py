@@ -23,8 +23,9 @@ from app.inputs.voice.interfaces.speech_recognizer import (
     State,
     VoiceTrouble,
 )
-from app.inputs.voice.recognition.matching import Match, match, said_within
+from app.inputs.voice.recognition.matching import Match, interpret, said_within
 from app.inputs.voice.recognition.phrases import PHRASES
+from app.inputs.voice.recognition.sentences import Meaning
 from widgets.core.language import mark, tr
 
 __all__ = ["AndroidSpeaker", "AndroidRecognizer"]
@@ -49,6 +50,8 @@ GIVES_UP = mark(
     "Android's speech recogniser does not answer (error {}). Switch voice off and on to try again."
 )
 NO_VOICE = mark("This phone has no voice to talk by. Install one in Android's settings.")
+FORBIDDEN = mark("“{phrase}” is not to be done: nothing is done.")
+MORE = mark("There was more than “{phrase}” in that: nothing is done. Say the command alone.")
 QUIET = frozenset({6, 7})
 """Errors that only mean that nobody spoke, or nothing that it knows."""
 SENTENCES = {1: NO_PACK, 2: NO_PACK, 9: REFUSED, 12: NO_LANGUAGE, 13: NO_LANGUAGE}
@@ -250,7 +253,11 @@ class AndroidRecognizer:
             ended = self._now() if math.isnan(self._ended) else self._ended
             self.partial(texts[:1])
             if not self._spotted:
-                self._tell(match(texts, grammar), grammar, scores, ended)
+                found = interpret(texts, grammar)
+                if isinstance(found, Meaning):
+                    self._hear(Rejected(_refusal(found), found.command, ended=ended))
+                else:
+                    self._tell(found, grammar, scores, ended)
         self._again()
 
     def _tell(self, found: list[Match], grammar: Grammar, scores: list[float], ended: float) -> None:
@@ -287,6 +294,12 @@ class AndroidRecognizer:
             self._hear(State("failed", SENTENCES.get(number, tr(GIVES_UP).format(number))))
             return
         self._again(BUSY_MS)
+
+
+def _refusal(meaning: Meaning) -> str:
+    """Why what was understood is not done."""
+    sentence = FORBIDDEN if meaning.negated else MORE
+    return tr(sentence).format(phrase=meaning.phrase)
 
 
 def _texts(bundle: Any) -> list[str]:

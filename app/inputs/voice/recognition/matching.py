@@ -12,8 +12,9 @@ from functools import lru_cache
 
 from app.inputs.voice.interfaces.speech_recognizer import Grammar
 from app.inputs.voice.recognition.lexicon import PHONES, WORDS, background
+from app.inputs.voice.recognition.sentences import Meaning, denies, understand
 
-__all__ = ["Match", "match", "said_within", "sounds"]
+__all__ = ["Match", "interpret", "match", "said_within", "sounds"]
 
 MIN_LIKENESS = 0.75
 """So alike, 0 to 1, must the sounds be."""
@@ -51,6 +52,33 @@ class Match:
     """What the recogniser wrote."""
 
 
+def interpret(heard: Sequence[str], grammar: Grammar) -> list[Match] | Meaning:
+    """Commands that were said, the likeliest first; a `Meaning` that does not count where the words forbid one or say more than one.
+
+    English goes by the grammar of sentences first, and by its sounds only where no guess has a command in it and none denies anything.
+    """
+    guesses = list(heard)[:MAX_GUESSES]
+    if grammar.language != "en":
+        return match(guesses, grammar)
+    meanings = [(place, words, understand(words)) for place, words in enumerate(guesses)]
+    known = [(place, words, each) for place, words, each in meanings if each is not None]
+    if not known:
+        return match([words for words in guesses if not denies(words)], grammar)
+    if meanings[0][2] is None and denies(guesses[0]):
+        return []  # what is forbidden was not understood: a worse guess without its "not" says nothing
+    first = known[0][2]
+    forbidden = next((each for _, _, each in known if each.negated), None)
+    if first.command not in grammar.urgent and forbidden is not None:
+        return forbidden
+    if not first.counts:
+        return match([words for words in guesses if not denies(words)], grammar) or first
+    best: dict[str, Match] = {}
+    for place, words, each in known:
+        if each.counts:
+            best.setdefault(each.command, Match(each.command, each.phrase, 1.0 - place * LATER, words))
+    return list(best.values())
+
+
 def match(heard: Sequence[str], grammar: Grammar, heeded: Collection[str] | None = None) -> list[Match]:
     """Commands that one of `heard` sounds like, the likeliest first, each once; of `heeded` alone where that is given."""
     best: dict[str, Match] = {}
@@ -71,6 +99,9 @@ def match(heard: Sequence[str], grammar: Grammar, heeded: Collection[str] | None
 
 def said_within(words: str, grammar: Grammar, command: str) -> str:
     """The phrase for `command` that is said word by word somewhere in `words`; empty for none."""
+    meaning = understand(words[-MAX_LETTERS:]) if grammar.language == "en" else None
+    if meaning is not None and meaning.counts and meaning.command == command:
+        return meaning.phrase
     spoken = f" {' '.join(_plain(words[-MAX_LETTERS:]).split())} "
     return next((one for one in grammar.phrases.get(command, ()) if f" {_plain(one)} " in spoken), "")
 

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from app.core.command_origin import Origin
+from app.inputs.voice.recognition.sentences import STOPS, understand
 from app.inputs.voice.talkback import MAX_AGE, MAX_WAITING, SENTENCE_TIMEOUT, SLEEP_TIMEOUT, Talkback, aloud
 from app.intents.intents import Heard, Verdict
 from app.link.channels import EVENT, OUTCOME
@@ -138,7 +139,7 @@ def test_stop_is_told_once_when_the_robot_confirms_it(desk: Desk) -> None:
     desk.wait(0.1)
     desk.mouth.ends()
     desk.wait(0.1)
-    assert desk.mouth.said == ["Halted: the robot confirms it."]
+    assert desk.mouth.said == ["braked: the robot confirms it."]
 
 
 def test_an_alarm_breaks_off_what_is_said_and_the_newest_goes_first(desk: Desk) -> None:
@@ -202,7 +203,12 @@ def test_a_voice_that_loses_a_sentence_does_not_leave_the_microphone_deaf(desk: 
 
 
 def test_it_never_says_stop() -> None:
-    assert aloud("STOP is pressed; it stopped “at once”.") == "halt is pressed; it halted at once ."
+    assert aloud("STOP is pressed; it stopped “at once”.") == "brake is pressed; it braked at once ."
+
+
+@pytest.mark.parametrize("word", STOPS)
+def test_none_of_the_words_for_stop_is_said(word: str) -> None:
+    assert understand(aloud(f"{word.capitalize()}: the robot confirms it.")) is None
 
 
 def test_a_minute_of_silence_puts_the_voice_away(desk: Desk) -> None:

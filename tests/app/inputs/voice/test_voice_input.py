@@ -97,7 +97,7 @@ class Desk:
             session=None,
             shell=None,
             connect=SimpleNamespace(say=self.say),
-            talk=SimpleNamespace(speaking=False, spoke=-math.inf),
+            talk=SimpleNamespace(on=False, speaking=False, spoke=-math.inf),
             inputs=SimpleNamespace(meanings=SimpleNamespace(held={"talk": []})),
             methods=SimpleNamespace(get=lambda _: SimpleNamespace(on=True, tracks=tracks)),
             intents=Intents(self.acts, MethodPermits(settings), lambda: self.t),
@@ -317,6 +317,20 @@ def test_what_was_not_understood_is_said_and_told_to_the_log(desk: Desk) -> None
     desk.wait(0.0)
     assert desk.unheard == [("voice", "That was no command.")]
     assert desk.said == ["Voice: That was no command."]
+
+
+@pytest.mark.parametrize(
+    ("on", "command", "aloud"), [(True, "go_home", 1), (False, "go_home", 0), (True, "", 0)]
+)
+def test_a_command_that_is_refused_is_refused_aloud_while_the_app_talks(
+    on: bool, command: str, aloud: int
+) -> None:
+    desk, told = Desk(), list[tuple[str, str]]()
+    desk.app.talk.on, desk.app.talk.say = on, lambda *line: told.append(line)
+    desk.speaking.press()
+    desk.recogniser.hear(Rejected("Nothing is done.", command, ended=desk.t))
+    desk.wait(0.0)
+    assert told == [("Nothing is done.", "answer")] * aloud
 
 
 def test_hands_free_what_people_talk_is_not_talked_of() -> None:

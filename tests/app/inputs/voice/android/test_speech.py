@@ -207,6 +207,29 @@ def test_what_is_no_command_is_rejected(phone: Phone) -> None:
     assert [type(one) for one in phone.results()] == [Rejected]
 
 
+def test_a_command_that_is_denied_is_rejected_by_name_and_says_so(phone: Phone) -> None:
+    phone.listening()
+    phone.says("don't go home")
+    (result,) = phone.results()
+    assert isinstance(result, Rejected)
+    assert (result.command, result.reason) == ("go_home", "“go home” is not to be done: nothing is done.")
+
+
+def test_a_command_amid_other_words_is_asked_for_alone(phone: Phone) -> None:
+    phone.listening()
+    phone.says("go home Dave")
+    (result,) = phone.results()
+    assert isinstance(result, Rejected)
+    assert result.reason.startswith("There was more than “go home” in that")
+
+
+def test_halt_is_stop_before_the_sentence_ends(phone: Phone) -> None:
+    phone.listening()
+    phone.says("robot halt", partial=True)
+    (result,) = phone.results()
+    assert (result.command, result.said, result.early) == ("stop", "halt", True)
+
+
 def test_stop_is_taken_out_of_what_is_not_yet_said_to_its_end_and_only_once(phone: Phone) -> None:
     phone.listening()
     phone.says("please", partial=True)

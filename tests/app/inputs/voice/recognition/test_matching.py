@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 from app.inputs.voice.interfaces.speech_recognizer import Grammar
-from app.inputs.voice.recognition.matching import match, said_within
+from app.inputs.voice.recognition.matching import interpret, match, said_within
 from app.inputs.voice.recognition.phrases import LANGUAGES, PHRASES
+from app.inputs.voice.recognition.sentences import Meaning
 
 ENGLISH = Grammar(PHRASES["en"])
 
@@ -49,3 +50,32 @@ def test_every_language_says_every_command_and_no_two_alike(language: str) -> No
     for command, phrases in PHRASES[language].items():
         for phrase in phrases:
             assert [one.command for one in match([phrase], grammar) if one.alike == 1.0] == [command]
+
+
+def test_a_guess_that_forbids_it_forbids_it_though_a_better_one_does_not() -> None:
+    found = interpret(["go home", "don't go home"], ENGLISH)
+    assert isinstance(found, Meaning)
+    assert (found.command, found.negated) == ("go_home", True)
+
+
+def test_a_guess_without_the_not_of_the_likeliest_is_no_command() -> None:
+    assert interpret(["don't gnome", "go home"], ENGLISH) == []
+    assert interpret(["no home"], ENGLISH) == [], "its sounds are nearly those of go home"
+
+
+def test_stop_counts_though_another_guess_forbids_it() -> None:
+    found = interpret(["stop", "do not go home"], ENGLISH)
+    assert not isinstance(found, Meaning)
+    assert found[0].command == "stop"
+
+
+def test_what_no_sentence_explains_goes_by_its_sounds() -> None:
+    found = interpret(["go hum"], ENGLISH)
+    assert not isinstance(found, Meaning)
+    assert [one.command for one in found] == ["go_home"]
+
+
+def test_another_language_goes_by_its_phrases_alone() -> None:
+    found = interpret(["nach hause"], Grammar(PHRASES["de"], "de"))
+    assert not isinstance(found, Meaning)
+    assert found[0].command == "go_home"
