@@ -44,7 +44,9 @@ INNER = 0.42
 KNOB_SPAN = 13.0
 """What is written nearer to a knob would be covered by it [deg]."""
 WIDE = 1.25
-"""A card this many times broader than high has its figures beside the dial."""
+"""A card this many times broader than high has its figures beside the dial, where they have room."""
+BESIDE = 64
+"""The least that is left of the card beside the dial for them to have room [dp]."""
 ON_COURSE = 2.5
 """A heading that is no farther off is on course [deg]."""
 INVITES = mark("hold to set")
@@ -145,7 +147,7 @@ class CourseDial(Grip, Gauge):
     @property
     def beside(self) -> bool:
         """The figures stand beside the dial."""
-        return bool(self.width > WIDE * self.height)
+        return bool(self.width > max(WIDE * self.height, self.height + dp(BESIDE)))
 
     def holds(self, x: float, y: float) -> bool:
         """On the dial, but not in its middle."""

@@ -182,6 +182,14 @@ def test_where_it_is_wide_the_figures_stand_beside_the_dial(stage):
     assert dial.texts[-5:] == ["COURSE", "075°", "HEADING", "340°", "95° right"]
 
 
+def test_where_little_is_left_beside_the_dial_the_figures_stand_in_it(stage):
+    dial = stage.show(CourseDial(), size=(174, 134))
+    dial.show(Compass(heading=340.0))
+    stage.frames(2)
+    assert not dial.beside
+    assert dial.texts[-1] == "bow 340°"
+
+
 def test_where_it_is_low_what_became_of_a_course_takes_the_place_of_its_name(stage):
     dial = stage.show(CourseDial(), size=(174, 96))
     dial.show(Compass(heading=340.0))
