@@ -281,19 +281,20 @@ class VoiceInput(VoiceOptions):
             log.tracks.unheard(self.name, rejected.reason, noise=self.level.noise)
         if asked_for:
             self._say(rejected.reason)
-            self._say_aloud(rejected)
+            _say_aloud(self._app, rejected)
         if not self._button.is_held and self._button.is_tapped:
             self.rest()
-
-    def _say_aloud(self, rejected: Rejected) -> None:
-        """A command that was heard and is not done: whoever speaks may not look at the glass."""
-        talk = getattr(self._app, "talk", None)
-        if rejected.command and talk is not None and talk.on:
-            talk.say(rejected.reason, "answer")
 
     def _say(self, sentence: str, level: str = "warn") -> None:
         if sentence:
             notify(self._app, tr("Voice: {sentence}").format(sentence=sentence), level, self.name)
+
+
+def _say_aloud(app: MethodApp, rejected: Rejected) -> None:
+    """A command that was heard and is not done: whoever speaks may not look at the glass."""
+    talk = getattr(app, "talk", None)
+    if rejected.command and talk is not None and talk.on:
+        talk.say(rejected.reason, "answer")
 
 
 def _heard(result: Result, noise: float) -> Heard:
