@@ -16,7 +16,7 @@ import numpy as np
 from app.inputs.voice.audio.noise import RATE
 from app.inputs.voice.audio.sound_files import Samples, read, resampled
 
-__all__ = ["NOISES", "Spoken", "espeak", "natural", "noisy"]
+__all__ = ["NOISES", "Spoken", "espeak", "flite", "natural", "noise", "noisy"]
 
 Spoken = tuple[str, Samples]
 """A phrase, and its sound at 16 kHz."""
@@ -38,23 +38,24 @@ def natural(texts: Sequence[str]) -> list[Spoken]:
             sound = np.asarray(voice(text, speed=speed, seed=1), np.float32)
             sizes = SIZES if speed == 1.0 else (1.0,)
             spoken += [(text, _trimmed(resampled(sound, 24000 * size))) for size in sizes]
-    return [*spoken, *_flite(texts)]
+    return [*spoken, *flite(texts)]
 
 
-def _flite(texts: Sequence[str]) -> Iterator[Spoken]:
+def flite(texts: Sequence[str], voices: Sequence[str] = ("rms", "kal16")) -> Iterator[Spoken]:
+    """flite's voices; none where it is not installed."""
     program = shutil.which("flite")
     if program is None:
         return
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "said.wav"
-        for voice in ("rms", "slt"):
+        for voice in voices:
             for text in texts:
                 subprocess.run([program, "-voice", voice, "-t", text, str(path)], check=True)
                 yield text, _trimmed(read(path))
 
 
-def espeak(texts: Sequence[str]) -> list[Spoken]:
-    """espeak-ng's formant voices in six accents; none where it is not installed."""
+def espeak(texts: Sequence[str], accents: Sequence[str] = ACCENTS) -> list[Spoken]:
+    """espeak-ng's formant voices, each all the texts; none where it is not installed."""
     try:
         import espeakng_loader
     except ImportError:
@@ -71,7 +72,7 @@ def espeak(texts: Sequence[str]) -> list[Spoken]:
 
     library.espeak_SetSynthCallback(take)
     spoken = []
-    for accent in ACCENTS:
+    for accent in accents:
         library.espeak_SetVoiceByName(accent.encode())
         library.espeak_SetParameter(1, 150, 0)
         for text in texts:
@@ -88,13 +89,13 @@ def noisy(samples: Samples, kind: str, snr: float, rng: np.random.Generator) -> 
     """The samples in noise of a kind of `NOISES`, `snr` [dB] below the loud parts in them."""
     loud = samples[np.abs(samples) > 0.02 * np.abs(samples).max()]
     power = float(np.sqrt(np.mean(np.square(loud))))
-    noise = _noise(kind, len(samples), rng)
-    added: Samples = (samples + noise * power * 10 ** (-snr / 20)).astype(np.float32)
+    sound = noise(kind, len(samples), rng)
+    added: Samples = (samples + sound * power * 10 ** (-snr / 20)).astype(np.float32)
     return added
 
 
-def _noise(kind: str, count: int, rng: np.random.Generator) -> Samples:
-    """Of power 1."""
+def noise(kind: str, count: int, rng: np.random.Generator) -> Samples:
+    """Noise of a kind of `NOISES`, of power 1."""
     frequencies = np.fft.rfftfreq(count, 1 / RATE)
     frequencies[0] = 1.0
     white = np.fft.rfft(rng.standard_normal(count))
@@ -108,7 +109,8 @@ def _noise(kind: str, count: int, rng: np.random.Generator) -> Samples:
         at = np.arange(count) / RATE
         turns = [np.sin(2 * np.pi * (95 * k * at + rng.uniform())) / k**0.7 for k in range(1, 26)]
         sound = np.sum(turns, axis=0) + 0.3 * rng.standard_normal(count)
-    return (sound / np.sqrt(np.mean(np.square(sound)))).astype(np.float32)
+    level: Samples = (sound / np.sqrt(np.mean(np.square(sound)))).astype(np.float32)
+    return level
 
 
 def _trimmed(samples: Samples) -> Samples:

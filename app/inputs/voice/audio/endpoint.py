@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from app.inputs.voice.audio.noise import RATE, decibels
 
-__all__ = ["HOP_SAMPLES", "MAX_WORDS", "Endpointer", "Segment"]
+__all__ = ["HOP_SAMPLES", "MAX_WORDS", "MIN_LEVEL", "Endpointer", "Segment"]
 
 HOP_SAMPLES = 320
 """Samples that are judged together: 20 ms."""

@@ -17,7 +17,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Conformer", "unpacked"]
+__all__ = ["Conformer", "gelu", "unpacked"]
 
 Floats: TypeAlias = NDArray[np.float32]
 
@@ -171,11 +171,18 @@ class Conformer:
 
     def __call__(self, wave: Floats) -> Floats:
         """Log probability of each sign in each frame of 20 ms: frames x signs. Samples at 16 kHz, -1 to 1; at least 25 ms."""
-        x = self._stem(self._convolved(self._log_mel(wave)))
-        x *= 0.5 * (1.0 + _erf(x * np.float32(0.5**0.5)))
+        return self.signs(self.frames(wave))
+
+    def frames(self, wave: Floats) -> Floats:
+        """What it hears in each frame of 20 ms before it decides for a sign: frames x 144."""
+        x = gelu(self._stem(self._convolved(self._log_mel(wave))))
         for block in self._blocks:
             x = block(x)
-        signs = self._signs(x)
+        return x
+
+    def signs(self, frames: Floats) -> Floats:
+        """Log probability of each sign in each of the `frames`."""
+        signs = self._signs(frames)
         signs -= signs.max(axis=1, keepdims=True)
         signs -= np.log(np.exp(signs).sum(axis=1, keepdims=True))
         return signs
@@ -294,6 +301,12 @@ def _sigmoid(x: Floats) -> Floats:
 def _swish(x: Floats) -> Floats:
     found = _sigmoid(x)
     found *= x
+    return found
+
+
+def gelu(x: Floats) -> Floats:
+    """The smooth step between a number and nothing (Hendrycks, Gimpel 2016)."""
+    found: Floats = x * (0.5 * (1.0 + _erf(x * np.float32(0.5**0.5))))
     return found
 
 

@@ -58,6 +58,10 @@ class Acoustics(Protocol):
         """Log probability of each sign in each frame: frames x signs. Samples at 16 kHz, -1 to 1."""
         ...
 
+    def stop_ends(self, samples: NDArray[np.float32]) -> NDArray[np.float32] | None:
+        """Log odds that the word STOP ends at each frame; None where it has no opinion."""
+        ...
+
 
 def frames_of(log_probs: Array, tokens: Sequence[str]) -> Array:
     """Probability of silence and of each of `PHONES` in each frame, over that of the frame's likeliest sign."""

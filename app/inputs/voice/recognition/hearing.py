@@ -2,26 +2,32 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection
+from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.inputs.voice.audio.endpoint import Endpointer, Segment
-from app.inputs.voice.audio.noise import TOO_LOUD, NoiseMeter
+from app.inputs.voice.audio.noise import RATE, TOO_LOUD, NoiseMeter
 from app.inputs.voice.interfaces.speech_recognizer import Grammar, Hear, Level, Rejected, Result, State
 from app.inputs.voice.recognition.ctc import Acoustics, Found, Scorer
 from app.inputs.voice.recognition.rechecks import looks
-from app.inputs.voice.recognition.spotter import Spotted, Spotter
+from app.inputs.voice.recognition.spotter import RUNNING_WINDOW, STOP, Spotted, Spotter
 from widgets.core.language import tr
 
-__all__ = ["SpeechPipeline", "Judge", "Phonemes"]
+__all__ = ["RECENT", "Judge", "Phonemes", "SpeechPipeline"]
 
 METER_PERIOD = 0.1
 """The meter is told so often [s]."""
 UNSURE_RANGE = (0.02, 0.9)
 """It is asked again, by other looks at the words, between these confidences."""
+UNWITNESSED = 0.4
+"""Confidence in a STOP that the network for that word does not hear."""
+RECENT = RUNNING_WINDOW
+"""So much of all that is heard is kept for STOP [s]."""
 SAME_STOP_TIME = 0.35
 """STOP that ends within this of one that was spotted is the same [s]."""
 
@@ -37,6 +43,10 @@ class Judge(Protocol):
         """An urgent intent in what is said until `now` [s]; None where there is none, or where it looks later."""
         ...
 
+    def running(self, recent: NDArray[np.float32], now: float) -> Spotted | None:
+        """The same in the last `RECENT` of all that is heard, words or not; None where it finds nothing there."""
+        ...
+
 
 class Phonemes:
     """The judge that scores phonemes: `app.inputs.voice.recognition.ctc` and `app.inputs.voice.recognition.spotter` on one model."""
@@ -50,14 +60,22 @@ class Phonemes:
         """By the whole utterance; where that is close to call, by further looks at it (`app.inputs.voice.recognition.rechecks`)."""
         views = [self._model.log_probs(samples)]
         found = self._scorer.judge(views, heeded)
-        if found is None or not UNSURE_RANGE[0] < found.confidence < UNSURE_RANGE[1] or self._urgent(found):
+        if self._urgent(found):
+            return self._witnessed(found, samples)
+        if found is None or not UNSURE_RANGE[0] < found.confidence < UNSURE_RANGE[1]:
             return found
         for other in looks(samples):
             views.append(self._model.log_probs(other))
             alone = self._scorer.judge(views[-1:], heeded)
             if self._urgent(alone):
-                return alone
+                return self._witnessed(alone, samples)
         return self._scorer.judge(views, heeded)
+
+    def _witnessed(self, found: Found | None, samples: NDArray[np.float32]) -> Found | None:
+        """STOP needs a second witness: amid words others sound like it."""
+        if found is None or STOP not in found.phrase.split() or self._spotter.holds(samples):
+            return found
+        return replace(found, confidence=min(found.confidence, UNWITNESSED))
 
     def _urgent(self, found: Found | None) -> bool:
         """STOP in any look is STOP."""
@@ -66,6 +84,10 @@ class Phonemes:
     def spot(self, segment: Segment, now: float) -> Spotted | None:
         """By its last second, at the moments when a word may have ended."""
         return self._spotter.search(segment, now)
+
+    def running(self, recent: NDArray[np.float32], now: float) -> Spotted | None:
+        """By a network for the one word STOP."""
+        return self._spotter.running(recent, now)
 
 
 class SpeechPipeline:
@@ -80,6 +102,7 @@ class SpeechPipeline:
         self._metered = -METER_PERIOD
         self._told_loud = False
         self._spotted: Spotted | None = None
+        self._recent: NDArray[np.float32] = np.zeros(0, np.float32)
 
     @property
     def heeded(self) -> frozenset[str]:
@@ -98,12 +121,12 @@ class SpeechPipeline:
         self._show(at)
         for segment in over:
             self._understand(segment)
-        so_far = self._points.so_far()
-        if so_far is not None:
-            self._look(so_far, at)
+        self._recent = np.concatenate((self._recent, samples))[-int(RECENT * RATE) :]
+        self._look(self._points.so_far(), at)
 
     def finish(self, at: float) -> None:
         """The ears close: judge what was begun."""
+        self._recent = np.zeros(0, np.float32)
         segment = self._points.finish()
         if segment is not None:
             self._understand(segment)
@@ -124,12 +147,12 @@ class SpeechPipeline:
                 State(word, sentence if self._told_loud else tr("It is quiet enough for voice again."))
             )
 
-    def _look(self, segment: Segment, at: float) -> None:
-        """STOP is looked for even where it is too loud for anything else: it is never forbidden."""
-        if self._spotted is not None and self._spotted.ended >= segment.began:
-            return
-        spotted = self._judge.spot(segment, at)
-        if spotted is None:
+    def _look(self, segment: Segment | None, at: float) -> None:
+        """STOP is looked for in all that is heard, and even where it is too loud for anything else: it is never forbidden."""
+        spotted = self._judge.running(self._recent, at)
+        if spotted is None and segment is not None:
+            spotted = self._judge.spot(segment, at)
+        if spotted is None or self._same(spotted):
             return
         self._spotted = spotted
         confidence = max(0.5, min(1.0, 1.0 + spotted.fit / 2))
@@ -138,7 +161,7 @@ class SpeechPipeline:
                 spotted.command,
                 spotted.phrase,
                 confidence,
-                began=segment.began,
+                began=segment.began if segment is not None else math.nan,
                 ended=spotted.ended,
                 snr=self._meter.snr,
                 early=True,
@@ -146,8 +169,12 @@ class SpeechPipeline:
             )
         )
 
+    def _same(self, spotted: Spotted) -> bool:
+        """It was told already: looks at the same word differ a little in when it ended."""
+        return self._spotted is not None and spotted.ended < self._spotted.ended + SAME_STOP_TIME
+
     def _understand(self, segment: Segment) -> None:
-        spotted, self._spotted = self._spotted, None
+        spotted = self._spotted
         again = spotted is not None and spotted.ended >= segment.began - SAME_STOP_TIME
         if not segment.whole:
             if not again:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
 from app.inputs.voice.recognition.conformer import Conformer, unpacked
+from app.inputs.voice.recognition.stop_word import shipped
 from widgets.core.language import tr
 
 __all__ = ["HamaModel", "chosen", "one_core"]
@@ -59,10 +60,19 @@ class HamaModel:
 
     def log_probs(self, samples: Floats) -> NDArray[np.float64]:
         """Log probability of each sign in each frame of 20 ms."""
-        wave = np.clip(samples, -1.0, 1.0).astype(np.float32)
-        if len(wave) < MIN_SAMPLES:
-            wave = np.pad(wave, (0, MIN_SAMPLES - len(wave)))
-        return self._hear(wave).astype(np.float64)
+        return self._hear(_wave(samples)).astype(np.float64)
+
+    def stop_ends(self, samples: Floats) -> Floats | None:
+        """Log odds that the word STOP ends at each frame of 20 ms; None where the package's own engine runs the network, which does not show
+        what it hears."""
+        if not isinstance(self._hear, Conformer):
+            return None
+        return shipped().ends(self._hear.frames(_wave(samples)))
+
+
+def _wave(samples: Floats) -> Floats:
+    wave = np.clip(samples, -1.0, 1.0).astype(np.float32)
+    return wave if len(wave) >= MIN_SAMPLES else np.pad(wave, (0, MIN_SAMPLES - len(wave)))
 
 
 def chosen(ours: Callable[[], Way], theirs: Callable[[], Way], signs: int) -> Way:

@@ -116,3 +116,7 @@ class VoskJudge:
         if found is None or not found.accepted:
             return None
         return Spotted(found.command, found.phrase, -0.5, segment.ended)
+
+    def running(self, recent: NDArray[np.float32], now: float) -> Spotted | None:
+        """Nothing: it tells words by the silence about them."""
+        return None

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from app.inputs.voice.audio.noise import decibels
+from app.inputs.voice.audio.noise import RATE, decibels
 from app.inputs.voice.audio.sound_files import chunks
 from app.inputs.voice.interfaces.speech_recognizer import Grammar, Level, Rejected, Result, State
 from app.inputs.voice.recognition.ctc import Found, Scorer
-from app.inputs.voice.recognition.hearing import Phonemes, SpeechPipeline
+from app.inputs.voice.recognition.hearing import RECENT, Phonemes, SpeechPipeline
 from app.inputs.voice.recognition.lexicon import COMMANDS
 from app.inputs.voice.recognition.spotter import Spotted
 from tests.app.inputs.voice.sounds import Written, opinion, quiet, voice
@@ -26,9 +26,11 @@ class Judge:
         return self.found
 
     def spot(self, segment, now):
-        return (
-            Spotted(self.spots, self.spots, -0.1, now) if self.spots and now > segment.began + 0.3 else None
-        )
+        heard = self.spots and now > segment.began + 0.3
+        return Spotted(self.spots, self.spots, -0.1, segment.began + 0.3) if heard else None
+
+    def running(self, recent, now):
+        return None
 
 
 def said(judge, *, samples=None, heed=False, finish=False):
@@ -87,6 +89,52 @@ def test_another_command_after_stop_is_heard_too():
         "stop",
         "stop",
     ]
+
+
+class Running(Judge):
+    """Hears STOP end at these times, in whatever is heard."""
+
+    def __init__(self, *ends):
+        super().__init__("pause", confidence=0.1)
+        self.ends, self.lengths = ends, []
+
+    def running(self, recent, now):
+        self.lengths.append(len(recent) / RATE)
+        heard = [end for end in self.ends if end <= now < end + 0.5]
+        return Spotted("stop", "stop", -0.1, heard[-1]) if heard else None
+
+
+def stops(told):
+    return [event.ended for event in told if isinstance(event, Result) and event.command == "stop"]
+
+
+def test_stop_is_heard_at_every_moment_of_talk_that_does_not_end():
+    ends = tuple(np.arange(1.5, 14.0, 1.0))
+    talk = np.concatenate((quiet(1.0), voice(14.0), quiet(1.0)))
+    assert stops(said(Running(*ends), samples=talk)) == list(ends)
+
+
+def test_stop_is_heard_in_a_motor_that_hides_where_words_begin():
+    assert stops(said(Running(7.0), samples=quiet(9.0, 0.1))) == [7.0]
+
+
+def test_as_much_of_all_that_is_heard_is_kept_as_the_word_needs_and_no_more():
+    judge = Running()
+    said(judge, samples=voice(5.0))
+    assert max(judge.lengths) == RECENT
+
+
+class Deaf(Written):
+    """Hears STOP in the sounds, and not in the word."""
+
+    def stop_ends(self, samples):
+        return np.full(80, -9.0, np.float32)
+
+
+def test_what_sounds_like_stop_and_is_not_the_word_is_not_accepted():
+    found = Phonemes(GRAMMAR, Deaf("s t ɑ p")).judge(voice(0.6), frozenset(COMMANDS))
+    assert (found.command, found.accepted) == ("stop", False)
+    assert Phonemes(GRAMMAR, Written("s t ɑ p")).judge(voice(0.6), frozenset(COMMANDS)).accepted
 
 
 def test_what_was_begun_when_the_ears_close_is_judged():
