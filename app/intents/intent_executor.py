@@ -12,6 +12,7 @@ from app.intents.intents import INTENTS
 from app.intents.open_question import OpenQuestion
 from app.intents.speed_steps import SpeedSteps
 from app.intents.task_intents import TaskIntents
+from app.intents.told_state import ToldState
 from bridge.msgs.pilothouse_msgs import LightState, TaskOrder
 from widgets.core.language import mark, tr, within
 from widgets.core.quantities import said
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["IntentExecutor"]
 
-TO_TASK = {"hold": "hold", "surface": "surface", "take_off": "take_off", "land": "land"}
+TO_TASK = {"dock": "dock", "hold": "hold", "surface": "surface", "take_off": "take_off", "land": "land"}
 """Intents that start a task of their own, instead of the one that runs."""
 NO_ROBOT = mark("No robot is connected.")
 ALONE = ("stop", "theme", "help", "back", "screen.inputs", "yes", "no")
@@ -36,6 +37,7 @@ class IntentExecutor:
         """`app` is asked for its `session`, `shell`, `inputs`, `corner` and `records` when something is done."""
         self._app = app
         self._tasks, self._speed, self._question = TaskIntents(app), SpeedSteps(app), OpenQuestion(app)
+        self._told = ToldState(app)
         self.on_help: Callable[[], object] | None = None
         """Shows or hides what keys and buttons mean; None while nothing does."""
         self._why: dict[str, Callable[[], str]] = {
@@ -48,7 +50,9 @@ class IntentExecutor:
             "end_task": self._tasks.why_not_end,
             "faster": lambda: self._speed.why_not(1),
             "slower": lambda: self._speed.why_not(-1),
-            "lights": self._why_not_lights,
+            **dict.fromkeys(("lights", "lights_on", "lights_off"), self._why_not_lights),
+            "tell_battery": self._told.why_not_battery,
+            "tell_task": self._told.why_not_task,
             "snapshot": lambda: (
                 "" if self._app.records.frame is not None else tr("There is no picture to keep.")
             ),
@@ -76,6 +80,8 @@ class IntentExecutor:
             if intent in ("faster", "slower"):
                 speed = self._speed.after(1 if intent == "faster" else -1)
                 return f"{INTENTS[intent].words}: {' '.join(said(speed, 'speed', 2))}"
+            if intent in ("tell_battery", "tell_task"):
+                return self._told.battery() if intent == "tell_battery" else self._told.task()
             if intent == "record":
                 return tr("Record") if self._app.records.recorder is None else tr("Stop recording")
             status = self._tasks.status
@@ -112,6 +118,9 @@ class IntentExecutor:
             "faster": partial(self._speed.change, 1),
             "slower": partial(self._speed.change, -1),
             "lights": lambda: session.command("lights", brightness=0.0 if self._lit else 1.0),
+            "lights_on": partial(session.command, "lights", brightness=1.0),
+            "lights_off": partial(session.command, "lights", brightness=0.0),
+            **dict.fromkeys(("tell_battery", "tell_task"), str),
             "snapshot": app.records.snapshot,
             "record": app.visit.toggle_recording,
             "camera": session.cameras.choose_next,

@@ -87,6 +87,11 @@ INTENTS: dict[str, Intent] = {
     "faster": Intent(mark("Faster"), "fast_forward", "confirm"),
     "slower": Intent(mark("Slower"), "expand_more", "at_once"),
     "lights": Intent(mark("Lights"), "lightbulb", "at_once"),
+    "lights_on": Intent(mark("Switch the lights on"), "lightbulb", "at_once"),
+    "lights_off": Intent(mark("Switch the lights off"), "lightbulb", "at_once"),
+    "dock": Intent(mark("Onto the charger"), "battery_charging_full", "confirm"),
+    "tell_battery": Intent(mark("Battery"), "battery_charging_full", "at_once"),
+    "tell_task": Intent(mark("Task"), "info", "at_once"),
     "snapshot": Intent(mark("Snapshot"), "photo_camera", "at_once"),
     "record": Intent(mark("Record"), "fiber_manual_record", "at_once"),
     "camera": Intent(mark("Next camera"), "videocam", "at_once"),
@@ -102,7 +107,9 @@ INTENTS: dict[str, Intent] = {
     "back": Intent(mark("Back"), "arrow_back", "at_once"),
 }
 """Everything that can be wanted, by its name. `yes` and `no` mean something only while a question is open."""
-LOCAL_INTENTS = ("faster", "slower", "record", "snapshot", "camera", "theme", "help", "back", "yes", "no")
+LOCAL_INTENTS = (
+    "faster", "slower", "record", "snapshot", "camera", "theme", "help", "back", "yes", "no", "tell_battery", "tell_task",
+)  # fmt: skip
 """Intents that the handheld carries out itself: their effect is there at once."""
 
 

@@ -16,9 +16,11 @@ LOOKS = ("screen.drive", "screen.mission", "screen.tasks", "screen.inputs", "the
 TASKS = ("pause", "resume", "start", "patrol", "go_home", "end_task", "hold", "surface", "take_off", "land")
 REST = ("faster", "slower", "lights", "snapshot", "record", "camera", "take_control", "yes", "no")
 SPOKEN = ("stop", *TASKS, *REST)
+SENTENCES = ("lights_on", "lights_off", "dock", "tell_battery", "tell_task")
+"""What only a sentence says."""
 
 SAYS: dict[str, tuple[str, ...]] = {
-    "voice": SPOKEN,
+    "voice": (*SPOKEN, *SENTENCES),
     "shake": SPOKEN,
     "tilt": (),
     "switches": (*SPOKEN, *LOOKS),

@@ -25,6 +25,7 @@ from app.inputs.voice.interfaces.speech_recognizer import (
 )
 from app.inputs.voice.recognition.matching import Match, interpret, said_within
 from app.inputs.voice.recognition.phrases import PHRASES
+from app.inputs.voice.recognition.sentences import SENTENCES as SAID
 from app.inputs.voice.recognition.sentences import Meaning
 from widgets.core.language import mark, tr
 
@@ -261,7 +262,7 @@ class AndroidRecognizer:
         self._again()
 
     def _tell(self, found: list[Match], grammar: Grammar, scores: list[float], ended: float) -> None:
-        every = frozenset(grammar.phrases)
+        every = frozenset(grammar.phrases) | (SAID if grammar.language == "en" else {}).keys()
         heeded = (every - grammar.asked if self._heeded is None else self._heeded) | grammar.urgent
         if not found:
             self._hear(Rejected(tr("That was no command."), ended=ended))

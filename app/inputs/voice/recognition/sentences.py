@@ -77,6 +77,27 @@ SENTENCES: dict[str, tuple[str, ...]] = {
         "[you are] [going] too fast",
     ),
     "lights": ("(toggle|switch|change) [THE] LIGHTS", "LIGHTS"),
+    "lights_on": ("LIGHTS on", "(turn|switch|put) on [THE] LIGHTS", "(turn|switch|put) [THE] LIGHTS on"),
+    "lights_off": ("LIGHTS (off|out)", "(turn|switch) off [THE] LIGHTS", "(turn|switch) [THE] LIGHTS off"),
+    "dock": (
+        "dock",
+        "(go|drive|move|head|return|come|fly) [back] to THE DOCK",
+        "(go|go and|go to) (charge|recharge|dock)",
+        "(recharge|charge|dock) [yourself]",
+    ),
+    "tell_battery": (
+        "[THE] battery [status|level|charge]",
+        "how much (battery|charge|power|energy) (is left|do you have [left]|have you got [left]|is there)",
+        "(how is|what is|tell me|give me|say|report|check) THE battery [status|level|charge]",
+        "is THE battery (low|full|empty|ok|charged)",
+    ),
+    "tell_task": (
+        "(what are you|what is the robot) doing",
+        "[(what is|give me|tell me) THE] status [report]",
+        "what is (happening|going on)",
+        "report [status]",
+        "how are you doing",
+    ),
     "snapshot": (
         "(take|snap|get|get me|capture|shoot|save|make|grab|keep) [THE] (photo|picture|snapshot|image|photograph) [of (this|that|it)]",
         "(photo|picture|snapshot)",
@@ -113,6 +134,7 @@ PARTS = {
     "LITTLE": "a little|a bit|slightly|much|even|a little bit|a little more|a bit more|some more",
     "TASK": "[THE] [current|running] (task|job|mission|patrol|round|tour|delivery|run)",
     "HOME": "[THE] (home|base|home base|home position|home point|starting point|start position)",
+    "DOCK": "(dock|docking station|charger|charging station|charging dock|charging point)",
     "LIGHTS": "(light|lights|headlight|headlights|lamp|lamps)",
 }
 """Parts of sentences."""
@@ -138,7 +160,7 @@ NOT = (
 """In a sentence with one of these nothing is commanded but what has it as one of its own words."""
 SHORT = {
     "don't": "do not", "dont": "do not", "won't": "will not", "can't": "can not", "cannot": "can not", "i'm": "i am",
-    "i'd": "i would", "i'll": "i will", "let's": "let us", "lets": "let us", "you're": "you are", "it's": "it is",
+    "i'd": "i would", "i'll": "i will", "let's": "let us", "lets": "let us", "you're": "you are", "it's": "it is", "what's": "what is", "how's": "how is",
 }  # fmt: skip
 
 

@@ -223,6 +223,12 @@ def test_a_command_amid_other_words_is_asked_for_alone(phone: Phone) -> None:
     assert result.reason.startswith("There was more than “go home” in that")
 
 
+def test_a_question_that_is_no_phrase_of_the_list_is_a_command_all_the_same(phone: Phone) -> None:
+    phone.listening()
+    phone.says("how much battery is left")
+    assert [(type(one), one.command) for one in phone.results()] == [(Result, "tell_battery")]
+
+
 def test_halt_is_stop_before_the_sentence_ends(phone: Phone) -> None:
     phone.listening()
     phone.says("robot halt", partial=True)

@@ -90,6 +90,12 @@ def test_a_word_that_only_begins_like_stop_is_none(sentence: str) -> None:
         ("take off", "take_off"),
         ("next camera", "camera"),
         ("not so fast", "slower"),
+        ("lights on", "lights_on"),
+        ("turn the lights off", "lights_off"),
+        ("lights", "lights"),
+        ("go back to the charging station", "dock"),
+        ("what's the battery level", "tell_battery"),
+        ("what are you doing", "tell_task"),
         ("don't move", "stop"),
     ],
 )
