@@ -6,6 +6,9 @@ walking with the phone in the hand that lie in folders below DIR (index.json and
 closed once, after a second, and held to the end; walking is switched on. `mean` is the mean length of the command in shares of
 full command, `busy` the share of heartbeats with any. Each recording counts by its length; the worst one stands beside.
 
+`turns` is of the same walkers with the upper edge down by 16° from 3 s on: the share of heartbeats after the fifth second that
+command anything to a side.
+
 The other way is the common one: the accelerometer's own angles from level, a low pass of 2 Hz, and the same dead zone.
 
 `release` is the greatest command of the first heartbeat after a release, over every instant of 100 tilts; `sample` and `look`
@@ -36,6 +39,8 @@ BEAT = 0.03
 """Between two heartbeats [s]."""
 CLOSES = 1.0
 """When the clutch is closed [s]."""
+LEANS, LEANS_AT, SETTLED = 16.0, 3.0, 5.0
+"""The upper edge goes down by so much [deg], at that time [s]; what is commanded counts from the third on [s]."""
 FIGURES = (
     Figure("made_mean", "", "synthesised walker, mean command", 0.02, against=NAIVE),
     Figure("made_busy", "%", "synthesised walker, heartbeats with a command", 5, against=NAIVE),
@@ -49,6 +54,15 @@ FIGURES = (
         needs_data=True,
     ),
     Figure("walk_worst", "", "the worst recording, mean command", against=NAIVE, needs_data=True),
+    Figure("made_turns", "%", "synthesised walker at 16° ahead, heartbeats with a turn", 5, against=NAIVE),
+    Figure(
+        "walk_turns",
+        "%",
+        "recorded walkers at 16° ahead, heartbeats with a turn",
+        5,
+        against=NAIVE,
+        needs_data=True,
+    ),
     Figure("release", "", "command at the first look after a release, worst", 0),
     Figure("reach", "s", "from a sudden tilt of 30° to 90 % of the command, fused gravity", 0.6),
     Figure("sample", "µs", "a sample, fused gravity, median"),
@@ -61,14 +75,19 @@ Walk = tuple[float, list[Axes]]
 
 
 class Commands(NamedTuple):
-    """The lengths of the commands of one walk, one a heartbeat."""
+    """The commands of one walk, to the right and ahead, one a heartbeat."""
 
-    lengths: list[float]
+    told: list[tuple[float, float]]
+
+    @property
+    def lengths(self) -> list[float]:
+        """Of all."""
+        return [math.hypot(*one) for one in self.told]
 
     @property
     def mean(self) -> float:
         """Of all."""
-        return sum(self.lengths) / max(1, len(self.lengths))
+        return sum(self.lengths) / max(1, len(self.told))
 
 
 @contextmanager
@@ -89,9 +108,12 @@ def _walks(
     for name, walks in (("made", made), ("walk", recorded)):
         if walks:
             told = [way(walk) for walk in walks]
-            together = Commands([one for each in told for one in each.lengths])
+            together = Commands([one for each in told for one in each.told])
             found[f"{name}_mean"] = together.mean
-            found[f"{name}_busy"] = 100.0 * sum(one > 0.0 for one in together.lengths) / len(together.lengths)
+            found[f"{name}_busy"] = 100.0 * sum(one > 0.0 for one in together.lengths) / len(together.told)
+            settled = math.ceil((SETTLED - CLOSES) / BEAT)
+            turns = [one[0] != 0.0 for walk in walks for one in way(_leaning(walk)).told[settled:]]
+            found[f"{name}_turns"] = 100.0 * sum(turns) / len(turns)
             if name == "walk":
                 found["walk_worst"] = max(each.mean for each in told)
     return found
@@ -100,7 +122,7 @@ def _walks(
 def _ours(walk: Walk) -> Commands:
     rate, samples = walk
     tilt, level, due = Tilt(WALKING), Level(), CLOSES
-    told: list[float] = []
+    told: list[tuple[float, float]] = []
     for n, a in enumerate(samples):
         t = n / rate
         tilt.feed(t, level(t, a))
@@ -111,7 +133,7 @@ def _ours(walk: Walk) -> Commands:
             ):  # a clutch that opened is pressed anew: what opened it hides nothing
                 tilt.release()
                 tilt.press(t)
-            told.append(math.hypot(*tilt.update(t)))
+            told.append(tilt.update(t))
             due += BEAT
     return Commands(told)
 
@@ -121,15 +143,35 @@ def _naive(walk: Walk) -> Commands:
     weight = 1.0 / (1.0 + rate / (2.0 * math.pi * 2.0))
     roll = pitch = 0.0
     neutral, due = (0.0, 0.0), CLOSES
-    told: list[float] = []
+    told: list[tuple[float, float]] = []
     for n, a in enumerate(samples):
         seen = between((0.0, 0.0, 1.0), a)
         roll, pitch = roll + weight * (seen[0] - roll), pitch + weight * (seen[1] - pitch)
         if n / rate >= due:
             neutral = neutral if told else (roll, pitch)
-            told.append(math.hypot(*shaped(roll - neutral[0], pitch - neutral[1], WALKING)))
+            told.append(_by_direction(roll - neutral[0], pitch - neutral[1]))
             due += BEAT
     return Commands(told)
+
+
+def _by_direction(roll: float, pitch: float) -> tuple[float, float]:
+    """The command along the tilt, with the same dead zone about neutral and none across."""
+    share, tilt = math.hypot(*shaped(roll, pitch, WALKING)), math.hypot(roll, pitch)
+    return (share * roll / tilt, share * pitch / tilt) if tilt > 0.0 else (0.0, 0.0)
+
+
+def _leaning(walk: Walk) -> Walk:
+    """The same with the upper edge down by so much from the third second on, however it is held."""
+    rate, samples = walk
+    held = np.mean(samples, axis=0)
+    right = np.array([1.0, 0.0, 0.0]) - held * held[0] / (held @ held)
+    x, y, z = right / np.linalg.norm(right)
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    angle = math.radians(LEANS)
+    turn = np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross
+    begins = math.ceil(LEANS_AT * rate)
+    leaning = np.array(samples)[begins:] @ turn.T
+    return rate, samples[:begins] + [(a, b, c) for a, b, c in leaning.tolist()]
 
 
 def _made(seed: int, seconds: float = 120.0, rate: float = 50.0) -> Walk:

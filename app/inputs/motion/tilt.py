@@ -45,6 +45,8 @@ ODD, FALL = 0.6 * GRAVITY, 0.3
 """That far from 1 g [m/s²] for so long [s] nobody holds it."""
 RISES, FALLS = 1.0 / 0.4, 1.0 / 0.1
 """How fast a command grows and goes [1/s]."""
+MAX_ACROSS = 0.75
+"""The dead zone across a tilt is no more than so much of it, so that aslant is steered from the first degree on."""
 CREEP_TIME = 5.0
 """So slowly [s] neutral follows the hand of one who walks, as long as that commands nothing."""
 
@@ -128,16 +130,35 @@ def between(neutral: Axes, now: Axes) -> Pair:
 
 
 def shaped(roll: float, pitch: float, settings: TiltSettings) -> Pair:
-    """What a tilt [deg] commands, to the right and ahead, together at most 1: nothing in the dead zone, flat behind it, full at `full`."""
+    """What a tilt [deg] commands, to the right and ahead, together at most 1: nothing in the dead zone, flat behind it, full at `full`.
+
+    Straight ahead and straight to the side have a dead zone of the same width across.
+    """
     tilt = math.hypot(roll, pitch)
     x = (tilt - settings.zone) / (settings.full - settings.zone)
     if not x > 0.0:  # NaN too
         return 0.0, 0.0
     x = min(1.0, x)
     share = (1.0 - settings.expo) * x + settings.expo * x**3
+    roll, pitch = _straightened(roll, pitch, settings.zone)
+    tilt = math.hypot(roll, pitch)
     right = share * roll / tilt * (-1.0 if settings.invert_roll else 1.0)
     ahead = share * pitch / tilt * (-1.0 if settings.invert_pitch else 1.0)
     return right, ahead
+
+
+def _straightened(roll: float, pitch: float, zone: float) -> Pair:
+    """The same tilt [deg] with the dead zone across it too: the lesser part is nothing within `zone`, and whole where both are alike.
+
+    A hand that walks and tilts ahead wobbles to the sides by as much as one that rests.
+    """
+    if abs(roll) > abs(pitch):
+        pitch, roll = _straightened(pitch, roll, zone)
+        return roll, pitch
+    main = abs(pitch)
+    dead = min(zone, MAX_ACROSS * main)
+    left = main * max(0.0, abs(roll) - dead) / (main - dead)
+    return math.copysign(left, roll), pitch
 
 
 class Tilt:

@@ -107,6 +107,32 @@ def test_the_dead_zone_ends_without_a_step_and_full_is_full() -> None:
     assert shaped(0.0, 25.0, settings)[1] == shaped(0.0, 50.0, settings)[1] == pytest.approx(1.0)
 
 
+@pytest.mark.parametrize("walking", [False, True])
+def test_who_tilts_ahead_does_not_turn_by_a_wobble_nor_the_other_way_round(walking: bool) -> None:
+    settings = TiltSettings(walking=walking)
+    within, beyond = settings.zone - 0.1, settings.zone + 2.0
+    assert shaped(within, 16.0, settings)[0] == shaped(-within, 16.0, settings)[0] == 0.0
+    assert shaped(16.0, within, settings)[1] == 0.0
+    assert shaped(within, 16.0, settings)[1] > 0.3
+    assert 0.0 < shaped(beyond, 16.0, settings)[0] < shaped(beyond + 2.0, 16.0, settings)[0]
+
+
+@pytest.mark.parametrize("tilt", [8.5, 12.0, 25.0])
+def test_aslant_is_steered_aslant_however_little(tilt: float) -> None:
+    right, ahead = shaped(tilt * math.sqrt(0.5), -tilt * math.sqrt(0.5), TiltSettings(walking=True))
+    assert right == pytest.approx(-ahead)
+    assert right > 0.0
+
+
+@given(st.floats(9, 40), st.floats(-math.pi, math.pi))
+def test_the_dead_zone_across_takes_nothing_off_the_command_and_has_no_step(tilt: float, way: float) -> None:
+    settings = TiltSettings(walking=True)
+    told = shaped(tilt * math.sin(way), tilt * math.cos(way), settings)
+    near = shaped(tilt * math.sin(way + 1e-6), tilt * math.cos(way + 1e-6), settings)
+    assert math.hypot(*told) == pytest.approx(math.hypot(*shaped(0.0, tilt, settings)))
+    assert math.dist(told, near) < 1e-4
+
+
 def test_what_is_no_number_commands_nothing() -> None:
     assert shaped(math.nan, 20.0, TiltSettings()) == (0.0, 0.0)
 
