@@ -44,6 +44,8 @@ CYCLES = 2.25
 """A trial is cut so long from a recording."""
 RAMP = 0.1
 """In which it begins and ends [s]."""
+START_TIMES = (0.1, 0.3, 0.6, 1.0, 1.5)
+"""A person begins and ends to walk within such a time [s]."""
 SLOW = 0.8
 """Slower ones are waves, not shakes [Hz]."""
 TREMBLE = 0.05
@@ -188,7 +190,8 @@ def starts(takes: list[Recording], length: float = 12.0, every: float = 6.0) -> 
             piece = take.samples[first : first + count]
             held = piece.mean(axis=0)
             still = np.zeros((int(5.0 * take.rate), 3))
-            moved = (piece - held) * _ramps(len(piece), 0.3 * take.rate)[:, None]
+            over = float(rng.choice(START_TIMES)) * take.rate
+            moved = (piece - held) * _ramps(len(piece), over)[:, None]
             samples = np.concatenate([still, moved, still]) + held
             samples += rng.normal(0.0, TREMBLE, samples.shape)
             found.append(replace(take, label=f"start_{take.label}", samples=samples))

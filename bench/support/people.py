@@ -15,6 +15,7 @@ from bench.support.motion import (
     CYCLES,
     GRAVITY,
     SHAKES,
+    SLOW,
     STILL,
     TREMBLE,
     Recording,
@@ -24,8 +25,10 @@ from bench.support.motion import (
     underfoot,
 )
 
-__all__ = ["Body", "Sensor", "bodies", "as_done_by", "measured", "sensors", "strength", "trial"]
+__all__ = ["Body", "Sensor", "bodies", "as_done_by", "measured", "sensors", "strength", "trial", "trials"]
 
+RAMPS, TEMPOS, MAX_FREQUENCY = (0.1, 0.8), (0.5, 1.8), 3.6
+"""From rest to full [s], as many times as quick, and no quicker than that [Hz]."""
 MIN_FREQUENCY = 0.3
 """Lowest frequency of the movement [Hz]."""
 
@@ -166,6 +169,26 @@ def trial(
     return Trial(
         SHAKES.get(take.label, take.label), replace(done, samples=samples), STILL, STILL + count / take.rate
     )
+
+
+def trials(
+    takes: list[Recording], count: int, seed: int, walks: list[Recording] | None = None
+) -> list[Trial]:
+    """So many bodies, each with every take that is then a shake and no wave: by either hand, at half to nearly double the tempo."""
+    rng = np.random.default_rng(seed)
+    found = []
+    for body in bodies(count, seed):
+        one = replace(
+            body, ramp=float(rng.uniform(*RAMPS)), quick=float(np.exp(rng.uniform(*np.log(TEMPOS))))
+        )
+        for take in takes:
+            shown = replace(take, samples=take.samples * (-1.0, 1.0, 1.0)) if rng.random() < 0.5 else take
+            start, walk = rng.random(), walks[int(rng.integers(len(walks)))] if walks else None
+            seconds = len(take.samples) / take.rate / one.quick
+            frequency = take.frequency * one.quick
+            if SLOW <= frequency < MAX_FREQUENCY and seconds > CYCLES / frequency + 2.0:
+                found.append(trial(one, shown, start, rng, walk))
+    return found
 
 
 def measured(

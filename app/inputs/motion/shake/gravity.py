@@ -30,6 +30,8 @@ class GravityFilter:
         self._gravity: list[float] | None = None
         self._smooth = [0.0, 0.0, 0.0]
         self._sideways = False
+        self.upward: Motion = (0.0, 0.0, 0.0)
+        """Gravity as it is followed, axes of the device, of length 1; zeros before the first sample."""
 
     def motion(self, dt: float, x: float, y: float, z: float) -> Motion:
         """What is left of a sample [m/s², axes of the device] that came `dt` after the one before [s, above 0]."""
@@ -51,7 +53,7 @@ class GravityFilter:
         uy = smooth[1] = smooth[1] + share * (y - gy - smooth[1])
         uz = smooth[2] = smooth[2] + share * (z - gz - smooth[2])
         length = math.sqrt(gx * gx + gy * gy + gz * gz) or 1.0
-        a, b, c = gx / length, gy / length, gz / length
+        a, b, c = self.upward = (gx / length, gy / length, gz / length)
         least, times = UPRIGHT if self._sideways else SIDEWAYS
         self._sideways = abs(a) > max(least, times * abs(b))
         return turned(a, b, c, ux, uy, uz, self._sideways)

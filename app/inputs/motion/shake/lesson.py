@@ -28,6 +28,8 @@ READY_TIME = 1.2
 """Before each movement the phone is held still for so long [s]."""
 MOVING_TIME = 3.0
 """Each is done for so long [s]."""
+MAX_TRIES = 3
+"""A movement that cannot be used so often is left as it is for anybody."""
 MIN_HALF_CYCLES = 3
 """Half cycles that a movement needs."""
 MIN_STRAIGHTNESS = 0.62
@@ -58,8 +60,9 @@ class Lesson:
         self._ground = GravityFilter(USUAL.settling)
         self._since = self._last = math.nan
         self._moved: list[tuple[float, Motion]] = []
+        self._tries = 0
         self.own: dict[Axis, PersonalAxis] = {}
-        """What is measured so far."""
+        """What is measured so far; a movement that could not be is not in it."""
         self.sentence = ""
         """Why the movement before has to be done again; empty where it need not."""
 
@@ -70,7 +73,7 @@ class Lesson:
 
     @property
     def over(self) -> bool:
-        """All are measured."""
+        """All are measured, or were tried often enough."""
         return not self._asked
 
     @property
@@ -108,9 +111,13 @@ class Lesson:
     def _measured(self, axis: Axis) -> None:
         found = measure(axis, self._moved, self.own)
         self._since, self._moved, self.sentence = self._last, [], found.sentence
+        self._tries += 1
         if found.own is not None:
             self.own[axis] = found.own
-            self._asked.pop(0)
+        elif self._tries < MAX_TRIES:
+            return
+        self._asked.pop(0)
+        self._tries, self.sentence = 0, ""
 
 
 def measure(axis: Axis, moved: list[tuple[float, Motion]], others: dict[Axis, PersonalAxis]) -> Measured:

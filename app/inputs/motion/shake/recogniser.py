@@ -49,6 +49,15 @@ WEIGHTLESS, FALLING = 1.5, 0.2
 """What weighs no more [m/s²] for so long [s] falls: it is caught or it bounces, and neither is a command."""
 STEP_PEAK = 8.0
 """From here on what goes up and down may be somebody who begins to run [m/s², mean of the peaks]."""
+ASLANT, ASLANT_SPEED = 2.0, 0.45
+"""Left-right is aslant below so many times up-down, squared, and is then none below that speed [m/s]: who sets off swings so."""
+TURNED, TURNED_TIME, TURNED_DOUBTS = math.radians(35.0), 5.5, 2
+"""Gravity that turned by so much [rad] within so long [s] wants so many half cycles more."""
+ALL_ALONG = 0.78
+"""A shake is to and fro for so much of its burst; what became so only later wants one more."""
+SURE_OUTRUN = 2.3
+SURE_SPEED = 0.4
+"""And so does what is not so many times as fast as the background, and what is slower than that [m/s]."""
 STRONG_PEAK = 12.0
 """Mean peak of a strong shake [m/s²]: nobody carries a phone about like that."""
 
@@ -85,6 +94,8 @@ class _Block(NamedTuple):
     seconds: float
     turn: Motion
     """Of the velocity towards the acceleration, their cross product [m²/s³·s]."""
+    gravity: Motion
+    """As it was followed, axes of the device, of length 1."""
 
 
 @dataclass(slots=True)
@@ -100,10 +111,13 @@ class _Background:
     """Products of the velocity a second [m²/s²]."""
 
 
-class _Best(NamedTuple):
-    halves: int
+@dataclass(frozen=True, slots=True)
+class _Best:
+    count: int
     evidence: float
     mean: float
+    since: float
+    """When the first of them began [s]."""
 
 
 class _Burst:
@@ -201,6 +215,7 @@ class Recogniser:
                 (xx, yy, zz, xy, xz, yz),
                 seconds,
                 (sums[7] * share, sums[8] * share, sums[9] * share),
+                self._ground.upward,
             )
         )
         self._sums, self._count, self._block_since = [0.0] * 10, 0, t
@@ -262,21 +277,23 @@ class Recogniser:
                     best = burst.best.get(i)
                     if best is None or halves.evidence > best.evidence:
                         mean = max(halves.mean, best.mean if best else 0.0)
-                        burst.best[i] = _Best(halves.count, halves.evidence, mean)
+                        burst.best[i] = _Best(halves.count, halves.evidence, mean, halves.since)
 
     def _inside(self, t: float, burst: _Burst, background: _Background) -> Shake | None:
         """STOP does not wait for the end."""
         tuning = self._tuning
         if 0 in burst.best and self._halves[0].count:
             spread = self._spread(max(burst.began - LEAD_TIME, self._halves[0].since - 0.25), t, background)
-            scores = self._scores(spread, burst.soft)
-            if self._fits(0, spread, scores, background) and scores[0] >= tuning.ahead * max(scores[1:]):
+            scores = self._scores(spread, burst)
+            fits = self._fits(0, spread, scores, background)
+            clear = scores[0] >= tuning.ahead * max(scores[1:])
+            if fits and clear and self._enough(t, self._halves[0], burst, spread, background):
                 return self._told(0, t, burst, spread, scores)
         if self.any_shake:
             strong = [i for i, best in burst.best.items() if best.mean >= STRONG_PEAK]
             if strong:
                 spread = self._spread(burst.began - LEAD_TIME, t, background)
-                scores = self._scores(spread, burst.soft)
+                scores = self._scores(spread, burst)
                 return self._told(max(strong, key=scores.__getitem__), t, burst, spread, scores)
         return None
 
@@ -296,9 +313,11 @@ class Recogniser:
         if burst.told or burst.calm - burst.began > tuning.longest:
             return None
         spread = self._spread(burst.began - LEAD_TIME, burst.calm, background)
-        scores = self._scores(spread, burst.soft)
+        scores = self._scores(spread, burst)
         i = max(range(3), key=scores.__getitem__)
         if i not in burst.best or not self._fits(i, spread, scores, background):
+            return None
+        if i == 0 and not self._enough(burst.calm, burst.best[0], burst, spread, background):
             return None
         if i and (background.level > tuning.rough or self._fell > burst.began - LEAD_TIME):
             return None
@@ -318,11 +337,15 @@ class Recogniser:
         turning = Turning((x, y, z), power - taken * background.level * background.level, self._tuning.leak)
         return Spread(left, seconds, turning)
 
-    def _scores(self, spread: Spread, soft: bool) -> list[float]:
-        """How much of it each direction has."""
-        scores = [(way.weight * spread.along(way.way)) ** 2 for way in self._tuning.ways]
-        if soft:
-            scores[1] *= self._tuning.softly
+    def _scores(self, spread: Spread, burst: _Burst) -> list[float]:
+        """How much of it each direction has; of up-down less where that makes it left-right."""
+        tuning = self._tuning
+        scores = [(way.weight * spread.along(way.way)) ** 2 for way in tuning.ways]
+        upward = scores[1] * (tuning.softly if burst.soft else 1.0)
+        if scores[0] > max(upward, scores[2]):
+            scores[1] = upward
+        elif burst.soft:
+            scores[1] *= tuning.gently
         return scores
 
     def _fits(self, i: int, spread: Spread, scores: list[float], background: _Background) -> bool:
@@ -334,6 +357,34 @@ class Recogniser:
             return False
         return spread.along(way.way) >= max(way.speed, way.outrun * background.speed)
 
+    def _enough(
+        self, t: float, run: HalfCycles | _Best, burst: _Burst, spread: Spread, background: _Background
+    ) -> bool:
+        """Left-right has as many half cycles as there are doubts, of which each wants one more."""
+        tuning = self._tuning
+        way, upward = tuning.ways[0], tuning.ways[1]
+        speed, rise = spread.along(way.way), spread.along(upward.way)
+        aslant = speed * speed < ASLANT * rise * rise
+        if aslant and speed < ASLANT_SPEED:
+            return False
+        doubts = sum(
+            (
+                TURNED_DOUBTS * (self._turned(t) > TURNED),
+                t - run.since + 0.25 < ALL_ALONG * (t - burst.began + LEAD_TIME),
+                aslant,
+                speed < SURE_OUTRUN * background.speed,
+                speed < SURE_SPEED,
+            )
+        )
+        return run.count >= way.halves + doubts and run.evidence >= way.evidence * (1.0 + doubts / way.halves)
+
+    def _turned(self, t: float) -> float:
+        """How far gravity is from where it was at any time of late [rad]: a pocket, or a hand that fetches the phone."""
+        now = self._ground.upward
+        before = (block.gravity for block in self._blocks if t - block.at <= TURNED_TIME)
+        least = min((sum(a * b for a, b in zip(now, up, strict=True)) for up in before), default=1.0)
+        return math.acos(max(-1.0, min(1.0, least)))
+
     def _told(
         self, i: int, t: float, burst: _Burst, spread: Spread, scores: list[float], ended: bool = False
     ) -> Shake:
@@ -341,4 +392,4 @@ class Recogniser:
         way, best = self._tuning.ways[i], burst.best[i]
         much = min(1.0, best.evidence / way.evidence / SURE_AT)
         confidence = math.sqrt(much * min(1.0, spread.straight) * scores[i] / (sum(scores) or 1.0))
-        return Shake(AXES[i], burst.began - LEAD_TIME, t, ended, confidence, best.mean, best.halves)
+        return Shake(AXES[i], burst.began - LEAD_TIME, t, ended, confidence, best.mean, best.count)

@@ -88,14 +88,16 @@ class Tuning:
     """The quantile of the background that is called loud."""
     without: float = 0.7
     """Share of the background's velocity that is taken off, 0 to 1."""
-    round: float = 0.5
+    round: float = 0.55
     """Most that a movement may go round, 0 to 1, however quick: an ellipse a quarter as wide as long."""
     round_of_pace: float = 0.065
     """And so much of its pace [s]: who draws a circle is slower than who shakes, so that what is slow has to be the purer for it."""
-    ahead: float = 1.3
+    ahead: float = 1.0
     """For STOP left-right is so many times either other direction, squared."""
-    softly: float = 0.85
-    """Of up-down so much is counted where nothing in it is as hard as a step: the benefit of the doubt is STOP's."""
+    softly: float = 0.51
+    """Beside left-right so much of up-down is counted where nothing in it is as hard as a step: the benefit of the doubt is STOP's."""
+    gently: float = 0.85
+    """And so much beside forward-back."""
     aslant: float = 1.25
     """Half cycles along a line between two directions count from so many times the threshold on."""
     begins: float = 2.0
@@ -112,7 +114,7 @@ class Tuning:
     """For so long [s]."""
     longest: float = 3.25
     """A burst that took longer is a jog, a drive or a dance [s]."""
-    stop_within: float = 2.6
+    stop_within: float = 1.9
     """Nor is STOP meant so long after it began [s]."""
     rough: float = 6.0
     """Above this background nothing but STOP is understood [m/s²]."""
@@ -131,7 +133,7 @@ class PersonalAxis:
 
 
 # the evidence of one half cycle is its peak over the threshold, so that four gentle ones count like three strong ones
-_LEFT_RIGHT = Way((1.0, 0.0, 0.0), 2.3, 0.75, 3, 4.2, 2.6, 1.2, 0.2, 2.3, 1.0, 0.42, 0.62)
+_LEFT_RIGHT = Way((1.0, 0.0, 0.0), 2.3, 0.75, 3, 4.05, 1.8, 0.7, 0.24, 1.7, 1.0, 0.35, 0.62)
 _UP_DOWN = Way((0.0, 1.0, 0.0), 2.5, 0.75, 3, 4.2, 2.2, 1.2, 0.2, 2.0, 1.4, 0.5, 0.77)
 _FORWARD_BACK = Way((0.0, 0.0, 1.0), 2.7, 0.8, 3, 4.0, 2.2, 1.2, 0.2, 2.0, 1.0, 0.5, 0.7)
 USUAL = Tuning((_LEFT_RIGHT, _UP_DOWN, _FORWARD_BACK))

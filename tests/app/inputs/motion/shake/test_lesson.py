@@ -67,6 +67,19 @@ def test_two_movements_along_one_line_cannot_be_told_apart() -> None:
     assert list(lesson.own) == ["lr"]
 
 
+def test_a_movement_that_cannot_be_used_three_times_stays_as_it_is_for_anybody() -> None:
+    lesson, lines = Lesson(), [motion.made("lr", 0, seed) for seed in range(5)]
+    do(lesson, [*lines[:3]])
+    assert lesson.axis == "ud"
+    assert "looked like" in lesson.sentence
+    t = do(lesson, [lines[3]], begun=13.0)
+    assert (lesson.axis, lesson.sentence) == ("fb", "")
+    do(lesson, [motion.made("fb", 0, 0)], begun=t)
+    assert lesson.over
+    assert list(lesson.own) == ["lr", "fb"]
+    assert fitted(USUAL, lesson.own).ways[1] == USUAL.ways[1]
+
+
 def test_a_sensor_that_falls_silent_begins_the_movement_anew() -> None:
     lesson = Lesson()
     take = motion.made("lr", 0, 0)

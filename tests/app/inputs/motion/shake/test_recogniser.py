@@ -124,7 +124,9 @@ def moved(*parts: tuple[tuple[float, float, float], float]) -> list[tuple[Axis, 
         ((1.0, 0.0, 1.0), []),
         ((0.8, 0.0, 1.0), [("fb", True)]),
         ((1.0, 0.6, 0.0), [("lr", False)]),
-        ((1.0, 0.9, 0.0), [("ud", True)]),
+        ((1.0, 0.7, 0.0), [("lr", False)]),
+        ((1.0, 0.9, 0.0), []),
+        ((0.6, 1.0, 0.0), [("ud", True)]),
     ],
 )
 def test_stop_is_told_inside_the_shake_only_where_it_is_clearly_left_right(
@@ -134,10 +136,25 @@ def test_stop_is_told_inside_the_shake_only_where_it_is_clearly_left_right(
     assert moved((line, 2.0)) == said
 
 
+@pytest.mark.parametrize(("turned", "cycles", "said"), [(0, 1.75, ["lr"]), (80, 1.75, []), (80, 3.2, ["lr"])])
+def test_a_phone_that_was_just_turned_takes_more_to_stop(
+    turned: float, cycles: float, said: list[str]
+) -> None:
+    """Out of a pocket: three half cycles are how a hand fumbles."""
+    count = int(60 * cycles / 1.7)
+    at = np.arange(count) / 60.0
+    shake = np.outer(7.0 * np.sin(math.tau * 1.7 * at), [1.0, 0.0, 0.0])
+    lean = np.concatenate([np.full(300, math.radians(turned)), np.linspace(math.radians(turned), 0.0, 30)])
+    poses = np.stack([0 * lean, GRAVITY * np.cos(lean), GRAVITY * np.sin(lean)], 1)
+    upright = np.tile([0.0, GRAVITY, 0.0], (180, 1))
+    samples = np.concatenate([poses, upright, upright[:1] + shake, upright])
+    assert [shake.axis for shake in heard(map(tuple, samples.tolist()))] == said
+
+
 def test_left_right_that_begins_late_in_a_long_movement_is_no_stop() -> None:
     """A phone that has been swung about for long is not being asked to stop."""
     aside, ahead = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
-    assert moved((ahead, 1.2), (aside, 1.5)) == [("lr", False)]
+    assert moved((ahead, 0.4), (aside, 1.5)) == [("lr", False)]
     assert moved((ahead, 3.0), (aside, 1.5)) == []
 
 
