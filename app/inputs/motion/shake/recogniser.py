@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -369,7 +370,7 @@ class Recogniser:
             return False
         doubts = sum(
             (
-                TURNED_DOUBTS * (self._turned(t) > TURNED),
+                TURNED_DOUBTS * (_turned(self._blocks, self._ground.upward, t) > TURNED),
                 t - run.since + 0.25 < ALL_ALONG * (t - burst.began + LEAD_TIME),
                 aslant,
                 speed < SURE_OUTRUN * background.speed,
@@ -377,13 +378,6 @@ class Recogniser:
             )
         )
         return run.count >= way.halves + doubts and run.evidence >= way.evidence * (1.0 + doubts / way.halves)
-
-    def _turned(self, t: float) -> float:
-        """How far gravity is from where it was at any time of late [rad]: a pocket, or a hand that fetches the phone."""
-        now = self._ground.upward
-        before = (block.gravity for block in self._blocks if t - block.at <= TURNED_TIME)
-        least = min((sum(a * b for a, b in zip(now, up, strict=True)) for up in before), default=1.0)
-        return math.acos(max(-1.0, min(1.0, least)))
 
     def _told(
         self, i: int, t: float, burst: _Burst, spread: Spread, scores: list[float], ended: bool = False
@@ -393,3 +387,10 @@ class Recogniser:
         much = min(1.0, best.evidence / way.evidence / SURE_AT)
         confidence = math.sqrt(much * min(1.0, spread.straight) * scores[i] / (sum(scores) or 1.0))
         return Shake(AXES[i], burst.began - LEAD_TIME, t, ended, confidence, best.mean, best.count)
+
+
+def _turned(blocks: Iterable[_Block], now: Motion, t: float) -> float:
+    """How far gravity is from where it was at any time of late [rad]: a pocket, or a hand that fetches the phone."""
+    before = (block.gravity for block in blocks if t - block.at <= TURNED_TIME)
+    least = min((sum(a * b for a, b in zip(now, up, strict=True)) for up in before), default=1.0)
+    return math.acos(max(-1.0, min(1.0, least)))
