@@ -286,7 +286,7 @@ class Recogniser:
         if 0 in burst.best and self._halves[0].count:
             spread = self._spread(max(burst.began - LEAD_TIME, self._halves[0].since - 0.25), t, background)
             scores = self._scores(spread, burst)
-            fits = self._fits(0, spread, scores, background)
+            fits = _fits(tuning, 0, spread, scores, background)
             clear = scores[0] >= tuning.ahead * max(scores[1:])
             if fits and clear and self._enough(t, self._halves[0], burst, spread, background):
                 return self._told(0, t, burst, spread, scores)
@@ -316,7 +316,7 @@ class Recogniser:
         spread = self._spread(burst.began - LEAD_TIME, burst.calm, background)
         scores = self._scores(spread, burst)
         i = max(range(3), key=scores.__getitem__)
-        if i not in burst.best or not self._fits(i, spread, scores, background):
+        if i not in burst.best or not _fits(tuning, i, spread, scores, background):
             return None
         if i == 0 and not self._enough(burst.calm, burst.best[0], burst, spread, background):
             return None
@@ -349,15 +349,6 @@ class Recogniser:
             scores[1] *= tuning.gently
         return scores
 
-    def _fits(self, i: int, spread: Spread, scores: list[float], background: _Background) -> bool:
-        """It is straight enough, fast enough, and enough of it lies along that direction."""
-        way = self._tuning.ways[i]
-        if spread.straight < way.straight or scores[i] < way.share * sum(scores):
-            return False
-        if spread.round > min(self._tuning.round, self._tuning.round_of_pace * spread.pace):
-            return False
-        return spread.along(way.way) >= max(way.speed, way.outrun * background.speed)
-
     def _enough(
         self, t: float, run: HalfCycles | _Best, burst: _Burst, spread: Spread, background: _Background
     ) -> bool:
@@ -387,6 +378,16 @@ class Recogniser:
         much = min(1.0, best.evidence / way.evidence / SURE_AT)
         confidence = math.sqrt(much * min(1.0, spread.straight) * scores[i] / (sum(scores) or 1.0))
         return Shake(AXES[i], burst.began - LEAD_TIME, t, ended, confidence, best.mean, best.count)
+
+
+def _fits(tuning: Tuning, i: int, spread: Spread, scores: list[float], background: _Background) -> bool:
+    """It is straight enough, fast enough, and enough of it lies along that direction."""
+    way = tuning.ways[i]
+    if spread.straight < way.straight or scores[i] < way.share * sum(scores):
+        return False
+    if spread.round > min(tuning.round, tuning.round_of_pace * spread.pace):
+        return False
+    return spread.along(way.way) >= max(way.speed, way.outrun * background.speed)
 
 
 def _turned(blocks: Iterable[_Block], now: Motion, t: float) -> float:
