@@ -132,10 +132,10 @@ class SimRobot:
             )
             for entry in self.simulation.world.places
         ] + [
-            Place(name=dock.name, kind="dock", x=x, y=y, yaw=yaw)
+            Place(name=dock.name, kind="dock", x=x, y=y, yaw=yaw, height=height)
             for dock in self.simulation.world.docks
             if dock.kind == charging.dock
-            for x, y, yaw in [docked(charging, dock)]
+            for x, y, yaw, height in [docked(charging, dock)]
         ]
 
     @property

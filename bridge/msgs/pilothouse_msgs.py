@@ -1502,8 +1502,9 @@ class Place(Msg, frozen=True, gc=False):
         "float64",
         "string",
         "string",
+        "float64",
     )
-    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "yaw": "rad"}
+    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "yaw": "rad", "height": "m"}
     id: int32 = 0
     """Given by the robot and never used again; 0 asks for a new place."""
     name: str = ""
@@ -1522,6 +1523,10 @@ class Place(Msg, frozen=True, gc=False):
     """Content of the card of the person who belongs here; empty without one."""
     note: str = ""
     """Message for people who are guided here; empty for none."""
+    height: float = 0.0
+    """To be at there, above the map's origin [m], negative below water, of robots that swim or fly; 0 for
+    the one that it has.
+    """
 
 
 class PlaceArray(Msg, frozen=True, gc=False):

@@ -86,6 +86,9 @@ def _check(place: Place) -> None:
     if not (math.isfinite(place.x) and math.isfinite(place.y)):
         said = f"A place's x and y must be numbers, not {place.x} and {place.y}."
         raise NotRecorded(Notice(Code.PLACE_INVALID, said))
+    if not math.isfinite(place.height):
+        said = f"A place's height must be a number, 0 for any, not {place.height}."
+        raise NotRecorded(Notice(Code.PLACE_INVALID, said))
 
 
 def _no_place(id: int) -> NotRecorded:

@@ -23,6 +23,11 @@ class OrderHeights:
         """`heights` are the lowest and the highest at which it can and may be, above the map's origin [m]."""
         self._info, self._heights = described(info), heights
 
+    @property
+    def keeps(self) -> bool:
+        """The robot keeps a height: it swims or flies."""
+        return self._info.flies or self._info.dives
+
     def check_point(self, height: float, name: str) -> None:
         """Refuse the `height` of a point [m], NaN and 0 for none; `name` is the point's, as in `Point 3`."""
         if height != 0.0:
@@ -34,7 +39,7 @@ class OrderHeights:
             return
         info = self._info
         name, at = info.name, f" at {where[0].lower()}{where[1:]}" if where else ""
-        if not (info.flies or info.dives):
+        if not self.keeps:
             said = f"{name} keeps no height; leave it out{at}."
             raise Refusal(Notice(Code.HEIGHT_UNUSED, said, robot=name))
         lowest, highest = self._heights

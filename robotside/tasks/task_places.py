@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+import msgspec
+
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Mission, Place, TaskOrder, Waypoint
 from robotside.core.notice import Notice, Problem
@@ -32,8 +34,13 @@ class TaskPlaces:
         mission = self._records.missions.current
         if mission.home:
             return mission.home[0]
-        place = next((place for place in self._records.places.all() if place.kind == "home"), None)
-        return Waypoint(place.x, place.y, place.yaw) if place else None
+        place = next((place for place in self._all() if place.kind == "home"), None)
+        return Waypoint(place.x, place.y, place.yaw, height=place.height or math.nan) if place else None
+
+    def _all(self) -> list[Place]:
+        """Every place, without a height for a robot that keeps none."""
+        kept, keeps = self._records.places.all(), self._heights.keeps
+        return kept if keeps else [msgspec.structs.replace(place, height=0.0) for place in kept]
 
     def check_mission(self, mission: Mission) -> None:
         """Look whether the robot can be at every point of `mission`, and at home, also at the height that they name."""
@@ -51,12 +58,12 @@ class TaskPlaces:
             raise Refusal(Notice(Code.PLACES_MISCOUNTED, f"{rule}, not {count}.", count=count))
         places = [self._place(name) for name in order.places]
         for place in places if stands else ():
-            self.check(place.name, place.x, place.y)
+            self.check(place.name, place.x, place.y, place.height)
         return places
 
     def docks(self) -> list[Place]:
         """The places of docks."""
-        return [place for place in self._records.places.all() if place.kind == "dock"]
+        return [place for place in self._all() if place.kind == "dock"]
 
     def dock(self, order: TaskOrder) -> Place:
         """The dock that an order names, else the first place that is one."""
@@ -69,11 +76,13 @@ class TaskPlaces:
         return docks[0]
 
     def _place(self, name: str) -> Place:
-        place, home = self._records.places.named(name), self.home()
-        if place is not None:
-            return place
+        found, home = self._records.places.named(name), self.home()
+        if found is not None:
+            return next(place for place in self._all() if place.id == found.id)
         if name.strip().casefold() == "home" and home is not None:
-            return Place(name="Home", kind="home", x=home.x, y=home.y, yaw=home.yaw)
+            return Place(
+                name="Home", kind="home", x=home.x, y=home.y, yaw=home.yaw, height=_given(home.height)
+            )
         known = [place.name for place in self._records.places.all()]
         there = ", ".join(known[:MAX_NAMED]) + (
             f" and {len(known) - MAX_NAMED} more" if len(known) > MAX_NAMED else ""
@@ -87,3 +96,8 @@ class TaskPlaces:
         if problem:
             raise Refusal(problem)
         self._heights.check_point(height, name)
+
+
+def _given(height: float) -> float:
+    """A height as a place has it: 0 for any, which a point may also give as NaN [m]."""
+    return 0.0 if math.isnan(height) else height

@@ -92,10 +92,13 @@ class ChargingContacts:
         return near and -allowed.below <= off[2] <= allowed.above and askew <= allowed.askew
 
 
-def docked(parameters: ChargingParameters, dock: Dock) -> tuple[float, float, float]:
-    """Where `base_link` is when the contacts meet: x, y [m] and yaw [rad], halfway from where they first do to where they touch."""
-    ahead, left, _ = parameters.contacts
+def docked(parameters: ChargingParameters, dock: Dock) -> tuple[float, float, float, float]:
+    """Where `base_link` is when the contacts meet: x, y [m], yaw [rad] and height [m], halfway from where they first do to where they touch.
+
+    The height is 0, for any, but under water.
+    """
+    ahead, left, up = parameters.contacts
     short = 0.0 if dock.kind == "pad" else TOLERANCES[dock.kind].short / 2
     cosine, sine = math.cos(dock.angle), math.sin(dock.angle)
-    back = ahead + short
-    return dock.x - cosine * back + sine * left, dock.y - sine * back - cosine * left, dock.angle
+    back, height = ahead + short, dock.z - up if dock.kind == "cage" else 0.0
+    return dock.x - cosine * back + sine * left, dock.y - sine * back - cosine * left, dock.angle, height

@@ -101,7 +101,8 @@ class PlaceForm(Control, BoxLayout):
     def _place(self) -> Place:
         was = self.shown
         name, kind, floor = (text.strip() for text in (self.name, self.kind, self.floor))
-        return Place(was.id, name, kind, floor, was.x, was.y, self.yaw, self.tag.strip(), self.note.strip())
+        tag, note = self.tag.strip(), self.note.strip()
+        return Place(was.id, name, kind, floor, was.x, was.y, self.yaw, tag, note, was.height)
 
     place = AliasProperty(_place, bind=["shown", "name", "kind", "floor", "tag", "note", "yaw"])
     """What it says so far."""

@@ -204,12 +204,13 @@ def _place_row(place: Place) -> dict[str, Any]:
         "yaw": _known(place.yaw),
         "tag": _text(place.tag),
         "note": _text(place.note),
+        "height": _known(place.height),
     }
 
 
 def _place(row: PlaceRow) -> Place:
-    yaw = _number(row.yaw)
-    return Place(row.id, row.name, row.kind, row.floor, row.x, row.y, yaw, row.tag, row.note)
+    yaw, height = _number(row.yaw), row.height or 0.0
+    return Place(row.id, row.name, row.kind, row.floor, row.x, row.y, yaw, row.tag, row.note, height)
 
 
 def _run_row(run: TaskRun) -> dict[str, Any]:

@@ -41,6 +41,7 @@ class PlaceRow(Base):
     yaw: Mapped[float | None] = mapped_column(Double)
     tag: Mapped[str] = mapped_column(Text)
     note: Mapped[str] = mapped_column(Text)
+    height: Mapped[float | None] = mapped_column(Double)
 
 
 class MissionRow(Base):

@@ -126,7 +126,7 @@ def single(
 
 def at_place(place: Place) -> Goal:
     """A place that has a name."""
-    return Goal(place.name, place.x, place.y, place.yaw, place.name)
+    return Goal(place.name, place.x, place.y, place.yaw, place.name, place.height)
 
 
 def _reached(course: Course, say: Say) -> bool:

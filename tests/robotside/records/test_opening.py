@@ -27,7 +27,15 @@ from robotside.records.opening import SKIPPED_AFTER_CRASH, CannotOpen, open_reco
 from tests.robotside.records.conftest import Open
 
 OFFICE = Place(
-    name="Büro 12 🚪", kind="office", floor="1", x=4.25, y=-2.0, yaw=math.pi, tag="04:a2", note="Klopfen!"
+    name="Büro 12 🚪",
+    kind="office",
+    floor="1",
+    x=4.25,
+    y=-2.0,
+    yaw=math.pi,
+    tag="04:a2",
+    note="Klopfen!",
+    height=-1.25,
 )
 ORDER = TaskOrder(task="go_to", goals=[Waypoint(1.0, 2.0)], speed=0.4)
 MIGRATIONS = Path(schema.__file__).with_name("migrations")
@@ -241,7 +249,7 @@ async def test_a_server_that_was_away_is_found_again(start: Open, url: str | Non
 
 
 NEXT = """
-revision, down_revision, branch_labels, depends_on = "0005", "0004", None, None
+revision, down_revision, branch_labels, depends_on = "0006", "0005", None, None
 
 def upgrade():
     from alembic import op
@@ -258,7 +266,7 @@ async def test_before_a_migration_the_database_is_copied_as_it_was(
     records.close()
     shutil.rmtree(state / "backups", ignore_errors=True)
     shutil.copytree(MIGRATIONS, program / "migrations")
-    (program / "migrations" / "versions" / "v0005_next.py").write_text(NEXT)
+    (program / "migrations" / "versions" / "v0006_next.py").write_text(NEXT)
     monkeypatch.setattr(schema, "__file__", str(program / "schema.py"))
     open_records(state, None, print).close()
     first = min((state / "backups").iterdir())
@@ -266,9 +274,9 @@ async def test_before_a_migration_the_database_is_copied_as_it_was(
         closing(sqlite3.connect(first)) as before,
         closing(sqlite3.connect(state / "records.sqlite3")) as now,
     ):
-        assert before.execute("SELECT version_num FROM alembic_version").fetchall() == [("0004",)]
+        assert before.execute("SELECT version_num FROM alembic_version").fetchall() == [("0005",)]
         assert before.execute("SELECT count(*) FROM places").fetchall() == [(2,)]
-        assert now.execute("SELECT version_num FROM alembic_version").fetchall() == [("0005",)]
+        assert now.execute("SELECT version_num FROM alembic_version").fetchall() == [("0006",)]
 
 
 async def test_of_two_who_write_the_second_finds_it_locked_before_it_has_looked_at_anything(

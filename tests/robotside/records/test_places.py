@@ -46,6 +46,7 @@ def test_a_name_is_one_readable_line(records: Records) -> None:
         (Place(), "A place needs a name."),
         (Place(name="\0 \n"), "A place needs a name."),
         (Place(name="OFFICE 12"), "There is a place 'Office 12' already; choose another name."),
+        (Place(name="Deep", height=math.nan), "A place's height must be a number, 0 for any, not nan."),
         (Place(id=7, name="Lab"), "There is no place with the number 7."),
         (Place(name="Lab", x=math.nan), "A place's x and y must be numbers, not nan and 0.0."),
         (Place(name="Lab", kind="moon"), "There is no kind of place 'moon'; there are place, office, home,"),

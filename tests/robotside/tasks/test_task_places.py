@@ -74,3 +74,28 @@ def test_a_mission_with_a_point_where_it_cannot_stand_is_refused(places: TaskPla
     places.check_mission(Mission(waypoints=[Waypoint(1.0, 0.0)]))
     with pytest.raises(Refusal, match=r"Point 2 is too far east\."):
         places.check_mission(Mission(waypoints=[Waypoint(1.0, 0.0), Waypoint(11.0, 0.0)]))
+
+
+def test_a_swimmer_goes_to_a_place_at_its_height_and_is_refused_one_that_it_cannot_reach(
+    records: Records,
+) -> None:
+    heights = OrderHeights(RobotInfo(name="Fin", dives=True), (-4.0, 0.0))
+    places = TaskPlaces(records, east_is_barred, heights)
+    records.places.set(Place(name="Deep", x=2.0, height=-9.0))
+    with pytest.raises(Refusal, match=r"The height of Fin at deep must be from -4 to 0 m, .*not -9 m\."):
+        places.named(TaskOrder(places=["Deep"]), 1, 1, "One place")
+    records.places.set(Place(name="Nest", kind="home", x=2.0, height=-1.5))
+    (nest,) = places.named(TaskOrder(places=["Nest"]), 1, 1, "One place")
+    assert nest.height == -1.5
+    home = places.home()
+    assert home is not None
+    assert home.height == -1.5
+
+
+def test_on_the_ground_the_height_of_a_place_is_of_no_account(places: TaskPlaces, records: Records) -> None:
+    records.places.set(Place(name="Nest", kind="home", x=2.0, height=-1.5))
+    (nest,) = places.named(TaskOrder(places=["Nest"]), 1, 1, "One place")
+    assert nest.height == 0.0
+    home = places.home()
+    assert home is not None
+    assert math.isnan(home.height)

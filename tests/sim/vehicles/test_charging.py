@@ -70,7 +70,7 @@ def test_a_drone_may_land_in_a_circle_round_the_middle():
 
 def test_they_meet_no_dock_of_another_kind():
     own = ROBOTS["patrol"].parameters.charging
-    x, y, yaw = docked(own, pad := Dock(0.0, 0.0, name="pad", kind="pad"))
+    x, y, yaw, _ = docked(own, pad := Dock(0.0, 0.0, name="pad", kind="pad"))
     assert ChargingContacts(own, [pad]).dock_at(state(x, y, 0.0, yaw)) is None
 
 

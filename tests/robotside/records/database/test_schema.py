@@ -67,7 +67,7 @@ async def test_a_database_of_a_newer_program_is_not_touched(
             connection.execute(text("PRAGMA user_version = 999"))
     engine.dispose()
     with pytest.raises(
-        CannotOpen, match="of a newer program.*revision '0999', this program knows up to '0004'"
+        CannotOpen, match="of a newer program.*revision '0999', this program knows up to '0005'"
     ):
         start()
 
