@@ -43,6 +43,7 @@ from robotside.localisation.odometry_track import OdometryTrack
 from robotside.localisation.pose_estimator import PoseEstimator
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.navigator import Navigator
+from robotside.perception.cage_finder import FrontView
 from robotside.perception.intruder_watch import IntruderWatch
 from robotside.records import Records
 from robotside.records.events import Events
@@ -253,6 +254,7 @@ class Autonomy:
         estimator = self.pose_estimator
         estimator.on_odometry(msg)
         self.situation.odom = Pose2.from_msg(msg.pose.pose)
+        self.situation.moving = _moving(msg)
         self._wheels.add(msg.header.stamp.seconds, self.situation.odom)
         self.navigator.measured(estimator.vertical.height)
         pose = estimator.pose
@@ -282,6 +284,13 @@ class Autonomy:
         """Pictures come while a task runs and while a client wants them: who drives by hand sees detections too."""
         self.situation.picture, self.situation.picture_stamp = image.data, image.header.stamp.seconds
         self.situation.pictured = self._wheels.at(image.header.stamp.seconds) or self.situation.odom
+        self.situation.ahead = FrontView(
+            image.data,
+            image.header.stamp.seconds,
+            self.situation.pictured,
+            *self._ground.tilt(image.header.stamp.seconds),
+            self.pose_estimator.vertical.height,
+        )
         self.watch.on_image(image, placing=self.pose_estimator.sure)
 
     def _on_battery(self, msg: BatteryState) -> None:
@@ -304,6 +313,12 @@ class Autonomy:
     def _show_status(self, status: TaskStatus) -> None:
         self._demand.set(CAMERA, "task", status.state == "RUNNING")
         self.status_publisher.show(status)
+
+
+def _moving(msg: Odometry) -> Pose2:
+    """The speeds that odometry tells; 0 for one that is no number."""
+    along, turning = msg.twist.twist.linear, msg.twist.twist.angular
+    return Pose2(*(part if math.isfinite(part) else 0.0 for part in (along.x, along.y, turning.z)))
 
 
 def _watch(

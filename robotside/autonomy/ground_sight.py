@@ -40,7 +40,7 @@ class GroundSight:
             self._tilts.append((msg.header.stamp.seconds, turned.roll, turned.pitch))
         elif topic == self._topic and isinstance(msg, CompressedImage):
             stamp = msg.header.stamp.seconds
-            roll, pitch = self._tilt(stamp)
+            roll, pitch = self.tilt(stamp)
             wheels = self._wheels.at(stamp) or here.odom
             here.ground = GroundView(msg.data, stamp, wheels, roll, pitch, here.below)
 
@@ -49,7 +49,7 @@ class GroundSight:
         if self._topic:
             self._demand.set(self._topic, "task", self._situation.looks_down)
 
-    def _tilt(self, stamp: float) -> tuple[float, float]:
+    def tilt(self, stamp: float) -> tuple[float, float]:
         """Roll and pitch at a time [s]; level before any was measured."""
         near = min(self._tilts, key=lambda tilt: abs(tilt[0] - stamp), default=(stamp, 0.0, 0.0))
         return near[1], near[2]

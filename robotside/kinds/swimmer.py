@@ -24,6 +24,7 @@ KIND = VehicleKind(
     ),
     handling=Handling(braking=0.2, turning=0.6, drifts=True, glide=0.7, levelling=0.08),
     safe_state=SafeStateDefaults("hold_depth", hold_for=60.0, then="surface"),
+    docks="cage",
     dives=True,
     at_rest=(0.08, 0.08),
     astray=1.5,

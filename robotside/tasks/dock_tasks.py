@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from py_trees.behaviour import Behaviour
 from py_trees.composites import Sequence as Chain
@@ -15,6 +15,7 @@ from robotside.core.pose2 import Pose2
 from robotside.core.refusal import Refusal
 from robotside.kinds.registry import kind_of
 from robotside.navigation.navigator import Navigator
+from robotside.perception.cage_finder import CageFinder
 from robotside.perception.dock_finder import DockFinder
 from robotside.perception.dock_track import DockTrack
 from robotside.perception.pad_finder import DOWN, PadFinder
@@ -26,6 +27,7 @@ from robotside.tasks.behaviours.course import Course, Span
 from robotside.tasks.behaviours.dock import Dock, start
 from robotside.tasks.behaviours.situation import Situation
 from robotside.tasks.behaviours.undock import Undock
+from robotside.tasks.berthing.cage_docking import LEAN, STANDOFFS, CageDocking
 from robotside.tasks.berthing.pad_landing import PadLanding, first_goal
 from robotside.tasks.engine import Task
 from robotside.tasks.task_places import TaskPlaces
@@ -34,8 +36,10 @@ __all__ = ["DockTasks", "docks"]
 
 
 def docks(info: RobotInfo) -> bool:
-    """The robot can come to a charger of its kind; down onto a pad only with a camera that looks there."""
+    """The robot can come to a charger of its kind; down onto a pad, or into a cage, only with a camera that looks there."""
     how = kind_of(info.kind).docks
+    if how == "cage":
+        return bool(info.cameras) and "course" in info.manoeuvres
     return bool(how) and (how != "pad" or (DOWN in info.cameras and "land" in info.manoeuvres))
 
 
@@ -56,7 +60,8 @@ class DockTasks:
         self._places, self._navigator, self._situation, self._info = places, navigator, situation, info
         self._say, self._fault = say, fault
         self._approach = Approach.of(info)
-        self._flies = kind_of(info.kind).docks == "pad"
+        self._how = kind_of(info.kind).docks
+        self._flies = self._how == "pad"
 
     def dock(self, order: TaskOrder) -> Task:
         """Onto a dock, and to stay there until the battery has what the order says."""
@@ -69,7 +74,7 @@ class DockTasks:
         if math.isnan(until):
             done = f"Docked at {dock.name}: the battery takes charge."
             return Task("dock", "Docking", tree, course, done=lambda: done)
-        charge = Charge(until, dock.name, self._navigator, self._situation, self._say)
+        charge = self._charge(until, dock)
         chain = Chain("dock and charge", memory=True, children=[tree, charge])
 
         def charged() -> str:
@@ -97,15 +102,29 @@ class DockTasks:
         """What a task is interrupted by to charge up to a share, 0 to 1; the task goes on outside of the dock."""
         dock = self._places.dock(TaskOrder(task="dock"))
         tree, _ = self._onto(dock)
-        charge = Charge(until, dock.name, self._navigator, self._situation, self._say)
+        charge = self._charge(until, dock)
         children = [tree, charge] if self._flies else [tree, charge, self._leave()]
         return Chain("charge first", memory=True, children=children)
+
+    def _charge(self, until: float, dock: Place) -> Charge:
+        lean = LEAN if self._how == "cage" else math.nan
+        return Charge(until, dock.name, self._navigator, self._situation, self._say, lean)
 
     def _leave(self) -> Undock:
         return Undock(self._places.docks, self._navigator, self._situation, self._approach)
 
     def _onto(self, dock: Place) -> tuple[Behaviour, Course]:
-        return self._down_onto(dock) if self._flies else self._up_to(dock)
+        ways = {"pad": self._down_onto, "cage": self._into}
+        return ways.get(self._how, self._up_to)(dock)
+
+    def _into(self, cage: Place) -> tuple[Behaviour, Course]:
+        finder = CageFinder(self._info.camera_fov, self._approach.front)
+        if not finder.able:
+            said = "Cages cannot be found: the library that reads their tags is not installed."
+            raise Refusal(Notice(Code.DOCK_UNSEEN, said, place=cage.name))
+        course = self._before(cage, STANDOFFS)
+        tree = CageDocking(cage, course, self._navigator, self._situation, finder.find, self._approach.front)
+        return tree, course
 
     def _down_onto(self, pad: Place) -> tuple[Behaviour, Course]:
         finder = PadFinder()
@@ -119,14 +138,19 @@ class DockTasks:
         tree = PadLanding(pad, course, self._navigator, self._situation, finder.find, self._fault)
         return tree, course
 
-    def _up_to(self, dock: Place) -> tuple[Behaviour, Course]:
+    def _before(self, dock: Place, distances: Sequence[float]) -> Course:
+        """To where the approach begins, at one of the `distances` [m]."""
         if math.isnan(dock.yaw):
             said = f"{dock.name} has no direction; docking needs the one to stand in there."
             raise Refusal(Notice(Code.DOCK_UNDIRECTED, said, place=dock.name))
-        first = start(dock, self._approach.standoffs, self._fault)
-        self._places.check(f"The place before {dock.name}", first.x, first.y)
+        first = start(dock, distances, self._fault)
+        self._places.check(f"The place before {dock.name}", first.x, first.y, dock.height)
         course = Course([first])
         course.index = 0
+        return course
+
+    def _up_to(self, dock: Place) -> tuple[Behaviour, Course]:
+        course = self._before(dock, self._approach.standoffs)
         tags = TagFinder(self._info.camera_fov) if self._info.cameras else None
         track = DockTrack(DockFinder(Pose2(self._info.laser_x, 0.0, 0.0)), tags)
         return Dock(dock, course, self._navigator, self._situation, self._approach, track), course

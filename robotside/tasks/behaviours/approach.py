@@ -11,6 +11,7 @@ from bridge.core.units import wrap
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.core.pose2 import Points, Pose2
+from robotside.kinds.registry import kind_of
 
 __all__ = ["CREEP_SPEED", "DOCK_NEAR", "RETREAT_SPEED", "Approach"]
 
@@ -64,7 +65,9 @@ class Approach:
         rear = -min((corner.x for corner in info.footprint), default=-info.radius)
         half = max((abs(corner.y) for corner in info.footprint), default=info.radius)
         away = (6.0, 5.0, 4.0) if info.min_radius > 0 else (2.0, 1.6, 1.2, 0.8)
-        return cls(front, rear, half, info.min_radius, away, 2.0 if info.min_radius > 0 else 0.7)
+        swims = kind_of(info.kind).docks == "cage"  # it turns only clear of the cage
+        leave = 2.0 if info.min_radius > 0 else 1.3 if swims else 0.7
+        return cls(front, rear, half, info.min_radius, away, leave)
 
     def steer(self, robot: Pose2) -> Twist:
         """The next bit of the way of a `robot`, whose pose is in the dock's frame."""

@@ -8,6 +8,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from bridge.core.codes import Code
+from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.msgs.sensor_msgs import BatteryState
 from robotside.core.notice import Notice
 from robotside.navigation.navigator import Navigator
@@ -41,14 +42,24 @@ class Charge(Behaviour):
     """Succeeds with the charge that is wanted, or when an operator has it go on; fails when the dock gives none any more, or the battery is silent."""
 
     def __init__(
-        self, until: float, place: str, navigator: Navigator, situation: Situation, say: Say
+        self,
+        until: float,
+        place: str,
+        navigator: Navigator,
+        situation: Situation,
+        say: Say,
+        lean: float = math.nan,
     ) -> None:
-        """`until` is the charge that it goes on with, 0 to 1; `place` is the dock's name."""
+        """`until` is the charge that it goes on with, 0 to 1; `place` is the dock's name.
+
+        `lean` is the push [m/s] by which one that nothing holds stays at its contacts, at its depth; NaN for one that stands.
+        """
         super().__init__("charge")
         self._until, self._place = until, place
         self._navigator, self._situation, self._say = navigator, situation, say
         self._began = self._charged = self._heard = 0.0
-        self._first = math.nan
+        self._first = self._height = math.nan
+        self._lean = lean
 
     def initialise(self) -> None:
         """Stand there."""
@@ -56,10 +67,13 @@ class Charge(Behaviour):
         self._situation.forget_confirmation()
         self._began = self._charged = self._situation.worked
         self._first, self._heard = self._situation.charge, self._situation.now
+        self._height = self._navigator.height
 
     def update(self) -> Status:
         """Wait."""
         now = self._situation
+        if not math.isnan(self._lean):
+            self._navigator.command(Manoeuvre(kind="course", speed=self._lean, height=self._height))
         full = now.power == BatteryState.POWER_SUPPLY_STATUS_FULL
         if full or now.charge >= self._until - 1e-6 or self._sent_on():
             return Status.SUCCESS

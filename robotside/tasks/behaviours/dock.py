@@ -78,7 +78,7 @@ _SEEN = {
 def before(dock: Place, distance: float) -> Goal:
     """Where the approach begins, so far from where the robot stands docked [m]; `dock` has a direction."""
     x, y = dock.x - distance * math.cos(dock.yaw), dock.y - distance * math.sin(dock.yaw)
-    return Goal(dock.name, x, y, dock.yaw, dock.name)
+    return Goal(dock.name, x, y, dock.yaw, dock.name, dock.height)
 
 
 def start(dock: Place, distances: Sequence[float], fault: Callable[[str, float, float], str]) -> Goal:

@@ -10,6 +10,7 @@ import numpy as np
 
 from bridge.msgs.sensor_msgs import LaserScan
 from robotside.core.pose2 import ORIGIN, Points, Pose2
+from robotside.perception.cage_finder import NOTHING_AHEAD, FrontView
 from robotside.perception.pad_finder import NOTHING_BELOW, GroundView
 
 __all__ = ["Doing", "Seen", "Situation"]
@@ -97,6 +98,10 @@ class Situation:
     """The newest of those; without a picture before the first."""
     below: float = math.nan
     """To the ground straight below [m]; no finite number where that is out of reach or not measured."""
+    ahead: FrontView = NOTHING_AHEAD
+    """The same of the first camera, with how the robot hung in the water or in the air then."""
+    moving: Pose2 = ORIGIN
+    """Measured speed ahead and to the left [m/s] and turning [rad/s], over ground as far as the log knows it; 0 for what is not measured."""
     odom: Pose2 = ORIGIN
     """Where the wheels are now, in the frame of the odometry."""
     touched: bool = False
