@@ -19,7 +19,7 @@ from robotside.navigation.navigator import LegState, Navigator
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.situation import Situation
 from robotside.tasks.berthing.cage_sight import FRESH, CageSight, Look
-from robotside.tasks.berthing.cage_steering import CageSteering, Push
+from robotside.tasks.berthing.cage_steering import SLIDE, CageSteering, Push
 
 __all__ = ["MAX_TRIES", "STANDOFFS", "CageDocking"]
 
@@ -44,19 +44,19 @@ ENTRANCE = 0.55
 GATE = 0.25
 """With its nose so far before the entrance it has to be on the line [m]."""
 
-MAX_OFF, MAX_SLIDE, MAX_ASKEW, MAX_LIFT = 0.10, 0.04, 0.25, 0.10
-"""There it is no farther off the line, no faster aside, no more askew and no farther off the height of the coil [m, m/s, rad, m]."""
+MAX_OFF, MAX_MISS, MAX_ASKEW, MAX_LIFT = 0.12, 0.12, 0.4, 0.10
+"""There it is no farther off the line, would miss the coil as it slides by no more, and is no more askew and no farther off its height [m, m, rad, m]."""
 
 BACK = 1.9
 """It goes back to here to come in anew: its nose before the coil [m]."""
 
-FAST, SLOW, CREEP, ASTERN = 0.18, 0.10, 0.05, 0.15
-"""On the way up to the gate, from there, at the coil, and back [m/s]."""
+FAST, CREEP, ASTERN = 0.2, 0.05, 0.15
+"""On the way in, at the coil, and back [m/s]: slower, its fins have no push to steer by."""
 
-BRAKE_GAIN = 0.35
-"""Speed for a way that is left [1/s]."""
+BRAKE_GAIN, BRAKES = 0.45, 0.4
+"""Speed for a way that is left [1/s]; so near to the coil it brakes, and straight, for astern its fins steer the other way [m]."""
 
-TURN_OUT, TURN_IN = 0.3, 0.2
+TURN_OUT, TURN_IN = 0.35, 0.35
 """It looks aside no farther than this before the gate and beyond it [rad]."""
 
 AT_COIL, LEAN, AT_REST = 0.03, 0.05, 0.015
@@ -66,7 +66,7 @@ TOUCH = 0.10
 """With its nose so near to the coil it waits for the charge [m]."""
 
 STILL, STRAIGHT, ON_LINE = 0.04, 0.12, 0.06
-"""Slower than the first it is at rest, less askew than the second straight, and no farther off than the third on the line [m/s, rad, m]."""
+"""Slower than the first along it, and than `SLIDE` aside, it is at rest, less askew than the second straight, nearer than the third on the line [m/s, rad, m]."""
 
 NEAREST, FARTHEST = 1.2, 2.6
 """From where it may come up: its nose before the coil [m]."""
@@ -205,10 +205,10 @@ class CageDocking(Behaviour):
         return self._cage.height or self._navigator.height
 
     def _seek(self) -> Status:
-        guess = self._on_map()
-        self._sight.take(guess)
+        self._sight.take(self._on_map())
+        guess = self._pose()
         self._tell(f"Looking for {self._cage.name}.")
-        if self._sight.known:
+        if self._sight.known and self._sight.age < FRESH:
             self._enter(_Stage.ALIGN)
             return Status.RUNNING
         still = math.hypot(*self._moving(guess)) < STILL or self._spent > STILL_TIMEOUT
@@ -228,7 +228,8 @@ class CageDocking(Behaviour):
         if self._lost():
             return Status.RUNNING
         now, (robot, gap), cage = self._situation, self._where(), self._pose()
-        rests = math.hypot(*self._moving(cage)) < STILL and abs(robot.yaw) < STRAIGHT
+        along, aside = self._moving(cage)
+        rests = abs(along) < STILL and abs(aside) < SLIDE and abs(robot.yaw) < STRAIGHT
         level = abs(self._navigator.height - self._wanted()) < MAX_LIFT
         settled = rests and level and abs(robot.y) < ON_LINE and NEAREST < gap < FARTHEST
         self._settled = min(self._settled, now.worked) if settled else math.inf
@@ -245,7 +246,6 @@ class CageDocking(Behaviour):
         """Its tag was lost from sight: look for it anew."""
         if self._sight.age <= LOST_TIMEOUT:
             return False
-        self._sight.forget()
         self._enter(_Stage.SEEK)
         return True
 
@@ -264,15 +264,16 @@ class CageDocking(Behaviour):
             self._enter(_Stage.ENTER)
             return Status.RUNNING
         self._tell(f"Coming up to {self._cage.name}, by its tag.")
-        self._go(self._pose(), min(FAST, SLOW + BRAKE_GAIN * left), TURN_OUT)
+        self._go(self._pose(), FAST, TURN_OUT)
         return Status.RUNNING
 
     def _astray(self, robot: Pose2) -> bool:
         """It is not so that it may go in."""
         lift = abs(self._navigator.height - self._wanted())
-        slides = abs(self._moving(self._pose())[1]) > MAX_SLIDE
-        askew = abs(robot.yaw) > MAX_ASKEW
-        return abs(robot.y) > MAX_OFF or slides or askew or lift > MAX_LIFT or self._sight.age > FRESH
+        along, aside = self._moving(self._pose())
+        miss = robot.y + aside * (ENTRANCE + GATE) / max(along, CREEP)
+        off = max(abs(robot.y) / MAX_OFF, abs(miss) / MAX_MISS, abs(robot.yaw) / MAX_ASKEW, lift / MAX_LIFT)
+        return off > 1.0 or self._sight.age > FRESH
 
     def _go_in(self) -> Status:
         self._sight.take(self._on_map())
@@ -283,8 +284,8 @@ class CageDocking(Behaviour):
         if self._spent > ENTER_TIMEOUT:
             return self._again(f"{self._cage.name} was not reached: something holds the robot.")
         self._tell(f"Going into {self._cage.name}.", touches=gap < ENTRANCE)
-        ahead = max(CREEP, min(SLOW, BRAKE_GAIN * gap))
-        self._go(self._pose(), ahead, TURN_IN)
+        ahead = max(CREEP, min(FAST, BRAKE_GAIN * gap))
+        self._go(self._pose(), ahead, TURN_IN if gap > BRAKES else 0.0)
         return Status.RUNNING
 
     @property
@@ -314,7 +315,7 @@ class CageDocking(Behaviour):
         """Come up to the coil and lean on it: what still slides aside would leave it again."""
         cage = self._pose()
         if -cage.inverse().x - self._front > AT_COIL:
-            self._go(cage, CREEP, TURN_IN)
+            self._go(cage, CREEP, 0.0)
         else:
             self._do(cage, self._steering.lean(LEAN), self._wanted())
 
@@ -336,7 +337,7 @@ class CageDocking(Behaviour):
             self._enter(_Stage.ALIGN)
             return Status.RUNNING
         self._tell(f"Going back to try {self._cage.name} again.", touches=gap < ENTRANCE)
-        self._go(self._pose(), -ASTERN, TURN_IN)
+        self._go(self._pose(), -ASTERN, 0.0 if gap < ENTRANCE else TURN_IN)
         return Status.RUNNING
 
     def _pose(self) -> Pose2:

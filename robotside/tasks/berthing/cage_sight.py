@@ -82,7 +82,9 @@ class CageSight:
         if not view.stamp > self._stamp or now.now < self._next:
             return
         self._stamp, self._next = view.stamp, now.now + PICTURE_PERIOD
-        expected, reach = (self._there(), LATER) if self.known else (now.odom.then(guess), REACH)
+        expected, reach = (
+            (self._there(), LATER + DRIFT * self.age) if self.known else (now.odom.then(guess), REACH)
+        )
         near = [
             seen
             for seen in self._look(view)

@@ -12,13 +12,16 @@ from bridge.core.units import wrap
 from robotside.core.pose2 import Pose2
 from robotside.motion.speed_limit import within
 
-__all__ = ["CageSteering", "Push", "Velocity"]
+__all__ = ["SLIDE", "CageSteering", "Push", "Velocity"]
 
 KEEP_GAIN, MAX_KEEP_SPEED = 0.3, 0.12
 """Wanted speed for a way off the point that is kept [1/s], and the most [m/s]."""
 
-SLIDE = 0.03
+SLIDE = 0.02
 """A speed that is off by more is worth looking along it, to push or to brake [m/s]."""
+
+NEAR = 0.05
+"""So near to the point it is there [m]."""
 
 MAX_LOOK = 1.8
 """It looks aside no farther than this for that: it goes astern instead [rad]."""
@@ -74,8 +77,8 @@ class CageSteering:
         """
         self._learn(robot, moving, now)
         away = point[0] - robot.x, point[1] - robot.y
-        fast = KEEP_GAIN * math.hypot(*away)
-        share = KEEP_GAIN * min(1.0, MAX_KEEP_SPEED / fast) if fast else 0.0
+        far = math.hypot(*away)
+        share = min(KEEP_GAIN, MAX_KEEP_SPEED / far) if far > NEAR else 0.0
         wanted = share * away[0], share * away[1]
         off = wanted[0] - moving[0], wanted[1] - moving[1]
         yaw = look
