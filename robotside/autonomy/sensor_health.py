@@ -98,8 +98,9 @@ class SensorHealth:
         sure: bool = True,
         height: float = math.nan,
         height_spread: float = 0.0,
+        charging: bool = False,
     ) -> MeasuredState:
-        """All of it, with the pose in `map` and the height that were made of it, and how sure those are."""
+        """All of it, with the pose in `map` and the height that were made of it, and how sure those are; and whether it is `charging`."""
         return replace(
             self._measured,
             pose=pose,
@@ -107,6 +108,7 @@ class SensorHealth:
             sure=sure,
             height=height,
             height_spread=height_spread,
+            charging=charging,
         )
 
     def silent(self, now: float) -> list[str]:

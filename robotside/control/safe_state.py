@@ -120,9 +120,10 @@ class SafeState:
         self._then = {"hover": "land", "hold_depth": "surface"}.get(self._action, "stay")
 
     def step(self, now: float, measured: MeasuredState, *, lost: bool) -> Act:
-        """What to do at `now` [s]; `lost` while there is no one who could drive it."""
+        """What to do at `now` [s]; `lost` while there is no one who could drive it. One that charges stays where it is."""
         if self._begun is None:
             return BRAKE
+        lost = lost and not measured.charging  # it is where it should be
         self._lost = (now if self._lost is None else self._lost) if lost else None
         due = self._lost is not None and now - self._lost >= self._hold_for
         if self._then == "stay" or not (due or self._after is not None):

@@ -31,6 +31,8 @@ class MeasuredState(msgspec.Struct, frozen=True):
     """The robot holds the pose for right."""
     landed: bool = False
     """It says itself that it is on the ground, rotors off; False for one that does not fly."""
+    charging: bool = False
+    """It takes charge in a dock, or is full there."""
     overturned: bool = False
     """It says itself that it lies there on its back."""
     touched: float | None = None

@@ -304,7 +304,12 @@ class Station:
         where = self.autonomy.pose_estimator
         up = where.vertical
         return self.readiness.sensor_health.measured(
-            where.pose, spread=where.spread, sure=where.sure, height=up.height, height_spread=up.spread
+            where.pose,
+            spread=where.spread,
+            sure=where.sure,
+            height=up.height,
+            height_spread=up.spread,
+            charging=self.autonomy.situation.charging,
         )
 
     def _hold_queue(self, why: str) -> None:

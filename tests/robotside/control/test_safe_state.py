@@ -215,3 +215,13 @@ def test_one_that_lands_without_knowing_its_height_stops_landing_after_a_while()
     assert body.lose(MAX_ENDING_TIME).phase == "lands"
     assert body.lose(15.0).phase == "has landed"
     assert body.acts[-1].twist is None
+
+
+def test_a_swimmer_that_charges_does_not_surface_out_of_its_cage_until_the_charge_is_lost() -> None:
+    safe = SafeState("hexapod", DEFAULT_CONFIG.safe_state)
+    docked = MeasuredState(height=-1.5, charging=True)
+    safe.enter(0.0, docked)
+    assert {safe.step(10.0 * n, docked, lost=True).phase for n in range(100)} == {"holds its depth"}
+    loose = replace(docked, charging=False)
+    safe.step(1000.0, loose, lost=True)
+    assert safe.step(1061.0, loose, lost=True).phase == "surfaces"

@@ -7,6 +7,7 @@ import math
 import pytest
 from py_trees.common import Status
 
+from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.tasks.behaviours.charge import LOST_TIMEOUT, QUIET_TIME, SILENCE_TIMEOUT, Charge
 from tests.robotside.tasks.behaviours.stage import Stage
 
@@ -122,3 +123,17 @@ def test_a_battery_that_is_heard_again_charges_on(stage: Stage) -> None:
     stage.mute = False
     assert stage.tick(tree, 2.0) is Status.RUNNING
     assert stage.situation.doing.text == "Charging at Dock, 50%, goes on at 80%."
+
+
+def test_one_that_nothing_holds_leans_on_its_contacts_at_its_depth_and_others_do_nothing(stage: Stage) -> None:
+    stage.tick(make(stage))
+    orders: list[Manoeuvre] = []
+    stage.navigator.command = orders.append  # type: ignore[method-assign]
+    stage.tick(make(stage))
+    assert not orders
+    stage.navigator.measured(-1.5)
+    tree = Charge(0.8, "Cage", stage.navigator, stage.situation, stage.say, 0.05)
+    stage.tick(tree)
+    stage.navigator.measured(-1.2)
+    stage.tick(tree)
+    assert {(order.kind, order.speed, order.height) for order in orders} == {("course", 0.05, -1.5)}
