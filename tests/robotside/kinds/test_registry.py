@@ -74,6 +74,8 @@ def test_which_tasks_there_are_depends_on_kind_and_manoeuvres() -> None:
     assert known("ackermann", "twist", "steer") == EVERYWHERE
     assert known("hexapod", "course", "surface") == [*EVERYWHERE, "surface"]
     assert known("quadrotor", "hover", "take_off", "land") == [*EVERYWHERE, "take_off", "land"]
+    looks = RobotInfo(kind="hexapod", manoeuvres=["course", "surface"], cameras=["front"])
+    assert tasks_of(looks) == [*EVERYWHERE, "dock", "undock", "surface"]
     sees = RobotInfo(kind="quadrotor", manoeuvres=["take_off", "land"], cameras=["front", "down"])
     assert tasks_of(sees) == [*EVERYWHERE, "dock", "take_off", "land"]
 

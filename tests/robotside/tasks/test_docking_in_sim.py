@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from bridge.msgs.pilothouse_msgs import Place, SetPlaceRequest, Waypoint
+from bridge.msgs.pilothouse_msgs import CommandRequest, Manoeuvre, Place, SetPlaceRequest, Waypoint
 from robotside.core.pose2 import ORIGIN, Pose2
+from sim.core.shapes import from_yaw
 from sim.robot import make
 from tests.robotside.sim_run import Run
 
@@ -26,7 +27,8 @@ def start(tmp_path: Path) -> Iterator[Callable[..., Run]]:
         runs.append(run)
         dock = next(place for place in run.robot.places if place.kind == "dock")
         x, y, yaw = Pose2(dock.x, dock.y, dock.yaw).then(off)
-        run.ask("/places/set", SetPlaceRequest(place=Place(name="Charger", kind="dock", x=x, y=y, yaw=yaw)))
+        place = Place(name="Charger", kind="dock", x=x, y=y, yaw=yaw, height=dock.height)
+        run.ask("/places/set", SetPlaceRequest(place=place))
         return run
 
     yield begin
@@ -124,5 +126,80 @@ def test_a_low_battery_has_a_drone_charge_on_its_pad_and_go_on_with_its_patrol(
     run.until(lambda: run.task.phase == "taking off", 60.0)
     assert battery.charge >= 0.8
     run.finish(120.0)
+    assert (run.task.state, run.task.visited) == ("SUCCEEDED", 2)
+    assert not docked(run)
+
+
+def swim_before(run: Run, away: float, aside: float, turned: float) -> None:
+    """Put the swimmer before its cage, at rest and at its depth, `away` from where it is docked [m], and have the robot side know it."""
+    dock = next(place for place in run.robot.places if place.kind == "dock")
+    at = Pose2(dock.x, dock.y, dock.yaw).then(Pose2(-away, aside, turned))
+    simulation = run.robot.simulation
+    simulation.backend.place(simulation.vehicle.body, (at.x, at.y, dock.height), from_yaw(at.yaw))
+    run.robot.manoeuvre(Manoeuvre(kind="hover", yaw=at.yaw, height=dock.height))
+    run.wait(1.0)
+    run.station.autonomy.place(Pose2(*simulation.pose()))
+
+
+def test_before_a_cage_that_is_not_there_the_swimmer_says_so_and_goes_in_nowhere(
+    start: Callable[..., Run],
+) -> None:
+    run = start("aqua", "tank", Pose2(-4.5, 0.0, 0.0), camera=True)
+    run.order("dock", "Charger")
+    trail = run.finish(200.0)
+    assert run.task.reason == (
+        "Charger is not seen: no tag of a cage is where it should be; the robot keeps its depth there."
+    )
+    assert min(y for _, y in trail) > -4.0
+    assert run.robot.simulation.contacts == 0
+
+
+def test_stop_holds_a_swimmer_on_its_way_into_the_cage(start: Callable[..., Run]) -> None:
+    run = start("aqua", "tank", camera=True)
+    swim_before(run, 2.0, 0.2, 0.1)
+    run.order("dock", "Charger")
+    run.until(lambda: run.task.reason.startswith("Coming up"), 120.0)
+    run.ask("/stop", CommandRequest())
+    run.wait(0.2)
+    assert run.robot.simulation.vehicle.order.kind == "rest"
+    run.wait(3.0)
+    assert run.robot.simulation.vehicle.order.kind == "rest"
+    assert not docked(run)
+
+
+@pytest.mark.parametrize(("world", "aside", "turned"), [("tank", 0.3, 10), ("lake", -0.2, -10)])
+def test_by_the_tag_over_the_coil_the_swimmer_docks_though_the_map_has_the_cage_elsewhere(
+    start: Callable[..., Run], world: str, aside: float, turned: int
+) -> None:
+    run = start("aqua", world, Pose2(-0.2, aside, math.radians(turned)), camera=True)
+    swim_before(run, 2.2, 0.3, -0.2)
+    run.order("dock", "Charger")
+    run.finish()
+    assert run.task.reason == "Docked at Charger: the battery takes charge."
+    run.wait(10.0)
+    assert docked(run)
+    run.order("undock")
+    run.finish()
+    assert run.task.reason == "Out of Charger."
+    assert not docked(run)
+
+
+def test_a_low_battery_has_a_swimmer_charge_in_its_cage_and_go_on_with_its_patrol(
+    start: Callable[..., Run],
+) -> None:
+    run = start("aqua", "tank", Pose2(0.1, 0.2, 0.1), camera=True)
+    battery = run.robot.simulation.vehicle.battery
+    run.patrol([Waypoint(-8.0, -2.5), Waypoint(-6.5, -2.0)], home=[Waypoint(-7.0, 0.0)])
+    run.until(lambda: run.task.phase == "driving", 10.0)
+    battery.charge = 0.14
+    run.until(lambda: run.task.phase == "charging", 200.0)
+    assert docked(run)
+    assert run.task.task == "patrol"
+    run.wait(20.0)
+    assert docked(run)
+    battery.charge = 0.795
+    run.until(lambda: run.task.phase == "undocking", 120.0)
+    assert battery.charge >= 0.8
+    run.finish(200.0)
     assert (run.task.state, run.task.visited) == ("SUCCEEDED", 2)
     assert not docked(run)

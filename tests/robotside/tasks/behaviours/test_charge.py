@@ -125,7 +125,9 @@ def test_a_battery_that_is_heard_again_charges_on(stage: Stage) -> None:
     assert stage.situation.doing.text == "Charging at Dock, 50%, goes on at 80%."
 
 
-def test_one_that_nothing_holds_leans_on_its_contacts_at_its_depth_and_others_do_nothing(stage: Stage) -> None:
+def test_one_that_nothing_holds_leans_on_its_contacts_at_its_depth_and_others_do_nothing(
+    stage: Stage,
+) -> None:
     stage.tick(make(stage))
     orders: list[Manoeuvre] = []
     stage.navigator.command = orders.append  # type: ignore[method-assign]
