@@ -43,7 +43,6 @@ from robotside.localisation.odometry_track import OdometryTrack
 from robotside.localisation.pose_estimator import PoseEstimator
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.navigator import Navigator
-from robotside.perception.cage_finder import FrontView
 from robotside.perception.intruder_watch import IntruderWatch
 from robotside.records import Records
 from robotside.records.events import Events
@@ -284,13 +283,7 @@ class Autonomy:
         """Pictures come while a task runs and while a client wants them: who drives by hand sees detections too."""
         self.situation.picture, self.situation.picture_stamp = image.data, image.header.stamp.seconds
         self.situation.pictured = self._wheels.at(image.header.stamp.seconds) or self.situation.odom
-        self.situation.ahead = FrontView(
-            image.data,
-            image.header.stamp.seconds,
-            self.situation.pictured,
-            *self._ground.tilt(image.header.stamp.seconds),
-            self.pose_estimator.vertical.height,
-        )
+        self.situation.ahead = self._ground.ahead(image, self.situation.pictured, self.navigator.height)
         self.watch.on_image(image, placing=self.pose_estimator.sure)
 
     def _on_battery(self, msg: BatteryState) -> None:

@@ -8,8 +8,10 @@ from collections.abc import Sequence
 from bridge.core.topics import camera_topics
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import CompressedImage, Imu, Range
+from robotside.core.pose2 import Pose2
 from robotside.core.topic_demand import Demand
 from robotside.localisation.odometry_track import OdometryTrack
+from robotside.perception.cage_finder import FrontView
 from robotside.perception.pad_finder import DOWN, GroundView
 from robotside.tasks.behaviours.situation import Situation
 
@@ -40,16 +42,21 @@ class GroundSight:
             self._tilts.append((msg.header.stamp.seconds, turned.roll, turned.pitch))
         elif topic == self._topic and isinstance(msg, CompressedImage):
             stamp = msg.header.stamp.seconds
-            roll, pitch = self.tilt(stamp)
+            roll, pitch = self._tilt(stamp)
             wheels = self._wheels.at(stamp) or here.odom
             here.ground = GroundView(msg.data, stamp, wheels, roll, pitch, here.below)
+
+    def ahead(self, image: CompressedImage, wheels: Pose2, height: float) -> FrontView:
+        """A picture of what is ahead, taken at `wheels` and a `height` [m], with the attitude that belongs to it."""
+        stamp = image.header.stamp.seconds
+        return FrontView(image.data, stamp, wheels, *self._tilt(stamp), height)
 
     def update(self) -> None:
         """Ask for pictures of the ground, or no longer; call it each tick."""
         if self._topic:
             self._demand.set(self._topic, "task", self._situation.looks_down)
 
-    def tilt(self, stamp: float) -> tuple[float, float]:
+    def _tilt(self, stamp: float) -> tuple[float, float]:
         """Roll and pitch at a time [s]; level before any was measured."""
         near = min(self._tilts, key=lambda tilt: abs(tilt[0] - stamp), default=(stamp, 0.0, 0.0))
         return near[1], near[2]

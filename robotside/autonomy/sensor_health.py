@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from bridge.msgs import Msg
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import Bumper, FlightState
-from bridge.msgs.sensor_msgs import Imu
+from bridge.msgs.sensor_msgs import BatteryState, Imu
 from robotside.core.pose2 import Pose2
 from robotside.kinds.registry import kind_of
 from robotside.motion.measured import MeasuredState
@@ -51,6 +51,12 @@ SENSOR_TIMEOUT = 1.0
 """A sensor that was silent for longer than this is not alive [s]."""
 
 
+CHARGE_TIMEOUT = 10.0
+"""A battery that was silent for longer than this tells nothing of a charge [s]."""
+
+_CHARGING = (BatteryState.POWER_SUPPLY_STATUS_CHARGING, BatteryState.POWER_SUPPLY_STATUS_FULL)
+
+
 class SensorHealth:
     """Takes the robot's messages; times are of the robot's clock [s]."""
 
@@ -59,11 +65,14 @@ class SensorHealth:
         self._kind = kind
         self._measured = MeasuredState()
         self._heard: dict[str, float] = {}
+        self._charged = -math.inf
 
     def on_message(self, topic: str, msg: Msg, now: float) -> None:
         """Take in one message of the robot."""
         if topic in _NAMES or topic in _MORE:
             self._heard[topic] = now
+        if self._measured.charging and now - self._charged > CHARGE_TIMEOUT:
+            self._measured = replace(self._measured, charging=False)
         if isinstance(msg, Odometry):
             x, y = _level(msg)
             moving = PlanarVelocity(x, y, msg.twist.twist.angular.z)
@@ -75,6 +84,9 @@ class SensorHealth:
         elif isinstance(msg, Bumper):
             felt = msg.pressed and math.isfinite(msg.bearing)
             self._measured = replace(self._measured, touched=msg.bearing if felt else None)
+        elif isinstance(msg, BatteryState):
+            self._charged = now
+            self._measured = replace(self._measured, charging=msg.power_supply_status in _CHARGING)
         elif isinstance(msg, FlightState):
             self._measured = replace(
                 self._measured,
@@ -89,6 +101,7 @@ class SensorHealth:
     def skip(self, seconds: float) -> None:
         """The robot's clock jumped by `seconds` [s], in which nothing could be heard."""
         self._heard = {topic: heard + seconds for topic, heard in self._heard.items()}
+        self._charged += seconds
 
     def measured(
         self,
@@ -98,9 +111,8 @@ class SensorHealth:
         sure: bool = True,
         height: float = math.nan,
         height_spread: float = 0.0,
-        charging: bool = False,
     ) -> MeasuredState:
-        """All of it, with the pose in `map` and the height that were made of it, and how sure those are; and whether it is `charging`."""
+        """All of it, with the pose in `map` and the height that were made of it, and how sure those are."""
         return replace(
             self._measured,
             pose=pose,
@@ -108,7 +120,6 @@ class SensorHealth:
             sure=sure,
             height=height,
             height_spread=height_spread,
-            charging=charging,
         )
 
     def silent(self, now: float) -> list[str]:

@@ -304,12 +304,7 @@ class Station:
         where = self.autonomy.pose_estimator
         up = where.vertical
         return self.readiness.sensor_health.measured(
-            where.pose,
-            spread=where.spread,
-            sure=where.sure,
-            height=up.height,
-            height_spread=up.spread,
-            charging=self.autonomy.situation.charging,
+            where.pose, spread=where.spread, sure=where.sure, height=up.height, height_spread=up.spread
         )
 
     def _hold_queue(self, why: str) -> None:

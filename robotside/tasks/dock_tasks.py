@@ -27,7 +27,8 @@ from robotside.tasks.behaviours.course import Course, Span
 from robotside.tasks.behaviours.dock import Dock, start
 from robotside.tasks.behaviours.situation import Situation
 from robotside.tasks.behaviours.undock import Undock
-from robotside.tasks.berthing.cage_docking import LEAN, STANDOFFS, CageDocking
+from robotside.tasks.berthing.cage_docking import STANDOFFS, CageDocking
+from robotside.tasks.berthing.cage_line import LEAN
 from robotside.tasks.berthing.pad_landing import PadLanding, first_goal
 from robotside.tasks.engine import Task
 from robotside.tasks.task_places import TaskPlaces
@@ -120,8 +121,7 @@ class DockTasks:
     def _into(self, cage: Place) -> tuple[Behaviour, Course]:
         finder = CageFinder(self._info.camera_fov, self._approach.front)
         if not finder.able:
-            said = "Cages cannot be found: the library that reads their tags is not installed."
-            raise Refusal(Notice(Code.DOCK_UNSEEN, said, place=cage.name))
+            raise _unread(cage)
         course = self._before(cage, STANDOFFS)
         tree = CageDocking(cage, course, self._navigator, self._situation, finder.find, self._approach.front)
         return tree, course
@@ -129,8 +129,7 @@ class DockTasks:
     def _down_onto(self, pad: Place) -> tuple[Behaviour, Course]:
         finder = PadFinder()
         if not finder.able:
-            said = f"{pad.name} cannot be found: the library that reads its tag, pupil-apriltags, is not installed."
-            raise Refusal(Notice(Code.DOCK_TAGS_UNREAD, said, place=pad.name))
+            raise _unread(pad)
         first = first_goal(pad, self._fault)
         self._places.check(pad.name, first.x, first.y)
         course = Course([first])
@@ -154,3 +153,8 @@ class DockTasks:
         tags = TagFinder(self._info.camera_fov) if self._info.cameras else None
         track = DockTrack(DockFinder(Pose2(self._info.laser_x, 0.0, 0.0)), tags)
         return Dock(dock, course, self._navigator, self._situation, self._approach, track), course
+
+
+def _unread(dock: Place) -> Refusal:
+    said = f"{dock.name} cannot be found: the library that reads its tag, pupil-apriltags, is not installed."
+    return Refusal(Notice(Code.DOCK_TAGS_UNREAD, said, place=dock.name))

@@ -10,7 +10,6 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from bridge.core.codes import Code
-from bridge.core.units import wrap
 from bridge.msgs.pilothouse_msgs import Manoeuvre, Place
 from bridge.msgs.sensor_msgs import BatteryState
 from robotside.core.notice import Notice
@@ -18,8 +17,9 @@ from robotside.core.pose2 import Pose2
 from robotside.navigation.navigator import LegState, Navigator
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.situation import Situation
-from robotside.tasks.berthing.cage_sight import FRESH, CageSight, Look
-from robotside.tasks.berthing.cage_steering import SLIDE, CageSteering, Push
+from robotside.tasks.berthing.cage_line import CREEP, CageLine
+from robotside.tasks.berthing.cage_sight import FRESH, Look
+from robotside.tasks.berthing.cage_steering import SLIDE
 
 __all__ = ["MAX_TRIES", "STANDOFFS", "CageDocking"]
 
@@ -28,9 +28,6 @@ MAX_TRIES = 4
 
 STANDOFFS = (2.0, 1.7, 1.4)
 """From where it is docked back to where the approach begins, the best first [m]."""
-
-TAG_ABOVE = 0.24
-"""Of the middle of the tag above the coil [m]."""
 
 LOOKS = ((0.0, 0.0), (0.4, 0.0), (-0.4, 0.0), (0.0, 0.7), (0.0, -0.7))
 """It looks so far aside [rad] and from so much higher [m], one after the other."""
@@ -50,8 +47,8 @@ MAX_OFF, MAX_MISS, MAX_ASKEW, MAX_LIFT = 0.12, 0.12, 0.4, 0.10
 BACK = 1.9
 """It goes back to here to come in anew: its nose before the coil [m]."""
 
-FAST, CREEP, ASTERN = 0.2, 0.05, 0.15
-"""On the way in, at the coil, and back [m/s]: slower, its fins have no push to steer by."""
+FAST, ASTERN = 0.2, 0.15
+"""On the way in, and back [m/s]: slower, its fins have no push to steer by."""
 
 BRAKE_GAIN, BRAKES = 0.45, 0.4
 """Speed for a way that is left [1/s]; so near to the coil it brakes, and straight, for astern its fins steer the other way [m]."""
@@ -59,8 +56,8 @@ BRAKE_GAIN, BRAKES = 0.45, 0.4
 TURN_OUT, TURN_IN = 0.35, 0.35
 """It looks aside no farther than this before the gate and beyond it [rad]."""
 
-AT_COIL, LEAN, AT_REST = 0.03, 0.05, 0.015
-"""Its nose so near to the coil it leans on it with a push of so much, and lies still slower than the last [m, m/s, m/s]."""
+AT_REST = 0.015
+"""Slower than this it lies still at the coil [m/s]."""
 
 TOUCH = 0.10
 """With its nose so near to the coil it waits for the charge [m]."""
@@ -120,12 +117,11 @@ class CageDocking(Behaviour):
         """`course` has the one point before the `cage`, which has a direction; `front` is from the robot's middle to its coil [m]."""
         super().__init__("dock in the cage")
         self._cage, self._course, self._navigator, self._situation = cage, course, navigator, situation
-        self._sight, self._steering, self._front = CageSight(look, situation), CageSteering(), front
+        self._line = CageLine(cage, navigator, situation, look, front)
+        self._sight = self._line.sight
         self._stage, self._since, self._ticked = _Stage.SWIM, 0.0, -math.inf
         self._tries = 0
         self._dead = self._settled = math.inf
-        self._height = math.nan
-        """That it keeps where it sees no cage, above the map's origin [m]."""
         self._steps: dict[_Stage, Callable[[], Status]] = {
             _Stage.SWIM: self._swim,
             _Stage.SEEK: self._seek,
@@ -173,45 +169,34 @@ class CageDocking(Behaviour):
         return self._situation.worked - self._since
 
     def _set_out(self) -> None:
-        self._sight.forget()
-        self._steering.begin()
+        self._line.begin()
         goal = self._course.goal
         if not math.isnan(goal.height):
             self._navigator.keep_height(goal.height)
         self._navigator.head_for(goal)
         self._enter(_Stage.SWIM)
 
-    def _on_map(self) -> Pose2:
-        """The coil in `base_link`, as the map has it."""
-        face = Pose2(self._cage.x, self._cage.y, self._cage.yaw).then(Pose2(self._front, 0.0, 0.0))
-        return face.since(self._situation.pose)
-
     def _swim(self) -> Status:
         now, name = self._situation, self._cage.name
         if now.pose.distance(self._cage.x, self._cage.y) < NEAR:
-            self._sight.take(self._on_map())
+            self._line.look()
         leg = self._navigator.update(now.pose, now.points, now.now)
         now.report("driving", self._navigator.waits_for or f"Heading for {name}.", place=name, still=30.0)
         if leg is LegState.BLOCKED:
             return Status.FAILURE
         if leg is LegState.ARRIVED:
             self._navigator.finish()
-            self._height = self._kept()
+            self._line.height = self._cage.height or self._navigator.height
             self._enter(_Stage.SEEK)
         return Status.RUNNING
 
-    def _kept(self) -> float:
-        """The height to look from: the cage's, else the one that it has [m]."""
-        return self._cage.height or self._navigator.height
-
     def _seek(self) -> Status:
-        self._sight.take(self._on_map())
-        guess = self._pose()
+        self._line.look()
         self._tell(f"Looking for {self._cage.name}.")
         if self._sight.known and self._sight.age < FRESH:
             self._enter(_Stage.ALIGN)
             return Status.RUNNING
-        still = math.hypot(*self._moving(guess)) < STILL or self._spent > STILL_TIMEOUT
+        still = math.hypot(*self._line.moving()) < STILL or self._spent > STILL_TIMEOUT
         self._settled = min(self._settled, self._situation.worked) if still else self._settled
         number = int(max(0.0, self._situation.worked - self._settled) / LOOK_TIME)
         if number >= len(LOOKS):
@@ -219,18 +204,18 @@ class CageDocking(Behaviour):
             self._navigator.reason = Notice(Code.DOCK_UNSEEN, said, place=self._cage.name)
             return Status.FAILURE
         aside, higher = LOOKS[number]
-        self._keep(guess, BACK, self._height + higher, look=aside)
+        self._line.keep(BACK, self._line.height + higher, look=aside)
         return Status.RUNNING
 
     def _align(self) -> Status:
         """Come to rest on the line, at a distance from which there is room to go in."""
-        self._sight.take(self._on_map())
+        self._line.look()
         if self._lost():
             return Status.RUNNING
-        now, (robot, gap), cage = self._situation, self._where(), self._pose()
-        along, aside = self._moving(cage)
+        now, (robot, gap) = self._situation, self._line.where()
+        along, aside = self._line.moving()
         rests = abs(along) < STILL and abs(aside) < SLIDE and abs(robot.yaw) < STRAIGHT
-        level = abs(self._navigator.height - self._wanted()) < MAX_LIFT
+        level = abs(self._navigator.height - self._line.wanted) < MAX_LIFT
         settled = rests and level and abs(robot.y) < ON_LINE and NEAREST < gap < FARTHEST
         self._settled = min(self._settled, now.worked) if settled else math.inf
         if now.worked - self._settled > SETTLED_TIME:
@@ -239,7 +224,7 @@ class CageDocking(Behaviour):
         if self._spent > APPROACH_TIMEOUT:
             return self._again(f"{self._cage.name} was not reached: the water is too rough.")
         self._tell(f"Lining up with {self._cage.name}, by its tag.")
-        self._keep(cage, min(max(gap, NEAREST + 0.3), FARTHEST - 0.3), self._wanted())
+        self._line.keep(min(max(gap, NEAREST + 0.3), FARTHEST - 0.3), self._line.wanted)
         return Status.RUNNING
 
     def _lost(self) -> bool:
@@ -250,8 +235,8 @@ class CageDocking(Behaviour):
         return True
 
     def _approach(self) -> Status:
-        self._sight.take(self._on_map())
-        robot, gap = self._where()
+        self._line.look()
+        robot, gap = self._line.where()
         if self._lost():
             return Status.RUNNING
         if self._spent > ENTER_TIMEOUT:
@@ -264,20 +249,20 @@ class CageDocking(Behaviour):
             self._enter(_Stage.ENTER)
             return Status.RUNNING
         self._tell(f"Coming up to {self._cage.name}, by its tag.")
-        self._go(self._pose(), FAST, TURN_OUT)
+        self._line.go(FAST, TURN_OUT)
         return Status.RUNNING
 
     def _astray(self, robot: Pose2) -> bool:
         """It is not so that it may go in."""
-        lift = abs(self._navigator.height - self._wanted())
-        along, aside = self._moving(self._pose())
+        lift = abs(self._navigator.height - self._line.wanted)
+        along, aside = self._line.moving()
         miss = robot.y + aside * (ENTRANCE + GATE) / max(along, CREEP)
         off = max(abs(robot.y) / MAX_OFF, abs(miss) / MAX_MISS, abs(robot.yaw) / MAX_ASKEW, lift / MAX_LIFT)
         return off > 1.0 or self._sight.age > FRESH
 
     def _go_in(self) -> Status:
-        self._sight.take(self._on_map())
-        _, gap = self._where()
+        self._line.look()
+        _, gap = self._line.where()
         if gap < TOUCH or (self._situation.touched and gap < ENTRANCE) or self._meets:
             self._enter(_Stage.CONTACT)
             return Status.RUNNING
@@ -285,7 +270,7 @@ class CageDocking(Behaviour):
             return self._again(f"{self._cage.name} was not reached: something holds the robot.")
         self._tell(f"Going into {self._cage.name}.", touches=gap < ENTRANCE)
         ahead = max(CREEP, min(FAST, BRAKE_GAIN * gap))
-        self._go(self._pose(), ahead, TURN_IN if gap > BRAKES else 0.0)
+        self._line.go(ahead, TURN_IN if gap > BRAKES else 0.0)
         return Status.RUNNING
 
     @property
@@ -296,9 +281,9 @@ class CageDocking(Behaviour):
     def _contact(self) -> Status:
         now, name = self._situation, self._cage.name
         self._tell(f"Waiting for the charge at {name}.", touches=True)
-        self._press()
+        self._line.press()
         if now.charging:
-            still = math.hypot(*self._moving(self._pose())) < AT_REST
+            still = math.hypot(*self._line.moving()) < AT_REST
             self._settled = min(self._settled, now.worked) if still else math.inf
             rests = now.worked - self._settled > SETTLED_TIME
             return self._done() if rests or self._spent > CONTACT_TIMEOUT else Status.RUNNING
@@ -310,14 +295,6 @@ class CageDocking(Behaviour):
         if self._spent > CONTACT_TIMEOUT and not self._meets:
             return self._again(f"{name} was reached by its tag, but its contacts did not meet.")
         return Status.RUNNING
-
-    def _press(self) -> None:
-        """Come up to the coil and lean on it: what still slides aside would leave it again."""
-        cage = self._pose()
-        if -cage.inverse().x - self._front > AT_COIL:
-            self._go(cage, CREEP, 0.0)
-        else:
-            self._do(cage, self._steering.lean(LEAN), self._wanted())
 
     def _again(self, why: str) -> Status:
         """Go back and try once more; after the last time `why` is the reason."""
@@ -331,52 +308,14 @@ class CageDocking(Behaviour):
 
     def _retreat(self) -> Status:
         """Back along the line, then anew."""
-        self._sight.take(self._on_map())
-        _, gap = self._where()
+        self._line.look()
+        _, gap = self._line.where()
         if gap > BACK or self._spent > ENTER_TIMEOUT:
             self._enter(_Stage.ALIGN)
             return Status.RUNNING
         self._tell(f"Going back to try {self._cage.name} again.", touches=gap < ENTRANCE)
-        self._go(self._pose(), -ASTERN, 0.0 if gap < ENTRANCE else TURN_IN)
+        self._line.go(-ASTERN, 0.0 if gap < ENTRANCE else TURN_IN)
         return Status.RUNNING
-
-    def _pose(self) -> Pose2:
-        """The coil in `base_link`: as it was seen, else as the map has it."""
-        return self._sight.pose() or self._on_map()
-
-    def _where(self) -> tuple[Pose2, float]:
-        """The robot in the frame of the coil, and its nose before it [m]."""
-        robot = self._pose().inverse()
-        return robot, -robot.x - self._front
-
-    def _moving(self, cage: Pose2) -> tuple[float, float]:
-        """Its speed in the frame of the cage [m/s]."""
-        now, drift = self._situation, self._sight.drift
-        x, y, _ = Pose2(*drift, 0.0).since(Pose2(0.0, 0.0, now.odom.yaw))
-        ahead, left = now.moving.x - x, now.moving.y - y
-        cosine, sine = math.cos(cage.yaw), math.sin(cage.yaw)
-        return cosine * ahead + sine * left, cosine * left - sine * ahead
-
-    def _wanted(self) -> float:
-        """The height of the coil above the map's origin [m]."""
-        return self._height if math.isnan(self._sight.height) else self._sight.height - TAG_ABOVE
-
-    def _keep(self, cage: Pose2, gap: float, height: float, look: float = 0.0) -> None:
-        """Come to rest on the line of a `cage` in `base_link`, the nose so far before the coil [m], to `look` aside there [rad]."""
-        point, now = (-gap - self._front, 0.0), self._situation.now
-        self._do(cage, self._steering.keep(cage.inverse(), self._moving(cage), point, look, now), height)
-
-    def _go(self, cage: Pose2, ahead: float, most: float) -> None:
-        """Go `ahead` along the line of a `cage` in `base_link` [m/s], looking aside no farther than `most` for it [rad]."""
-        now = self._situation.now
-        push = self._steering.line(cage.inverse(), self._moving(cage), ahead, most, now)
-        self._do(cage, push, self._wanted())
-
-    def _do(self, cage: Pose2, push: Push, height: float) -> None:
-        lowest, highest = self._navigator.heights
-        yaw = wrap(self._situation.pose.yaw + cage.yaw + push.yaw)
-        level = height if math.isnan(height) else min(max(height, lowest), highest)
-        self._navigator.command(Manoeuvre(kind="course", yaw=yaw, speed=push.speed, height=level))
 
     def _tell(self, text: str, *, touches: bool = False) -> None:
         self._situation.report("docking", text, place=self._cage.name, still=20.0, touches=touches)

@@ -15,7 +15,7 @@ from bridge.msgs.geometry_msgs import (
 )
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import LineSensor
-from bridge.msgs.sensor_msgs import Imu, LaserScan, Range
+from bridge.msgs.sensor_msgs import BatteryState, Imu, LaserScan, Range
 from robotside.autonomy.sensor_health import SENSOR_TIMEOUT, SensorHealth, needed
 from robotside.core.pose2 import Pose2
 from robotside.motion.stopping_path import PlanarVelocity
@@ -105,3 +105,14 @@ def test_speed_is_over_ground_whichever_way_the_body_leans() -> None:
         moving = sensor_health.measured(None).moving
         assert math.isclose(moving.x, ground[0], abs_tol=1e-9)
         assert math.isclose(moving.y, ground[1], abs_tol=1e-9)
+
+
+def test_it_charges_as_long_as_the_battery_says_so_and_is_heard() -> None:
+    sensor_health = SensorHealth()
+    sensor_health.on_message("/battery_state", BatteryState(power_supply_status=2), 1.0)
+    assert not sensor_health.measured(None).charging
+    sensor_health.on_message("/battery_state", BatteryState(power_supply_status=1), 2.0)
+    sensor_health.on_message("/odom", ODOM, 11.9)
+    assert sensor_health.measured(None).charging
+    sensor_health.on_message("/odom", ODOM, 12.1)
+    assert not sensor_health.measured(None).charging

@@ -15,7 +15,8 @@ from robotside.perception.cage_finder import CageSighting, FrontView
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.dock import before
 from robotside.tasks.behaviours.situation import Situation
-from robotside.tasks.berthing.cage_docking import ENTRANCE, TAG_ABOVE, CageDocking
+from robotside.tasks.berthing.cage_docking import ENTRANCE, CageDocking
+from robotside.tasks.berthing.cage_line import TAG_ABOVE
 
 __all__ = ["CAGE", "FRONT", "TICK", "Water"]
 
@@ -86,6 +87,10 @@ class Water:
         return [CageSighting(coil, rise, 0.02, 0.1)]
 
     @property
+    def view(self) -> FrontView:
+        return FrontView(b"", self.situation.now, self.believed, 0.0, 0.0, self.z)
+
+    @property
     def height(self) -> float:
         return self.z
 
@@ -151,7 +156,7 @@ class Water:
         cosine, sine = math.cos(self.here.yaw), math.sin(self.here.yaw)
         vx, vy = self.velocity + self.drift
         now.moving = Pose2(cosine * vx + sine * vy, cosine * vy - sine * vx, 0.0)
-        now.ahead = FrontView(b"", now.now, self.believed, 0.0, 0.0, self.z)
+        now.ahead = self.view
         at = self.within
         nose = at.y + FRONT * math.sin(at.yaw)
         met = (
