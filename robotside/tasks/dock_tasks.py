@@ -26,7 +26,7 @@ from robotside.tasks.behaviours.charge import MIN_CHARGE, Charge
 from robotside.tasks.behaviours.course import Course, Span
 from robotside.tasks.behaviours.dock import Dock, start
 from robotside.tasks.behaviours.situation import Situation
-from robotside.tasks.behaviours.undock import Undock
+from robotside.tasks.behaviours.undock import DOCK_NEAR, Undock
 from robotside.tasks.berthing.cage_docking import STANDOFFS, CageDocking
 from robotside.tasks.berthing.cage_line import LEAN
 from robotside.tasks.berthing.pad_landing import PadLanding, first_goal
@@ -112,7 +112,9 @@ class DockTasks:
         return Charge(until, dock.name, self._navigator, self._situation, self._say, lean)
 
     def _leave(self) -> Undock:
-        return Undock(self._places.docks, self._navigator, self._situation, self._approach)
+        # no cable charges what swims, and where it is it does not know well
+        near = math.inf if self._how == "cage" else DOCK_NEAR
+        return Undock(self._places.docks, self._navigator, self._situation, self._approach, near)
 
     def _onto(self, dock: Place) -> tuple[Behaviour, Course]:
         ways = {"pad": self._down_onto, "cage": self._into}

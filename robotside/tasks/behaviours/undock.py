@@ -41,10 +41,12 @@ class Undock(Behaviour):
         navigator: Navigator,
         situation: Situation,
         approach: Approach,
+        near: float = DOCK_NEAR,
     ) -> None:
-        """`docks` are the places of docks."""
+        """`docks` are the places of docks; with contact no farther than `near` from one of them it stands in it [m]."""
         super().__init__("undock")
         self._docks, self._navigator, self._situation, self._way = docks, navigator, situation, approach
+        self._near = near
         self.dock = ""
         """The dock that it leaves or has left; empty when it was in none."""
         self._from = ORIGIN
@@ -91,5 +93,5 @@ class Undock(Behaviour):
         now = self._situation
         if now.power not in _IN_CONTACT:
             return ""
-        near = [dock for dock in self._docks() if now.pose.distance(dock.x, dock.y) <= DOCK_NEAR]
+        near = [dock for dock in self._docks() if now.pose.distance(dock.x, dock.y) <= self._near]
         return min(near, key=lambda dock: now.pose.distance(dock.x, dock.y)).name if near else ""

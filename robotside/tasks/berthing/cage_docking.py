@@ -56,8 +56,8 @@ BRAKE_GAIN, BRAKES = 0.45, 0.4
 TURN_OUT, TURN_IN = 0.35, 0.35
 """It looks aside no farther than this before the gate and beyond it [rad]."""
 
-AT_REST = 0.015
-"""Slower than this it lies still at the coil [m/s]."""
+AT_REST, LEAN_TIME = 0.015, 6.0
+"""Slower than the first it lies still at the coil [m/s], when it has leaned on it for the second [s]: a slide too slow for its log goes by rubbing there."""
 
 TOUCH = 0.10
 """With its nose so near to the coil it waits for the charge [m]."""
@@ -77,17 +77,15 @@ LOST_TIMEOUT = 8.0
 APPROACH_TIMEOUT, ENTER_TIMEOUT = 120.0, 50.0
 """It comes onto the line, and up or in or back from there, within these times [s]."""
 
-CONTACT_TIMEOUT, DEAD_TIME = 8.0, 3.0
-"""At the coil, the battery tells within the first whether it takes charge; a coil without current for the second is dead [s]."""
+CONTACT_TIMEOUT, DEAD_TIME, REST_TIMEOUT = 8.0, 3.0, 15.0
+"""At the coil, the battery tells within the first whether it takes charge; a coil without current for the second is dead; with charge
+it waits to lie still no longer than the third [s]."""
 
 MAX_GAP = 0.5
 """Left alone for longer, it may be elsewhere: it looks anew [s]."""
 
 NEAR = 4.0
 """Where it is within this of the cage it looks for it on its way there [m]."""
-
-CHARGING_NEAR = 2.0
-"""Charging no farther than this from the cage's place, it is in it already [m]."""
 
 
 class _Stage(Enum):
@@ -141,9 +139,8 @@ class CageDocking(Behaviour):
         """Go on."""
         now = self._situation
         alone, self._ticked = now.now - self._ticked > MAX_GAP, now.now
-        near = now.pose.distance(self._cage.x, self._cage.y) < CHARGING_NEAR
-        if now.charging and near and self._stage is _Stage.SWIM:
-            return self._done()
+        if now.charging and self._stage is _Stage.SWIM:
+            return self._done()  # no cable charges what swims, wherever it believes to be
         if alone and self._stage is not _Stage.SWIM:
             self._set_out()
         elif now.charging and self._stage not in (_Stage.SWIM, _Stage.CONTACT):
@@ -285,8 +282,8 @@ class CageDocking(Behaviour):
         if now.charging:
             still = math.hypot(*self._line.moving()) < AT_REST
             self._settled = min(self._settled, now.worked) if still else math.inf
-            rests = now.worked - self._settled > SETTLED_TIME
-            return self._done() if rests or self._spent > CONTACT_TIMEOUT else Status.RUNNING
+            rests = now.worked - self._settled > SETTLED_TIME and self._spent > LEAN_TIME
+            return self._done() if rests or self._spent > REST_TIMEOUT else Status.RUNNING
         self._dead = min(self._dead, now.worked) if self._meets else math.inf
         if now.worked - self._dead > DEAD_TIME:
             said = f"{name} gives no charge: the contacts meet, but no current flows; the robot stays there."

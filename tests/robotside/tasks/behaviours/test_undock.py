@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 from py_trees.common import Status
 
 from bridge.msgs.pilothouse_msgs import Place
 from bridge.msgs.sensor_msgs import BatteryState
+from robotside.core.pose2 import Pose2
 from robotside.tasks.behaviours.approach import Approach
 from robotside.tasks.behaviours.undock import Undock
 from tests.fakes import FakeDock, FakeRobot, Pillar
@@ -56,6 +59,14 @@ def test_a_robot_that_charges_by_a_cable_elsewhere_does_not_move() -> None:
     on.robot.dock, on.situation.power = None, 1
     assert on.tick(make(on)) is Status.SUCCESS
     assert on.robot.pose == (-2.0, 1.0, 0.0)
+
+
+def test_what_no_cable_can_charge_leaves_its_dock_though_it_believes_to_be_elsewhere() -> None:
+    on = stage()
+    on.situation.pose = Pose2(-2.0, 1.0, 0.0)
+    tree = Undock(lambda: [DOCK], on.navigator, on.situation, Approach.of(on.robot.info), math.inf)
+    tree.initialise()
+    assert tree.dock == "Dock"
 
 
 def test_it_does_not_back_into_who_stands_behind_and_goes_on_when_they_are_gone() -> None:
