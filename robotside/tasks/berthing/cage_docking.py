@@ -221,7 +221,7 @@ class CageDocking(Behaviour):
         if self._spent > APPROACH_TIMEOUT:
             return self._again(f"{self._cage.name} was not reached: the water is too rough.")
         self._tell(f"Lining up with {self._cage.name}, by its tag.")
-        self._line.keep(min(max(gap, NEAREST + 0.3), FARTHEST - 0.3), self._line.wanted)
+        self._line.keep(BACK, self._line.wanted)
         return Status.RUNNING
 
     def _lost(self) -> bool:

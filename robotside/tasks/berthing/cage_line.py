@@ -48,10 +48,9 @@ class CageLine:
         return robot, -robot.x - self._front
 
     def moving(self) -> Velocity:
-        """Its speed in the frame of the cage, without the drift of its log [m/s]."""
-        now, (x, y), yaw = self._situation, self.sight.drift, self._pose().yaw
-        drift = Pose2(x, y, 0.0).since(Pose2(0.0, 0.0, now.odom.yaw))
-        ahead, left = now.moving.x - drift.x, now.moving.y - drift.y
+        """Its speed in the frame of the cage, without the error of its log [m/s]."""
+        now, (x, y), yaw = self._situation, self.sight.error, self._pose().yaw
+        ahead, left = now.moving.x - x, now.moving.y - y
         cosine, sine = math.cos(yaw), math.sin(yaw)
         return cosine * ahead + sine * left, cosine * left - sine * ahead
 

@@ -1,4 +1,4 @@
-"""Where a cage is, by the pictures of what lies ahead: kept in the frame of the odometry, with how fast that frame drifts."""
+"""Where a cage is, by the pictures of what lies ahead: kept in the frame of the odometry, with what the log errs by."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ MIN_TURN = 0.03
 """The pictures share an error of the direction that no average takes out [rad]."""
 
 DRIFT, DRIFT_CHANGE = 0.05, 2e-5
-"""Standard deviation of the speed at which the odometry drifts, a log that the water carries too [m/s], and how that changes [m2/s3]."""
+"""Standard deviation of the log's error along each axis [m/s], and how that changes [m2/s3]."""
 
 NEWEST = 0.3
 """Weight of the newest height."""
@@ -53,7 +53,7 @@ class CageSight:
 
     def forget(self) -> None:
         """Know nothing of where the cage is."""
-        self._place, self._drift = (0.0, 0.0), (0.0, 0.0)
+        self._place, self._error, self._rolled = (0.0, 0.0), (0.0, 0.0), self._situation.now
         self._yaw, self._turn = 0.0, math.inf
         self._spread, self._both, self._drifting = 0.0, 0.0, 0.0
         self._seen_at = -math.inf
@@ -72,13 +72,14 @@ class CageSight:
         return self._seen >= MIN_SIGHTINGS
 
     @property
-    def drift(self) -> tuple[float, float]:
-        """Of a thing that lies still, in the frame of the odometry [m/s]."""
-        return self._drift
+    def error(self) -> tuple[float, float]:
+        """Of the log, ahead and to the left [m/s]: it errs along its own axes, so that what it adds up turns with the robot."""
+        return self._error
 
     def take(self, guess: Pose2) -> None:
         """Take in the newest picture, once; `guess` is where the map has the cage now, in `base_link`."""
         now, view = self._situation, self._situation.ahead
+        self._roll()
         if not view.stamp > self._stamp or now.now < self._next:
             return
         self._stamp, self._next = view.stamp, now.now + PICTURE_PERIOD
@@ -95,11 +96,16 @@ class CageSight:
             off = min(near, key=lambda seen: view.wheels.then(seen.pose).distance(expected.x, expected.y))
             self._add(off, view, expected.yaw)
 
+    def _roll(self) -> None:
+        """Take along what the log has erred since, in the frame of the odometry."""
+        now = self._situation
+        since, self._rolled = now.now - self._rolled, now.now
+        x, y, _ = now.odom._replace(x=0.0, y=0.0).then(Pose2(*self._error, 0.0))
+        self._place = self._place[0] + since * x, self._place[1] + since * y
+
     def _there(self) -> Pose2:
         """Where it is in the frame of the odometry by now."""
-        since = self._situation.now - self._seen_at
-        x, y = (at + since * drift for at, drift in zip(self._place, self._drift, strict=True))
-        return Pose2(x, y, self._yaw)
+        return Pose2(*self._place, self._yaw)
 
     def _add(self, seen: CageSighting, view: FrontView, yaw: float) -> None:
         there, up = view.wheels.then(seen.pose), view.height + seen.up
@@ -117,15 +123,16 @@ class CageSight:
         self._seen += 1
 
     def _correct(self, there: tuple[float, float], variance: float, since: float) -> None:
-        """A Kalman filter of place and drift, the same along both axes; `since` the one before [s]."""
+        """A Kalman filter of the place and the log's error, the same along both axes; `since` the one before [s]."""
         drifting = self._drifting + DRIFT_CHANGE * since
         both = self._both + since * self._drifting
         spread = self._spread + 2 * since * self._both + since * since * self._drifting + 1e-6
         total = spread + variance
         place, drift = spread / total, both / total
-        moved = [(at + since * speed, speed) for at, speed in zip(self._place, self._drift, strict=True)]
-        self._place = tuple(at + place * (is_at - at) for is_at, (at, _) in zip(there, moved, strict=True))  # type: ignore[assignment]  # of two
-        self._drift = tuple(v + drift * (is_at - at) for is_at, (at, v) in zip(there, moved, strict=True))  # type: ignore[assignment]  # of two
+        off = there[0] - self._place[0], there[1] - self._place[1]
+        x, y, _ = Pose2(*off, 0.0).since(Pose2(0.0, 0.0, self._situation.odom.yaw))
+        self._place = self._place[0] + place * off[0], self._place[1] + place * off[1]
+        self._error = self._error[0] + drift * x, self._error[1] + drift * y
         self._spread, self._both = (1 - place) * spread, (1 - place) * both
         self._drifting = drifting - drift * both
 
@@ -133,4 +140,5 @@ class CageSight:
         """The cage in `base_link` now; None while it is not known."""
         if not self.known:
             return None
+        self._roll()
         return self._there().since(self._situation.odom)

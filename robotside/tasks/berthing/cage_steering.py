@@ -23,10 +23,14 @@ SLIDE = 0.02
 NEAR = 0.05
 """So near to the point it is there [m]."""
 
-MAX_LOOK = 1.8
-"""It looks aside no farther than this for that: it goes astern instead [rad]."""
+ROOM = 0.5
+"""Ahead and astern of the point it has so much room [m]: it needs that to come aside."""
 
-MAX_OFF_COURSE = 0.5
+MAX_LOOK, SIDEWAYS = 0.6, 1.1
+"""It looks aside no farther than the first for that, so that it sees the tag, and goes astern instead; what is off by more than the
+second is aside of it, and either way does [rad]."""
+
+MAX_OFF_COURSE = 0.3
 """Turned away from where it is to look by more, it does not push [rad]."""
 
 ASIDE_GAIN, MAX_ASIDE_SPEED = 0.25, 0.10
@@ -76,20 +80,38 @@ class CageSteering:
         It looks off the cage's direction by `look` [rad] where there is nothing to push for. `now` is in [s].
         """
         self._learn(robot, moving, now)
-        away = point[0] - robot.x, point[1] - robot.y
+        ahead = point[0] - robot.x
+        away = math.copysign(max(0.0, abs(ahead) - ROOM), ahead), point[1] - robot.y
         far = math.hypot(*away)
         share = min(KEEP_GAIN, MAX_KEEP_SPEED / far) if far > NEAR else 0.0
         wanted = share * away[0], share * away[1]
         off = wanted[0] - moving[0], wanted[1] - moving[1]
-        yaw = look
-        if math.hypot(*off) > SLIDE:
-            bearing = math.atan2(off[1], off[0])
-            yaw = min(
-                (side for side in (bearing, wrap(bearing + math.pi)) if abs(side) <= MAX_LOOK),
-                key=lambda side: abs(wrap(side - robot.yaw)),
-            )
-        turned = abs(wrap(robot.yaw - yaw)) > MAX_OFF_COURSE
-        return self._push(robot, (0.0, 0.0) if turned else wanted, yaw)
+        if math.hypot(*off) <= SLIDE:
+            return self._push(robot, wanted, look)
+        axis = self._axis(robot, off, ahead)
+        yaw = within(axis, MAX_LOOK)
+        if abs(wrap(robot.yaw - yaw)) > MAX_OFF_COURSE:
+            wanted = 0.0, 0.0  # not yet
+        elif abs(axis) > MAX_LOOK:
+            wanted = self._aslant(robot, moving, wanted[1])
+        return self._push(robot, wanted, yaw)
+
+    def _aslant(self, robot: Pose2, moving: Velocity, aside: float) -> Velocity:
+        """The speed along its axis by which, with what it slides beside that, it goes `aside` as it should [m/s]."""
+        x, y = math.cos(robot.yaw), math.sin(robot.yaw)
+        slides = x * moving[1] - y * moving[0]
+        speed = within((aside - x * slides) / y, MAX_KEEP_SPEED)
+        return speed * x, speed * y
+
+    def _axis(self, robot: Pose2, off: Velocity, ahead: float) -> float:
+        """To look so that a push ahead or astern is against what is `off`; to the side where it comes nearer to the point by it [rad]."""
+        bearing = math.atan2(off[1], off[0])
+        folded = math.remainder(bearing, math.pi)
+        if abs(folded) < SIDEWAYS:
+            return folded
+        if abs(robot.yaw) > MAX_OFF_COURSE:
+            return math.copysign(folded, robot.yaw)
+        return math.copysign(folded, ahead * off[1])
 
     def line(self, robot: Pose2, moving: Velocity, ahead: float, most: float, now: float) -> Push:
         """Go `ahead` along the line of the cage [m/s], negative is back, looking aside no farther than `most` [rad]; `now` is in [s]."""

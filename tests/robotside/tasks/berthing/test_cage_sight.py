@@ -32,8 +32,9 @@ class Pictures:
         now = self.situation
         for _ in range(round(seconds / 0.05)):
             now.now += 0.05
-            here = Pose2(self.drift[0] * now.now, self.drift[1] * now.now, 0.0)
-            now.odom, now.ahead = here, FrontView(b"", now.now, here, 0.0, 0.0, -1.5)
+            erred = Pose2(0.05 * self.drift[0], 0.05 * self.drift[1], 0.0)
+            now.odom = here = now.odom.then(erred)
+            now.ahead = FrontView(b"", now.now, here, 0.0, 0.0, -1.5)
             self.sight.take(guess)
 
 
@@ -68,7 +69,18 @@ def test_out_of_sight_it_is_still_where_it_is_though_the_log_drifts() -> None:
     assert seen is not None
     assert seen.distance(CAGE.x, CAGE.y) < 0.06
     assert shown.sight.age == pytest.approx(6.0, abs=0.2)
-    assert shown.sight.drift == pytest.approx((0.03, -0.02), abs=0.006)
+    assert shown.sight.error == pytest.approx((0.03, -0.02), abs=0.006)
+
+
+def test_what_the_log_errs_turns_with_the_robot() -> None:
+    shown = Pictures((0.03, 0.0))
+    shown.go(15.0)
+    shown.at = []
+    shown.situation.odom = shown.situation.odom.then(Pose2(0.0, 0.0, 1.2))
+    shown.go(6.0)
+    seen = shown.sight.pose()
+    assert seen is not None
+    assert seen.distance(*Pose2(CAGE.x, CAGE.y, 0.0).since(Pose2(0.0, 0.0, 1.2))[:2]) < 0.06
 
 
 def test_what_is_forgotten_is_looked_for_where_the_map_has_it() -> None:

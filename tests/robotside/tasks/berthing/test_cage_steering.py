@@ -7,21 +7,39 @@ import math
 import pytest
 
 from robotside.core.pose2 import Pose2
-from robotside.tasks.berthing.cage_steering import MAX_STREAM, CageSteering
+from robotside.tasks.berthing.cage_steering import MAX_LOOK, MAX_STREAM, CageSteering
 
 STANDS = (0.0, 0.0)
 
 
-def test_one_that_slides_past_the_point_looks_along_its_way_and_brakes() -> None:
-    push = CageSteering().keep(Pose2(-2.0, 0.0, -1.5), (0.0, -0.1), (-2.0, 0.0), 0.0, 0.0)
-    assert abs(push.yaw) == pytest.approx(math.pi / 2, abs=0.05)
-    assert push.speed == pytest.approx(0.0, abs=0.02)
+def test_one_that_slides_past_the_point_turns_towards_its_slide_and_brakes() -> None:
+    steering = CageSteering()
+    push = steering.keep(Pose2(-2.0, 0.0, 0.0), (0.0, -0.1), (-2.0, 0.0), 0.0, 0.0)
+    assert abs(push.yaw) == MAX_LOOK
+    assert push.speed == pytest.approx(0.0, abs=0.01)
+
+
+@pytest.mark.parametrize(("x", "way"), [(-2.3, 1.0), (-1.7, -1.0)])
+def test_to_come_aside_it_goes_ahead_where_it_is_far_and_astern_where_it_is_near(
+    x: float, way: float
+) -> None:
+    robot = Pose2(x, 0.4, 0.0)
+    steering = CageSteering()
+    yaw = steering.keep(robot, STANDS, (-2.0, 0.0), 0.0, 0.0).yaw
+    push = steering.keep(robot._replace(yaw=yaw), STANDS, (-2.0, 0.0), 0.0, 0.1)
+    assert way * push.speed > 0.03
+    assert push.speed * math.sin(yaw) < -0.02
 
 
 def test_turned_away_from_where_it_is_to_push_it_waits() -> None:
-    steering = CageSteering()
-    assert steering.keep(Pose2(-2.0, 0.5, 0.0), STANDS, (-2.0, 0.0), 0.0, 0.0).speed == 0.0
-    assert steering.keep(Pose2(-2.0, 0.5, -1.5), STANDS, (-2.0, 0.0), 0.0, 0.1).speed > 0.1
+    assert CageSteering().keep(Pose2(-2.0, 0.5, 0.0), STANDS, (-2.0, 0.0), 0.0, 0.0).speed == 0.0
+
+
+def test_who_comes_too_near_goes_back_and_too_far_ahead() -> None:
+    for x, way in ((-1.2, -1.0), (-2.8, 1.0)):
+        push = CageSteering().keep(Pose2(x, 0.0, 0.0), STANDS, (-2.0, 0.0), 0.0, 0.0)
+        assert way * push.speed > 0.05
+        assert push.yaw == pytest.approx(0.0, abs=1e-9)
 
 
 def test_at_rest_at_the_point_it_looks_where_it_is_told() -> None:

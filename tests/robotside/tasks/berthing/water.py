@@ -44,7 +44,7 @@ class Water:
     ) -> None:
         """The cage lies `off` from where the map has it, and the robot begins at `start` in that frame; the `stream` is in `map`.
 
-        Its log errs by `drift` [m/s]. Without `current` its coils meet and give nothing; the cage is `deeper` than the map says [m].
+        Its log errs by `drift` along its axes [m/s]. Without `current` its coils meet and give nothing; the cage is `deeper` than the map says [m].
         """
         self.cage = Pose2(CAGE.x, CAGE.y, CAGE.yaw).then(off)
         self.here = self.cage.then(start)
@@ -154,8 +154,9 @@ class Water:
         now = self.situation
         now.pose = now.odom = self.believed
         cosine, sine = math.cos(self.here.yaw), math.sin(self.here.yaw)
-        vx, vy = self.velocity + self.drift
-        now.moving = Pose2(cosine * vx + sine * vy, cosine * vy - sine * vx, 0.0)
+        vx, vy = self.velocity
+        ahead, left = cosine * vx + sine * vy, cosine * vy - sine * vx
+        now.moving = Pose2(ahead + self.drift[0], left + self.drift[1], 0.0)
         now.ahead = self.view
         at = self.within
         nose = at.y + FRONT * math.sin(at.yaw)
@@ -191,8 +192,9 @@ class Water:
         if before_x <= -ENTRANCE < there.x:
             self.entered.append(abs(there.y))
         self.here = Pose2(x, y, yaw)
+        erred = Pose2(0.0, 0.0, yaw).then(Pose2(self.drift[0] * TICK, self.drift[1] * TICK, 0.0))
         self.believed = Pose2(
-            self.believed.x + (self.velocity[0] + self.drift[0]) * TICK,
-            self.believed.y + (self.velocity[1] + self.drift[1]) * TICK,
+            self.believed.x + self.velocity[0] * TICK + erred.x,
+            self.believed.y + self.velocity[1] * TICK + erred.y,
             yaw,
         )
