@@ -29,6 +29,7 @@ from robotside.autonomy.contact_watch import ContactWatch
 from robotside.autonomy.ground_sight import GroundSight
 from robotside.autonomy.intruder_response import IntruderResponse
 from robotside.autonomy.map_intake import MapIntake
+from robotside.autonomy.mooring import Mooring
 from robotside.autonomy.plan_publisher import PlanPublisher
 from robotside.autonomy.sensor_silence import SensorSilence
 from robotside.autonomy.surroundings import Surroundings
@@ -118,9 +119,15 @@ class Autonomy:
         self.watch = _watch(self.pose_estimator, info, bus.publish, response, looker)
         self._surroundings = Surroundings(info, self.pose_estimator, self.navigator, self.watch)
         self.battery_watch = BatteryWatch(
-            self.engine, self.task_factory, self.situation, say, settings=charging, odometer=self._driven
+            self.engine,
+            self.task_factory,
+            self.situation,
+            say,
+            settings=charging,
+            odometer=lambda: self.pose_estimator.odometer,
         )
         """Watches the charge."""
+        self._mooring = Mooring(info.kind, records.places.all, self.pose_estimator)
         self._contacts = ContactWatch(self.engine, self.pose_estimator, self.situation, say)
         plan.show(np.empty((0, 2)))
         self._handlers = self._make_handlers()
@@ -137,9 +144,6 @@ class Autonomy:
         if chart is not None:
             made.use(chart)
         return made
-
-    def _driven(self) -> float:
-        return self.pose_estimator.odometer
 
     def _engine(self, clock: Callable[[], float]) -> Engine:
         return Engine(
@@ -288,6 +292,7 @@ class Autonomy:
 
     def _on_battery(self, msg: BatteryState) -> None:
         self.battery_watch.on_battery(msg, self._now)
+        self._mooring.update(charging=self.situation.charging)
 
     def _on_bumper(self, msg: Bumper) -> None:
         self._contacts.on_bumper(msg, self._now)
