@@ -21,12 +21,12 @@ from robotside.perception.dock_track import DockTrack
 from robotside.perception.pad_finder import DOWN, PadFinder
 from robotside.perception.tag_finder import TagFinder
 from robotside.records.events import Say
-from robotside.tasks.behaviours.approach import Approach
+from robotside.tasks.behaviours.approach import DOCK_NEAR, Approach
 from robotside.tasks.behaviours.charge import MIN_CHARGE, Charge
 from robotside.tasks.behaviours.course import Course, Span
 from robotside.tasks.behaviours.dock import Dock, start
 from robotside.tasks.behaviours.situation import Situation
-from robotside.tasks.behaviours.undock import DOCK_NEAR, Undock
+from robotside.tasks.behaviours.undock import Undock
 from robotside.tasks.berthing.cage_docking import STANDOFFS, CageDocking
 from robotside.tasks.berthing.cage_line import LEAN
 from robotside.tasks.berthing.pad_landing import PadLanding, first_goal
