@@ -88,16 +88,14 @@ class Autonomy:
         """
         worker = worker or InLoopWorker()
         info, say = robot.info, events.say
-        self._now = 0.0
         self._bus, self._say, self._demand = bus, say, demand
-        self._silence = SensorSilence(info.kind)
+        self._now, self._silence = 0.0, SensorSilence(info.kind)
         plan = PlanPublisher(bus.publish, lambda: self._now)
         self.pose_estimator = self._estimator(info, looker)
         self.navigator = Navigator(robot, Grid.unknown(), plan.show, worker, clearance)
         self.navigator.heights = heights
         self._maps = self._map_intake(fit, worker, chart)
-        self.situation = Situation()
-        self._wheels = OdometryTrack()
+        self.situation, self._wheels = Situation(), OdometryTrack()
         self._ground = GroundSight(info.cameras, self.situation, self._wheels, demand)
         self.status_publisher = TaskStatusPublisher(
             records, lambda status: bus.publish("/task/status", status), clock
@@ -119,12 +117,7 @@ class Autonomy:
         self.watch = _watch(self.pose_estimator, info, bus.publish, response, looker)
         self._surroundings = Surroundings(info, self.pose_estimator, self.navigator, self.watch)
         self.battery_watch = BatteryWatch(
-            self.engine,
-            self.task_factory,
-            self.situation,
-            say,
-            settings=charging,
-            odometer=lambda: self.pose_estimator.odometer,
+            self.engine, self.task_factory, self.situation, say, settings=charging, odometer=self._driven
         )
         """Watches the charge."""
         self._mooring = Mooring(info.kind, records.places.all, self.pose_estimator)
@@ -144,6 +137,9 @@ class Autonomy:
         if chart is not None:
             made.use(chart)
         return made
+
+    def _driven(self) -> float:
+        return self.pose_estimator.odometer
 
     def _engine(self, clock: Callable[[], float]) -> Engine:
         return Engine(
