@@ -35,19 +35,28 @@ class Hold(EventDispatcher):
         self._takes = HOLD_DURATION
         self._unread: deque[float] = deque()
         """Of the latest frames, what does not count yet [s]."""
-        self._counting = Clock.create_trigger(self._count, 0, interval=True)
+        self._begun = False
+        """No frame has passed since the finger came."""
+        self._counting = Clock.create_trigger(self._pass, 0, interval=True)
         super().__init__(**kwargs)
 
     def hold(self, takes: float = HOLD_DURATION) -> None:
         """A finger is there; it must stay for `takes` [s]."""
         self._takes = takes
+        self._begun = self._begun or not self._counting.is_triggered
         self._counting()
 
     def rest(self) -> None:
         """Forget a hold that has begun."""
         self._counting.cancel()
+        self._begun = False
         self._unread.clear()
         self.held = 0.0
+
+    def _pass(self, elapsed: float) -> None:
+        """A frame is over; how much of the first one was before the finger came is not known."""
+        begun, self._begun = self._begun, False
+        self._count(0.0 if begun else elapsed)
 
     def _count(self, elapsed: float) -> None:
         self._unread.append(max(0.0, elapsed - MAX_FRAME))

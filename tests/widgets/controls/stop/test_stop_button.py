@@ -128,7 +128,7 @@ def test_after_the_robot_was_told_anew_one_frame_that_takes_long_releases_nothin
     stop.phase = "stopped"
     finger = stage.touch(150, 40)
     finger.touch_down()
-    stage.frames(3, 2.0)
+    stage.frames(4, 2.0)
     assert stop.holds == ["hold"] * 2, "the robot has forgotten the first"
     stage.frames(1, 3.3)  # the finger left meanwhile, which is heard of after it
     assert "release" not in stop.heard
