@@ -123,6 +123,9 @@ def test_the_fields_of_a_type_that_nobody_knew_are_on_the_glass(glass: Handheld,
 
 def test_what_is_said_once_is_shown_as_no_fault(glass: Handheld) -> None:
     glass.tap("Topics", "NavButton")
+    listed = glass.app.screens["topics"].list
+    floor = glass.app.screens["topics"]._places["detail"].y
+    glass.until(lambda: listed.y == floor, "what is said over the list to go")
     glass.tap("/robot_description")
     glass.until(lambda: any(words.startswith("once, ") for words in glass.words()), "that it was said once")
     assert glass.app.screens["topics"].view.state == "live"
