@@ -7,6 +7,7 @@ import asyncio
 import pytest
 
 from bridge.client.client import Phase
+from bridge.core.async_tasks import UntilClosed
 from bridge.core.errors import ProtocolError
 from bridge.driving import drive_rest
 from bridge.driving.drive_rest import MAX_LAST_TRIES, SILENCE_TIMEOUT, DriveRest
@@ -214,16 +215,23 @@ async def test_a_client_whose_socket_stays_full_is_closed_all_the_same_and_the_l
     assert caplog.messages == ["robot:9090 could not be told to rest: nothing more could be sent to it"]
 
 
+async def for_ever() -> None:
+    await asyncio.Event().wait()
+
+
 async def test_who_gives_up_closing_ends_the_link_nevertheless() -> None:
     driver = Driver(ours=False)
-    driver.client._work = asyncio.create_task(asyncio.sleep(60.0))
+    driver.client._work = UntilClosed(for_ever)
+    running = asyncio.create_task(driver.client.run())
+    await asyncio.sleep(0)
     assert driver.drives()
     driver.wire.full = True
     closing = asyncio.create_task(driver.client.close())
     await asyncio.sleep(0)
     closing.cancel()
     await asyncio.gather(closing, return_exceptions=True)
-    assert driver.client._work.done()
+    async with asyncio.timeout(10.0):
+        await running
 
 
 async def test_a_command_that_cannot_be_written_drives_nothing() -> None:
