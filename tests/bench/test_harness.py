@@ -92,6 +92,7 @@ def only(monkeypatch, tmp_path):
     """Have the command know one bench, and write into a folder of the test."""
 
     def use(module):
+        monkeypatch.setenv(VARIABLE, discovery_domain())  # the command sets another; this one comes back
         monkeypatch.setattr(command, "names", lambda: ["x"])
         monkeypatch.setattr(command, "load", lambda name: module)
         monkeypatch.setattr(command, "OUT", tmp_path / "bench")
