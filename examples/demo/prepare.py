@@ -22,8 +22,10 @@ def initialise(scene: Scene) -> Wait:
     _, x, y, yaw = scene.witness.truth
     with scene.step("misplaced") as check:
         yield from _place(scene, x + WRONG[0], y + WRONG[1], yaw + WRONG[2])
-        yield from scene.glass.soon(lambda: _found(scene), 20)
+        yield from scene.glass.soon(lambda: _found(scene), 60)
         check("told wrongly, the robot says that it is elsewhere", _found(scene), _found(scene))
+        # the event comes before the next pose
+        yield from scene.glass.soon(lambda: scene.off()[0] <= 0.3, 4)
         check("which is where it is [m off, at most 0.3]", scene.off()[0], scene.off()[0] <= 0.3)
     with scene.step("initialised") as check:
         yield from _place(scene, x, y, yaw)
