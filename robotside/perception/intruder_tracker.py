@@ -10,13 +10,13 @@ from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Intruder
 from bridge.msgs.std_msgs import Time
 
-__all__ = ["SURE_SCORE", "IntruderTracker"]
+__all__ = ["MIN_DOUBTFUL_SIGHTINGS", "MIN_SIGHTINGS", "SURE_SCORE", "IntruderTracker"]
 
 SAME_DISTANCE = 1.2
 """Sightings of one class within this distance are of the same thing [m]."""
 
-MIN_SIGHTINGS = 3
-"""Sightings before something is reported."""
+MIN_SIGHTINGS, MIN_DOUBTFUL_SIGHTINGS = 3, 8
+"""Sightings before something is reported, and before what looks too little like its class is: a shadow passes for less."""
 
 SURE_SCORE = 0.6
 """A thing that looks less like its class than this, 0 to 1, is an intruder of no known class."""
@@ -47,6 +47,16 @@ class _Suspect:
     @property
     def kind(self) -> str:
         return self.kinds.most_common(1)[0][0]
+
+    @property
+    def sure(self) -> bool:
+        """It looks like its class."""
+        return self.score >= SURE_SCORE
+
+    @property
+    def proven(self) -> bool:
+        """It was seen often enough to be reported."""
+        return self.sightings >= (MIN_SIGHTINGS if self.sure else MIN_DOUBTFUL_SIGHTINGS)
 
     def fits(self, x: float, y: float, kind: str, track: int) -> bool:
         """A sighting there is of it."""
@@ -98,7 +108,7 @@ class IntruderTracker:
         suspect.kinds[kind] += 1
         suspect.track = track
         _add(suspect, x, y, weight, now)
-        if suspect.number or suspect.sightings < MIN_SIGHTINGS:
+        if suspect.number or not suspect.proven:
             return None
         self._count += 1
         suspect.number = self._count
@@ -121,5 +131,5 @@ def _add(suspect: _Suspect, x: float, y: float, weight: float, now: float) -> No
 
 def _intruder(suspect: _Suspect) -> Intruder:
     place = Point(suspect.x, suspect.y, 0.0)
-    kind = suspect.kind if suspect.score >= SURE_SCORE else "unknown"
+    kind = suspect.kind if suspect.sure else "unknown"
     return Intruder(suspect.number, kind, place, Time.at(suspect.first), suspect.sightings)

@@ -18,7 +18,7 @@ from robotside.core.pose2 import Pose2
 from robotside.core.worker import Worker
 from robotside.localisation.odometry_track import OdometryTrack
 from robotside.perception import intruder_watch
-from robotside.perception.intruder_tracker import MIN_SIGHTINGS, IntruderTracker
+from robotside.perception.intruder_tracker import MIN_DOUBTFUL_SIGHTINGS, MIN_SIGHTINGS, IntruderTracker
 from robotside.perception.intruder_watch import IntruderWatch, jpeg_size
 from tests.robotside.held_worker import HeldWorker
 from tests.robotside.perception.drawn import cone_ahead, jpeg, person_ahead
@@ -34,7 +34,9 @@ def test_a_thing_is_reported_with_its_third_sighting_and_never_again() -> None:
     assert intruders.known[0].sightings == 20
 
 
-@pytest.mark.parametrize(("scores", "kind"), [((0.9, 0.9, 0.4), "cone"), ((0.4, 0.5, 0.7), "unknown")])
+@pytest.mark.parametrize(
+    ("scores", "kind"), [((0.9, 0.9, 0.4), "cone"), ((0.4, 0.5, 0.7) + (0.5,) * 5, "unknown")]
+)
 def test_what_hardly_looks_like_a_cone_is_an_intruder_of_no_known_class(
     scores: tuple[float, ...], kind: str
 ) -> None:
@@ -42,6 +44,20 @@ def test_what_hardly_looks_like_a_cone_is_an_intruder_of_no_known_class(
     found = [tracker.update(1.0, 2.0, 3.0, 0.1 * n, score) for n, score in enumerate(scores)]
     assert found[-1] is not None
     assert found[-1].class_id == kind
+
+
+def test_what_hardly_looks_like_a_cone_is_told_only_when_it_stays() -> None:
+    tracker = IntruderTracker()
+    for n in range(MIN_DOUBTFUL_SIGHTINGS - 1):
+        assert tracker.update(1.0, 2.0, 3.0, 0.1 * n, 0.5) is None
+    assert tracker.known == []
+
+
+def test_what_comes_to_look_like_a_cone_is_told_at_once() -> None:
+    tracker = IntruderTracker()
+    scores = (0.5, 0.5, 0.5, 0.95, 0.95)
+    told = [tracker.update(1.0, 2.0, 3.0, 0.1 * n, score) is not None for n, score in enumerate(scores)]
+    assert told == [False, False, False, True, False]
 
 
 def test_two_things_are_numbered_in_the_order_of_their_reports() -> None:
