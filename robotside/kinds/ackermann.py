@@ -24,4 +24,5 @@ KIND = VehicleKind(
     handling=Handling(braking=1.5, turning=1.0, steers=True),
     safe_state=SafeStateDefaults("brake_straight"),
     on_the_ground=True,
+    docks="front",
 )

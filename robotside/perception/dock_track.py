@@ -10,10 +10,10 @@ from robotside.core.pose2 import Pose2
 from robotside.perception.dock_finder import DockFinder, DockSighting, Expected
 from robotside.perception.tag_finder import TagFinder
 
-__all__ = ["DockTrack"]
+__all__ = ["FIRST_REACH", "DockTrack"]
 
 FIRST_REACH, FIRST_TURN = 0.9, 0.6
-"""The first sighting is no farther from where the map has the dock: 0.3 m and 10° of error, seen from 2 m [m, rad]."""
+"""The first sighting is usually no farther from where the map has the dock: 0.3 m and 10° of error, seen from 2 m [m, rad]."""
 
 MIN_REACH, MIN_TURN = 0.12, 0.2
 """Later ones may be off by so much, whatever the spread [m, rad]."""
@@ -24,6 +24,9 @@ MIN_SIGHTINGS = 3
 DRIFT = 0.003
 """Standard deviation that the wheels add between two sweeps [m, rad]."""
 
+MIN_GAIN, MIN_TURN_GAIN = 0.1, 0.04
+"""Weight of the newest sighting at least, of place and direction: what errs in one sweep errs much the same in the next, and less from nearer."""
+
 MAX_MISSED = 30
 """After so many sweeps in a row without it the dock counts as lost."""
 
@@ -31,9 +34,17 @@ MAX_MISSED = 30
 class DockTrack:
     """Follows one dock from sweep to sweep, in the frame of the odometry."""
 
-    def __init__(self, finder: DockFinder, tags: TagFinder | None = None) -> None:
-        """`tags` finds the dock in pictures; None for a robot without a camera."""
-        self._finder, self._tags = finder, tags
+    def __init__(
+        self,
+        finder: DockFinder,
+        tags: TagFinder | None = None,
+        first_reach: float = FIRST_REACH,
+    ) -> None:
+        """`tags` finds the dock in pictures; None for a robot without a camera.
+
+        `first_reach` is how far from where the map has it the dock may be seen first [m].
+        """
+        self._finder, self._tags, self._first_reach = finder, tags, first_reach
         self._pose: Pose2 | None = None
         self._place = self._turn = math.inf
         """Variances of place and direction [m2, rad2]."""
@@ -90,8 +101,8 @@ class DockTrack:
             return True
         self._place, self._turn = self._place + DRIFT**2, self._turn + DRIFT**2
         near, turned = (
-            self._place / (self._place + seen.spread**2),
-            self._turn / (self._turn + seen.turn**2),
+            max(MIN_GAIN, self._place / (self._place + seen.spread**2)),
+            max(MIN_TURN_GAIN, self._turn / (self._turn + seen.turn**2)),
         )
         was = self._pose
         self._pose = Pose2(
@@ -99,7 +110,8 @@ class DockTrack:
             was.y + near * (there.y - was.y),
             wrap(was.yaw + turned * wrap(there.yaw - was.yaw)),
         )
-        self._place, self._turn = self._place * (1 - near), self._turn * (1 - turned)
+        self._place = self._place * (1 - near) ** 2 + (near * seen.spread) ** 2
+        self._turn = self._turn * (1 - turned) ** 2 + (turned * seen.turn) ** 2
         return True
 
     def pose(self, wheels: Pose2) -> Pose2 | None:
@@ -108,6 +120,6 @@ class DockTrack:
 
     def _expected(self, wheels: Pose2, guess: Pose2) -> Expected:
         if self._pose is None:
-            return Expected(guess, FIRST_REACH, FIRST_TURN)
+            return Expected(guess, self._first_reach, FIRST_TURN)
         reach, turn = 4 * math.sqrt(self._place), 4 * math.sqrt(self._turn)
         return Expected(self._pose.since(wheels), max(MIN_REACH, reach), max(MIN_TURN, turn))

@@ -27,6 +27,7 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.std_msgs import Time
 from robotside.core.notice import Notice
+from robotside.core.pose2 import Pose2
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
 from robotside.kinds.registry import kind_of
@@ -35,8 +36,8 @@ from robotside.records.runs import MAX_PAGE
 from robotside.services.command_service import CommandService
 from robotside.services.preconditions import Preconditions
 from robotside.station.station import Station
-from robotside.tasks.behaviours.approach import Approach
-from robotside.tasks.behaviours.dock import start
+from robotside.tasks.berthing.approach import Approach
+from robotside.tasks.berthing.dock_start import start
 from robotside.tasks.berthing.pad_landing import first_goal
 
 __all__ = ["records_services"]
@@ -91,7 +92,8 @@ class _RecordsOrders:
             x, y = first.x, first.y
         elif place.kind == "dock" and math.isfinite(place.yaw):
             # at the dock itself it may well touch a wall
-            first = start(place, Approach.of(station.robot.info).standoffs, judge)
+            docked = Pose2(place.x, place.y, place.yaw)
+            first = start(place, docked, Approach.of(station.robot.info).standoffs, judge)
             name, x, y = f"The place before {name}", first.x, first.y
         problem = judge(name, x, y)
         if problem:

@@ -14,22 +14,23 @@ from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Pose2
 from robotside.core.refusal import Refusal
 from robotside.kinds.registry import kind_of
-from robotside.navigation.navigator import Navigator
+from robotside.navigation.navigator import Goal, Navigator
 from robotside.perception.cage_finder import CageFinder
 from robotside.perception.dock_finder import DockFinder
-from robotside.perception.dock_track import DockTrack
+from robotside.perception.dock_track import FIRST_REACH, DockTrack
 from robotside.perception.pad_finder import DOWN, PadFinder
 from robotside.perception.tag_finder import TagFinder
 from robotside.records.events import Say
-from robotside.tasks.behaviours.approach import DOCK_NEAR, Approach
 from robotside.tasks.behaviours.charge import MIN_CHARGE, Charge
 from robotside.tasks.behaviours.course import Course, Span
-from robotside.tasks.behaviours.dock import Dock, start
 from robotside.tasks.behaviours.situation import Situation
-from robotside.tasks.behaviours.undock import Undock
+from robotside.tasks.berthing.approach import DOCK_NEAR, Approach
 from robotside.tasks.berthing.cage_docking import STANDOFFS, CageDocking
 from robotside.tasks.berthing.cage_line import LEAN
+from robotside.tasks.berthing.dock import Dock
+from robotside.tasks.berthing.dock_start import start
 from robotside.tasks.berthing.pad_landing import PadLanding, first_goal
+from robotside.tasks.berthing.undock import Undock
 from robotside.tasks.engine import Task
 from robotside.tasks.task_places import TaskPlaces
 
@@ -144,7 +145,7 @@ class DockTasks:
         if math.isnan(dock.yaw):
             said = f"{dock.name} has no direction; docking needs the one to stand in there."
             raise Refusal(Notice(Code.DOCK_UNDIRECTED, said, place=dock.name))
-        first = start(dock, distances, self._fault)
+        first = start(dock, Pose2(dock.x, dock.y, dock.yaw), distances, self._fault)
         self._places.check(f"The place before {dock.name}", first.x, first.y, dock.height)
         course = Course([first])
         course.index = 0
@@ -153,8 +154,14 @@ class DockTasks:
     def _up_to(self, dock: Place) -> tuple[Behaviour, Course]:
         course = self._before(dock, self._approach.standoffs)
         tags = TagFinder(self._info.camera_fov) if self._info.cameras else None
-        track = DockTrack(DockFinder(Pose2(self._info.laser_x, 0.0, 0.0)), tags)
-        return Dock(dock, course, self._navigator, self._situation, self._approach, track), course
+        # an error of the dock's direction swings the face of one that a long body stands before
+        reach = FIRST_REACH + 0.2 * self._approach.front
+        track = DockTrack(DockFinder(Pose2(self._info.laser_x, 0.0, 0.0)), tags, reach)
+
+        def begin(docked: Pose2) -> Goal:
+            return start(dock, docked, self._approach.standoffs, self._fault)
+
+        return Dock(dock, course, self._navigator, self._situation, self._approach, track, begin), course
 
 
 def _unread(dock: Place) -> Refusal:

@@ -58,9 +58,3 @@ def test_it_stops_before_the_wall_that_its_bend_would_lead_into(run: Run) -> Non
     assert state == "FAILED"
     assert "before a wall" in reason
     assert run.robot.simulation.contacts == 0
-
-
-def test_a_place_that_it_cannot_turn_to_is_refused_as_docking_is(run: Run) -> None:
-    with pytest.raises(AssertionError, match="does not know docking; it knows patrol, deliver"):
-        run.order("dock")
-    assert "dock" not in run.station.info.tasks

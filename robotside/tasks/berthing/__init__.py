@@ -1,1 +1,1 @@
-"""Berths of robots that float and fly: each brings the robot to a charger of its kind, or leaves it at rest and says what was seen."""
+"""Berths: each brings a robot to the charger of its kind, on the ground or out of the air, or leaves it at rest and says what was seen."""

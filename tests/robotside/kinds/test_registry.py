@@ -71,7 +71,7 @@ def test_which_tasks_there_are_depends_on_kind_and_manoeuvres() -> None:
         return tasks_of(RobotInfo(kind=kind, manoeuvres=list(manoeuvres)))
 
     assert known("wheels", "twist") == [*EVERYWHERE, "dock", "undock"]
-    assert known("ackermann", "twist", "steer") == EVERYWHERE
+    assert known("ackermann", "twist", "steer") == [*EVERYWHERE, "dock", "undock"]
     assert known("hexapod", "course", "surface") == [*EVERYWHERE, "surface"]
     assert known("quadrotor", "hover", "take_off", "land") == [*EVERYWHERE, "take_off", "land"]
     looks = RobotInfo(kind="hexapod", manoeuvres=["course", "surface"], cameras=["front"])

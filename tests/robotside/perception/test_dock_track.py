@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from bridge.core.units import wrap
+from bridge.msgs.sensor_msgs import LaserScan
 from robotside.core.pose2 import Pose2
-from robotside.perception.dock_finder import DockFinder
+from robotside.perception.dock_finder import DockFinder, DockSighting
 from robotside.perception.dock_track import MAX_MISSED, MIN_SIGHTINGS, DockTrack
 from tests.robotside.perception.dock_scans import Line, dock, leg, sweep
 
@@ -81,3 +82,25 @@ def test_what_is_not_seen_for_long_is_lost() -> None:
     follow(track, [], here)
     assert not track.known
     assert track.seen == 0
+
+
+class Turned:
+    """A finder that sees the dock where it is, its direction off by what it is told."""
+
+    off = 0.2
+
+    def find(self, scan: object, expected: object) -> DockSighting:
+        return DockSighting(Pose2(2.0, 0.0, self.off), 0.01, 0.2, "reflectors")
+
+
+def test_what_many_looks_from_afar_had_wrong_a_few_from_near_put_right() -> None:
+    finder = Turned()
+    track = DockTrack(finder)  # type: ignore[arg-type]  # what it calls of one
+    for _ in range(300):
+        track.look(LaserScan(), Pose2(0.0, 0.0, 0.0), Pose2(2.0, 0.0, 0.0))
+    finder.off = 0.0
+    for _ in range(60):
+        track.look(LaserScan(), Pose2(0.0, 0.0, 0.0), Pose2(2.0, 0.0, 0.0))
+    dock = track.pose(Pose2(0.0, 0.0, 0.0))
+    assert dock is not None
+    assert abs(dock.yaw) < 0.03

@@ -59,6 +59,43 @@ def test_by_its_reflectors_the_patrol_docks_though_the_map_has_the_dock_elsewher
     assert not docked(run)
 
 
+@pytest.mark.parametrize(
+    ("world", "off"),
+    [
+        ("parking_lot", (0.17, 0.25, 10.0)),
+        ("parking_lot", (-0.17, -0.25, -10.0)),
+        ("orchard", (0.0, 0.0, 0.0)),
+    ],
+)
+def test_by_its_reflectors_the_truck_docks_though_the_map_has_the_dock_elsewhere(
+    start: Callable[..., Run], world: str, off: tuple[float, float, float]
+) -> None:
+    run = start("commander", world, Pose2(off[0], off[1], math.radians(off[2])))
+    run.order("dock", "Charger")
+    run.finish()
+    assert run.task.reason == "Docked at Charger: the battery takes charge."
+    assert docked(run)
+    assert math.hypot(*run.robot.simulation.vehicle.state().velocity[:2]) < 0.12
+    assert run.robot.simulation.contacts == 0
+    run.order("undock")
+    run.finish()
+    assert run.task.reason == "Out of Charger."
+    assert not docked(run)
+
+
+def test_stop_holds_a_truck_that_goes_up_to_its_dock(start: Callable[..., Run]) -> None:
+    run = start("commander", "orchard")
+    run.order("dock", "Charger")
+    run.until(lambda: run.task.reason.startswith("Going up"), 120.0)
+    run.wait(2.0)
+    run.ask("/stop", CommandRequest())
+    run.wait(1.0)
+    where = run.place
+    run.wait(5.0)
+    assert math.dist(where, run.place) < 0.01
+    assert not docked(run)
+
+
 def test_by_its_tag_the_scout_docks_though_the_map_has_the_dock_elsewhere(start: Callable[..., Run]) -> None:
     run = start("scout", "office", Pose2(-0.15, 0.25, math.radians(10)), camera=True)
     run.order("dock", "Charger")
@@ -96,6 +133,23 @@ def test_a_low_battery_on_patrol_charges_and_goes_on(start: Callable[..., Run]) 
     assert not docked(run)
     run.finish()
     assert (run.task.state, run.task.visited) == ("SUCCEEDED", 3)
+
+
+def test_a_low_battery_has_a_truck_charge_and_go_on_with_its_patrol(start: Callable[..., Run]) -> None:
+    run = start("commander", "orchard")
+    battery = run.robot.simulation.vehicle.battery
+    x, y = run.place
+    run.patrol([Waypoint(x, y), Waypoint(x + 1.0, y)], home=[Waypoint(x, y)])
+    battery.charge = 0.14
+    run.until(lambda: run.task.phase == "charging", 300.0)
+    assert docked(run)
+    assert run.task.task == "patrol"
+    battery.charge = 0.799
+    run.until(lambda: run.task.phase == "driving", 200.0)
+    assert battery.charge > 0.7995
+    assert not docked(run)
+    run.finish()
+    assert run.task.state == "SUCCEEDED"
 
 
 @pytest.mark.parametrize(("world", "off"), [("office", (-0.8, -0.9)), ("lake", (0.3, 0.6))])

@@ -13,10 +13,10 @@ from robotside.core.pose2 import ORIGIN, Pose2
 from robotside.navigation.navigator import Goal, LegState
 from robotside.perception.cage_finder import CageSighting, FrontView
 from robotside.tasks.behaviours.course import Course
-from robotside.tasks.behaviours.dock import before
 from robotside.tasks.behaviours.situation import Situation
 from robotside.tasks.berthing.cage_docking import ENTRANCE, CageDocking
 from robotside.tasks.berthing.cage_line import TAG_ABOVE
+from robotside.tasks.berthing.dock_start import before
 
 __all__ = ["CAGE", "FRONT", "TICK", "Water"]
 
@@ -68,7 +68,7 @@ class Water:
         self.situation.power = 2
 
     def make(self) -> CageDocking:
-        course = Course([before(CAGE, 2.0)])
+        course = Course([before(CAGE, Pose2(CAGE.x, CAGE.y, CAGE.yaw), 2.0)])
         course.index = 0
         return CageDocking(CAGE, course, self, self.situation, self.look, FRONT)  # type: ignore[arg-type]  # what it calls of a navigator
 

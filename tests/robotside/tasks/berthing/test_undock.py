@@ -10,8 +10,8 @@ from py_trees.common import Status
 from bridge.msgs.pilothouse_msgs import Place
 from bridge.msgs.sensor_msgs import BatteryState
 from robotside.core.pose2 import Pose2
-from robotside.tasks.behaviours.approach import Approach
-from robotside.tasks.behaviours.undock import Undock
+from robotside.tasks.berthing.approach import Approach
+from robotside.tasks.berthing.undock import Undock
 from tests.fakes import FakeDock, FakeRobot, Pillar
 from tests.robotside.tasks.behaviours.stage import Stage
 

@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 
-from bridge.msgs.geometry_msgs import Point32
+from bridge.msgs.geometry_msgs import Point32, Twist
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.core.pose2 import Pose2
-from robotside.tasks.behaviours.approach import CREEP_SPEED, Approach
+from robotside.tasks.berthing.approach import CREEP_SPEED, Approach
 
 ROUND = Approach.of(RobotInfo(radius=0.18))
 TRUCK = Approach.of(
@@ -69,3 +69,43 @@ def test_what_stands_where_it_would_stand_has_taken_the_dock(point, taken):
 def test_the_room_behind_is_from_its_back_to_the_nearest_thing():
     assert ROUND.room_behind(np.array([(-1.0, 0.1), (-0.5, 0.6), (0.5, 0.0)])) == pytest.approx(0.82)
     assert ROUND.room_behind(np.empty((0, 2))) == math.inf
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "yaw", "reaches"),
+    [
+        (-8.5, 0.0, 0.0, True),
+        (-8.5, 0.4, -0.1, True),
+        (-4.5, 0.9, 0.0, False),
+        (-4.5, 0.0, 0.5, False),
+        (-8.5, 0.0, 2.0, False),
+    ],
+)
+def test_bends_lead_onto_the_line_only_from_far_enough_away(x, y, yaw, reaches):
+    assert TRUCK.reaches(Pose2(x, y, yaw)) is reaches
+
+
+def test_one_that_turns_on_the_spot_reaches_every_line():
+    assert ROUND.reaches(Pose2(-0.5, 1.5, 2.0))
+
+
+def test_the_front_of_a_truck_comes_to_the_line_first():
+    assert TRUCK.steer(Pose2(-5.0, 0.2, -0.08)).angular.z == pytest.approx(0.0, abs=0.03)
+    assert TRUCK.steer(Pose2(-5.0, 0.0, 0.1)).angular.z < -0.01
+    assert TRUCK.aside(Pose2(-5.0, 0.1, 0.04)) == pytest.approx(0.2, abs=0.001)
+
+
+@pytest.mark.parametrize(
+    ("y", "yaw", "off"), [(0.0, 0.0, False), (0.05, 0.0, True), (0.0, 0.02, True), (-0.4, 0.16, True)]
+)
+def test_off_the_line_is_the_front_aside_or_the_robot_askew(y, yaw, off):
+    assert TRUCK.off(Pose2(-2.7, y, yaw)) is off
+
+
+def test_slow_it_orders_the_angle_of_its_wheels():
+    way = Approach.of(RobotInfo(radius=1.6, min_radius=3.5, max_steering=0.5, manoeuvres=["twist", "steer"]))
+    order = way.order(Twist.planar(0.08, 0.08 / 3.5))
+    assert (order.kind, order.speed) == ("steer", 0.08)
+    assert order.steering == pytest.approx(0.5)
+    assert way.order(Twist.planar(0.08, 0.0)).steering == 0.0
+    assert not TRUCK.lock

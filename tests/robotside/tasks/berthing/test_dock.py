@@ -9,13 +9,15 @@ from py_trees.common import Status
 
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Place
-from bridge.msgs.sensor_msgs import BatteryState
+from bridge.msgs.sensor_msgs import BatteryState, LaserScan
 from robotside.core.pose2 import ORIGIN, Pose2
-from robotside.perception.dock_finder import DockFinder
+from robotside.navigation.navigator import Goal
+from robotside.perception.dock_finder import DockFinder, DockSighting, Expected
 from robotside.perception.dock_track import DockTrack
-from robotside.tasks.behaviours.approach import Approach
 from robotside.tasks.behaviours.course import Course
-from robotside.tasks.behaviours.dock import APPROACH_TIMEOUT, MAX_OUTS, MAX_TRIES, Dock, before
+from robotside.tasks.berthing.approach import Approach
+from robotside.tasks.berthing.dock import APPROACH_TIMEOUT, MAX_OUTS, MAX_TRIES, Dock
+from robotside.tasks.berthing.dock_start import before
 from tests.fakes import Box, FakeDock, FakeRobot, Pillar
 from tests.robotside.tasks.behaviours.stage import Stage
 
@@ -35,10 +37,16 @@ def stage(off: Pose2 = ORIGIN, *, pillars: tuple[Pillar, ...] = (), **words: obj
 
 
 def make(on: Stage, distance: float = 2.0) -> Dock:
-    course = Course([before(DOCK, distance)])
+    return build(on, Approach.of(on.robot.info), DockFinder(), distance)
+
+
+def build(on: Stage, way: Approach, finder: DockFinder, distance: float = 2.0) -> Dock:
+    def begin(docked: Pose2) -> Goal:
+        return before(DOCK, docked, distance)
+
+    course = Course([begin(Pose2(DOCK.x, DOCK.y, DOCK.yaw))])
     course.index = 0
-    track = DockTrack(DockFinder())
-    return Dock(DOCK, course, on.navigator, on.situation, Approach.of(on.robot.info), track)
+    return Dock(DOCK, course, on.navigator, on.situation, way, DockTrack(finder), begin)
 
 
 def until(on: Stage, tree: Dock, phase: str, limit: float = 60.0) -> None:
@@ -321,3 +329,65 @@ def test_who_is_pushed_beside_the_line_again_and_again_gives_up_before_the_dock(
     assert on.navigator.reason.startswith("No charge: the line to Dock was missed by 1")
     assert outs == MAX_TRIES * (MAX_OUTS + 1)
     assert on.robot.contacts == 0
+
+
+class ShortSight(DockFinder):
+    """A laser whose beams are too far apart to see strips from beyond `reach` [m]."""
+
+    reach = 1.4
+
+    def find(self, scan: LaserScan, expected: Expected) -> DockSighting | None:
+        return super().find(scan, expected) if expected.pose.x < self.reach else None
+
+
+def bending(on: Stage, *, look_gap: float = math.inf, radius: float = 0.8) -> Dock:
+    """For a robot that turns only by going."""
+    way = Approach(RADIUS, RADIUS, RADIUS, radius, (2.0,), look_gap=look_gap)
+    finder = ShortSight() if look_gap < math.inf else DockFinder()
+    return build(on, way, finder)
+
+
+def test_it_comes_nearer_by_the_map_to_see_the_dock_and_docks() -> None:
+    on = stage(Pose2(0.1, 0.1, 0.05))
+    tree, nearest = bending(on, look_gap=0.7), math.inf
+    while on.tick(tree) is Status.RUNNING:
+        if on.situation.doing.text == "Looking for Dock.":
+            nearest = min(nearest, DOCK.x - on.robot.pose[0])
+    assert tree.status is Status.SUCCESS
+    assert 0.9 < nearest < 1.5
+
+
+def test_what_it_does_not_see_from_near_either_it_does_not_drive_at() -> None:
+    on = stage(strips=())
+    tree, nearest = bending(on, look_gap=0.7), math.inf
+    while on.tick(tree) is Status.RUNNING:
+        nearest = min(nearest, DOCK.x - on.robot.pose[0])
+    assert tree.status is Status.FAILURE
+    assert on.navigator.reason.startswith("Dock is not seen: no two reflecting strips")
+    assert 0.6 < nearest < 0.8
+    assert on.robot.contacts == 0
+
+
+def test_coming_nearer_it_waits_for_who_stands_before_the_dock() -> None:
+    on = stage(pillars=(Pillar(3.2, 1.0, 0.1),), strips=())
+    tree = bending(on, look_gap=0.3)
+    while on.situation.doing.text != "Waiting: something stands before Dock.":
+        assert on.tick(tree) is Status.RUNNING
+    assert on.robot.at_rest
+    assert on.robot.contacts == 0
+
+
+def test_where_no_bend_leads_onto_the_line_it_sets_out_anew_by_what_it_saw() -> None:
+    on = stage(Pose2(0.1, 0.28, math.radians(10)))
+    tree, texts, asides = bending(on, radius=2.0), [""], []
+    while on.tick(tree) is Status.RUNNING:
+        text = on.situation.doing.text
+        if text != texts[-1]:
+            texts.append(text)
+            asides.append(abs(on.robot.pose[1] - DOCK.y))
+    assert tree.status is Status.SUCCESS
+    looks = [aside for text, aside in zip(texts[1:], asides, strict=True) if text == "Looking for Dock."]
+    assert len(looks) == 2
+    assert looks[0] > 0.3
+    assert looks[1] < 0.2
+    assert not any(text.startswith("Going back") for text in texts)

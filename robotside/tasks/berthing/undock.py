@@ -14,8 +14,8 @@ from bridge.msgs.sensor_msgs import BatteryState
 from robotside.core.notice import Notice
 from robotside.core.pose2 import ORIGIN
 from robotside.navigation.navigator import Navigator
-from robotside.tasks.behaviours.approach import DOCK_NEAR, RETREAT_SPEED, Approach
 from robotside.tasks.behaviours.situation import Situation
+from robotside.tasks.berthing.approach import DOCK_NEAR, RETREAT_SPEED, Approach
 
 __all__ = ["Undock"]
 
