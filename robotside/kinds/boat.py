@@ -26,6 +26,7 @@ KIND = VehicleKind(
     ),
     handling=Handling(braking=0.15, turning=0.3, drifts=True),
     safe_state=SafeStateDefaults("hold_heading"),
+    docks="jetty",
     comes_about=True,
     at_rest=(0.15, 0.10),
     astray=4.0,

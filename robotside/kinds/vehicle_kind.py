@@ -88,8 +88,8 @@ class VehicleKind:
     safe_state: SafeStateDefaults = SafeStateDefaults()
     on_the_ground: bool = False
     """It drives by itself only while it sees its surroundings."""
-    docks: Literal["", "front", "pad", "cage"] = ""
-    """How it comes to a charger: with its front up to it, down onto it, or swimming into it; empty for one that does not."""
+    docks: Literal["", "front", "jetty", "pad", "cage"] = ""
+    """How it comes to a charger: with its front up to it, with its bow afloat, down onto it, or swimming into it; empty for one that does not."""
     dives: bool = False
     """It keeps a depth, and may lie any way up."""
     flies: bool = False

@@ -24,11 +24,12 @@ from robotside.records.events import Say
 from robotside.tasks.behaviours.charge import MIN_CHARGE, Charge
 from robotside.tasks.behaviours.course import Course, Span
 from robotside.tasks.behaviours.situation import Situation
+from robotside.tasks.berthing import cage_line, jetty_line
 from robotside.tasks.berthing.approach import DOCK_NEAR, Approach
 from robotside.tasks.berthing.cage_docking import STANDOFFS, CageDocking
-from robotside.tasks.berthing.cage_line import LEAN
 from robotside.tasks.berthing.dock import Dock
 from robotside.tasks.berthing.dock_start import start
+from robotside.tasks.berthing.jetty_docking import NEAR, JettyDocking
 from robotside.tasks.berthing.pad_landing import PadLanding, first_goal
 from robotside.tasks.berthing.undock import Undock
 from robotside.tasks.engine import Task
@@ -40,6 +41,8 @@ __all__ = ["DockTasks", "docks"]
 def docks(info: RobotInfo) -> bool:
     """The robot can come to a charger of its kind; down onto a pad, or into a cage, only with a camera that looks there."""
     how = kind_of(info.kind).docks
+    if how == "jetty":
+        return bool(info.cameras) and {"course", "steer"} <= set(info.manoeuvres)
     if how == "cage":
         return bool(info.cameras) and "course" in info.manoeuvres
     return bool(how) and (how != "pad" or (DOWN in info.cameras and "land" in info.manoeuvres))
@@ -109,16 +112,16 @@ class DockTasks:
         return Chain("charge first", memory=True, children=children)
 
     def _charge(self, until: float, dock: Place) -> Charge:
-        lean = LEAN if self._how == "cage" else math.nan
+        lean = {"cage": cage_line.LEAN, "jetty": jetty_line.LEAN}.get(self._how, math.nan)
         return Charge(until, dock.name, self._navigator, self._situation, self._say, lean)
 
     def _leave(self) -> Undock:
         # no cable charges what swims, and where it is it does not know well
-        near = math.inf if self._how == "cage" else DOCK_NEAR
+        near = {"cage": math.inf, "jetty": NEAR}.get(self._how, DOCK_NEAR)
         return Undock(self._places.docks, self._navigator, self._situation, self._approach, near)
 
     def _onto(self, dock: Place) -> tuple[Behaviour, Course]:
-        ways = {"pad": self._down_onto, "cage": self._into}
+        ways = {"pad": self._down_onto, "cage": self._into, "jetty": self._alongside}
         return ways.get(self._how, self._up_to)(dock)
 
     def _into(self, cage: Place) -> tuple[Behaviour, Course]:
@@ -128,6 +131,14 @@ class DockTasks:
         course = self._before(cage, STANDOFFS)
         tree = CageDocking(cage, course, self._navigator, self._situation, finder.find, self._approach.front)
         return tree, course
+
+    def _alongside(self, jetty: Place) -> tuple[Behaviour, Course]:
+        front = self._approach.front
+        finder = CageFinder(self._info.camera_fov, front - jetty_line.CAMERA_BEHIND)
+        if not finder.able:
+            raise _unread(jetty)
+        course = self._before(jetty, self._approach.standoffs)
+        return JettyDocking(jetty, course, self._navigator, self._situation, finder.find, front), course
 
     def _down_onto(self, pad: Place) -> tuple[Behaviour, Course]:
         finder = PadFinder()

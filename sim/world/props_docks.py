@@ -27,7 +27,7 @@ __all__ = [
 
 STRIP_WIDTH, STRIP_SPACING = 0.05, 0.30
 """Of the two upright strips that throw a laser's light straight back, and from the middle of one to the other's [m]."""
-TAG_HEIGHT: dict[DockKind, float] = {"contacts": 0.76, "jetty": 0.80, "pad": 0.0, "cage": 0.24}
+TAG_HEIGHT: dict[DockKind, float] = {"contacts": 0.76, "jetty": 0.50, "pad": 0.0, "cage": 0.24}
 """Of the middle of the tag above the contacts' origin [m]; on a pad the tag lies in the middle."""
 CAGE_REACH = 0.55
 """From the cage's coil to its open front [m]."""

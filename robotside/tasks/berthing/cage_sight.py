@@ -45,9 +45,9 @@ Look = Callable[[FrontView], list[CageSighting]]
 class CageSight:
     """The cage over many pictures: the map's error has no part in its place, and little in its direction."""
 
-    def __init__(self, look: Look, situation: Situation) -> None:
-        """`situation` has the newest picture and what goes with it."""
-        self._look, self._situation = look, situation
+    def __init__(self, look: Look, situation: Situation, reach: float = REACH) -> None:
+        """`situation` has the newest picture and what goes with it; `reach` is how far from where the map has it it may be seen first [m]."""
+        self._look, self._situation, self._reach = look, situation, reach
         self._stamp = self._next = -math.inf
         self.forget()
 
@@ -84,7 +84,7 @@ class CageSight:
             return
         self._stamp, self._next = view.stamp, now.now + PICTURE_PERIOD
         expected, reach = (
-            (self._there(), LATER + DRIFT * self.age) if self.known else (now.odom.then(guess), REACH)
+            (self._there(), LATER + DRIFT * self.age) if self.known else (now.odom.then(guess), self._reach)
         )
         near = [
             seen

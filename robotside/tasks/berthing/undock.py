@@ -15,7 +15,7 @@ from robotside.core.notice import Notice
 from robotside.core.pose2 import ORIGIN
 from robotside.navigation.navigator import Navigator
 from robotside.tasks.behaviours.situation import Situation
-from robotside.tasks.berthing.approach import DOCK_NEAR, RETREAT_SPEED, Approach
+from robotside.tasks.berthing.approach import DOCK_NEAR, Approach
 
 __all__ = ["Undock"]
 
@@ -72,9 +72,9 @@ class Undock(Behaviour):
             self._navigator.move(Twist())
             now.report("undocking", f"Waiting: something stands behind at {self.dock}.", place=self.dock)
         else:
-            left = (self._way.leave - gone) / RETREAT_SPEED
+            left = (self._way.leave - gone) / self._way.retreat
             now.report("undocking", f"Leaving {self.dock}.", place=self.dock, still=left, touches=gone < 0.1)
-            self._navigator.move(Twist.planar(-RETREAT_SPEED, 0.0))
+            self._navigator.move(Twist.planar(-self._way.retreat, 0.0))
         if self._waited > ROOM_TIMEOUT or now.worked - self._began > UNDOCK_TIMEOUT:
             said = f"{self.dock} cannot be left: {'something stands behind' if behind < MIN_ROOM else 'the robot does not move'}."
             self._navigator.reason = Notice(Code.UNDOCK_BLOCKED, said, place=self.dock)
