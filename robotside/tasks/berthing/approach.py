@@ -80,6 +80,8 @@ class Approach:
     """As far back it goes to leave a dock [m]."""
     retreat: float = RETREAT_SPEED
     """So fast [m/s]."""
+    guided: float = 0.1
+    """So far back it may touch what guides it out of the dock [m]."""
     look_gap: float = math.inf
     """It comes up to so near by the map to see the dock [m]; infinite for one that sees it from where the approach begins."""
     lock: float = 0.0
@@ -92,7 +94,7 @@ class Approach:
         rear = -min((corner.x for corner in info.footprint), default=-info.radius)
         half = max((abs(corner.y) for corner in info.footprint), default=info.radius)
         if kind_of(info.kind).docks == "jetty":  # through water that may push it in
-            return cls(front, rear, half, info.min_radius, (7.5, 6.5, 5.5), 4.0, retreat=0.35)
+            return cls(front, rear, half, info.min_radius, (7.5, 6.5, 5.5), 4.0, retreat=0.35, guided=0.8)
         if info.min_radius > 0:
             lock = info.max_steering if "steer" in info.manoeuvres else 0.0
             return cls(front, rear, half, info.min_radius, (6.0, 5.0, 4.0), 2.0, look_gap=2.5, lock=lock)

@@ -73,7 +73,13 @@ class Undock(Behaviour):
             now.report("undocking", f"Waiting: something stands behind at {self.dock}.", place=self.dock)
         else:
             left = (self._way.leave - gone) / self._way.retreat
-            now.report("undocking", f"Leaving {self.dock}.", place=self.dock, still=left, touches=gone < 0.1)
+            now.report(
+                "undocking",
+                f"Leaving {self.dock}.",
+                place=self.dock,
+                still=left,
+                touches=gone < self._way.guided,
+            )
             self._navigator.move(Twist.planar(-self._way.retreat, 0.0))
         if self._waited > ROOM_TIMEOUT or now.worked - self._began > UNDOCK_TIMEOUT:
             said = f"{self.dock} cannot be left: {'something stands behind' if behind < MIN_ROOM else 'the robot does not move'}."
