@@ -138,7 +138,10 @@ class DockTasks:
         if not finder.able:
             raise _unread(jetty)
         course = self._before(jetty, self._approach.standoffs)
-        return JettyDocking(jetty, course, self._navigator, self._situation, finder.find, front), course
+        begin = self._begin(jetty)
+        return JettyDocking(
+            jetty, course, self._navigator, self._situation, finder.find, front, begin
+        ), course
 
     def _down_onto(self, pad: Place) -> tuple[Behaviour, Course]:
         finder = PadFinder()
@@ -168,11 +171,12 @@ class DockTasks:
         # an error of the dock's direction swings the face of one that a long body stands before
         reach = FIRST_REACH + 0.2 * self._approach.front
         track = DockTrack(DockFinder(Pose2(self._info.laser_x, 0.0, 0.0)), tags, reach)
-
-        def begin(docked: Pose2) -> Goal:
-            return start(dock, docked, self._approach.standoffs, self._fault)
-
+        begin = self._begin(dock)
         return Dock(dock, course, self._navigator, self._situation, self._approach, track, begin), course
+
+    def _begin(self, dock: Place) -> Callable[[Pose2], Goal]:
+        """Where the approach to a dock begins, for where the robot would stand docked."""
+        return lambda docked: start(dock, docked, self._approach.standoffs, self._fault)
 
 
 def _unread(dock: Place) -> Refusal:

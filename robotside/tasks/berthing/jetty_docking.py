@@ -12,7 +12,8 @@ from py_trees.common import Status
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Place
 from robotside.core.notice import Notice
-from robotside.navigation.navigator import LegState, Navigator
+from robotside.core.pose2 import Pose2
+from robotside.navigation.navigator import Goal, LegState, Navigator
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.situation import Situation
 from robotside.tasks.berthing import dock_outcomes
@@ -40,7 +41,7 @@ STEERAGE, STEERED = 0.2, 0.25
 LOOK_FROM, LOOK_GAP = 6.0, 2.0
 """By the map: nearer than the first it goes slowly to see the tag, and no nearer than the second without it [m]."""
 
-GATE, REACH_ASIDE, FUNNEL = 1.0, 0.35, 3.0
+GATE, REACH_ASIDE, FUNNEL = 1.0, 0.35, 4.0
 """With its bow so near it has to be on the line; farther away, up to the third, it may be so much more aside for each metre [m, 1, m]."""
 
 MAX_OFF, MAX_ASKEW = 0.13, 0.30
@@ -70,8 +71,14 @@ ASTERN = 0.7
 CLEAR, AWAY = 5.5, 6.5
 """It goes back until its bow is so far from the jetty, the second to lie there when it gives up [m]."""
 
-MAX_TURNED, MAX_BESIDE, FARTHEST = 1.2, 2.5, 12.0
-"""Turned from the line, beside it and before the jetty by no more than this it comes up from where it is [rad, m, m]."""
+MAX_TURNED, NEAR_LINE, FARTHEST = 1.2, 0.6, 12.0
+"""Turned from the line, beside it (at the gate, and so much more before it) and before the jetty by no more than this it comes up from where it is [rad, m, m]."""
+
+MAX_OUTS = 4
+"""It sets out anew no more often than this because it is too far beside the line; from then on that is a try."""
+
+SEEN_FROM = 4.0
+"""Nearer than this it sees the tag [m]."""
 
 SETTLED_TIME = 4.0
 """It has charged for so long when it is done [s]: a wave may part the contacts again."""
@@ -100,14 +107,19 @@ class JettyDocking(Behaviour):
         situation: Situation,
         look: Look,
         front: float,
+        begin: Callable[[Pose2], Goal],
     ) -> None:
-        """`course` has the one point where the line begins; `look` finds tags ahead, `front` is from the boat's middle to its bow [m]."""
+        """`course` has the one point where the line begins by the map; `look` finds tags ahead, `front` is from the boat's middle to its bow [m].
+
+        `begin` gives the place to begin from for one where the boat would lie docked, as `dock_start.start` does.
+        """
         super().__init__("dock at the jetty")
         self._jetty, self._course, self._navigator, self._situation = jetty, course, navigator, situation
+        self._begin = begin
         self._line = JettyLine(jetty, navigator, situation, look, front)
         self._sight, self._contacts = self._line.sight, DockContact(jetty.name, situation)
         self._stage, self._since, self._ticked = _Stage.SAIL, 0.0, -math.inf
-        self._tries = 0
+        self._tries = self._outs = 0
         self._why: Notice | None = None
         self._settled = self._berthed = math.inf
         self._steps: dict[_Stage, Callable[[], Status]] = {
@@ -119,7 +131,7 @@ class JettyDocking(Behaviour):
 
     def initialise(self) -> None:
         """Set out."""
-        self._tries, self._ticked = 0, self._situation.now
+        self._tries, self._outs, self._ticked = 0, 0, self._situation.now
         self._line.begin()
         self._set_out()
 
@@ -149,18 +161,18 @@ class JettyDocking(Behaviour):
 
     def _begin_anew(self) -> None:
         """It was left alone: out of the berth first, where it may be in it."""
-        _, gap = self._line.where()
-        near = gap < CLEAR
+        near = self._line.where()[1] < CLEAR
         self._line.begin()
         self._enter(_Stage.RETREAT) if near else self._set_out()
 
     def _set_out(self) -> None:
         """From where it is, if the line can be reached from there."""
         robot, gap = self._line.where()
-        if abs(robot.yaw) < MAX_TURNED and CLEAR - 0.5 < gap < FARTHEST and abs(robot.y) < MAX_BESIDE:
+        far = abs(robot.y) > NEAR_LINE + REACH_ASIDE * max(0.0, gap - GATE)
+        if abs(robot.yaw) < MAX_TURNED and CLEAR - 0.5 < gap < FARTHEST and not far:
             self._enter(_Stage.APPROACH)
             return
-        self._navigator.head_for(self._course.goal)
+        self._navigator.head_for(self._begin(self._line.docked()))
         self._enter(_Stage.SAIL)
 
     def _sail(self) -> Status:
@@ -171,7 +183,6 @@ class JettyDocking(Behaviour):
             return Status.FAILURE
         if leg is LegState.ARRIVED:
             self._navigator.finish()
-            self._line.begin()
             self._enter(_Stage.APPROACH)
         return Status.RUNNING
 
@@ -180,6 +191,10 @@ class JettyDocking(Behaviour):
         name, (_, gap) = self._jetty.name, self._line.where()
         if self._met(gap):
             self._touch()
+            return Status.RUNNING
+        if self._beside(gap) and self._outs < MAX_OUTS:
+            self._outs += 1  # there is room yet to come round
+            self._set_out()
             return Status.RUNNING
         if why := self._astray(gap):
             return self._again(why)
@@ -201,6 +216,11 @@ class JettyDocking(Behaviour):
             return False
         return gap < -MAX_BEYOND or self._contacts.meet or (self._situation.touched and gap < TOUCH)
 
+    def _beside(self, gap: float) -> bool:
+        """It is so far beside the line that it would not come onto it any more."""
+        aside = abs(self._line.aside())
+        return self._sight.known and GATE < gap < FUNNEL and aside > MAX_OFF + REACH_ASIDE * (gap - GATE)
+
     def _astray(self, gap: float) -> Notice | None:
         """Why this approach leads nowhere; None while it may lead to the berth."""
         name, robot = self._jetty.name, self._line.where()[0]
@@ -211,13 +231,11 @@ class JettyDocking(Behaviour):
             return dock_outcomes.unseen(name, by_laser=False)
         aside = abs(self._line.aside())
         if gap > BERTH:
-            far = MAX_OFF + REACH_ASIDE * max(0.0, gap - GATE)
-            askew = gap < GATE and abs(robot.yaw) > MAX_ASKEW
-            if (gap < FUNNEL and aside > far and abs(robot.yaw) < MAX_TURNED) or askew:
+            at_gate = gap < GATE and (aside > MAX_OFF or abs(robot.yaw) > MAX_ASKEW)
+            if at_gate or self._beside(gap):
                 return dock_outcomes.missed(name, aside)
-            if self._sight.age > LOST_TIMEOUT:
-                return dock_outcomes.unseen(name, by_laser=False)
-            if gap < GATE and self._sight.age > FRESH:
+            unseen = min(self._sight.age, self._spent) if gap > GATE else self._sight.age
+            if gap < SEEN_FROM and unseen > (LOST_TIMEOUT if gap > GATE else FRESH):
                 return dock_outcomes.unseen(name, by_laser=False)
         self._berthed = min(self._berthed, worked) if gap < BERTH else math.inf
         if worked - self._berthed > STALL_TIME:
@@ -251,6 +269,8 @@ class JettyDocking(Behaviour):
     def _again(self, why: Notice) -> Status:
         """Go back and try once more; after the last time too, to lie clear of the jetty."""
         self._tries, self._why = self._tries + 1, why
+        if why.code == Code.DOCK_UNSEEN:
+            self._line.begin()
         self._enter(_Stage.RETREAT)
         return Status.RUNNING
 

@@ -66,6 +66,10 @@ class JettyLine:
         robot = self._pose().inverse()
         return robot, -robot.x - self._front
 
+    def docked(self) -> Pose2:
+        """Where the boat lies docked, in `map`."""
+        return self._situation.pose.then(self._pose()).then(Pose2(-self._front, 0.0, 0.0))
+
     def aside(self) -> float:
         """Of its bow off the line, to the left [m]."""
         robot, _ = self.where()
