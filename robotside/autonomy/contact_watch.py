@@ -19,13 +19,23 @@ __all__ = ["ContactWatch"]
 class ContactWatch:
     """Watches the bumper."""
 
-    def __init__(self, engine: Engine, pose_estimator: PoseEstimator, situation: Situation, say: Say) -> None:
+    def __init__(
+        self,
+        engine: Engine,
+        pose_estimator: PoseEstimator,
+        situation: Situation,
+        say: Say,
+        *,
+        drifts: bool = False,
+    ) -> None:
+        """Of a robot that `drifts`: water moves it where it lies."""
         self._engine, self._pose_estimator, self._situation, self._say = (
             engine,
             pose_estimator,
             situation,
             say,
         )
+        self._drifts = drifts
         self._pressed, self._released_at = False, -math.inf
 
     def on_bumper(self, msg: Bumper, now: float) -> None:
@@ -35,7 +45,7 @@ class ContactWatch:
         self._pose_estimator.on_bumper(msg)
         if was and not msg.pressed:
             self._released_at = now
-        if not msg.pressed or was or (self._engine.running and self._situation.touches):
+        if not msg.pressed or was or self._meant:
             return
         self._engine.pause(Notice(Code.TASK_BUMPED, "Paused: the bumper touched something."), "alarm")
         if now - self._released_at < CONTACT_TIME:
@@ -45,6 +55,13 @@ class ContactWatch:
         side = _side(msg.bearing)
         touched = Notice(Code.BUMPER_TOUCHED, f"The bumper touched something {side}.", side=side)
         self._say("contact", touched, "alarm", at=at)
+
+    @property
+    def _meant(self) -> bool:
+        """It docks, or it lies at the dock that charges it and waves move it there."""
+        if self._engine.running:
+            return self._situation.touches
+        return self._drifts and self._situation.charging
 
 
 def _side(bearing: float) -> str:

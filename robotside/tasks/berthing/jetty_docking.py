@@ -74,6 +74,9 @@ CLEAR, AWAY = 5.5, 6.5
 MAX_TURNED, NEAR_LINE, FARTHEST = 1.2, 0.6, 12.0
 """Turned from the line, beside it (at the gate, and so much more before it) and before the jetty by no more than this it comes up from where it is [rad, m, m]."""
 
+ROUND = 3.0
+"""Farther away it has room to come round ahead; nearer it goes astern first [m]."""
+
 MAX_OUTS = 4
 """It sets out anew no more often than this because it is too far beside the line; from then on that is a try."""
 
@@ -192,7 +195,7 @@ class JettyDocking(Behaviour):
         if self._met(gap):
             self._touch()
             return Status.RUNNING
-        if self._beside(gap) and self._outs < MAX_OUTS:
+        if gap > ROUND and self._beside(gap) and self._outs < MAX_OUTS:
             self._outs += 1  # there is room yet to come round
             self._set_out()
             return Status.RUNNING

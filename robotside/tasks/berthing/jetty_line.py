@@ -15,6 +15,7 @@ from robotside.perception.cage_finder import CageSighting, FrontView
 from robotside.tasks.behaviours.situation import Situation
 from robotside.tasks.berthing.cage_sight import CageSight, Look
 from robotside.tasks.berthing.jetty_steering import JettySteering
+from robotside.tasks.berthing.tag_mirror import unmirrored
 
 __all__ = ["CAMERA_BEHIND", "LEAN", "JettyLine"]
 
@@ -120,7 +121,8 @@ class JettyLine:
 
     def _faces(self, view: FrontView) -> list[CageSighting]:
         """What the bow would touch, of each tag in a picture."""
-        return [replace(seen, pose=seen.pose.then(Pose2(-RECESS, 0.0, 0.0))) for seen in self._look(view)]
+        expected, ahead = self._pose().yaw, self._front - CAMERA_BEHIND
+        return [_face_of(unmirrored(seen, ahead, expected)) for seen in self._look(view)]
 
     def _on_map(self) -> Pose2:
         return self._mapped.since(self._situation.pose)
@@ -128,3 +130,8 @@ class JettyLine:
     def _pose(self) -> Pose2:
         """What the bow touches, in `base_link`: as it was seen, else as the map has it."""
         return self.sight.pose() or self._on_map()
+
+
+def _face_of(tag: CageSighting) -> CageSighting:
+    """What the bow would touch below a tag."""
+    return replace(tag, pose=tag.pose.then(Pose2(-RECESS, 0.0, 0.0)))
