@@ -76,6 +76,9 @@ def test_which_tasks_there_are_depends_on_kind_and_manoeuvres() -> None:
     assert known("quadrotor", "hover", "take_off", "land") == [*EVERYWHERE, "take_off", "land"]
     looks = RobotInfo(kind="hexapod", manoeuvres=["course", "surface"], cameras=["front"])
     assert tasks_of(looks) == [*EVERYWHERE, "dock", "undock", "surface"]
+    afloat = RobotInfo(kind="boat", manoeuvres=["steer", "course"], cameras=["front"])
+    assert tasks_of(afloat) == [*EVERYWHERE, "dock", "undock"]
+    assert known("boat", "steer", "course") == EVERYWHERE
     sees = RobotInfo(kind="quadrotor", manoeuvres=["take_off", "land"], cameras=["front", "down"])
     assert tasks_of(sees) == [*EVERYWHERE, "dock", "take_off", "land"]
 

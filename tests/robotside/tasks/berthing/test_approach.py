@@ -46,6 +46,12 @@ def test_it_comes_to_the_line_from_beside_it_and_ends_straight_and_slow(way):
     assert speed == CREEP_SPEED
 
 
+def test_a_boat_leaves_faster_and_farther_along_what_guides_it():
+    boat = Approach.of(RobotInfo(kind="boat", radius=0.5, min_radius=1.4))
+    assert (boat.leave, boat.retreat, boat.guided) == (4.0, 0.35, 0.8)
+    assert (ROUND.retreat, ROUND.guided) == (0.12, 0.1)
+
+
 def test_one_that_turns_on_the_spot_turns_first():
     assert ROUND.steer(Pose2(-1.0, 0.0, 1.2)).linear.x == 0.0
     assert ROUND.steer(Pose2(-1.0, 0.0, 1.2)).angular.z < 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 from py_trees.common import Status
@@ -43,6 +44,17 @@ def test_it_backs_out_of_the_dock_slowly_and_straight(gives: int) -> None:
     assert min(speeds) == pytest.approx(-0.12)
     assert on.robot.at_rest
     assert tree.dock == "Dock"
+
+
+@pytest.mark.parametrize("guided", [0.1, 0.5])
+def test_only_where_the_dock_guides_it_a_touch_is_meant(guided: float) -> None:
+    on = stage()
+    way = replace(Approach.of(on.robot.info), guided=guided)
+    tree = Undock(lambda: [DOCK], on.navigator, on.situation, way)
+    while on.tick(tree) is Status.RUNNING:
+        gone = 4.0 - on.robot.pose[0]
+        assert on.situation.touches or gone > guided - 0.03
+        assert not on.situation.touches or gone < guided + 0.03
 
 
 def test_a_robot_in_no_dock_does_not_move() -> None:
