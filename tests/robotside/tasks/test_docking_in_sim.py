@@ -25,7 +25,7 @@ def start(tmp_path: Path) -> Iterator[Callable[..., Run]]:
         """With the place of the dock wrong by `off`, in the frame of the dock."""
         run = Run(make(name, world, seed=7, camera=camera), tmp_path)
         runs.append(run)
-        if name == "aqua":  # nothing swims here to look for, and looking takes most of the time
+        if name in ("aqua", "minnow"):  # nothing swims here to look for, and looking takes most of the time
             run.station.autonomy.watch.on_image = lambda *_, **__: None  # type: ignore[method-assign]
         dock = next(place for place in run.robot.places if place.kind == "dock")
         x, y, yaw = Pose2(dock.x, dock.y, dock.yaw).then(off)
@@ -257,5 +257,70 @@ def test_a_low_battery_has_a_swimmer_charge_in_its_cage_and_go_on_with_its_patro
     run.until(lambda: run.task.phase == "undocking", 120.0)
     assert battery.charge >= 0.8
     run.finish(200.0)
+    assert (run.task.state, run.task.visited) == ("SUCCEEDED", 2)
+    assert not docked(run)
+
+
+@pytest.mark.parametrize(
+    ("world", "off"),
+    [("lake", (0.2, 0.2, 10.0)), ("lake", (-0.2, -0.2, -10.0)), ("tank", (0.0, 0.3, 10.0))],
+)
+def test_by_the_tag_on_its_post_the_boat_docks_though_the_map_has_the_jetty_elsewhere(
+    start: Callable[..., Run], world: str, off: tuple[float, float, float]
+) -> None:
+    run = start("minnow", world, Pose2(off[0], off[1], math.radians(off[2])), camera=True)
+    simulation = run.robot.simulation
+    run.order("dock", "Charger")
+    touches, before = [], simulation.contacts
+    while run.station.autonomy.engine.running:
+        fast = math.hypot(*simulation.vehicle.state().velocity[:2])
+        run.wait(1 / 30)
+        if simulation.contacts > before:
+            touches.append(max(fast, math.hypot(*simulation.vehicle.state().velocity[:2])))
+            before = simulation.contacts
+    assert run.task.reason == "Docked at Charger: the battery takes charge."
+    assert max(touches, default=0.0) < 0.18
+    for _ in range(20):
+        run.wait(0.5)
+        assert docked(run)
+        assert math.hypot(*simulation.vehicle.state().velocity[:2]) < 0.1
+    run.order("undock")
+    run.finish()
+    assert run.task.reason == "Out of Charger."
+    assert not docked(run)
+
+
+@pytest.mark.parametrize("doing", ["Heading", "Coming up", "Waiting for"])
+def test_stop_holds_a_boat_at_each_phase_of_docking(start: Callable[..., Run], doing: str) -> None:
+    run = start("minnow", "tank", Pose2(0.0, 0.2, 0.1), camera=True)
+    run.order("dock", "Charger")
+    run.until(lambda: run.task.reason.startswith(doing), 200.0)
+    assert run.task.reason.startswith(doing)
+    run.wait(1.0)
+    run.ask("/stop", CommandRequest())
+    run.wait(3.0)
+    for _ in range(10):
+        run.wait(0.5)
+        assert run.robot.simulation.vehicle.order.kind == "rest"
+        assert math.hypot(*run.robot.simulation.vehicle.state().velocity[:2]) < 0.1
+
+
+def test_a_low_battery_has_a_boat_charge_at_its_jetty_and_go_on_with_its_patrol(
+    start: Callable[..., Run],
+) -> None:
+    run = start("minnow", "lake", Pose2(0.1, 0.2, 0.1), camera=True)
+    battery = run.robot.simulation.vehicle.battery
+    run.patrol([Waypoint(-31.0, -18.0), Waypoint(-33.0, -22.0)], home=[Waypoint(-34.0, -24.0)])
+    run.until(lambda: run.task.phase == "driving", 10.0)
+    battery.charge = 0.14
+    run.until(lambda: run.task.phase == "charging", 300.0)
+    assert docked(run)
+    assert run.task.task == "patrol"
+    run.wait(20.0)
+    assert docked(run)
+    battery.charge = 0.795
+    run.until(lambda: run.task.phase == "undocking", 200.0)
+    assert battery.charge >= 0.8
+    run.finish(300.0)
     assert (run.task.state, run.task.visited) == ("SUCCEEDED", 2)
     assert not docked(run)
