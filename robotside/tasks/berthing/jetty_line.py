@@ -31,6 +31,9 @@ REACH = 4.0
 LEAN = 0.06
 """It leans on the jetty with the push that would make it so fast through still water [m/s]."""
 
+MAP_TURN, MAX_TURN = 0.25, 0.45
+"""The direction that the map has is usually wrong by no more than the first, and what is seen turned from it by more than the second is none of it [rad]."""
+
 FUNNEL, FUNNEL_END = 0.25, 0.15
 """It looks aside no farther for each metre that is left, nor than the second at the berth [rad]."""
 
@@ -121,8 +124,10 @@ class JettyLine:
 
     def _faces(self, view: FrontView) -> list[CageSighting]:
         """What the bow would touch, of each tag in a picture."""
-        expected, ahead = self._pose().yaw, self._front - CAMERA_BEHIND
-        return [_face_of(unmirrored(seen, ahead, expected)) for seen in self._look(view)]
+        mapped, ahead = self._on_map().yaw, self._front - CAMERA_BEHIND
+        expected = mapped + within(wrap(self._pose().yaw - mapped), MAP_TURN)
+        faces = (_face_of(unmirrored(seen, ahead, expected)) for seen in self._look(view))
+        return [face for face in faces if abs(wrap(face.pose.yaw - mapped)) < MAX_TURN]
 
     def _on_map(self) -> Pose2:
         return self._mapped.since(self._situation.pose)

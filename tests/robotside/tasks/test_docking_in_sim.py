@@ -186,8 +186,8 @@ def test_a_low_battery_has_a_drone_charge_on_its_pad_and_go_on_with_its_patrol(
     assert not docked(run)
 
 
-def swim_before(run: Run, away: float, aside: float, turned: float) -> None:
-    """Put the swimmer before its cage, at rest and at its depth, `away` from where it is docked [m], and have the robot side know it."""
+def put_before(run: Run, away: float, aside: float, turned: float) -> None:
+    """Put the robot afloat before its dock, at rest and at its depth, `away` from where it is docked [m], and have the robot side know it."""
     dock = next(place for place in run.robot.places if place.kind == "dock")
     at = Pose2(dock.x, dock.y, dock.yaw).then(Pose2(-away, aside, turned))
     simulation = run.robot.simulation
@@ -212,7 +212,7 @@ def test_before_a_cage_that_is_not_there_the_swimmer_says_so_and_goes_in_nowhere
 
 def test_stop_holds_a_swimmer_on_its_way_into_the_cage(start: Callable[..., Run]) -> None:
     run = start("aqua", "tank", camera=True)
-    swim_before(run, 2.0, 0.2, 0.1)
+    put_before(run, 2.0, 0.2, 0.1)
     run.order("dock", "Charger")
     run.until(lambda: run.task.reason.startswith("Coming up"), 120.0)
     run.ask("/stop", CommandRequest())
@@ -228,7 +228,7 @@ def test_by_the_tag_over_the_coil_the_swimmer_docks_though_the_map_has_the_cage_
     start: Callable[..., Run], world: str, aside: float, turned: int
 ) -> None:
     run = start("aqua", world, Pose2(-0.2, aside, math.radians(turned)), camera=True)
-    swim_before(run, 2.2, 0.3, -0.2)
+    put_before(run, 2.2, 0.3, -0.2)
     run.order("dock", "Charger")
     run.finish()
     assert run.task.reason == "Docked at Charger: the battery takes charge."
@@ -269,6 +269,8 @@ def test_by_the_tag_on_its_post_the_boat_docks_though_the_map_has_the_jetty_else
     start: Callable[..., Run], world: str, off: tuple[float, float, float]
 ) -> None:
     run = start("minnow", world, Pose2(off[0], off[1], math.radians(off[2])), camera=True)
+    if world == "tank":
+        put_before(run, 7.0, 0.5, -0.2)
     simulation = run.robot.simulation
     run.order("dock", "Charger")
     touches, before = [], simulation.contacts
@@ -293,6 +295,7 @@ def test_by_the_tag_on_its_post_the_boat_docks_though_the_map_has_the_jetty_else
 @pytest.mark.parametrize("doing", ["Heading", "Coming up", "Waiting for"])
 def test_stop_holds_a_boat_at_each_phase_of_docking(start: Callable[..., Run], doing: str) -> None:
     run = start("minnow", "tank", Pose2(0.0, 0.2, 0.1), camera=True)
+    put_before(run, 7.0, 0.4, -2.0 if doing == "Heading" else -0.2)
     run.order("dock", "Charger")
     run.until(lambda: run.task.reason.startswith(doing), 200.0)
     assert run.task.reason.startswith(doing)

@@ -160,3 +160,13 @@ def test_it_is_done_only_after_some_seconds_of_charge() -> None:
     for _ in range(60):
         assert on.tick(tree) is Status.RUNNING
     assert on.run(tree, 5.0) is Status.SUCCESS
+
+
+def test_it_is_slow_where_it_is_near_and_brakes_before_the_jetty() -> None:
+    on = Harbour(Pose2(0.0, 0.2, 0.1))
+    tree = on.make()
+    while on.tick(tree) is Status.RUNNING:
+        speed = math.hypot(*on.velocity)
+        assert on.within.x < -1.5 or speed < 0.35
+        assert on.within.x < -0.15 or speed < 0.12
+    assert tree.status is Status.SUCCESS

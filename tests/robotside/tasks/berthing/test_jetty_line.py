@@ -44,6 +44,12 @@ def test_seen_it_is_where_it_is_and_so_is_the_place_to_lie() -> None:
     assert line.docked() == pytest.approx(on.jetty, abs=0.05)
 
 
+def test_what_is_turned_far_from_what_the_map_says_is_none_of_it() -> None:
+    for turned, seen in ((0.4, True), (0.6, False)):
+        line = line_of(Harbour(Pose2(0.0, 0.0, turned), Pose2(-1.2, 0.0, 0.0)), 20)
+        assert line.sight.known is seen
+
+
 def test_its_speed_is_told_along_and_aside_of_the_jetty() -> None:
     on = Harbour(ORIGIN, Pose2(-3.0, 0.0, math.pi / 2))
     line = line_of(on, 1)
