@@ -40,7 +40,6 @@ from robotside.core.pose2 import Pose2
 from robotside.core.robot import Robot
 from robotside.core.topic_demand import Demand
 from robotside.core.worker import InLoopWorker, Worker
-from robotside.kinds.registry import kind_of
 from robotside.localisation.odometry_track import OdometryTrack
 from robotside.localisation.pose_estimator import PoseEstimator
 from robotside.mapping.occupancy_grid import Grid
@@ -122,13 +121,7 @@ class Autonomy:
         )
         """Watches the charge."""
         self._mooring = Mooring(info.kind, records.places.all, self.pose_estimator)
-        self._contacts = ContactWatch(
-            self.engine,
-            self.pose_estimator,
-            self.situation,
-            say,
-            drifts=kind_of(info.kind).handling.drifts,
-        )
+        self._contacts = ContactWatch(self.engine, self.pose_estimator, self.situation, say, kind=info.kind)
         plan.show(np.empty((0, 2)))
         self._handlers = self._make_handlers()
 

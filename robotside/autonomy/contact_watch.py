@@ -7,6 +7,7 @@ import math
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Bumper
 from robotside.core.notice import Notice
+from robotside.kinds.registry import kind_of
 from robotside.limits.bumper_guard import CONTACT_TIME
 from robotside.localisation.pose_estimator import PoseEstimator
 from robotside.records.events import Say
@@ -26,16 +27,16 @@ class ContactWatch:
         situation: Situation,
         say: Say,
         *,
-        drifts: bool = False,
+        kind: str = "",
     ) -> None:
-        """Of a robot that `drifts`: water moves it where it lies."""
+        """Of a robot of a `kind`: water moves some where they lie."""
         self._engine, self._pose_estimator, self._situation, self._say = (
             engine,
             pose_estimator,
             situation,
             say,
         )
-        self._drifts = drifts
+        self._drifts = kind_of(kind).handling.drifts
         self._pressed, self._released_at = False, -math.inf
 
     def on_bumper(self, msg: Bumper, now: float) -> None:

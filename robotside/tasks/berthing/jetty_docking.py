@@ -41,7 +41,7 @@ STEERAGE, STEERED = 0.2, 0.25
 LOOK_FROM, LOOK_GAP = 6.0, 2.0
 """By the map: nearer than the first it goes slowly to see the tag, and no nearer than the second without it [m]."""
 
-GATE, REACH_ASIDE, FUNNEL = 1.0, 0.35, 4.0
+GATE, REACH_ASIDE, FUNNEL = 0.9, 0.35, 4.0
 """With its bow so near it has to be on the line; farther away, up to the third, it may be so much more aside for each metre [m, 1, m]."""
 
 MAX_OFF, MAX_ASKEW = 0.13, 0.30

@@ -11,13 +11,13 @@ from dataclasses import replace
 from bridge.core.units import wrap
 from robotside.perception.cage_finder import CageSighting
 
-__all__ = ["MIRRORED_FROM", "TURN", "unmirrored"]
+__all__ = ["NEAR_TURN", "TURN", "unmirrored"]
 
-MIRRORED_FROM = 1.7
+MIRRORED_FROM = 1.5
 """From so far away the side may be the wrong one [m]."""
 
-TURN = 0.12
-"""Standard deviation of the direction, with the side known [rad]."""
+TURN, NEAR_TURN = 0.12, 0.04
+"""Standard deviation of the direction, from afar and from nearer than that [rad]."""
 
 
 def unmirrored(seen: CageSighting, ahead: float, expected: float) -> CageSighting:
@@ -29,4 +29,5 @@ def unmirrored(seen: CageSighting, ahead: float, expected: float) -> CageSightin
     yaw = seen.pose.yaw
     if away > MIRRORED_FROM:
         yaw = min((yaw, wrap(2 * sight - yaw)), key=lambda side: abs(wrap(side - expected)))
-    return replace(seen, pose=seen.pose._replace(yaw=yaw), turn=min(seen.turn, TURN))
+    turn = TURN if away > MIRRORED_FROM else NEAR_TURN
+    return replace(seen, pose=seen.pose._replace(yaw=yaw), turn=min(seen.turn, turn))

@@ -24,7 +24,7 @@ class Touched:
             estimator,  # type: ignore[arg-type]  # likewise
             self.situation,
             lambda _, text, *__, **___: self.said.append(str(text)),
-            drifts=drifts,
+            kind="boat" if drifts else "wheels",
         )
 
     def touch(self, now: float = 100.0) -> list[str]:

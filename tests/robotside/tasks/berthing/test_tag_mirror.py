@@ -8,7 +8,7 @@ import pytest
 
 from robotside.core.pose2 import Pose2
 from robotside.perception.cage_finder import CageSighting
-from robotside.tasks.berthing.tag_mirror import TURN, unmirrored
+from robotside.tasks.berthing.tag_mirror import NEAR_TURN, TURN, unmirrored
 
 AHEAD = 0.25
 SIGHT = math.atan2(0.8, 4.0)
@@ -29,6 +29,7 @@ def test_from_afar_a_tag_on_the_wrong_side_of_the_line_of_sight_is_turned_to_the
 def test_from_near_it_is_as_it_was_read() -> None:
     told = unmirrored(seen(0.3, 1.25, 0.0), AHEAD, -0.3)
     assert told.pose.yaw == 0.3
+    assert told.turn == NEAR_TURN
 
 
 @pytest.mark.parametrize(("turn", "told"), [(0.5, TURN), (0.05, 0.05)])
