@@ -7,11 +7,11 @@ import math
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.core.pose2 import Points, Pose2
 from robotside.localisation.beacons import Beacons
+from robotside.localisation.explanation import Look
 from robotside.localisation.first_guess import GUESS_REACH, GUESS_YAW, FirstGuess
 from robotside.localisation.odometry_track import OdometryTrack
 from robotside.localisation.position_uncertainty import PositionUncertainty
 from robotside.localisation.scan_matching import Localiser
-from robotside.localisation.sight import Look
 from robotside.localisation.whereabouts import Whereabouts, said_to_be
 from robotside.records.events import Say
 

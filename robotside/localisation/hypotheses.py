@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 from bridge.core.units import wrap
 from robotside.core.pose2 import Points, Pose2
+from robotside.localisation.explanation import Explanation, Look, explained
 from robotside.localisation.place_search import Found, differ
 from robotside.localisation.scan_matching import Localiser
-from robotside.localisation.sight import Look, Sight, see
 
 __all__ = ["MAX_FOLLOWED", "Hypotheses", "Hypothesis", "Prior"]
 
@@ -38,7 +38,7 @@ class Hypothesis:
     localiser: Localiser
     weight: float
     """Logarithm of its likelihood, beside the others'."""
-    sight: Sight
+    explanation: Explanation
 
     @property
     def pose(self) -> Pose2:
@@ -69,15 +69,15 @@ class Hypotheses:
         if localiser.pose is None or any(not differ(each.pose, localiser.pose) for each in self.all):
             return
         self._numbers += 1
-        self.all.append(Hypothesis(self._numbers, localiser, weight, found.sight))
+        self.all.append(Hypothesis(self._numbers, localiser, weight, found.explanation))
         self._sort()
 
-    def late_weight(self, sight: Sight, prior: float) -> float:
+    def late_weight(self, explanation: Explanation, prior: float) -> float:
         """Of a place that is found now: as good as the best one, by how much better or worse it explains the last look."""
         if not self.all:
-            return sight.evidence + prior
+            return explanation.evidence + prior
         best = self.all[0]
-        return best.weight + sight.evidence - best.sight.evidence + min(0.0, prior) - LATE
+        return best.weight + explanation.evidence - best.explanation.evidence + min(0.0, prior) - LATE
 
     def predict(self, odom: Pose2) -> None:
         """Move on by the wheels; `odom` is the pose in the odometry's frame."""
@@ -89,12 +89,12 @@ class Hypotheses:
         fresh = self._fresh(odom)
         for each in self.all:
             each.localiser.correct(points)
-            each.sight = see(each.localiser.field, each.pose, look)
+            each.explanation = explained(each.localiser.field, each.pose, look)
         if not self.all or not fresh:
             return
-        best = max(each.sight.evidence for each in self.all)
+        best = max(each.explanation.evidence for each in self.all)
         for each in self.all:
-            each.weight += fresh * max(-20.0, each.sight.evidence - best)
+            each.weight += fresh * max(-20.0, each.explanation.evidence - best)
         self._looked = odom
         self._sort()
 

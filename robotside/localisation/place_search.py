@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from bridge.core.units import wrap
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.worker import Work
+from robotside.localisation.explanation import Explanation, Look, explained
 from robotside.localisation.field import Field
 from robotside.localisation.scan_matching import Localiser
-from robotside.localisation.sight import Look, Sight, see
 
 __all__ = ["Found", "differ", "search"]
 
@@ -59,7 +59,7 @@ class Found:
     """A place that fits."""
 
     pose: Pose2
-    sight: Sight
+    explanation: Explanation
 
 
 def differ(one: Pose2, other: Pose2) -> bool:
@@ -87,7 +87,7 @@ def search(field: Field, look: Look) -> Work[list[Found]]:
     for pose in _modes(np.concatenate(fine)):
         found.append(matched(field, pose, look))
         yield
-    found.sort(key=lambda each: -each.sight.evidence)
+    found.sort(key=lambda each: -each.explanation.evidence)
     kept: list[Found] = []
     for each in found:
         if all(differ(each.pose, other.pose) for other in kept):
@@ -102,7 +102,7 @@ def matched(field: Field, pose: Pose2, look: Look) -> Found:
     for _ in range(2):
         trial.correct(look.ends)
     better = trial.pose or pose
-    before, after = see(field, pose, look), see(field, better, look)
+    before, after = explained(field, pose, look), explained(field, better, look)
     return Found(better, after) if after.evidence >= before.evidence else Found(pose, before)
 
 

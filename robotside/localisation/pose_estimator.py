@@ -23,13 +23,13 @@ from robotside.kinds.registry import kind_of
 from robotside.localisation.beacons import FIX_SPREAD, variance_of
 from robotside.localisation.beginning import PLACED_REACH, Beginning
 from robotside.localisation.candidates import Candidates
+from robotside.localisation.explanation import Look
 from robotside.localisation.field import Field
 from robotside.localisation.height_and_attitude import HeightAndAttitude
 from robotside.localisation.hypotheses import Hypothesis
 from robotside.localisation.odometry_track import OdometryTrack
 from robotside.localisation.push_watch import PushWatch
 from robotside.localisation.scan_matching import Localiser
-from robotside.localisation.sight import Look
 from robotside.localisation.sonar_rings import SonarRings
 from robotside.localisation.whereabouts import Whereabouts, said_to_be
 from robotside.records.events import Say

@@ -13,11 +13,11 @@ from collections.abc import Callable
 from bridge.core.units import wrap
 from robotside.core.pose2 import ORIGIN, Points, Pose2
 from robotside.core.worker import Job, Work, Worker
+from robotside.localisation.explanation import Explanation, Look, explained
 from robotside.localisation.field import Field
 from robotside.localisation.hypotheses import Hypotheses, Hypothesis, Prior, shares
 from robotside.localisation.place_search import Found, differ, matched, search
 from robotside.localisation.scan_matching import Localiser
-from robotside.localisation.sight import Look, Sight, see
 
 __all__ = ["Whereabouts", "anywhere", "said_to_be"]
 
@@ -100,12 +100,12 @@ class Whereabouts:
         """The place that is believed has been checked against all others, and dominates."""
         self.judged = False
         """It has been checked at all since it was last placed."""
-        self.sight: Sight | None = None
+        self.explanation: Explanation | None = None
         """How the believed place explains the last look that it was judged by."""
         self.by_word = False
         """An operator chose it, and nothing that was seen since tells it from all other places."""
         self._prior: Prior = anywhere
-        self._job: Job[tuple[list[Found], Sight]] | None = None
+        self._job: Job[tuple[list[Found], Explanation]] | None = None
         self._taken_at = (ORIGIN, ORIGIN)
         self._last: Pose2 | None = None
         self._placed_at: Pose2 | None = None
@@ -147,19 +147,21 @@ class Whereabouts:
             if self.hypotheses.all:
                 self._follow(belief, points, look, odom)
             elif self.proven:
-                self._glance(see(belief.field, belief.pose, look), now)
+                self._glance(explained(belief.field, belief.pose, look), now)
         if self._job is None and look.tells and self._due(belief, now):
             self._checked, self._checked_at = now, self._driven
             self._taken_at = (odom, belief.pose)
             self._job = self._worker.submit(_check(belief.field, belief.pose, look))
 
-    def _glance(self, own: Sight, now: float) -> None:
+    def _glance(self, own: Explanation, now: float) -> None:
         """Whether the proven place still explains what is seen."""
         self._unexplained = 0 if _explains(own) else self._unexplained + 1
         if self._unexplained >= MAX_UNEXPLAINED:
             self.doubt()
         elif (
-            self.sight and own.evidence < self.sight.evidence - WORSE and now >= self._checked + RETRY_PERIOD
+            self.explanation
+            and own.evidence < self.explanation.evidence - WORSE
+            and now >= self._checked + RETRY_PERIOD
         ):
             self._checked_at = -math.inf
 
@@ -173,25 +175,27 @@ class Whereabouts:
         driven = self._driven - self._checked_at
         if self.proven:
             return driven >= (RETRY_DISTANCE if self.by_word else CHECK_DISTANCE)
-        fits = bool(self.hypotheses.all) and self.hypotheses.all[0].sight.fit >= MIN_FIT
+        fits = bool(self.hypotheses.all) and self.hypotheses.all[0].explanation.fit >= MIN_FIT
         waited = now >= self._checked + RETRY_PERIOD
         return not math.isfinite(self._checked) or driven >= RETRY_DISTANCE or (waited and not fits)
 
-    def _judge(self, belief: Localiser, found: list[Found], own: Sight, odom: Pose2, evidence: Prior) -> None:
+    def _judge(
+        self, belief: Localiser, found: list[Found], own: Explanation, odom: Pose2, evidence: Prior
+    ) -> None:
         """Weigh what the search has found against what is believed."""
         then, was = self._taken_at
         moved = odom.since(then)
-        self.judged, self.sight = True, own
+        self.judged, self.explanation = True, own
         if self.hypotheses.all:
             for each in found:
-                weight = self.hypotheses.late_weight(each.sight, evidence(each.pose))
+                weight = self.hypotheses.late_weight(each.explanation, evidence(each.pose))
                 self.hypotheses.take_in(_at(belief.field, each.pose.then(moved), odom), each, weight)
             return
         against = (ANSWERED if self.by_word else CONTINUITY) if self.proven else 0.0
         others = [each for each in found if differ(each.pose, was)]
         back = (self._placed_at or then).since(then)
         seen = [own.evidence + evidence(was)]
-        seen += [each.sight.evidence + evidence(each.pose) for each in others]
+        seen += [each.explanation.evidence + evidence(each.pose) for each in others]
         weights = [seen[0] + self._prior(was.then(back))]
         weights += [
             weight + self._prior(each.pose.then(back)) - against
@@ -220,18 +224,18 @@ class Whereabouts:
         followed.predict(odom)
         followed.look(points, look, odom)
         best, share = followed.all[0], followed.shares[0]
-        if not look.tells or not _explains(best.sight) or share < SURE_SHARE:
+        if not look.tells or not _explains(best.explanation) or share < SURE_SHARE:
             return
         moved = self._driven - self._doubted_at
         if moved < CONFIRM_DISTANCE and share < BEYOND_DOUBT:
             return
         if belief.pose is not None and differ(best.pose, belief.pose):
-            if best.sight.fit < MIN_TAKEN_FIT or best.sight.through > MAX_TAKEN_THROUGH:
+            if best.explanation.fit < MIN_TAKEN_FIT or best.explanation.through > MAX_TAKEN_THROUGH:
                 return
             if belief.fit >= best.localiser.fit - SAME_FIT:
                 return  # all that it sees is on the map where it believes to be: rather has something gone there
             self._take(best)
-        self.sight = best.sight
+        self.explanation = best.explanation
         self._prove()
 
     def _prove(self) -> None:
@@ -246,17 +250,17 @@ class Whereabouts:
         self.hypotheses.clear()
 
 
-def _check(field: Field, pose: Pose2, look: Look) -> Work[tuple[list[Found], Sight]]:
+def _check(field: Field, pose: Pose2, look: Look) -> Work[tuple[list[Found], Explanation]]:
     """All places that explain the look, and how well `pose` does."""
     found = yield from search(field, look)
-    own = see(field, pose, look)
+    own = explained(field, pose, look)
     yield
     better = matched(field, pose, look)
-    return found, own if differ(better.pose, pose) else better.sight
+    return found, own if differ(better.pose, pose) else better.explanation
 
 
-def _explains(sight: Sight) -> bool:
-    return sight.fit >= MIN_FIT and sight.through <= MAX_THROUGH
+def _explains(explanation: Explanation) -> bool:
+    return explanation.fit >= MIN_FIT and explanation.through <= MAX_THROUGH
 
 
 def _at(field: Field, pose: Pose2, odom: Pose2) -> Localiser:

@@ -11,10 +11,10 @@ import pytest
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.worker import Work
 from robotside.localisation import whereabouts
+from robotside.localisation.explanation import Look
 from robotside.localisation.field import Field
 from robotside.localisation.place_search import Found
 from robotside.localisation.scan_matching import Localiser
-from robotside.localisation.sight import Look
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from robotside.core.pose2 import Pose2
+from robotside.localisation.explanation import Explanation, Look
 from robotside.localisation.field import Field
 from robotside.localisation.hypotheses import LATE, MAX_FOLLOWED, Hypotheses, shares
 from robotside.localisation.place_search import Found
 from robotside.localisation.scan_matching import Localiser
-from robotside.localisation.sight import Look, Sight
 from robotside.mapping.occupancy_grid import Grid
 
 WALLED = Field(Grid(np.pad(np.zeros((60, 80), dtype=np.bool_), 10, constant_values=True), 0.1, -5.0, -4.0))
@@ -31,7 +31,7 @@ def following(*poses: Pose2, weight: float = 0.0) -> Hypotheses:
         localiser = Localiser(WALLED)
         localiser.place(pose, spread=0.1, turn=0.05)
         localiser.predict(Pose2(0.0, 0.0, 0.0))
-        made.take_in(localiser, Found(pose, Sight(-1.0, 0.9, 0.0)), weight)
+        made.take_in(localiser, Found(pose, Explanation(-1.0, 0.9, 0.0)), weight)
     return made
 
 
@@ -77,8 +77,8 @@ def test_one_that_moved_into_another_is_dropped_with_the_rest_that_is_hardly_bel
 
 def test_a_place_that_is_found_late_must_fit_better_than_those_that_were_followed() -> None:
     followed = following(Pose2(0.0, 0.0, 0.0), weight=2.0)
-    alike = followed.all[0].sight
+    alike = followed.all[0].explanation
     assert followed.late_weight(alike, 0.0) == pytest.approx(2.0 - LATE)
-    assert followed.late_weight(Sight(alike.evidence + 5.0, 1.0, 0.0), -1.0) == pytest.approx(
+    assert followed.late_weight(Explanation(alike.evidence + 5.0, 1.0, 0.0), -1.0) == pytest.approx(
         2.0 + 5.0 - 1.0 - LATE
     )

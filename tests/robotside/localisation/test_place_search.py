@@ -10,9 +10,9 @@ import pytest
 from bridge.msgs.sensor_msgs import LaserScan
 from robotside.core.pose2 import Pose2
 from robotside.core.worker import completed
+from robotside.localisation.explanation import Look
 from robotside.localisation.field import Field
 from robotside.localisation.place_search import MAX_FOUND, Found, differ, search
-from robotside.localisation.sight import Look
 from robotside.mapping.laser_points import LaserProjection
 from robotside.mapping.occupancy_grid import Grid
 from tests.fakes import Box, FakeRobot
@@ -34,7 +34,7 @@ def test_wherever_it_is_that_place_is_the_first_one_found(start: tuple[float, fl
     best = found[0].pose
     assert best.distance(*start[:2]) < 0.08
     assert abs(math.remainder(best.yaw - start[2], math.tau)) < 0.03
-    assert found[0].sight.evidence - found[1].sight.evidence > 1.0
+    assert found[0].explanation.evidence - found[1].explanation.evidence > 1.0
 
 
 def test_of_a_sweep_in_one_of_equal_rooms_all_of_them_are_found_and_none_is_better() -> None:
@@ -44,7 +44,7 @@ def test_of_a_sweep_in_one_of_equal_rooms_all_of_them_are_found_and_none_is_bett
     for x, y, yaw in inner:
         near = [each for each in found if not differ(each.pose, Pose2(x, y, yaw))]
         assert len(near) == 1
-        assert near[0].sight.evidence > found[0].sight.evidence - 1.0
+        assert near[0].explanation.evidence > found[0].explanation.evidence - 1.0
     assert len(found) <= MAX_FOUND
 
 

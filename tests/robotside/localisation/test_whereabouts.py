@@ -11,11 +11,11 @@ from bridge.msgs.geometry_msgs import Twist
 from robotside.core.pose2 import ORIGIN, Pose2
 from robotside.core.worker import InLoopWorker
 from robotside.localisation import whereabouts
+from robotside.localisation.explanation import Explanation, Look
 from robotside.localisation.field import Field
 from robotside.localisation.hypotheses import Hypotheses, Hypothesis
 from robotside.localisation.place_search import Found
 from robotside.localisation.scan_matching import Localiser
-from robotside.localisation.sight import Look, Sight
 from robotside.localisation.whereabouts import (
     BEYOND_DOUBT,
     CONFIRM_DISTANCE,
@@ -104,8 +104,10 @@ class Doubt:
     ends = np.column_stack([np.cos(np.arange(24)), np.sin(np.arange(24))]) * 3.0
     """Of a look that tells enough; how well they are explained is said by the test."""
 
-    def __init__(self, monkeypatch: pytest.MonkeyPatch, best: Pose2, share: float, sight: Sight) -> None:
-        """The place `best` of the two has `share` of what is believed, and explains each look by `sight`."""
+    def __init__(
+        self, monkeypatch: pytest.MonkeyPatch, best: Pose2, share: float, explanation: Explanation
+    ) -> None:
+        """The place `best` of the two has `share` of what is believed, and explains each look by `explanation`."""
         monkeypatch.setattr(Hypotheses, "look", lambda *_: None)
         self.taken: list[Hypothesis] = []
         self.judge = Whereabouts(InLoopWorker(0), self.taken.append)
@@ -117,7 +119,7 @@ class Doubt:
             followed = Localiser(OPEN)
             followed.place(pose, spread=0.1, turn=0.05)
             followed.predict(ORIGIN)
-            self.judge.hypotheses.take_in(followed, Found(pose, sight), math.log(part))
+            self.judge.hypotheses.take_in(followed, Found(pose, explanation), math.log(part))
         self._now = self._at = 0.0
 
     def drive(self, distance: float) -> bool:
@@ -132,15 +134,15 @@ class Doubt:
 def test_another_place_than_the_believed_one_is_taken_only_where_it_explains_nearly_all(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    hardly = Doubt(monkeypatch, OTHER, NEARLY_SURE, Sight(-1.0, MIN_TAKEN_FIT, MAX_TAKEN_THROUGH))
+    hardly = Doubt(monkeypatch, OTHER, NEARLY_SURE, Explanation(-1.0, MIN_TAKEN_FIT, MAX_TAKEN_THROUGH))
     assert [hardly.drive(0.0), hardly.drive(1.0)] == [False, True]
     assert [each.pose.x for each in hardly.taken] == [pytest.approx(OTHER.x + 1.0)]
-    for sight in (
-        Sight(-1.0, MIN_TAKEN_FIT - 0.01, 0.0),  # a row of cars that is gone
-        Sight(-1.0, 1.0, MAX_TAKEN_THROUGH + 0.01),
+    for explanation in (
+        Explanation(-1.0, MIN_TAKEN_FIT - 0.01, 0.0),  # a row of cars that is gone
+        Explanation(-1.0, 1.0, MAX_TAKEN_THROUGH + 0.01),
     ):
         for share in (NEARLY_SURE, 0.9999):
-            poor = Doubt(monkeypatch, OTHER, share, sight)
+            poor = Doubt(monkeypatch, OTHER, share, explanation)
             assert not any(poor.drive(1.0) for _ in range(5))
             assert poor.taken == []
             assert poor.judge.hypotheses.all, "it goes on following them"
@@ -149,11 +151,11 @@ def test_another_place_than_the_believed_one_is_taken_only_where_it_explains_nea
 def test_the_believed_place_is_proven_by_less_but_must_explain_what_is_seen(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    same = Doubt(monkeypatch, BELIEVED, NEARLY_SURE, Sight(-1.0, MIN_FIT, MAX_THROUGH))
+    same = Doubt(monkeypatch, BELIEVED, NEARLY_SURE, Explanation(-1.0, MIN_FIT, MAX_THROUGH))
     assert [same.drive(0.0), same.drive(1.0)] == [False, True]
     assert same.taken == []
-    for sight in (Sight(-1.0, MIN_FIT - 0.01, 0.0), Sight(-1.0, 1.0, MAX_THROUGH + 0.01)):
-        lost = Doubt(monkeypatch, BELIEVED, 0.9999, sight)
+    for explanation in (Explanation(-1.0, MIN_FIT - 0.01, 0.0), Explanation(-1.0, 1.0, MAX_THROUGH + 0.01)):
+        lost = Doubt(monkeypatch, BELIEVED, 0.9999, explanation)
         assert not any(lost.drive(1.0) for _ in range(5))
 
 
@@ -161,7 +163,7 @@ def test_the_believed_place_is_proven_by_less_but_must_explain_what_is_seen(
 def test_a_place_must_fit_over_a_distance_unless_it_is_beyond_doubt(
     monkeypatch: pytest.MonkeyPatch, best: Pose2
 ) -> None:
-    fits = Sight(-1.0, 1.0, 0.0)
+    fits = Explanation(-1.0, 1.0, 0.0)
     likely = Doubt(monkeypatch, best, NEARLY_SURE, fits)
     assert not any(likely.drive(0.0) for _ in range(20)), "who stands sees the same again"
     assert not likely.drive(CONFIRM_DISTANCE - 0.01)
@@ -174,12 +176,12 @@ def test_a_place_must_fit_over_a_distance_unless_it_is_beyond_doubt(
 def test_a_proven_place_that_explains_nothing_for_some_looks_in_a_row_is_doubted(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    proven = Doubt(monkeypatch, BELIEVED, 0.9999, Sight(-1.0, 1.0, 0.0))
+    proven = Doubt(monkeypatch, BELIEVED, 0.9999, Explanation(-1.0, 1.0, 0.0))
     assert proven.drive(0.0)
-    sights = [0.0, 0.0, 1.0, *[0.0] * MAX_UNEXPLAINED]
-    seen = iter([Sight(-1.0, fit, 0.0) for fit in sights])
-    monkeypatch.setattr(whereabouts, "see", lambda *_: next(seen))
-    assert [proven.drive(0.0) for _ in sights] == [True] * (len(sights) - 1) + [False]
+    fits = [0.0, 0.0, 1.0, *[0.0] * MAX_UNEXPLAINED]
+    seen = iter([Explanation(-1.0, fit, 0.0) for fit in fits])
+    monkeypatch.setattr(whereabouts, "explained", lambda *_: next(seen))
+    assert [proven.drive(0.0) for _ in fits] == [True] * (len(fits) - 1) + [False]
 
 
 @pytest.mark.parametrize("right", [True, False])

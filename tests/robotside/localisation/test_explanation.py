@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from robotside.core.pose2 import Pose2
+from robotside.localisation.explanation import MAX_BEAMS, MAX_REACH, Look, explained
 from robotside.localisation.field import Field
-from robotside.localisation.sight import MAX_BEAMS, MAX_REACH, Look, see
 from robotside.mapping.occupancy_grid import Grid
 
 HERE = Pose2(0.0, 0.0, 0.0)
@@ -29,19 +29,19 @@ def look(*ends: tuple[float, float], more: int = 0) -> Look:
 
 
 def test_a_look_that_lies_on_surfaces_is_explained() -> None:
-    seen = see(room(), HERE, look((2.05, 0.0), (2.05, 1.0), (0.0, 3.05), more=8))
+    seen = explained(room(), HERE, look((2.05, 0.0), (2.05, 1.0), (0.0, 3.05), more=8))
     assert (seen.fit, seen.through) == (1.0, 0.0)
     assert seen.evidence > -0.5
 
 
 def test_a_beam_that_went_through_a_wall_speaks_more_against_a_place_than_one_that_met_the_unknown() -> None:
-    met_somebody = see(room(), HERE, look((1.2, 0.0), more=8))
-    went_through = see(room(), HERE, look((4.05, 0.0), more=8))
-    explained = see(room(), HERE, look((2.05, 0.0), more=8))
+    met_somebody = explained(room(), HERE, look((1.2, 0.0), more=8))
+    went_through = explained(room(), HERE, look((4.05, 0.0), more=8))
+    on_a_wall = explained(room(), HERE, look((2.05, 0.0), more=8))
     assert met_somebody.through == 0.0
     assert went_through.through == pytest.approx(1 / 9)
     assert went_through.fit == pytest.approx(8 / 9)  # though it ended on a wall
-    assert went_through.evidence < met_somebody.evidence < explained.evidence
+    assert went_through.evidence < met_somebody.evidence < on_a_wall.evidence
 
 
 def test_beams_begin_at_the_laser_and_not_behind_the_bumper_that_it_sits_on() -> None:
@@ -49,15 +49,15 @@ def test_beams_begin_at_the_laser_and_not_behind_the_bumper_that_it_sits_on() ->
     on_east = np.array(
         [(3.1, 0.3 * n - 1.5) for n in range(10)]
     )  # at x = 4.0, seen by a laser beyond the wall across the room
-    assert see(room(), before_the_wall, Look.of(on_east)).through == 1.0
-    assert see(room(), before_the_wall, Look.of(on_east, ahead=1.6)).through == 0.0
+    assert explained(room(), before_the_wall, Look.of(on_east)).through == 1.0
+    assert explained(room(), before_the_wall, Look.of(on_east, ahead=1.6)).through == 0.0
 
 
 def test_a_grazed_corner_is_no_wall() -> None:
     cells = np.pad(np.zeros((60, 80), dtype=np.bool_), 10, constant_values=True)
     cells[40, 70] = True
     field = Field(Grid(cells, 0.1, -5.0, -4.0))
-    assert see(field, HERE, look((4.05, 0.05), more=8)).through == 0.0
+    assert explained(field, HERE, look((4.05, 0.05), more=8)).through == 0.0
 
 
 def test_a_near_wall_does_not_outvote_all_others() -> None:
@@ -75,7 +75,7 @@ def test_beams_are_followed_so_far_and_no_farther() -> None:
 
 
 def test_without_a_beam_nothing_is_explained() -> None:
-    seen = see(room(), HERE, Look.of(np.empty((0, 2))))
+    seen = explained(room(), HERE, Look.of(np.empty((0, 2))))
     assert (seen.evidence, seen.fit) == (-math.inf, 0.0)
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from robotside.core.pose2 import Points, Pose2
 from robotside.localisation.field import Field
 
-__all__ = ["Look", "Sight", "see"]
+__all__ = ["Explanation", "Look", "explained"]
 
 MAX_BEAMS = 72
 """Beams that are looked at: neighbours tell the same."""
@@ -77,7 +77,7 @@ class Look:
 
 
 @dataclass(frozen=True, slots=True)
-class Sight:
+class Explanation:
     """How well a place explains a look."""
 
     evidence: float
@@ -88,17 +88,17 @@ class Sight:
     """Part of all beams that went through walls, 0 to 1."""
 
 
-def see(field: Field, pose: Pose2, look: Look) -> Sight:
+def explained(field: Field, pose: Pose2, look: Look) -> Explanation:
     """How the map of `field` explains `look`, had it been taken at `pose`."""
     if not len(look.ends):
-        return Sight(-math.inf, 0.0, 1.0)
+        return Explanation(-math.inf, 0.0, 1.0)
     placed = pose.apply(look.ends)
     off = np.abs(field.read(placed)[:, 0])
     through = _through(field, pose.then(Pose2(look.ahead, 0.0, 0.0)), placed)
     score = np.maximum(SHORT, -0.5 * (off / HIT_SPREAD) ** 2)
     score[through] = np.minimum(score[through], THROUGH)
     on = (off < HIT_DISTANCE) & ~through
-    return Sight(float(score.sum()) * EVIDENCE, float(on.mean()), float(through.mean()))
+    return Explanation(float(score.sum()) * EVIDENCE, float(on.mean()), float(through.mean()))
 
 
 def _through(field: Field, pose: Pose2, ends: Points) -> NDArray[np.bool_]:
