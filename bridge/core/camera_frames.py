@@ -52,9 +52,9 @@ class Frame:
     stamp: float
     """Time of exposure [s], on the clock of `/rosapi/get_time`."""
     width: int
-    """[pixel]"""
+    """[pixel]; 0 where the sender could not read the picture."""
     height: int
-    """[pixel]"""
+    """[pixel]; 0 where the sender could not read the picture."""
     jpeg: bytes
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bridge.core.camera_frames import picture_size
 from bridge.msgs.additions import DETECTED_CLASSES
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance
 from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray
@@ -128,7 +129,7 @@ class IntruderWatch:
 
     def _report_found(self, image: CompressedImage, *, placing: bool) -> None:
         stamp, sightings = image.header.stamp.seconds, self._found[1]
-        size = jpeg_size(image.data)
+        size = picture_size(image.data)[1:] if sightings else (0, 0)  # nothing is seen in what cannot be read
         pose = self._track.at(stamp) if placing else None
         spotted = [self._spotted(each, pose, size[1] / size[0], stamp) for each in sightings]
         there = [each for each in spotted if each is not None]
@@ -230,13 +231,3 @@ def _searched(jpeg: bytes) -> Work[list[Sighting]]:
     """The things in a picture, for a worker."""
     yield
     return find_things(jpeg)
-
-
-def jpeg_size(jpeg: bytes) -> tuple[int, int]:
-    """Width and height [pixel] that a JPEG file's header says; 640 x 480 when it has none."""
-    at = 2
-    while at + 9 < len(jpeg) and jpeg[at] == 0xFF:
-        if 0xC0 <= jpeg[at + 1] <= 0xCF and jpeg[at + 1] not in (0xC4, 0xC8, 0xCC):
-            return int.from_bytes(jpeg[at + 7 : at + 9], "big"), int.from_bytes(jpeg[at + 5 : at + 7], "big")
-        at += 2 + int.from_bytes(jpeg[at + 2 : at + 4], "big")
-    return 640, 480

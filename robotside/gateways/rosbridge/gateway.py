@@ -6,6 +6,8 @@ import ssl
 from collections.abc import Callable, Iterable, Mapping
 
 from bridge.core import camera_frames
+from bridge.core.camera_frames import picture_size
+from bridge.core.errors import ProtocolError
 from bridge.core.topics import camera_topics
 from bridge.discovery.hello import Hello
 from bridge.discovery.roll import PATH, write_roll
@@ -18,7 +20,6 @@ from robotside.door.station_door import StationDoor
 from robotside.gateways.addresses import url
 from robotside.gateways.scaling.message_reduction import reduce
 from robotside.gateways.scaling.picture_scaling import PictureScaler
-from robotside.perception.intruder_watch import jpeg_size
 
 __all__ = ["RosbridgeGateway"]
 
@@ -85,7 +86,15 @@ class RosbridgeGateway:
         if not isinstance(msg, CompressedImage):
             return
         camera = self._cameras[topic]
-        width, height = jpeg_size(msg.data)
+        width, height = _size(msg.data)
         self._taken[camera] = number = self._taken.get(camera, 0) + 1
         stamp = self._real_time(msg.header.stamp.seconds)
         self.server.publish_frame(camera, camera_frames.pack(number, stamp, msg.data, width, height))
+
+
+def _size(picture: bytes) -> tuple[int, int]:
+    """Columns and rows of a picture; 0 of one that cannot be read, which is the receiver's to say."""
+    try:
+        return picture_size(picture)[1:]
+    except ProtocolError:
+        return 0, 0

@@ -19,9 +19,9 @@ from robotside.core.worker import Worker
 from robotside.localisation.odometry_track import OdometryTrack
 from robotside.perception import intruder_watch
 from robotside.perception.intruder_tracker import MIN_DOUBTFUL_SIGHTINGS, MIN_SIGHTINGS, IntruderTracker
-from robotside.perception.intruder_watch import IntruderWatch, jpeg_size
+from robotside.perception.intruder_watch import IntruderWatch
 from tests.robotside.held_worker import HeldWorker
-from tests.robotside.perception.drawn import cone_ahead, jpeg, person_ahead
+from tests.robotside.perception.drawn import cone_ahead, person_ahead
 
 FOV = 1.2
 
@@ -188,9 +188,21 @@ def test_with_an_unsure_position_a_cone_is_shown_but_not_placed() -> None:
     assert scene.found == []
 
 
-def test_the_size_of_a_picture_is_read_from_its_header() -> None:
-    assert jpeg_size(jpeg(np.zeros((240, 320, 3), np.uint8))) == (320, 240)
-    assert jpeg_size(b"") == (640, 480)
+def test_what_the_edge_of_the_picture_cuts_is_shown_but_not_placed() -> None:
+    scene = Scene()
+    scene.jpeg = cone_ahead(2.92, 1.85)
+    for n in range(2 * MIN_DOUBTFUL_SIGHTINGS):
+        scene.look(0.2 * n)
+    assert scene.detections()[-1].detections
+    assert scene.found == []
+
+
+@pytest.mark.parametrize("junk", [b"", b"a picture", b"\xff\xd8\xff\xe0"])
+def test_a_picture_that_cannot_be_read_shows_nothing(junk: bytes) -> None:
+    scene = Scene()
+    scene.jpeg = junk
+    scene.look(0.0)
+    assert [each.detections for each in scene.detections()] == [[]]
 
 
 def test_where_the_robot_was_is_asked_between_two_poses() -> None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import AsyncIterator
 from pathlib import Path
 
 import msgspec
 import pytest
+from PIL import Image
 from websockets.asyncio.client import connect
 
 from bridge.core import camera_frames
@@ -54,5 +56,21 @@ async def test_who_watches_its_camera_wants_it_and_gets_frames_stamped_by_real_t
         scene.station.bus.publish(CAMERA, taken)
         frame = camera_frames.unpack(await watcher.recv())  # type: ignore[arg-type]
     assert (frame.seq, frame.stamp, frame.jpeg) == (2, 507.0, b"a picture")
+    assert (frame.width, frame.height) == (0, 0), "nobody knows how large what is no picture is"
     await gateway.stop()
     assert not scene.robot.wanted[CAMERA]
+
+
+async def test_a_frame_says_how_large_its_picture_is(scene: Scene, gateway: RosbridgeGateway) -> None:
+    await gateway.start()
+    file = io.BytesIO()
+    Image.new("RGB", (320, 240)).save(file, "JPEG")
+    filled = (
+        b"\xff\xd8\xff" + file.getvalue()[2:]
+    )  # a fill byte before the first segment, as ITU T.81 B.1.1.2 allows
+    async with connect(f"{gateway.endpoints()['rosbridge']}/camera/front", proxy=None) as watcher:
+        await (await watcher.ping())
+        scene.station.bus.publish(CAMERA, CompressedImage(Header(Time.at(7.0), "camera"), "jpeg", filled))
+        frame = camera_frames.unpack(await watcher.recv())  # type: ignore[arg-type]
+    assert (frame.width, frame.height) == (320, 240)
+    await gateway.stop()
