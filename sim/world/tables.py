@@ -357,7 +357,7 @@ class Model(Spot, frozen=True, kw_only=True):
     scale: Annotated[float, msgspec.Meta(gt=0, le=1000)] = 1.0
     """So many times as large as in its file."""
     loose: bool = False
-    """True: it moves about, so that no map shows it."""
+    """True: it was put there since the map was made, which does not show it."""
 
 
 class Tag(Entry, frozen=True):

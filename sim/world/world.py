@@ -57,7 +57,7 @@ __all__ = ["World"]
 Name = Annotated[str, msgspec.Meta(min_length=1, max_length=60)]
 
 _LOOSE = ("cone", "person", "diver", "barrel", "loose_model")
-"""Kinds of things that move about."""
+"""Kinds of things that move about or were put there since the map was made."""
 
 
 class World(Entry, frozen=True, dict=True):
