@@ -428,6 +428,7 @@ def test_on_a_phone_the_tasks_can_be_chosen_whatever_is_said_over_them(
                     "Point 2 cannot be reached; the patrol goes on without it, and says so.", "warn"
                 )
             else:
+                shell.notices.hush()  # else it goes by itself, under the finger
                 asks = TaskStatus(task="deliver", state="RUNNING", asks="Is it loaded at Lab?", place="Lab")
                 robot.publish("/task/status", asks)
                 glass.until(lambda: shell.question.parent is not None, "no card")
