@@ -21,12 +21,13 @@ from bridge.msgs.pilothouse_msgs import (
     GetIntruderPictureResponse,
     GetMissionsRequest,
     GetMissionsResponse,
+    Place,
     SetPlaceRequest,
     SetPlaceResponse,
 )
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.std_msgs import Time
-from robotside.core.notice import Notice
+from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Pose2
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
@@ -37,7 +38,7 @@ from robotside.services.command_service import CommandService
 from robotside.services.preconditions import Preconditions
 from robotside.station.station import Station
 from robotside.tasks.berthing.approach import Approach
-from robotside.tasks.berthing.dock_start import start
+from robotside.tasks.berthing.dock_start import body_fault, starts
 from robotside.tasks.berthing.pad_landing import first_goal
 
 __all__ = ["records_services"]
@@ -82,25 +83,28 @@ class _RecordsOrders:
     def set_place(self, client: Operator, asked: SetPlaceRequest) -> SetPlaceResponse:
         """Keep a place, unless somebody else drives, or the robot can never stand there."""
         self._permits.may_change(client)
-        place = asked.place
+        problem = self._fault(asked.place)
+        if problem:
+            raise Refusal(problem)
+        place = self._records.places.set(asked.place)
+        said = f"{place.name} is saved."
+        return SetPlaceResponse(True, said, id=place.id)
+
+    def _fault(self, place: Place) -> Problem:
+        """Why the robot can never stand at a place, or before one that is a dock; empty when it can."""
         station, name = self._station, plain(place.name, MAX_TEXTS["name"]) or "The place"
         judge = station.fault if station.autonomy.has_map else station.keeper.fault
-        x, y = place.x, place.y
         if place.kind == "dock" and kind_of(station.robot.info.kind).docks == "pad":
             # on a platform it is a thing on the map itself
             first = first_goal(place, judge)
-            x, y = first.x, first.y
-        elif place.kind == "dock" and math.isfinite(place.yaw):
+            return judge(name, first.x, first.y)
+        if place.kind == "dock" and math.isfinite(place.yaw):
             # at the dock itself it may well touch a wall
+            way, discs = Approach.of(station.robot.info), station.autonomy.navigator.controller.discs
             docked = Pose2(place.x, place.y, place.yaw)
-            first = start(place, docked, Approach.of(station.robot.info).standoffs, judge)
-            name, x, y = f"The place before {name}", first.x, first.y
-        problem = judge(name, x, y)
-        if problem:
-            raise Refusal(problem)
-        place = self._records.places.set(place)
-        said = f"{place.name} is saved."
-        return SetPlaceResponse(True, said, id=place.id)
+            first = starts(place, docked, way.standoffs, judge, slants=way.slants, discs=discs)[0]
+            return body_fault(f"The place before {name}", first, judge, discs)
+        return judge(name, place.x, place.y)
 
     def delete_place(self, client: Operator, asked: DeletePlaceRequest) -> str:
         """Forget a place."""

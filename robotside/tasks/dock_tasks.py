@@ -28,7 +28,7 @@ from robotside.tasks.berthing import cage_line, jetty_line
 from robotside.tasks.berthing.approach import DOCK_NEAR, Approach
 from robotside.tasks.berthing.cage_docking import STANDOFFS, CageDocking
 from robotside.tasks.berthing.dock import Dock
-from robotside.tasks.berthing.dock_start import start
+from robotside.tasks.berthing.dock_start import DockStarts, body_fault, starts
 from robotside.tasks.berthing.jetty_docking import NEAR, JettyDocking
 from robotside.tasks.berthing.pad_landing import PadLanding, first_goal
 from robotside.tasks.berthing.undock import Undock
@@ -139,9 +139,16 @@ class DockTasks:
             raise _unread(jetty)
         course = self._before(jetty, self._approach.standoffs)
         begin = self._begin(jetty)
-        return JettyDocking(
-            jetty, course, self._navigator, self._situation, finder.find, front, begin
-        ), course
+        tree = JettyDocking(
+            jetty,
+            course,
+            self._navigator,
+            self._situation,
+            finder.find,
+            front,
+            lambda docked: begin(docked)[0],
+        )
+        return tree, course
 
     def _down_onto(self, pad: Place) -> tuple[Behaviour, Course]:
         finder = PadFinder()
@@ -159,11 +166,19 @@ class DockTasks:
         if math.isnan(dock.yaw):
             said = f"{dock.name} has no direction; docking needs the one to stand in there."
             raise Refusal(Notice(Code.DOCK_UNDIRECTED, said, place=dock.name))
-        first = start(dock, Pose2(dock.x, dock.y, dock.yaw), distances, self._fault)
-        self._places.check(f"The place before {dock.name}", first.x, first.y, dock.height)
+        first = self._starts(dock, Pose2(dock.x, dock.y, dock.yaw), distances)[0]
+        before = f"The place before {dock.name}"
+        self._places.check(before, first.x, first.y, dock.height)
+        problem = body_fault(before, first, self._fault, self._navigator.controller.discs)
+        if problem:
+            raise Refusal(problem)
         course = Course([first])
         course.index = 0
         return course
+
+    def _starts(self, dock: Place, docked: Pose2, distances: Sequence[float]) -> list[Goal]:
+        discs = self._navigator.controller.discs
+        return starts(dock, docked, distances, self._fault, slants=self._approach.slants, discs=discs)
 
     def _up_to(self, dock: Place) -> tuple[Behaviour, Course]:
         course = self._before(dock, self._approach.standoffs)
@@ -171,12 +186,12 @@ class DockTasks:
         # an error of the dock's direction swings the face of one that a long body stands before
         reach = FIRST_REACH + 0.2 * self._approach.front
         track = DockTrack(DockFinder(Pose2(self._info.laser_x, 0.0, 0.0)), tags, reach)
-        begin = self._begin(dock)
-        return Dock(dock, course, self._navigator, self._situation, self._approach, track, begin), course
+        places = DockStarts(self._begin(dock), varied=self._approach.min_radius > 0)
+        return Dock(dock, course, self._navigator, self._situation, self._approach, track, places), course
 
-    def _begin(self, dock: Place) -> Callable[[Pose2], Goal]:
-        """Where the approach to a dock begins, for where the robot would stand docked."""
-        return lambda docked: start(dock, docked, self._approach.standoffs, self._fault)
+    def _begin(self, dock: Place) -> Callable[[Pose2], list[Goal]]:
+        """Where the approach to a dock may begin, the best first, for where the robot would stand docked."""
+        return lambda docked: self._starts(dock, docked, self._approach.standoffs)
 
 
 def _unread(dock: Place) -> Refusal:

@@ -12,6 +12,7 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.core.pose2 import Points, Pose2
 from robotside.kinds.registry import kind_of
+from robotside.navigation.navigator import Navigator
 
 __all__ = ["ALIGN_GAP", "CREEP_SPEED", "DOCK_NEAR", "RETREAT_SPEED", "Approach"]
 
@@ -20,6 +21,12 @@ CREEP_SPEED = 0.08
 
 RETREAT_SPEED = 0.12
 """Backwards, away from a dock [m/s]."""
+
+FAR_STANDOFFS = (6.0, 7.5, 5.0, 4.0)
+"""From where it stands docked, the approach of a robot that only bends begins so far back [m]: farther, it sees no more of the dock."""
+
+SLANTS = (0.0, 0.09, -0.09, 0.18, -0.18, 0.27, -0.27)
+"""On lines turned by so much [rad]: where the map errs by 10 degrees, that of the dock is one of them."""
 
 APPROACH_SPEED = 0.25
 """Farther away [m/s]."""
@@ -54,6 +61,9 @@ BEND_SHARE = 0.85
 ROLL_STEP = 0.05
 """The way that is left is tried out in such steps [m]."""
 
+TRIED = 4
+"""One in so many of them is looked at for what stands there."""
+
 SIDE_ROOM = 0.05
 """What is no nearer than this beside its way is not in the way [m]."""
 
@@ -75,6 +85,8 @@ class Approach:
     """Of its tightest bend [m]; 0 for one that turns on the spot."""
     standoffs: tuple[float, ...]
     """From where it stands docked back to where the approach may begin, the best first [m]."""
+    slants: tuple[float, ...] = (0.0,)
+    """It may begin on lines that are turned by these about where it stands docked, the best first [rad]."""
 
     leave: float = 0.7
     """As far back it goes to leave a dock [m]."""
@@ -94,12 +106,16 @@ class Approach:
         rear = -min((corner.x for corner in info.footprint), default=-info.radius)
         half = max((abs(corner.y) for corner in info.footprint), default=info.radius)
         if kind_of(info.kind).docks == "jetty":  # through water that may push it in
-            return cls(front, rear, half, info.min_radius, (7.5, 6.5, 5.5), 4.0, retreat=0.35, guided=0.8)
+            return cls(
+                front, rear, half, info.min_radius, (7.5, 6.5, 5.5), leave=4.0, retreat=0.35, guided=0.8
+            )
         if info.min_radius > 0:
             lock = info.max_steering if "steer" in info.manoeuvres else 0.0
-            return cls(front, rear, half, info.min_radius, (6.0, 5.0, 4.0), 2.0, look_gap=2.5, lock=lock)
+            return cls(
+                front, rear, half, info.min_radius, FAR_STANDOFFS, SLANTS, 2.0, look_gap=2.5, lock=lock
+            )
         swims = kind_of(info.kind).docks == "cage"  # it turns only clear of the cage
-        return cls(front, rear, half, 0.0, (2.0, 1.6, 1.2, 0.8), 1.3 if swims else 0.7)
+        return cls(front, rear, half, 0.0, (2.0, 1.6, 1.2, 0.8), leave=1.3 if swims else 0.7)
 
     def reaches(self, robot: Pose2) -> bool:
         """One that only bends leads onto the dock's line before it is at the dock; whoever turns on the spot always gets there.
@@ -108,15 +124,23 @@ class Approach:
         """
         if not self.min_radius:
             return True
-        x, y, yaw = robot
-        slack = LINE_SLACK + LINE_DOUBT * max(0.0, -x - self.front)
-        while -x - self.front > ALIGN_GAP:
-            twist = self._onto_line(Pose2(x, y, yaw), self.min_radius / BEND_SHARE)
+        slack = LINE_SLACK + LINE_DOUBT * max(0.0, self.gap(robot))
+        end = self._rolled(robot, self.min_radius / BEND_SHARE, ALIGN_GAP)[-1]
+        return abs(self.aside(end)) < slack and abs(end.yaw) < MAX_ASKEW
+
+    def docked(self, face: Pose2) -> Pose2:
+        """Where it stands at a dock with its face there."""
+        return face.then(Pose2(-self.front, 0.0, 0.0))
+
+    def _rolled(self, robot: Pose2, radius: float, gap: float) -> list[Pose2]:
+        """Where it comes along by bends no tighter than `radius` [m], up to `gap` before the dock [m] or where it looks away from it."""
+        way = [robot]
+        while self.gap(way[-1]) > gap and abs(way[-1].yaw) < math.pi / 2:
+            x, y, yaw = way[-1]
+            twist = self._onto_line(way[-1], radius)
             yaw += ROLL_STEP * twist.angular.z / twist.linear.x
-            x, y = x + ROLL_STEP * math.cos(yaw), y + ROLL_STEP * math.sin(yaw)
-            if abs(yaw) > math.pi / 2:
-                return False
-        return abs(self.aside(Pose2(x, y, yaw))) < slack and abs(yaw) < MAX_ASKEW
+            way.append(Pose2(x + ROLL_STEP * math.cos(yaw), y + ROLL_STEP * math.sin(yaw), yaw))
+        return way
 
     def gap(self, robot: Pose2) -> float:
         """From its front to the dock, along the dock's line [m]."""
@@ -125,6 +149,14 @@ class Approach:
     def steer(self, robot: Pose2) -> Twist:
         """The next bit of the way of a `robot`, whose pose is in the dock's frame."""
         return self._onto_line(robot, self.min_radius)
+
+    def lead(self, robot: Pose2, navigator: Navigator) -> None:
+        """Have the robot go that bit."""
+        twist = self.steer(robot)
+        if self.lock:
+            navigator.command(self.order(twist))
+        else:
+            navigator.move(twist)
 
     def _onto_line(self, robot: Pose2, radius: float) -> Twist:
         """The same by bends no tighter than `radius` [m], 0 for any."""
@@ -154,11 +186,26 @@ class Approach:
         """What is to touch the dock is too far off its line, or the robot too askew, to go on."""
         return abs(self.aside(robot)) > MAX_ASIDE or abs(robot.yaw) > MAX_ASKEW
 
-    def blocked(self, points: Points, dock: Pose2) -> bool:
-        """One of the `points` stands between the robot and the `dock`, both in `base_link`."""
+    def blocked(self, points: Points, dock: Pose2, gap: float = ALIGN_GAP) -> bool:
+        """One of the `points` stands between the robot and the `dock`, both in `base_link`.
+
+        One that only bends looks along its bends, as far as to `gap` before the dock [m].
+        """
         off = dock.inverse().apply(points)
+        short = off[:, 0] < -FACE_ROOM
+        if self.min_radius:
+            return self._meets(points[short], dock, gap)
         within = (points[:, 0] > self.front) & (np.abs(points[:, 1]) < self.half + SIDE_ROOM)
-        return bool(np.any(within & (off[:, 0] < -FACE_ROOM)))
+        return bool(np.any(within & short))
+
+    def _meets(self, points: Points, dock: Pose2, gap: float) -> bool:
+        """Its body comes to one of the `points` that it is not at already."""
+        way = self._rolled(dock.inverse(), self.min_radius, gap)[::TRIED]
+        x, y, yaw = np.array([dock.then(pose) for pose in way]).T[..., None]
+        ahead = np.cos(yaw) * (points[:, 0] - x) + np.sin(yaw) * (points[:, 1] - y)
+        aside = np.cos(yaw) * (points[:, 1] - y) - np.sin(yaw) * (points[:, 0] - x)
+        within = (ahead > -self.rear) & (ahead < self.front) & (np.abs(aside) < self.half + SIDE_ROOM)
+        return bool(np.any(within.any(axis=0) & ~within[0]))
 
     def taken(self, points: Points, dock: Pose2) -> bool:
         """Something stands where the robot would stand at the `dock`, in `base_link`."""

@@ -23,6 +23,7 @@ from robotside.tasks.berthing import dock_outcomes
 from robotside.tasks.berthing.approach import ALIGN_GAP, CREEP_SPEED, DOCK_NEAR, RETREAT_SPEED, Approach
 from robotside.tasks.berthing.dock_contact import DockContact
 from robotside.tasks.berthing.dock_sight import DockSight
+from robotside.tasks.berthing.dock_start import DockStarts
 
 __all__ = ["MAX_OUTS", "MAX_TRIES", "Dock"]
 
@@ -78,16 +79,13 @@ class Dock(Behaviour):
         situation: Situation,
         approach: Approach,
         track: DockTrack,
-        begin: Callable[[Pose2], Goal],
+        starts: DockStarts,
     ) -> None:
-        """`course` has the one point where it begins by the map; `track` follows the dock by laser, if there is one.
-
-        `begin` gives the place to begin from for one where the robot would stand docked, as `dock_start.start` does.
-        """
+        """`course` has the one point where it begins by the map, which is the first of `starts`; `track` follows the dock by laser, if there is one."""
         super().__init__("dock")
         self._dock, self._course, self._navigator, self._situation = dock, course, navigator, situation
         self._way, self._track, self._sight = approach, track, DockSight(track, situation)
-        self._begin, self._contacts = begin, DockContact(dock.name, situation)
+        self._starts, self._contacts = starts, DockContact(dock.name, situation)
         self._mapped = Pose2(dock.x, dock.y, dock.yaw).then(Pose2(approach.front, 0.0, 0.0))
         """The face of the dock, as the map has it."""
         self._face = self._mapped
@@ -95,6 +93,8 @@ class Dock(Behaviour):
         self._distance = math.hypot(course.goal.x - dock.x, course.goal.y - dock.y)
         self._stage, self._since = _Stage.DRIVE, 0.0
         self._tries = self._outs = 0
+        self._missed = False
+        """The last try came up to the dock, and beside it."""
         self._by = ""
         self._blocked = math.inf
         self._begun = Pose2(0.0, 0.0, 0.0)
@@ -111,6 +111,7 @@ class Dock(Behaviour):
     def initialise(self) -> None:
         """Set out."""
         self._tries = self._outs = 0
+        self._starts.forget()
         self._face = self._mapped
         self._set_out()
 
@@ -138,24 +139,36 @@ class Dock(Behaviour):
         return self._situation.worked - self._since
 
     def _set_out(self) -> None:
+        self._begin_at(self._starts.next(self._way.docked(self._face)))
+
+    def _begin_at(self, goal: Goal) -> None:
         self._track.forget()
-        docked = self._face.then(Pose2(-self._way.front, 0.0, 0.0))
-        goal = self._begin(docked)
-        self._distance = docked.distance(goal.x, goal.y)
+        self._distance = self._way.docked(self._face).distance(goal.x, goal.y)
         self._navigator.head_for(goal)
         self._enter(_Stage.DRIVE)
 
     def _drive(self) -> Status:
         now, name = self._situation, self._dock.name
         leg = self._navigator.update(now.pose, now.points, now.now)
-        phase = "turning" if self._navigator.turning else "driving"
-        text = f"Turning to {name}." if self._navigator.turning else f"Heading for {name}."
-        now.report(phase, text, place=name, still=self._distance / CREEP_SPEED / 2)
+        phase, does = ("turning", "Turning to") if self._navigator.turning else ("driving", "Heading for")
+        now.report(phase, f"{does} {name}.", place=name, still=self._distance / CREEP_SPEED / 2)
         if LEG_STATUS[leg] is Status.SUCCESS:
             self._navigator.finish()
             self._enter(_Stage.SEEK)
             return Status.RUNNING
+        if LEG_STATUS[leg] is Status.FAILURE and self._goes_elsewhere():
+            return Status.RUNNING
         return LEG_STATUS[leg]
+
+    def _goes_elsewhere(self) -> bool:
+        """Where no way leads to one place to begin from, one may lead to another."""
+        why = self._navigator.reason
+        missing = why and why.code == Code.WAY_MISSING and self._outs < MAX_OUTS
+        goal = self._starts.other(self._way.docked(self._face)) if missing else None
+        if goal is not None:
+            self._outs += 1
+            self._begin_at(goal)
+        return goal is not None
 
     def _seek(self) -> Status:
         self._navigator.move(Twist())
@@ -193,20 +206,13 @@ class Dock(Behaviour):
             self._begin_approach()
         elif self._way.gap(dock.inverse()) <= self._way.look_gap or self._spent > APPROACH_TIMEOUT:
             return self._again(self._unseen())
-        elif self._way.blocked(self._situation.points, dock):
+        elif self._way.blocked(self._situation.points, dock, self._way.look_gap):
             return self._wait_for_room()
         else:
             self._blocked = math.inf
             self._tell(f"Looking for {self._dock.name}.")
-            self._steer(dock.inverse())
+            self._way.lead(dock.inverse(), self._navigator)
         return Status.RUNNING
-
-    def _steer(self, robot: Pose2) -> None:
-        twist = self._way.steer(robot)
-        if self._way.lock:
-            self._navigator.command(self._way.order(twist))
-        else:
-            self._navigator.move(twist)
 
     def _unseen(self) -> Notice:
         now, name = self._situation, self._dock.name
@@ -256,7 +262,7 @@ class Dock(Behaviour):
             self._enter(_Stage.CONTACT)
             return Status.RUNNING
         self._tell(f"Going up to {name}, {_SEEN[self._by]}.", touches=touches)
-        self._steer(robot)
+        self._way.lead(robot, self._navigator)
         return Status.RUNNING
 
     def _wait_for_room(self) -> Status:
@@ -264,8 +270,7 @@ class Dock(Behaviour):
         self._navigator.move(Twist())
         self._blocked = min(self._blocked, now.worked)
         if now.worked - self._blocked > BLOCKED_TIMEOUT:
-            said = f"{name} cannot be reached: something stands before it."
-            return self._again(Notice(Code.DOCK_BLOCKED, said, place=name))
+            return self._again(dock_outcomes.blocked(name))
         self._tell(f"Waiting: something stands before {name}.")
         return Status.RUNNING
 
@@ -284,10 +289,9 @@ class Dock(Behaviour):
         """Go back and try once more; after the last time `why` is the reason."""
         self._tries += 1
         if self._tries >= MAX_TRIES:
-            tried = why.reworded(f"{str(why)[:-1]}; after {MAX_TRIES} tries the robot stands before it.")
-            self._navigator.reason = tried
+            self._navigator.reason = dock_outcomes.given_up(why, MAX_TRIES)
             return Status.FAILURE
-        self._outs = 0
+        self._outs, self._missed = 0, why.code == Code.DOCK_MISSED
         if why.code == Code.DOCK_UNSEEN:
             self._face = self._mapped
         self._enter(_Stage.RETREAT)
@@ -299,7 +303,7 @@ class Dock(Behaviour):
         gone = now.odom.distance(self._begun.x, self._begun.y)
         on_map = self._on_map().inverse()
         far = self._way.gap(on_map) >= self._distance - 0.1
-        if far and self._way.min_radius and self._way.reaches(on_map):
+        if far and self._missed and self._way.min_radius and self._way.reaches(on_map):
             # it stands on the line already, better than a way by the map leads there
             self._track.forget()
             self._enter(_Stage.SEEK)
@@ -312,5 +316,5 @@ class Dock(Behaviour):
         return Status.RUNNING
 
     def _tell(self, text: str, *, touches: bool = False) -> None:
-        still = self._distance / CREEP_SPEED / 2
-        self._situation.report("docking", text, place=self._dock.name, still=still, touches=touches)
+        name, still = self._dock.name, self._distance / CREEP_SPEED / 2
+        self._situation.report("docking", text, place=name, still=still, touches=touches)

@@ -7,7 +7,7 @@ import math
 from bridge.core.codes import Code
 from robotside.core.notice import Notice
 
-__all__ = ["dead", "missed", "no_contact", "not_in_time", "silent", "taken", "unseen"]
+__all__ = ["blocked", "dead", "given_up", "missed", "no_contact", "not_in_time", "silent", "taken", "unseen"]
 
 
 def taken(name: str) -> Notice:
@@ -19,6 +19,17 @@ def unseen(name: str, *, by_laser: bool) -> Notice:
     """Nothing that looks like a dock is there."""
     what = "no two reflecting strips 0.30 m apart are" if by_laser else "no tag of a dock is"
     return Notice(Code.DOCK_UNSEEN, f"{name} is not seen: {what} where it should be.", place=name)
+
+
+def blocked(name: str) -> Notice:
+    """Something stands in the way up to it."""
+    said = f"{name} cannot be reached: something stands before it."
+    return Notice(Code.DOCK_BLOCKED, said, place=name)
+
+
+def given_up(why: Notice, tries: int) -> Notice:
+    """The last of so many `tries` ended for `why`."""
+    return why.reworded(f"{str(why)[:-1]}; after {tries} tries the robot stands before it.")
 
 
 def dead(name: str) -> Notice:

@@ -114,7 +114,7 @@ class JettyDocking(Behaviour):
     ) -> None:
         """`course` has the one point where the line begins by the map; `look` finds tags ahead, `front` is from the boat's middle to its bow [m].
 
-        `begin` gives the place to begin from for one where the boat would lie docked, as `dock_start.start` does.
+        `begin` gives the place to begin from for one where the boat would lie docked, the best of `dock_start.starts`.
         """
         super().__init__("dock at the jetty")
         self._jetty, self._course, self._navigator, self._situation = jetty, course, navigator, situation

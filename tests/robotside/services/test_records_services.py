@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -21,9 +22,11 @@ from bridge.msgs.pilothouse_msgs import (
     Place,
     RecallMissionRequest,
     SetPlaceRequest,
+    StartTaskRequest,
+    TaskOrder,
     Waypoint,
 )
-from tests.fakes import FakeRobot
+from tests.fakes import Box, FakeRobot
 from tests.robotside.scene import SQUARE, Scene
 
 
@@ -60,6 +63,26 @@ def test_a_place_where_it_cannot_stand_or_that_is_none_is_refused(
 ) -> None:
     assert scene.refused("/places/set", office(**words)).startswith(said)
     assert places(scene) == []
+
+
+@pytest.mark.parametrize("walled", [False, True])
+def test_a_dock_before_which_a_trucks_body_has_no_room_is_refused(tmp_path: Path, walled: bool) -> None:
+    """5 m before it its rear axle has 1.6 m of room, and its front would stand in the wall."""
+    robot = FakeRobot(boxes=[Box(-3.0, -2.4, 3.0, -1.0)] if walled else [])
+    robot.info = msgspec.structs.replace(robot.info, kind="ackermann", radius=2.6, min_radius=3.5)
+    scene = Scene(robot, tmp_path)
+    scene.run(4.0)
+    dock = Place(name="Dock", kind="dock", x=0.3, y=1.0, yaw=math.pi / 2)
+    order = StartTaskRequest(order=TaskOrder(task="dock"))
+    if walled:
+        said = scene.refused("/places/set", SetPlaceRequest(place=dock))
+        assert said.startswith("The place before Dock at (0.3, -3.0) is 0.")
+        assert places(scene) == []
+        scene.station.records.places.set(dock)  # kept from another map
+        assert scene.refused("/task/start", order) == said
+    else:
+        assert scene.ask("/places/set", SetPlaceRequest(place=dock)).success
+        assert scene.ask("/task/start", order).success
 
 
 def test_who_does_not_drive_changes_no_places_while_somebody_does(scene: Scene) -> None:

@@ -66,6 +66,23 @@ def test_what_stands_between_it_and_the_dock_is_in_the_way(point, blocked):
 
 
 @pytest.mark.parametrize(
+    ("point", "gap", "blocked"),
+    [
+        ((5.0, 0.2), 0.3, False),  # straight ahead, where its bend does not lead
+        ((4.5, -1.8), 0.3, True),
+        ((6.5, -2.2), 0.3, True),
+        ((6.5, -2.2), 2.5, False),
+        ((6.5, -0.9), 0.3, False),
+        ((0.5, -0.73), 0.3, False),  # beside it already
+        ((2.52, -0.8), 0.3, True),
+    ],
+)
+def test_what_a_truck_comes_to_on_its_bends_is_in_the_way(point, gap, blocked):
+    askew = Pose2(-8.5, 0.6, 0.3)
+    assert TRUCK.blocked(np.array([point]), askew.inverse(), gap) is blocked
+
+
+@pytest.mark.parametrize(
     ("point", "taken"), [((1.7, 0.0), True), ((1.7, 0.5), False), ((1.0, 0.0), False), ((1.99, 0.1), False)]
 )
 def test_what_stands_where_it_would_stand_has_taken_the_dock(point, taken):

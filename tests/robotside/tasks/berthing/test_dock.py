@@ -17,13 +17,16 @@ from robotside.perception.dock_track import DockTrack
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.berthing.approach import Approach
 from robotside.tasks.berthing.dock import APPROACH_TIMEOUT, MAX_OUTS, MAX_TRIES, Dock
-from robotside.tasks.berthing.dock_start import before
+from robotside.tasks.berthing.dock_start import DockStarts, before
 from tests.fakes import Box, FakeDock, FakeRobot, Pillar
 from tests.robotside.tasks.behaviours.stage import Stage
 
 RADIUS = 0.18
 DOCK = Place(1, "Dock", "dock", x=4.0, y=1.0, yaw=0.0)
 """Where the robot stands docked, as the map has it."""
+
+WALLED = Box(0.7, 0.7, 1.3, 1.3)
+"""It stands on the place 3 m before the dock."""
 
 MAP_ERROR = Pose2(0.2, 0.22, math.radians(10))
 """Of 0.3 m and 10 degrees."""
@@ -40,13 +43,14 @@ def make(on: Stage, distance: float = 2.0) -> Dock:
     return build(on, Approach.of(on.robot.info), DockFinder(), distance)
 
 
-def build(on: Stage, way: Approach, finder: DockFinder, distance: float = 2.0) -> Dock:
-    def begin(docked: Pose2) -> Goal:
-        return before(DOCK, docked, distance)
+def build(on: Stage, way: Approach, finder: DockFinder, *distances: float) -> Dock:
+    def begin(docked: Pose2) -> list[Goal]:
+        return [before(DOCK, docked, distance) for distance in distances]
 
-    course = Course([begin(Pose2(DOCK.x, DOCK.y, DOCK.yaw))])
+    course = Course(begin(Pose2(DOCK.x, DOCK.y, DOCK.yaw)))
     course.index = 0
-    return Dock(DOCK, course, on.navigator, on.situation, way, DockTrack(finder), begin)
+    starts = DockStarts(begin, varied=way.min_radius > 0)
+    return Dock(DOCK, course, on.navigator, on.situation, way, DockTrack(finder), starts)
 
 
 def until(on: Stage, tree: Dock, phase: str, limit: float = 60.0) -> None:
@@ -340,11 +344,13 @@ class ShortSight(DockFinder):
         return super().find(scan, expected) if expected.pose.x < self.reach else None
 
 
-def bending(on: Stage, *, look_gap: float = math.inf, radius: float = 0.8) -> Dock:
+def bending(
+    on: Stage, *, look_gap: float = math.inf, radius: float = 0.8, distances: tuple[float, ...] = (2.0,)
+) -> Dock:
     """For a robot that turns only by going."""
-    way = Approach(RADIUS, RADIUS, RADIUS, radius, (2.0,), look_gap=look_gap)
+    way = Approach(RADIUS, RADIUS, RADIUS, radius, distances, look_gap=look_gap)
     finder = ShortSight() if look_gap < math.inf else DockFinder()
-    return build(on, way, finder)
+    return build(on, way, finder, *distances)
 
 
 def test_it_comes_nearer_by_the_map_to_see_the_dock_and_docks() -> None:
@@ -391,3 +397,46 @@ def test_where_no_bend_leads_onto_the_line_it_sets_out_anew_by_what_it_saw() -> 
     assert looks[0] > 0.3
     assert looks[1] < 0.2
     assert not any(text.startswith("Going back") for text in texts)
+
+
+def legs(on: Stage, tree: Dock) -> tuple[Status, list[float]]:
+    """How it ended; and where it headed for, leg by leg: so far before the dock [m]."""
+    heads: list[float] = []
+    head_for = on.navigator.head_for
+
+    def noted(goal: Goal, *, patient: bool = True) -> None:
+        heads.append(round(DOCK.x - goal.x, 2))
+        head_for(goal, patient=patient)
+
+    on.navigator.head_for = noted  # type: ignore[method-assign]
+    return finish(on, tree), heads
+
+
+def test_where_no_way_leads_to_one_place_before_the_dock_it_begins_at_another() -> None:
+    on = Stage(robot=FakeRobot(beams=360, dock=FakeDock(DOCK.x + RADIUS, DOCK.y, DOCK.yaw), boxes=[WALLED]))
+    status, heads = legs(on, bending(on, distances=(3.0, 2.0)))
+    assert status is Status.SUCCESS
+    assert heads == [3.0, 2.0]
+
+
+def test_without_a_way_to_any_of_them_it_says_so() -> None:
+    on = Stage(Box(1.0, -6.0, 1.3, 6.0))
+    status, heads = legs(on, bending(on, distances=(2.6, 2.0, 1.4)))
+    assert status is Status.FAILURE
+    assert heads == [2.6, 2.0, 1.4]
+    assert on.navigator.reason.startswith("There is no way to Dock at (2.6, 1.0)")
+
+
+def test_it_tries_no_more_than_some_places_that_no_way_leads_to() -> None:
+    on = Stage(Box(1.0, -6.0, 1.3, 6.0))
+    status, heads = legs(on, bending(on, distances=(2.3, 1.75, 1.2, 0.65, 0.1)))
+    assert status is Status.FAILURE
+    assert len(heads) == MAX_OUTS + 1
+
+
+def test_one_that_only_bends_comes_anew_from_elsewhere_where_something_stood_before_the_dock() -> None:
+    on = stage(pillars=(Pillar(3.2, 1.0, 0.1),))
+    status, heads = legs(on, bending(on, distances=(2.0, 2.8)))
+    assert status is Status.FAILURE
+    assert heads == [2.0, 2.8, 2.0]
+    assert on.robot.contacts == 0
