@@ -220,7 +220,8 @@ class SimRobot:
             self._met = True
             self._run.advance(now)
             self._unread.clear()
-            return [("/map", occupancy(self.simulation.world, now)), *self._measure()]
+            top = self._vehicle.parameters.deck[2]
+            return [("/map", occupancy(self.simulation.world, now, height=top)), *self._measure()]
         self._run.advance(now)
         measured = [*self._unread]
         self._unread.clear()

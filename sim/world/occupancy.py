@@ -27,13 +27,18 @@ TOUCH = 1e-6
 """A cell that an obstacle comes no nearer than this [m] is touched and not full: else rounding would decide it, one way at one end of a wall and
 the other way at its other end."""
 CLEARANCE = 0.45
-"""Things that hang higher than this are no obstacle for a ground robot [m]."""
+"""Things that hang higher than this are no obstacle for a low ground robot [m]."""
+HEADROOM = 0.05
+"""Over a taller one, so much more than its height has to be free [m]."""
 
 
-def occupancy(world: World, stamp: float, shift: tuple[float, float] = (0.0, 0.0)) -> OccupancyGrid:
+def occupancy(
+    world: World, stamp: float, shift: tuple[float, float] = (0.0, 0.0), *, height: float = 0.0
+) -> OccupancyGrid:
     """The map of `world` in the frame `map`, loaded at `stamp` [s, robot clock].
 
-    `shift` moves the borders of its cells along x and y [m], and nothing of what they show. A cell is full when an obstacle covers its middle or comes within half a cell of it; off the ground is unknown.
+    `shift` moves the borders of its cells along x and y [m], and nothing of what they show. What hangs over a robot of that
+    `height` [m] is no obstacle. A cell is full when an obstacle covers its middle or comes within half a cell of it; off the ground is unknown.
     """
     length, width = world.ground.length, world.ground.width
     columns, rows = (round((extent + 2 * MARGIN) / RESOLUTION) for extent in (length, width))
@@ -42,7 +47,8 @@ def occupancy(world: World, stamp: float, shift: tuple[float, float] = (0.0, 0.0
     y = south + (np.arange(rows) + 0.5) * RESOLUTION
     cells = np.full((rows, columns), -1, dtype=np.int8)
     cells[np.ix_(np.abs(y) < width / 2, np.abs(x) < length / 2)] = 0
-    cells[covered((shape for shape in world.mapped if _is_low(shape)), x, y)] = 100
+    low = max(CLEARANCE, height + HEADROOM)
+    cells[covered((shape for shape in world.mapped if _bottom(shape) < low), x, y)] = 100
     time = Time.at(stamp)
     info = MapMetaData(time, RESOLUTION, columns, rows, Pose(Point(west, south)))
     return OccupancyGrid(Header(time, "map"), info, Int8Array(cells.tobytes()))
@@ -64,8 +70,8 @@ def covered(shapes: Iterable[Shape], x: Grid, y: Grid) -> NDArray[np.bool_]:
     return full
 
 
-def _is_low(shape: Shape) -> bool:
-    return shape.position[2] - shape.size[2] / 2 < CLEARANCE
+def _bottom(shape: Shape) -> float:
+    return shape.position[2] - shape.size[2] / 2
 
 
 def _near(middles: Grid, at: float, reach: float) -> slice:

@@ -124,6 +124,16 @@ def test_the_first_read_gives_the_map_and_one_message_of_each_sensor():
     assert all(message.header.stamp.seconds == 1000.0 for _, message in first)
 
 
+@pytest.mark.parametrize(("name", "full"), [("patrol", False), ("commander", True)])
+def test_the_map_has_the_fruit_that_hangs_in_the_way_of_a_tall_robot_only(name, full):
+    robot = make(name, "orchard", camera=False)
+    grid = dict(robot.read(0.0))["/map"]
+    robot.close()
+    corner = grid.info.origin.position
+    column, row = ((at - low) / grid.info.resolution for at, low in ((-8.75, corner.x), (4.26, corner.y)))
+    assert (grid.data[int(row) * grid.info.width + int(column)] == 100) is full
+
+
 def test_every_message_has_the_type_that_its_topic_promises(robot):
     robot.want("/sim/ground_truth", True)
     for name, message in robot.read(1.0):

@@ -72,3 +72,10 @@ def test_both_walls_of_a_corridor_are_drawn_as_far_from_its_middle():
     walls = middles[full[:, column]]
     assert walls[walls > 0].min() == pytest.approx(1.15)
     assert walls[walls < 0].max() == pytest.approx(-1.15)
+
+
+@pytest.mark.parametrize(("height", "value"), [(0.4, 0), (0.92, 0), (0.96, 100), (1.1, 100)])
+def test_what_hangs_lower_than_the_robot_is_tall_is_an_obstacle(height, value):
+    """An orange on the tree at (-8.0, 4.5) that reaches down to 1.00 m; 0.05 m are kept over the robot."""
+    orange = (-8.75, 4.26)
+    assert cell(occupancy(load("orchard"), 0.0, height=height), *orange) == value
