@@ -33,8 +33,8 @@ MARGIN = 0.2
 NARROW_SHARE = 0.6
 """Of that so much is kept between the body and anything that the laser sees: the rest is for steering."""
 
-BEND_SHARE = 0.9
-"""It plans with bends of so much of its tightest, so that it can steer back to its way."""
+BEND_SHARE = 0.8
+"""It plans with bends of so much of its tightest, so that it can steer back to a way that it begins askew."""
 
 YAW_TOLERANCE = 0.35
 """It looks to where it should within this [rad]."""

@@ -8,6 +8,7 @@ import msgspec
 import numpy as np
 import pytest
 
+from bridge.msgs.geometry_msgs import Twist
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.worker import completed
 from robotside.mapping.occupancy_grid import Grid
@@ -17,6 +18,8 @@ from robotside.navigation.planner import Planner, Unreachable
 from tests.fakes import FakeRobot
 
 NOTHING: Points = np.empty((0, 2))
+SWING = 1 / 3.5 / 0.8 * 0.05
+"""So much more the truck's way may bend from one command to the next, as its front wheels swing [1/m]."""
 GRID = Grid(np.zeros((400, 400), dtype=np.bool_), 0.1, -20.0, -20.0)
 
 
@@ -140,3 +143,33 @@ def test_no_bend_is_taken_faster_than_its_tyres_hold_with_ease(ahead: float, hal
         list(robot.read(0.05 * tick))
     assert max(aside) < 0.8 * 1.001
     assert fastest == pytest.approx(2.0)
+
+
+def gone_askew(way: list[Piece], askew: float) -> float:
+    """How far a truck comes off a `way` from the origin [m] that it begins so far `askew` [rad], with wheels that need their time and slip."""
+    robot, controller = truck((0.0, 0.0, askew))
+    controller.follow(way)
+    bend = now = off = 0.0
+    list(robot.read(now))
+    for _ in range(1200):
+        pose = Pose2(*robot.pose)
+        if controller.arrived(pose) or not controller.under_way:
+            break
+        controller.steer(pose, NOTHING, sure=True)
+        told, speed = robot.twist, robot.twist.linear.x
+        if speed:
+            bend += max(-SWING, min(SWING, told.angular.z / speed - bend))
+            robot.twist = Twist.planar(speed, 0.95 * bend * speed)
+        off = max(off, float(np.hypot(*(controller.ahead[:8] - pose[:2]).T).min()))
+        now += 0.05
+        list(robot.read(now))
+    return off
+
+
+@pytest.mark.parametrize("goal", [(-6.0, 3.5, 0.0), (1.0, 6.5, math.pi), (3.0, 9.0, -math.pi / 2)])
+def test_it_comes_back_to_a_way_that_it_planned_and_begins_askew(
+    goal: tuple[float, float, float],
+) -> None:
+    _, controller = truck()
+    search = controller.search(Planner(GRID, 0.9), Pose2(0.0, 0.0, 0.0), goal, "The goal", NOTHING)
+    assert gone_askew(completed(search), -0.2) < 0.45

@@ -102,7 +102,7 @@ def test_one_that_is_not_patient_does_not_wait() -> None:
 
 def test_a_truck_waits_as_well() -> None:
     leg = Leg(kind="ackermann")
-    leg.wait(30.0)
+    leg.wait(45.0)
     assert leg.navigator.blocked.startswith("Way blocked")
     leg.navigator.obstacles.forget()
     leg.wait(2.0, seen=False)
