@@ -52,7 +52,7 @@ AIM_BEYOND = 2.0
 """It aims at a way that goes on so far beyond its end [m]."""
 
 END_TOLERANCE, MISSED_DISTANCE = 0.15, 0.6
-"""At the end of a way it is so far from it along the way, or past it; farther away than the second it has missed it [m]."""
+"""At the end of a way it is so far from it along the way, or past it; farther beside a way, or from its end, than the second it has missed it [m]."""
 
 SWING_TIME, PERIOD = 0.8, 0.05
 """From straight to the tightest bend the front wheels take so long, and they are commanded so often [s]."""
@@ -181,6 +181,11 @@ class AckermannController(GroundBound):
         way = 1.0 if self._pieces[0].ahead else -1.0
         looking = pose if way > 0 else Pose2(pose.x, pose.y, wrap(pose.yaw + math.pi))
         distance, bearing = follower.aim(looking, self._speed)
+        if pose.distance(*follower.ahead[0].tolist()) > MISSED_DISTANCE:
+            # only on the way itself is there room for all of its body, and behind it sees nothing
+            self.forget()
+            self._robot.stop()
+            return
         wanted = 2.0 * math.sin(bearing) / max(distance, 0.3)
         if abs(bearing) > math.pi / 2:
             wanted = math.copysign(self._bend, bearing)

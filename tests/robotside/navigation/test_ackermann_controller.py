@@ -173,3 +173,15 @@ def test_it_comes_back_to_a_way_that_it_planned_and_begins_askew(
     _, controller = truck()
     search = controller.search(Planner(GRID, 0.9), Pose2(0.0, 0.0, 0.0), goal, "The goal", NOTHING)
     assert gone_askew(completed(search), -0.2) < 0.45
+
+
+@pytest.mark.parametrize(("aside", "on_its_way"), [(0.5, True), (0.7, False)])
+def test_too_far_beside_its_way_it_stands_and_has_none(aside: float, on_its_way: bool) -> None:
+    robot, controller = truck()
+    controller.follow([Piece(np.column_stack([np.arange(0.0, 9.0, 0.1), np.zeros(90)]), True)])
+    for tick in range(40):
+        controller.steer(Pose2(0.05 * tick, 0.0, 0.0), NOTHING, sure=True)
+    assert not robot.at_rest
+    controller.steer(Pose2(2.0, aside, 0.0), NOTHING, sure=True)
+    assert controller.under_way is on_its_way
+    assert robot.at_rest is not on_its_way
