@@ -37,6 +37,18 @@ def test_the_candidate_that_an_operator_chooses_is_where_the_robot_is(asking: Sc
     assert "Anna placed the robot at (3.0, 2.5)." in asking.events("localisation")
 
 
+def test_what_the_operator_chose_needs_no_more_asking_but_counts_as_said_and_not_as_seen(
+    asking: Scene,
+) -> None:
+    whereabouts, elsewhere = asking.station.autonomy.pose_estimator._whereabouts, Pose2(20.0, 2.5, 0.5)
+    asking.ask("/localisation/choose", ChoosePlaceRequest(id=2))
+    assert whereabouts.by_word
+    chosen = whereabouts._prior(elsewhere)
+    asking.station.autonomy.place(Pose2(3.0, 2.5, 0.5))
+    assert not whereabouts.by_word
+    assert chosen < whereabouts._prior(elsewhere) - 5.0, "no other place comes into question"
+
+
 def test_a_candidate_that_there_is_not_is_refused_with_those_that_there_are(asking: Scene) -> None:
     before = asking.station.autonomy.pose_estimator.pose
     answer = asking.ask("/localisation/choose", ChoosePlaceRequest(id=7))
