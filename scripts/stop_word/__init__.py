@@ -1,0 +1,1 @@
+"""Training of the network that hears the word STOP in running sound."""
