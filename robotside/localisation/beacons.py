@@ -11,13 +11,16 @@ from bridge.msgs.pilothouse_msgs import RobotInfo
 from bridge.msgs.sensor_msgs import NavSatFix
 from robotside.core.pose2 import Pose2
 
-__all__ = ["FIX_SPREAD", "Beacons"]
+__all__ = ["FIX_SPREAD", "MIN_FIX_SPREAD", "Beacons", "variance_of"]
 
 FIXES_AVERAGED = 5
 """Satellite fixes that are averaged."""
 
 FIX_SPREAD = 1.0
 """How far a single fix is trusted that does not say how good it is [m]."""
+
+MIN_FIX_SPREAD = 0.02
+"""No receiver is better than this, whatever it says [m]."""
 
 MAX_FIX_AGE = 3.0
 """Fixes and compass older than this say nothing any more [s]."""
@@ -106,4 +109,6 @@ class Beacons:
 def variance_of(fix: NavSatFix) -> float:
     """Of a fix, along each axis [m2]; a usual one when it does not say."""
     said = max(fix.position_covariance[0], fix.position_covariance[4])
-    return said if fix.position_covariance_type and math.isfinite(said) and said > 0 else FIX_SPREAD**2
+    if not fix.position_covariance_type or not math.isfinite(said) or said <= 0:
+        return FIX_SPREAD**2
+    return max(said, MIN_FIX_SPREAD**2)

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+from numpy.typing import NDArray
+
 from bridge.core.units import wrap
 from bridge.msgs.pilothouse_msgs import PlaceCandidate, PlaceCandidates
 from bridge.msgs.std_msgs import Header, Time
 from robotside.core.bus import Publish
+from robotside.core.pose2 import Pose2
 from robotside.localisation.hypotheses import Hypotheses, Hypothesis
 
 __all__ = ["QUESTION_NUMBERS", "Candidates"]
@@ -56,6 +60,12 @@ class Candidates:
         reason = f"The robot may be at {len(made)} places: say at which it is." if made else ""
         said = PlaceCandidates(Header(Time.at(stamp), "map"), list(made), reason)
         self._publish("/localisation/candidates", said)
+
+    def scatter(self, pose: Pose2) -> NDArray[np.float64]:
+        """How far the places that are asked about lie from `pose`: of x, y [m] and yaw [rad] the mean squares, 3 x 3; 0 while nothing is asked."""
+        off = np.array([(each.x - pose.x, each.y - pose.y, wrap(each.yaw - pose.yaw)) for each in self.all])
+        shares = np.array([each.share for each in self.all])
+        return (off.T * shares) @ off / shares.sum() if self.all else np.zeros((3, 3))
 
     def _candidate(self, hypothesis: Hypothesis, share: float) -> PlaceCandidate:
         pose, spread = hypothesis.pose, hypothesis.localiser.spread

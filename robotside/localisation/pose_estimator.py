@@ -20,7 +20,7 @@ from robotside.core.notice import Notice
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.worker import InLoopWorker, Worker
 from robotside.kinds.registry import kind_of
-from robotside.localisation.beacons import FIX_SPREAD, variance_of
+from robotside.localisation.beacons import variance_of
 from robotside.localisation.beginning import PLACED_REACH, Beginning
 from robotside.localisation.candidates import Candidates
 from robotside.localisation.explanation import Look
@@ -40,7 +40,7 @@ CERTAIN = 8.0
 """What all other places have against the one that an operator chose, or where the robot was put (logarithm)."""
 
 MAX_SPREAD = 0.6
-"""A place that is known worse than this is not believed, where there is a laser [m]."""
+"""A place that is known worse than this is not believed, where there is a laser; and one that is not believed is told as known no better [m]."""
 
 COMPASS_PERIOD, COMPASS_SPREAD = 0.5, 0.2
 """So often such a robot believes its compass [s], and how far each time [rad]: its error changes slowly."""
@@ -89,8 +89,7 @@ class PoseEstimator:
         self._candidates = Candidates(publish)
         self._laser_x = info.laser_x
         self._odom: Pose2 | None = None
-        self._was_sure = True
-        self._swept = False
+        self._was_sure, self._swept = True, False
         self._stamp, self._faced = 0.0, -math.inf
         self._rings = SonarRings()
         self.vertical = HeightAndAttitude(info)
@@ -148,10 +147,11 @@ class PoseEstimator:
 
     @property
     def covariance(self) -> NDArray[np.float64]:
-        """Of x, y [m] and yaw [rad] in `map`, 3 x 3, as it is told on `/pose`; NaN while it has no idea."""
+        """Of x, y [m] and yaw [rad] in `map`, 3 x 3, as told on `/pose`, while not sure of all places it may be at; NaN while it has no idea."""
         if self._localiser is None or self._localiser.pose is None:
             return np.full((3, 3), math.nan)
-        return self._localiser.covariance + np.diag([self._uncertainty.variance] * 2 + [0.0])
+        scatter = None if self.sure else self._candidates.scatter(self._localiser.pose)
+        return _told(self._localiser.covariance, self._uncertainty.variance, scatter)
 
     def set_map(self, field: Field) -> None:
         """Localise on the map of `field` from now on: from the pose that it has, if any."""
@@ -165,7 +165,7 @@ class PoseEstimator:
         """Remember a position by satellite for the first guess."""
         placed = self._beacons.on_fix(fix)
         if placed and self._localiser and not self._by_laser:
-            self._localiser.correct_place(*placed, FIX_SPREAD)
+            self._localiser.correct_place(*placed, math.sqrt(variance_of(fix)))
             self._uncertainty.fix(variance_of(fix))
 
     def on_imu(self, imu: Imu) -> None:
@@ -327,6 +327,18 @@ class PoseEstimator:
         said = self.vertical.posed(pose, _in_space(self.covariance))
         self._publish("/pose", PoseWithCovarianceStamped(Header(stamp, "map"), said))
         self._publish("/tf", TFMessage(self.vertical.edges(stamp, localiser.map_to_odom(), odom)))
+
+
+def _told(
+    filtered: NDArray[np.float64], shared: float, scatter: NDArray[np.float64] | None
+) -> NDArray[np.float64]:
+    """The covariance of a filter and of what it cannot see [m2]; of a place that is not sure with the `scatter` of all that it may be."""
+    known = filtered + np.diag([shared, shared, 0.0])
+    if scatter is None:
+        return known
+    lacks = max(0.0, MAX_SPREAD**2 - max(known[0, 0], known[1, 1]))
+    widened: NDArray[np.float64] = known + scatter + np.diag([lacks, lacks, 0.0])
+    return widened
 
 
 def _in_space(plane: NDArray[np.float64]) -> list[float]:

@@ -10,7 +10,15 @@ from msgspec.structs import replace
 from bridge.msgs.sensor_msgs import NavSatFix, NavSatStatus
 from bridge.msgs.std_msgs import Header, Time
 from robotside.core.pose2 import Pose2
-from robotside.localisation.beacons import FIXES_CONTRADICT, MAX_AGAINST_COMPASS, MAX_AGAINST_FIX, Beacons
+from robotside.localisation.beacons import (
+    FIX_SPREAD,
+    FIXES_CONTRADICT,
+    MAX_AGAINST_COMPASS,
+    MAX_AGAINST_FIX,
+    MIN_FIX_SPREAD,
+    Beacons,
+    variance_of,
+)
 from tests.fakes import FakeRobot
 
 HERE = Pose2(0.0, 0.0, 0.5)
@@ -66,3 +74,21 @@ def test_a_fix_that_is_none_is_not_remembered() -> None:
     made = Beacons(replace(FakeRobot().info, latitude=45.0, longitude=-73.0))
     assert made.on_fix(NavSatFix(Header(Time.at(1.0)), NavSatStatus(-1), 45.0, -73.0)) is None
     assert made.on_fix(NavSatFix(Header(Time.at(1.0)), NavSatStatus(), math.nan, -73.0)) is None
+
+
+@pytest.mark.parametrize(
+    ("said", "kind", "variance"),
+    [
+        (4.0, 2, 4.0),
+        (4.0, 0, FIX_SPREAD**2),
+        (math.nan, 2, FIX_SPREAD**2),
+        (0.0, 2, FIX_SPREAD**2),
+        (1e-9, 2, MIN_FIX_SPREAD**2),
+    ],
+)
+def test_a_fix_counts_as_it_says_of_itself_and_none_is_perfect(
+    said: float, kind: int, variance: float
+) -> None:
+    along = [said, 0.0, 0.0, 0.0, said, 0.0, 0.0, 0.0, 1.0]
+    fix = NavSatFix(Header(Time.at(1.0)), NavSatStatus(), 45.0, -73.0, 0.0, along, kind)
+    assert variance_of(fix) == variance

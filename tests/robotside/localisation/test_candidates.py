@@ -69,3 +69,13 @@ def test_each_question_begins_with_the_first_letter_and_no_number_comes_twice() 
     board.update(doubt, 4.0)
     assert [each.id % QUESTION_NUMBERS for each in board.all] == [1, 2], "another question begins anew"
     assert min(each.id for each in board.all) > 3, "a late answer means no other place"
+
+
+def test_the_scatter_is_of_all_places_that_are_asked_about() -> None:
+    board = Candidates(lambda *_: None)
+    assert not board.scatter(Pose2(0.0, 0.0, 0.0)).any(), "nothing is asked"
+    board.update(following(Pose2(0.0, 0.0, 0.0), Pose2(2.0, 0.0, 1.0)), 1.0)
+    from_the_first = board.scatter(Pose2(0.0, 0.0, 0.0))
+    assert from_the_first[0] == pytest.approx([2.0, 0.0, 1.0])
+    assert from_the_first[1] == pytest.approx([0.0, 0.0, 0.0])
+    assert from_the_first[2, 2] == pytest.approx(0.5)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import pytest
 from msgspec.structs import replace
 
 from bridge.msgs.geometry_msgs import Twist
@@ -11,6 +12,7 @@ from bridge.msgs.sensor_msgs import NavSatFix, NavSatStatus
 from bridge.msgs.std_msgs import Header, Time
 from robotside.core.pose2 import Pose2
 from robotside.localisation.field import Field
+from robotside.localisation.pose_estimator import MAX_SPREAD, PoseEstimator
 from robotside.mapping.occupancy_grid import Grid
 from tests.fakes import Box, FakeRobot, Pillar
 from tests.robotside.localisation.ride import DOOR, FLOOR, Ride, equal_rooms
@@ -49,12 +51,16 @@ def test_in_one_of_several_equal_rooms_it_asks_in_which_and_the_answer_is_believ
     right = [each for each in asked.candidates if math.hypot(each.x + 2.0, each.y - 3.2) < 0.3]
     assert len(right) == 1
     assert right[0].share > 0.02
+    assert ride.estimator.pose is not None
+    off = max(each.share * (each.x - ride.estimator.pose.x) ** 2 for each in asked.candidates)
+    assert ride.estimator.covariance[0, 0] > off > 0.3, "it may be in another room"
     ride.estimator.place(Pose2(right[0].x, right[0].y, right[0].yaw), certain=True)
     ride.run(2.0)
     assert ride.estimator.sure
     assert ride.error < 0.1
     assert ride.estimator.candidates == ()
     assert not ride.asked[-1].candidates
+    assert max(ride.estimator.covariance.diagonal()[:2]) < 0.05**2
 
 
 def test_a_robot_that_is_carried_while_it_drives_is_unsure_within_two_seconds_and_finds_itself() -> None:
@@ -141,3 +147,29 @@ def test_where_things_of_the_map_are_gone_it_does_not_take_a_place_for_its_own_t
     assert ride.wrong == 0.0
     assert ride.error < 0.1
     assert "position_found" not in ride.codes
+
+
+def test_a_place_that_is_not_sure_is_never_told_as_known_to_centimetres() -> None:
+    ride = Ride(in_corridor(-2.0, CUPBOARD), Pose2(-2.0, 0.0, 0.0))
+    ride.run(3.0)
+    assert ride.estimator.sure
+    assert max(ride.estimator.covariance.diagonal()[:2]) < 0.05**2
+    assert ride.estimator._localiser is not None
+    ride.estimator._localiser.distrust()
+    assert not ride.estimator.sure
+    assert min(ride.estimator.covariance.diagonal()[:2]) >= MAX_SPREAD**2 - 0.05**2
+
+
+@pytest.mark.parametrize(("said", "moved"), [(0.1, 1.9), (1.0, 1.0), (5.0, 0.1)])
+def test_a_fix_moves_the_place_by_as_much_as_it_says_that_it_is_worth(said: float, moved: float) -> None:
+    robot = in_corridor(0.0)
+    robot.info = replace(robot.info, latitude=45.0, longitude=-73.0)
+    estimator = PoseEstimator(robot.info, lambda *_, **__: None, lambda *_: None)
+    estimator.set_map(Field(Grid.from_msg(robot.map())))
+    estimator.place(Pose2(0.0, 0.0, 0.0))
+    estimator._localiser.place(Pose2(0.0, 0.0, 0.0), spread=1.0, turn=0.1)  # type: ignore[union-attr]
+    along = [said**2, 0.0, 0.0, 0.0, said**2, 0.0, 0.0, 0.0, 1.0]
+    fix = NavSatFix(Header(Time.at(1.0)), NavSatStatus(), 45.0 + 2.0 / 111_132.0, -73.0, 0.0, along, 2)
+    estimator.on_fix(fix)
+    assert estimator.pose is not None
+    assert estimator.pose.y == pytest.approx(moved, abs=0.15)
