@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -97,9 +98,7 @@ class Autonomy:
         self._maps = self._map_intake(fit, worker, chart)
         self.situation, self._wheels = Situation(), OdometryTrack()
         self._ground = GroundSight(info.cameras, self.situation, self._wheels, demand)
-        self.status_publisher = TaskStatusPublisher(
-            records, lambda status: bus.publish("/task/status", status), clock
-        )
+        self.status_publisher = TaskStatusPublisher(records, partial(bus.publish, "/task/status"), clock)
         """Publishes how the task is."""
         self.engine = self._engine(clock)
         self.task_factory = TaskFactory(
@@ -212,6 +211,7 @@ class Autonomy:
     def skip(self, seconds: float) -> None:
         """The robot's clock jumped by `seconds` [s]: that nothing was heard or done meanwhile means nothing."""
         self._silence.skip(seconds)
+        self.battery_watch.skip(seconds)
         self.engine.skip(seconds)
 
     def is_measured(self, now: float, since: float = -math.inf) -> bool:
@@ -266,6 +266,7 @@ class Autonomy:
             said = "Paused: the wheels turn, but something holds the robot."
             self.engine.pause(Notice(Code.TASK_HELD_FAST, said), "alarm")
         points = self._surroundings.points(pose, moved=self.engine.running)
+        self.battery_watch.update(self._now)
         self.engine.tick(pose, points, estimator.odometer, self._now)
 
     def _on_scan(self, scan: LaserScan) -> None:

@@ -10,6 +10,7 @@ from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import TaskOrder
 from bridge.msgs.sensor_msgs import BatteryState
 from robotside.autonomy.energy_use import EnergyUse
+from robotside.autonomy.power_supply import PowerSupply
 from robotside.core.config import ChargingSettings
 from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
@@ -28,8 +29,6 @@ LOW_CHARGE = 0.15
 """A battery with less than this left is low: an event says so, no task that moves the robot starts, and where there is a dock
 none goes on before it has charged, 0 to 1."""
 
-_CHARGING = (BatteryState.POWER_SUPPLY_STATUS_CHARGING, BatteryState.POWER_SUPPLY_STATUS_FULL)
-
 
 class BatteryWatch:
     """Watches the charge."""
@@ -47,7 +46,7 @@ class BatteryWatch:
         """`odometer` is all that was ever driven [m]."""
         self._engine, self._task_factory, self._situation, self._say = engine, task_factory, situation, say
         self._settings, self._odometer = settings, odometer
-        self._use = EnergyUse()
+        self._use, self._supply = EnergyUse(), PowerSupply()
         self.charge = math.nan
         """0 empty to 1 full; NaN while unknown."""
 
@@ -62,15 +61,25 @@ class BatteryWatch:
             low = Notice(Code.BATTERY_LOW, f"Battery low: {msg.percentage:.0%}.", charge=msg.percentage)
             self._say("battery", low, "warn")
         self.charge = self._situation.charge = msg.percentage
-        self._situation.power = msg.power_supply_status
         self._situation.battery_heard = now
-        self._situation.charging = msg.power_supply_status in _CHARGING
+        self._supply.on_battery(msg, now)
+        self.update(now)
         self._use.note(self.charge, self._odometer(), charging=self._situation.charging)
         task, engine = self._engine.task, self._engine
         if task is None or not engine.running or engine.detouring:
             return
         if task.moves and task.name not in TO_CHARGE and not self._charges(task, now):
             self._go_home(task, now)
+
+    def update(self, now: float) -> None:
+        """What was said of the charger holds no longer than the battery is heard, at `now` [s, robot clock]."""
+        self._situation.power = self._supply.status(now)
+        self._situation.charging = self._supply.charging(now)
+
+    def skip(self, seconds: float) -> None:
+        """The clock jumped by `seconds` [s], in which nothing could be heard."""
+        self._situation.battery_heard += seconds
+        self._supply.skip(seconds)
 
     def charge_order(self) -> TaskOrder | None:
         """The order to go and charge by itself; None where it does not, or cannot."""

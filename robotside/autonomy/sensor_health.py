@@ -11,6 +11,7 @@ from bridge.msgs import Msg
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import Bumper, FlightState
 from bridge.msgs.sensor_msgs import BatteryState, Imu
+from robotside.autonomy.power_supply import PowerSupply
 from robotside.core.pose2 import Pose2
 from robotside.kinds.registry import kind_of
 from robotside.motion.measured import MeasuredState
@@ -51,12 +52,6 @@ SENSOR_TIMEOUT = 1.0
 """A sensor that was silent for longer than this is not alive [s]."""
 
 
-CHARGE_TIMEOUT = 10.0
-"""A battery that was silent for longer than this tells nothing of a charge [s]."""
-
-_CHARGING = (BatteryState.POWER_SUPPLY_STATUS_CHARGING, BatteryState.POWER_SUPPLY_STATUS_FULL)
-
-
 class SensorHealth:
     """Takes the robot's messages; times are of the robot's clock [s]."""
 
@@ -65,13 +60,13 @@ class SensorHealth:
         self._kind = kind
         self._measured = MeasuredState()
         self._heard: dict[str, float] = {}
-        self._charged = -math.inf
+        self._supply = PowerSupply()
 
     def on_message(self, topic: str, msg: Msg, now: float) -> None:
         """Take in one message of the robot."""
         if topic in _NAMES or topic in _MORE:
             self._heard[topic] = now
-        if self._measured.charging and now - self._charged > CHARGE_TIMEOUT:
+        if self._measured.charging and not self._supply.charging(now):
             self._measured = replace(self._measured, charging=False)
         if isinstance(msg, Odometry):
             x, y = _level(msg)
@@ -85,8 +80,8 @@ class SensorHealth:
             felt = msg.pressed and math.isfinite(msg.bearing)
             self._measured = replace(self._measured, touched=msg.bearing if felt else None)
         elif isinstance(msg, BatteryState):
-            self._charged = now
-            self._measured = replace(self._measured, charging=msg.power_supply_status in _CHARGING)
+            self._supply.on_battery(msg, now)
+            self._measured = replace(self._measured, charging=self._supply.charging(now))
         elif isinstance(msg, FlightState):
             self._measured = replace(
                 self._measured,
@@ -101,7 +96,7 @@ class SensorHealth:
     def skip(self, seconds: float) -> None:
         """The robot's clock jumped by `seconds` [s], in which nothing could be heard."""
         self._heard = {topic: heard + seconds for topic, heard in self._heard.items()}
-        self._charged += seconds
+        self._supply.skip(seconds)
 
     def measured(
         self,

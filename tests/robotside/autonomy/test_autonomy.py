@@ -23,7 +23,7 @@ from bridge.msgs.pilothouse_msgs import (
     SetMissionRequest,
     Waypoint,
 )
-from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.msgs.sensor_msgs import BatteryState, CompressedImage
 from bridge.msgs.std_msgs import Header, Time
 from tests.fakes import Box, FakeRobot, Pillar
 from tests.robotside.perception.drawn import cone_ahead, person_ahead
@@ -39,6 +39,22 @@ def test_an_empty_battery_sends_the_robot_home_by_itself(scene: Scene) -> None:
     assert scene.task.task == "go_home"
     assert scene.events("battery") == ["Battery low: 9%.", "Battery at 9%: going home."]
     assert scene.run_task().reason == "Home."
+
+
+def test_a_battery_that_falls_silent_proves_no_charge_any_more(scene: Scene) -> None:
+    scene.robot.charging = True
+    scene.run(1.1)
+    situation = scene.station.autonomy.situation
+    assert situation.charging
+    scene.robot.silent.add("/battery_state")
+    scene.run(9.0)
+    assert situation.charging, "usual ones tell once a second, some more seldom"
+    scene.station.autonomy.skip(5.0)
+    scene.run(0.5)
+    assert situation.charging, "nobody could hear it in a jump of the clock"
+    scene.run(8.0)
+    assert not situation.charging
+    assert situation.power == BatteryState.POWER_SUPPLY_STATUS_UNKNOWN
 
 
 def test_the_bumper_halts_the_patrol(scene: Scene) -> None:
