@@ -31,7 +31,7 @@ STEP = 0.1
 """Between two places on a beam where it is looked for walls [m]."""
 
 MARGIN = 0.35
-"""A wall so near before the end of a beam is the one that it ended on [m]."""
+"""A wall so near before the end of a beam is the one that it ended on, and one so near to its beginning the one that the robot stands at [m]."""
 
 WALL_DEPTH = 2
 """Places in a row on a beam that must be full to be a wall, and no corner that is grazed."""
@@ -109,7 +109,7 @@ def _through(field: Field, pose: Pose2, ends: Points) -> NDArray[np.bool_]:
     steps = np.arange(STEP, min(MAX_REACH, float(reach.max())) + STEP, STEP)
     places = np.array([pose.x, pose.y]) + unit[:, None, :] * steps[None, :, None]
     full = field.full(places.reshape(-1, 2)).reshape(len(ends), len(steps))
-    full &= steps[None, :] < (reach - MARGIN)[:, None]
+    full &= (steps[None, :] > MARGIN) & (steps[None, :] < (reach - MARGIN)[:, None])
     deep = full[:, :-1] & full[:, 1:] if WALL_DEPTH == 2 else full
     return np.asarray(deep.any(axis=1))
 

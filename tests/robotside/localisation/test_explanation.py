@@ -53,6 +53,13 @@ def test_beams_begin_at_the_laser_and_not_behind_the_bumper_that_it_sits_on() ->
     assert explained(room(), before_the_wall, Look.of(on_east, ahead=1.6)).through == 0.0
 
 
+@pytest.mark.parametrize("in_the_wall", [0.0, 0.3])
+def test_who_stands_up_to_a_wall_sees_through_none(in_the_wall: float) -> None:
+    at_the_wall = Pose2(1.95 + in_the_wall, 0.0, math.pi)  # by a dock that the map draws a little thick
+    along = look((1.95 + in_the_wall + 4.05, 0.0), (3.0, 3.05), (3.0, -3.05))
+    assert explained(room(), at_the_wall, along).through == 0.0
+
+
 def test_a_grazed_corner_is_no_wall() -> None:
     cells = np.pad(np.zeros((60, 80), dtype=np.bool_), 10, constant_values=True)
     cells[40, 70] = True
